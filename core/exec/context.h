@@ -1,0 +1,67 @@
+#ifndef BCCSKEL_CORE_EXEC_CONTEXT_H_
+#define BCCSKEL_CORE_EXEC_CONTEXT_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+
+#include "absl/status/status.h"
+#include "core/exec/worker_team.h"
+
+namespace bccskel::exec {
+
+// What a running job says about itself after each shell of the object.
+struct ShellProgress {
+  int32_t shell = 0;        // the shell just thinned, 1..last_shell
+  int32_t last_shell = 0;   // the deepest shell of the object
+  uint64_t points = 0;      // candidate points that entered with this shell
+  uint64_t removed = 0;     // points removed so far, all shells together
+  uint64_t remaining = 0;   // points of the object still there
+};
+
+// Handed down the line from stage to stage: the threads a job may use, when it must stop, and where
+// its progress goes. The default context is one thread, never stops and tells nobody.
+// Threads: ShouldStop() and StopStatus() from any worker; Report() from worker 0 only.
+class Context {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  WorkerTeam* team = nullptr;  // not owned; null means one thread
+  std::stop_token stop;
+  Clock::time_point deadline = Clock::time_point::max();
+  std::function<void(const ShellProgress&)> on_shell;
+
+  int threads() const { return team == nullptr ? 1 : team->size(); }
+
+  // Runs `work(worker)` on every worker of the team.
+  void Run(const std::function<void(int)>& work) const {
+    if (team == nullptr) {
+      work(0);
+    } else {
+      team->Run(work);
+    }
+  }
+
+  // True when the job was cancelled or its deadline has passed. Asked once per direction pass and
+  // at least every 20 ms of work in every stage, never per point.
+  bool ShouldStop() const {
+    return stop.stop_requested() ||
+           (deadline != Clock::time_point::max() && Clock::now() >= deadline);
+  }
+
+  // OK, CANCELLED or DEADLINE_EXCEEDED.
+  absl::Status StopStatus() const {
+    if (stop.stop_requested()) return absl::CancelledError("the job was cancelled");
+    if (ShouldStop()) return absl::DeadlineExceededError("the job's deadline has passed");
+    return absl::OkStatus();
+  }
+
+  void Report(const ShellProgress& progress) const {
+    if (on_shell) on_shell(progress);
+  }
+};
+
+}  // namespace bccskel::exec
+
+#endif  // BCCSKEL_CORE_EXEC_CONTEXT_H_

@@ -1,0 +1,52 @@
+#ifndef BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
+#define BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/skeleton/skeleton_graph.h"
+#include "core/thinning/thinning.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+struct SkeletonizeOptions {
+  ThinningOptions thinning;
+};
+
+// Wall time of each stage.
+struct StageTimings {
+  using Duration = std::chrono::nanoseconds;
+  Duration distance{0};
+  Duration thinning{0};  // shells, directions and clean-up
+  Duration certificate{0};
+  Duration trace{0};
+  Duration total{0};
+};
+
+struct SkeletonizeResult {
+  SkeletonGraph graph;
+  Volume thin;
+  Certificate certificate;
+  StageTimings timings;
+  uint64_t object_points = 0;
+  uint64_t skeleton_points = 0;
+  int32_t last_shell = 0;
+  std::string sha256;  // SkeletonDigest(graph)
+};
+
+// The straight path of an object: distance, shells, thinning, certificate, graph.
+// An empty object gives an empty graph.
+// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate
+//         shows that topology was lost, which would be a defect of this library.
+absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
+                                              const SkeletonizeOptions& options,
+                                              const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_

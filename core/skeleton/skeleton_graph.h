@@ -1,0 +1,94 @@
+#ifndef BCCSKEL_CORE_SKELETON_SKELETON_GRAPH_H_
+#define BCCSKEL_CORE_SKELETON_SKELETON_GRAPH_H_
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/distance/chamfer_distance.h"
+#include "core/exec/context.h"
+#include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+enum class NodeKind : uint8_t {
+  kEnd,            // one object neighbor
+  kJunction,       // a cluster of points where three or more branches meet, or that encloses loops
+  kLoop,           // stands for a closed curve without junction; one edge leads from it to itself
+  kIsolated,       // no object neighbor
+  kClosedSurface,  // what a cavity leaves: a cluster with cavities
+};
+
+// A skeleton point: where it is and how far from the background.
+struct SkeletonPoint {
+  LatticePoint point;
+  uint32_t distance = 0;  // in counts of SkeletonGraph::weights
+
+  friend constexpr auto operator<=>(const SkeletonPoint&, const SkeletonPoint&) = default;
+};
+
+struct SkeletonNode {
+  NodeKind kind = NodeKind::kEnd;
+  // The point that stands for the node: for a cluster its deepest point, on ties the smallest.
+  SkeletonPoint at;
+  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any.
+  uint32_t loops = 0;
+  uint32_t cavities = 0;
+
+  friend constexpr bool operator==(const SkeletonNode&, const SkeletonNode&) = default;
+};
+
+// A branch. Its points run from the source node's point to the target node's point, both included;
+// consecutive points are neighbors in N14. Inside a junction cluster the path follows the cluster's points.
+struct SkeletonEdge {
+  uint32_t source = 0;  // index into nodes
+  uint32_t target = 0;
+  uint64_t first_point = 0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
+  uint64_t point_count = 0;
+
+  friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
+};
+
+// The skeleton as a graph, in lattice coordinates; Placement takes it to the world.
+// Invariants: loops of the object = edges - nodes + components + sum of the nodes' loops;
+//             cavities of the object = sum of the nodes' cavities;
+//             components of the graph = components of the object.
+// Order is canonical: nodes by their point, edges by (source, target, points).
+struct SkeletonGraph {
+  Placement placement;
+  ChamferWeights weights = kShortChamfer;
+  std::vector<SkeletonNode> nodes;
+  std::vector<SkeletonEdge> edges;
+  std::vector<SkeletonPoint> points;  // of all edges, one after the other
+
+  std::span<const SkeletonPoint> PointsOf(const SkeletonEdge& edge) const {
+    return std::span(points).subspan(edge.first_point, edge.point_count);
+  }
+  WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
+  // World units; for an anisotropic placement the mean of the three spacings is used.
+  double RadiusOf(const SkeletonPoint& p) const;
+  // Sum of the straight steps between consecutive points, world units.
+  double LengthOf(const SkeletonEdge& edge) const;
+
+  friend bool operator==(const SkeletonGraph&, const SkeletonGraph&) = default;
+};
+
+// SHA-256, in lower-case hex, over the integers of the graph (lattice points, distances, kinds,
+// topology) in canonical order, little-endian. Placement is not part of it. The byte layout is
+// stated at the definition; it is a public contract.
+std::string SkeletonDigest(const SkeletonGraph& graph);
+
+// Reads the graph off a thin volume.
+// Shapes: `distance` belongs to `object`, whose points include those of `thin`.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
+                                            const ChamferField& distance,
+                                            const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_SKELETON_GRAPH_H_

@@ -1,0 +1,68 @@
+#ifndef BCCSKEL_CORE_THINNING_THINNING_H_
+#define BCCSKEL_CORE_THINNING_THINNING_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/distance/chamfer_distance.h"
+#include "core/exec/context.h"
+#include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// What happens to an end point whose neighbor is not a curve point (Condition 6, section 4).
+enum class StubblePolicy : uint8_t {
+  // Remove it, but never so many at one neighbor that the neighbor becomes an end point: with n
+  // object neighbors at the neighbor q, and rank r among q's end points in neighbor bit order,
+  // remove iff n > 2 and r < n - 2.
+  kKeepTwo,
+  // Remove it iff n > 2, as the paper writes. Several stubble points at one q can go together and
+  // leave q an end point.
+  kLiteral,
+  // Keep it: the widely ramified skeleton of Fig. 8.
+  kNone,
+};
+
+enum class ThinnessCleanup : uint8_t { kOn, kOff };
+
+inline constexpr double kMinShellWidth = 0.75;
+inline constexpr double kMaxShellWidth = 64;
+
+struct ThinningOptions {
+  StubblePolicy stubble = StubblePolicy::kKeepTwo;
+  ThinnessCleanup cleanup = ThinnessCleanup::kOn;
+  // Thickness of a shell in lattice units (a D6 step is 2).
+  double shell_width = 1;
+  // Stop after this shell; 0 means thin to the end.
+  int32_t last_shell = 0;
+  // Points that are never removed. Points outside the object are ignored.
+  std::vector<LatticePoint> keep;
+};
+
+// Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::Status CheckThinningOptions(const ThinningOptions& options);
+
+struct ThinningResult {
+  Volume thin;
+  int32_t last_shell = 0;        // the deepest shell of the object
+  uint64_t removed = 0;          // by directions and stubble removal
+  uint64_t removed_by_cleanup = 0;
+  uint32_t direction_passes = 0;
+};
+
+// The shell of a distance: floor(distance / shell_width + 1/2), at least 1 for object points.
+int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
+
+// Parallel directional thinning with shells: Conditions 1-6, section 5.
+// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
+// Threads: uses all of the context's; the result is the same for any number.
+absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferField& distance,
+                                           const ThinningOptions& options,
+                                           const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_THINNING_H_
