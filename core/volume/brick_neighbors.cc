@@ -1,4 +1,4 @@
-
+#include "core/volume/brick_neighbors.h"
 
 #include "core/lattice/directions.h"
 
