@@ -6,13 +6,17 @@
 #include <cstdint>
 
 #include "core/lattice/directions.h"
+#include "core/topology/checking_rings.h"
+#include "core/topology/removable_directions.h"
+#include "core/topology/simple_point_table.h"
 
 // Everything that a point's 14 neighbors alone decide. A NeighborMask holds the neighbors that are
-// object points.
+// object points; the point itself is taken to be an object point. The included headers add
+// Condition 1 (simple points), Condition 3 (checking rings) and Conditions 1 to 4 together.
 
 namespace bccskel {
 
-// Section 2. The point itself is taken to be an object point.
+// Section 2: point classes.
 constexpr int NeighborsIn(NeighborMask mask) { return std::popcount(mask); }
 constexpr bool IsIsolatedPoint(NeighborMask mask) { return NeighborsIn(mask) == 0; }
 constexpr bool IsEndPoint(NeighborMask mask) { return NeighborsIn(mask) == 1; }
@@ -22,34 +26,47 @@ constexpr bool IsDirectedBorderPoint(NeighborMask mask, Direction d) {
 }
 constexpr bool HasSequelPoint(NeighborMask mask, Direction d) { return (mask & d.mask()) != 0; }
 
+// For each neighbor n in bit order, the neighbors of n that are neighbors of the point too.
+constexpr std::array<NeighborMask, kNeighborCount> ComputeSharedNeighbors() {
+  std::array<NeighborMask, kNeighborCount> shared = {};
+  for (int a = 0; a < kNeighborCount; ++a) {
+    for (int b = 0; b < kNeighborCount; ++b) {
+      if (!FindDirection(Direction(b).offset() - Direction(a).offset())) continue;
+      shared[static_cast<size_t>(a)] =
+          static_cast<NeighborMask>(shared[static_cast<size_t>(a)] | Direction(b).mask());
+    }
+  }
+  return shared;
+}
+inline constexpr std::array<NeighborMask, kNeighborCount> kSharedNeighbors =
+    ComputeSharedNeighbors();
+
 // The neighbors of a point's neighbor n that are neighbors of the point too.
 // Source: D8 neighbors share 6 of N14 with the point, D6 neighbors 4; 36 adjacent pairs in all.
-NeighborMask NeighborsAmongN14(Direction n);
+constexpr NeighborMask NeighborsAmongN14(Direction n) {
+  return kSharedNeighbors[static_cast<size_t>(n.bit())];
+}
 
-// Connected components of the neighbors in `mask`, by adjacency within N14.
-int ComponentsIn(NeighborMask mask);
+// The connected component, within `mask`, of its lowest neighbor; 0 for an empty mask.
+constexpr NeighborMask FirstComponentIn(NeighborMask mask) {
+  unsigned component = mask & (~mask + 1u);
+  for (unsigned fresh = component; fresh != 0;) {
+    unsigned reached = 0;
+    for (; fresh != 0; fresh &= fresh - 1) {
+      reached |= kSharedNeighbors[static_cast<size_t>(std::countr_zero(fresh))];
+    }
+    fresh = reached & mask & ~component;
+    component |= fresh;
+  }
+  return static_cast<NeighborMask>(component);
+}
 
-// Condition 1: one component of object and one of background neighbors (section 3).
-bool IsSimple(NeighborMask mask);
-// Conditions 1 and 2: simple and more than one object neighbor.
-bool IsSimpleNonEnd(NeighborMask mask);
-
-// The six checking rings: the neighbors on one grid plane through the point spanned by a D6 and a
-// D8 direction (section 3). Each has six points.
-inline constexpr int kCheckingRingCount = 6;
-const std::array<NeighborMask, kCheckingRingCount>& CheckingRings();
-// The three rings that contain d; d and -d share them.
-std::array<NeighborMask, 3> CheckingRingsThrough(DiagonalDirection d);
-
-// Condition 3: on every checking ring through d the object part is one component. "For any d1"
-// reads "for every d1": with "for some d1" the rule breaks topology.
-bool SatisfiesCheckingRings(NeighborMask mask, DiagonalDirection d);
-
-// Border in direction d and Conditions 1 to 4: removable in a parallel pass along d.
-bool IsRemovable(NeighborMask mask, DiagonalDirection d);
-
-// All directions in which IsRemovable holds, as bits 0..7.
-uint8_t RemovableDirections(NeighborMask mask);
+// Connected components of the neighbors in `mask`, by adjacency within N14: C(mask) of section 2.
+constexpr int ComponentsIn(NeighborMask mask) {
+  int components = 0;
+  for (; mask != 0; ++components) mask = static_cast<NeighborMask>(mask ^ FirstComponentIn(mask));
+  return components;
+}
 
 }  // namespace bccskel
 
