@@ -1,0 +1,18 @@
+# The libraries of others, found once here in the root's scope so that every folder sees them.
+# The Debian packages that hold them are listed in docker/packages/build.txt.
+
+# What a program needs that links our core; bccskelConfig.cmake repeats this list.
+set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB OpenEXR OpenMesh hwy)
+# What a program needs besides that links our client.
+set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC)
+
+set(bccskel_packages ${BCCSKEL_CORE_PACKAGES})
+if(BCCSKEL_BUILD_SERVER OR BCCSKEL_BUILD_CLIENT)
+  list(APPEND bccskel_packages ${BCCSKEL_CLIENT_PACKAGES} CLI11)
+endif()
+if(BCCSKEL_BUILD_SERVER)
+  list(APPEND bccskel_packages spdlog)
+endif()
+foreach(package IN LISTS bccskel_packages)
+  find_package(${package} REQUIRED)
+endforeach()
