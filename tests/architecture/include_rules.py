@@ -1,0 +1,121 @@
+"""Fails where an include points backward along the path of a volume.
+
+Usage: include_rules.py ROOT ARROWS
+Reads every C++ file under core, proto, server and client of ROOT; prints one line per violation.
+"""
+
+import pathlib
+import re
+import sys
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
+SUFFIXES = {".h", ".cc"}
+TOP_FOLDERS = ("core", "proto", "server", "client")
+MAX_LINES = 400
+
+
+class Rules:
+    """The arrows between our folders, and where headers of others may be included."""
+
+    def __init__(self, text):
+        self.arrows = {}
+        self.only = {}
+        for line in text.splitlines():
+            line = line.split("#")[0].strip()
+            if not line:
+                continue
+            name, _, targets = line.partition(":")
+            if name.startswith("!"):
+                self.only[name[1:].strip()] = targets.split()
+            else:
+                self.arrows[name.strip()] = targets.split()
+
+    def reach(self, folder):
+        """All folders that `folder` may include."""
+        seen, todo = set(), [folder]
+        while todo:
+            here = todo.pop()
+            if here not in seen:
+                seen.add(here)
+                todo += self.arrows.get(here, [])
+        return seen
+
+    def owner(self, path):
+        """The longest folder of the arrows that holds `path`, or None."""
+        best = None
+        for folder in self.arrows:
+            if path.startswith(folder + "/") and (best is None or len(folder) > len(best)):
+                best = folder
+        return best
+
+    def defects(self):
+        for folder, targets in self.arrows.items():
+            for target in targets:
+                if target not in self.arrows:
+                    yield f"arrows: {folder} points at {target}, which has no line"
+                elif folder in self.reach(target):
+                    yield f"arrows: {folder} and {target} point at each other"
+
+
+def includes(text):
+    for number, line in enumerate(text.splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1)
+
+
+def violation(rules, owner, header):
+    """Why a file of `owner` may not include `header`, or None."""
+    if header.startswith(tuple(top + "/" for top in TOP_FOLDERS)):
+        target = rules.owner(header)
+        if target is None:
+            return f"{header} is in a folder without a line in the arrows"
+        if target not in rules.reach(owner):
+            return f"{owner} -> {target} is not an arrow"
+        return None
+    for prefix, folders in rules.only.items():
+        named = header == prefix or header.startswith((prefix + "/", prefix + "."))
+        if named and not any((owner + "/").startswith(folder + "/") for folder in folders):
+            return f"{prefix} belongs to {', '.join(folders)} only"
+    return None
+
+
+def check_file(rules, path, text):
+    """Yields `path:line: reason` for one file; `path` is relative to the root."""
+    owner = rules.owner(path)
+    if owner is None:
+        yield f"{path}:1: its folder has no line in the arrows"
+        return
+    lines = text.count("\n")
+    if lines > MAX_LINES:
+        yield f"{path}:{lines}: longer than {MAX_LINES} lines"
+    for number, header in includes(text):
+        reason = violation(rules, owner, header)
+        if reason:
+            yield f"{path}:{number}: includes {header}: {reason}"
+
+
+def sources(root):
+    for top in TOP_FOLDERS:
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix in SUFFIXES:
+                yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
+
+
+def main(root, arrows):
+    rules = Rules(pathlib.Path(arrows).read_text(encoding="utf-8"))
+    found = list(rules.defects())
+    count = 0
+    for path, text in sources(pathlib.Path(root)):
+        count += 1
+        found += check_file(rules, path, text)
+    if count == 0:
+        found.append(f"{root}: no C++ file found")
+    for line in found:
+        print(line)
+    print(f"{count} files read, {len(found)} violations")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
