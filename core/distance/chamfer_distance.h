@@ -16,13 +16,14 @@ namespace bccskel {
 // Local distances of the two kinds of steps in fixed-point counts; `unit` counts are one lattice
 // unit, so a D8 step is diagonal / unit = sqrt(3) and a D6 step axial / unit = 2 (section 4).
 struct ChamferWeights {
-  uint32_t diagonal;   // D8
-  uint32_t axial;      // D6
-  uint32_t half_units; // counts in two lattice units; the same as `axial`
+  uint32_t diagonal;    // D8
+  uint32_t axial;       // D6
+  uint32_t half_units;  // counts in two lattice units; the same as `axial`
 
   friend constexpr bool operator==(const ChamferWeights&, const ChamferWeights&) = default;
 };
-// Rounds as the real weights sqrt(3) and 2 do up to a distance of 627 lattice units; 16 bits hold it.
+// Rounds as the real weights sqrt(3) and 2 do up to a distance of 627 lattice units; 16 bits hold
+// it.
 inline constexpr ChamferWeights kShortChamfer = {181, 209, 209};
 // The same up to 4200 lattice units and beyond, in 32 bits.
 inline constexpr ChamferWeights kLongChamfer = {2521, 2911, 2911};
@@ -60,7 +61,8 @@ class ChamferField {
 
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 // Cost:   two raster scans over the occupied bricks.
-absl::StatusOr<ChamferField> ComputeChamferDistance(const Volume& object, const exec::Context& context);
+absl::StatusOr<ChamferField> ComputeChamferDistance(const Volume& object,
+                                                    const exec::Context& context);
 
 }  // namespace bccskel
 

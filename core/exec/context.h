@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_EXEC_CONTEXT_H_
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stop_token>
@@ -13,11 +14,11 @@ namespace bccskel::exec {
 
 // What a running job says about itself after each shell of the object.
 struct ShellProgress {
-  int32_t shell = 0;        // the shell just thinned, 1..last_shell
-  int32_t last_shell = 0;   // the deepest shell of the object
-  uint64_t points = 0;      // candidate points that entered with this shell
-  uint64_t removed = 0;     // points removed so far, all shells together
-  uint64_t remaining = 0;   // points of the object still there
+  int32_t shell = 0;       // the shell just thinned, 1..last_shell
+  int32_t last_shell = 0;  // the deepest shell of the object
+  uint64_t points = 0;     // candidate points that entered with this shell
+  uint64_t removed = 0;    // points removed so far, all shells together
+  uint64_t remaining = 0;  // points of the object still there
 };
 
 // Handed down the line from stage to stage: the threads a job may use, when it must stop, and where
@@ -32,7 +33,17 @@ class Context {
   Clock::time_point deadline = Clock::time_point::max();
   std::function<void(const ShellProgress&)> on_shell;
 
+  // A stage gives a worker at least this many bricks: on smaller shares the workers would spend
+  // more time waiting for each other than thinning.
+  size_t min_bricks_per_worker = 512;
+
   int threads() const { return team == nullptr ? 1 : team->size(); }
+  // How many workers share `bricks` bricks; at least 1, at most threads().
+  int WorkersFor(size_t bricks) const {
+    const size_t shares = bricks / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
+    const auto most = static_cast<size_t>(threads());
+    return static_cast<int>(shares < 1 ? 1 : (shares < most ? shares : most));
+  }
 
   // Runs `work(worker)` on every worker of the team.
   void Run(const std::function<void(int)>& work) const {

@@ -7,10 +7,9 @@
 #include "absl/status/statusor.h"
 
 // Returns from the calling function when `expression` is an error status.
-#define BCCSKEL_RETURN_IF_ERROR(expression)                        \
-  do {                                                             \
-    if (absl::Status bccskel_status = (expression); !bccskel_status.ok()) \
-      return bccskel_status;                                       \
+#define BCCSKEL_RETURN_IF_ERROR(expression)                                                      \
+  do {                                                                                           \
+    if (absl::Status bccskel_status = (expression); !bccskel_status.ok()) return bccskel_status; \
   } while (false)
 
 #define BCCSKEL_STATUS_CONCAT_INNER(a, b) a##b

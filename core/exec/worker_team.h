@@ -36,9 +36,9 @@ class WorkerTeam {
   std::condition_variable_any wake_;
   std::condition_variable done_;
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_
-  uint64_t generation_ = 0;                          // guarded by mutex_
-  int running_ = 0;                                  // guarded by mutex_
-  std::vector<std::jthread> threads_;                // last: joined before the rest is destroyed
+  uint64_t generation_ = 0;                         // guarded by mutex_
+  int running_ = 0;                                 // guarded by mutex_
+  std::vector<std::jthread> threads_;               // last: joined before the rest is destroyed
 };
 
 // A reusable meeting point of `size` workers. Spins for a bounded time, then blocks, so that a

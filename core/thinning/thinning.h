@@ -9,6 +9,7 @@
 #include "core/distance/chamfer_distance.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
+#include "core/shells/shells.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -28,13 +29,10 @@ enum class StubblePolicy : uint8_t {
 
 enum class ThinnessCleanup : uint8_t { kOn, kOff };
 
-inline constexpr double kMinShellWidth = 0.75;
-inline constexpr double kMaxShellWidth = 64;
-
 struct ThinningOptions {
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
   ThinnessCleanup cleanup = ThinnessCleanup::kOn;
-  // Thickness of a shell in lattice units (a D6 step is 2).
+  // Thickness of a shell in lattice units (a D6 step is 2), kMinShellWidth to kMaxShellWidth.
   double shell_width = 1;
   // Stop after this shell; 0 means thin to the end.
   int32_t last_shell = 0;
@@ -47,14 +45,11 @@ absl::Status CheckThinningOptions(const ThinningOptions& options);
 
 struct ThinningResult {
   Volume thin;
-  int32_t last_shell = 0;        // the deepest shell of the object
-  uint64_t removed = 0;          // by directions and stubble removal
+  int32_t last_shell = 0;  // the deepest shell of the object
+  uint64_t removed = 0;    // by directions and stubble removal
   uint64_t removed_by_cleanup = 0;
   uint32_t direction_passes = 0;
 };
-
-// The shell of a distance: floor(distance / shell_width + 1/2), at least 1 for object points.
-int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
 
 // Parallel directional thinning with shells: Conditions 1-6, section 5.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.

@@ -63,7 +63,8 @@ struct BrickCoordinates {
 };
 
 // BrickCoordinates packed into one integer that sorts in the same order: bz, by, bx with 21 bits
-// each, offset by one so that the neighbor below the first brick has a key too, then the sublattice.
+// each, offset by one so that the neighbor below the first brick has a key too, then the
+// sublattice.
 class BrickKey {
  public:
   constexpr BrickKey() = default;

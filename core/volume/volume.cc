@@ -24,23 +24,24 @@ BrickBits InsideMask(const LatticeExtent& extent, BrickCoordinates brick) {
 }
 
 bool InsideExtent(const LatticeExtent& extent, BrickCoordinates brick) {
-  return brick.bx >= 0 && brick.by >= 0 && brick.bz >= 0 && brick.bx * int64_t{kBrickX} < extent.nx &&
-         brick.by * int64_t{kBrickY} < extent.ny && brick.bz * int64_t{kBrickZ} < extent.nz;
+  return brick.bx >= 0 && brick.by >= 0 && brick.bz >= 0 &&
+         brick.bx * int64_t{kBrickX} < extent.nx && brick.by * int64_t{kBrickY} < extent.ny &&
+         brick.bz * int64_t{kBrickZ} < extent.nz;
 }
 
 absl::Status CheckBrick(const LatticeExtent& extent, BrickKey key, const BrickBits& bits) {
   const BrickCoordinates brick = key.coordinates();
   if (!InsideExtent(extent, brick)) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "brick (%d, %d, %d) lies outside the extent of %d x %d x %d cells", brick.bx, brick.by,
-        brick.bz, extent.nx, extent.ny, extent.nz));
+    return absl::InvalidArgumentError(
+        absl::StrFormat("brick (%d, %d, %d) lies outside the extent of %d x %d x %d cells",
+                        brick.bx, brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
   }
   const BrickBits inside = InsideMask(extent, brick);
   for (size_t k = 0; k < bits.words.size(); ++k) {
     if ((bits.words[k] & ~inside.words[k]) != 0) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "brick (%d, %d, %d) has points outside the extent of %d x %d x %d cells", brick.bx,
-          brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("brick (%d, %d, %d) has points outside the extent of %d x %d x %d cells",
+                          brick.bx, brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
     }
   }
   return absl::OkStatus();

@@ -1,0 +1,65 @@
+#include "core/pipeline/skeletonize.h"
+
+#include "absl/strings/str_format.h"
+#include "core/distance/chamfer_distance.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel {
+namespace {
+
+// Measures one stage after the other.
+class StageClock {
+ public:
+  StageTimings::Duration Lap() {
+    const Clock::time_point now = Clock::now();
+    const auto lap = now - last_;
+    last_ = now;
+    return lap;
+  }
+  StageTimings::Duration Total() const { return last_ - start_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+absl::StatusOr<Certificate> Certify(const Volume& object, const Volume& thin,
+                                    const exec::Context& context) {
+  Certificate certificate;
+  BCCSKEL_ASSIGN_OR_RETURN(certificate.input, CountBettiNumbers(object, context));
+  BCCSKEL_ASSIGN_OR_RETURN(certificate.skeleton, CountBettiNumbers(thin, context));
+  certificate.simple_points_left = CountSimpleNonEndPoints(thin, context);
+  if (certificate.TopologyKept()) return certificate;
+  const BettiNumbers &in = certificate.input, &out = certificate.skeleton;
+  return absl::InternalError(absl::StrFormat(
+      "thinning changed the topology: components %d -> %d, loops %d -> %d, cavities %d -> %d",
+      in.components, out.components, in.loops, out.loops, in.cavities, out.cavities));
+}
+
+}  // namespace
+
+absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
+                                              const SkeletonizeOptions& options,
+                                              const exec::Context& context) {
+  SkeletonizeResult result;
+  result.object_points = object.PointCount();
+  StageClock clock;
+  BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, context));
+  result.timings.distance = clock.Lap();
+  BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
+                           ThinToCurve(object, distance, options.thinning, context));
+  result.thin = std::move(thinned.thin);
+  result.last_shell = thinned.last_shell;
+  result.skeleton_points = result.thin.PointCount();
+  result.timings.thinning = clock.Lap();
+  BCCSKEL_ASSIGN_OR_RETURN(result.certificate, Certify(object, result.thin, context));
+  result.timings.certificate = clock.Lap();
+  BCCSKEL_ASSIGN_OR_RETURN(result.graph, TraceSkeleton(result.thin, object, distance, context));
+  result.sha256 = SkeletonDigest(result.graph);
+  result.timings.trace = clock.Lap();
+  result.timings.total = clock.Total();
+  return result;
+}
+
+}  // namespace bccskel

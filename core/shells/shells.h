@@ -1,0 +1,56 @@
+#ifndef BCCSKEL_CORE_SHELLS_SHELLS_H_
+#define BCCSKEL_CORE_SHELLS_SHELLS_H_
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/distance/chamfer_distance.h"
+#include "core/exec/context.h"
+#include "core/volume/brick.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// The shell of a distance: floor(distance / shell_width + 1/2), at least 1 (section 4, S_i, for
+// object points). `distance` in counts of `weights`, `shell_width` in lattice units.
+int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
+
+// The shells of an object's points, sliced into bit planes: plane b of a brick holds bit b of
+// (shell modulo 64) for its 512 points, so that "shell equals c" is six logic operations for all of
+// them. Modulo 64 is enough because distances within a brick differ by at most 41 lattice units and
+// shells are at least kMinShellWidth wide.
+class Shells {
+ public:
+  static constexpr int kPlanes = 6;
+  using Planes = std::array<BrickBits, kPlanes>;
+  struct Range {
+    int32_t first = 0;  // smallest and largest shell of the brick's points
+    int32_t last = 0;
+  };
+
+  int32_t last() const { return last_; }
+  const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
+  size_t brick_count() const { return ranges_.size(); }
+
+  // The points of `brick` in shell `shell`. Background points may be set.
+  // Needs: RangeOf(brick).first <= shell <= RangeOf(brick).last.
+  BrickBits PointsIn(BrickIndex brick, int32_t shell) const;
+
+ private:
+  friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);
+  std::vector<Planes> planes_;
+  std::vector<Range> ranges_;
+  int32_t last_ = 0;
+};
+
+// Needs: kMinShellWidth <= shell_width <= kMaxShellWidth; `distance` belongs to `object`.
+Shells BuildShells(const Volume& object, const ChamferField& distance, double shell_width,
+                   const exec::Context& context);
+
+inline constexpr double kMinShellWidth = 0.75;
+inline constexpr double kMaxShellWidth = 64;
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SHELLS_SHELLS_H_

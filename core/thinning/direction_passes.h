@@ -1,0 +1,36 @@
+#ifndef BCCSKEL_CORE_THINNING_DIRECTION_PASSES_H_
+#define BCCSKEL_CORE_THINNING_DIRECTION_PASSES_H_
+
+#include <cstdint>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/shells/shells.h"
+#include "core/thinning/thinning.h"
+#include "core/thinning/thinning_state.h"
+
+namespace bccskel {
+
+struct DirectionPassTotals {
+  uint64_t removed = 0;
+  uint32_t passes = 0;
+};
+
+// Does:  the algorithm of section 5: for each shell, one cycle of passes along the eight directions
+//        of D8; on shell `last` cycles repeat until a whole cycle removes nothing.
+// Paper: Figs. 9 and 10; Condition 5 (candidates are the remaining points of shells <= the current
+//        one) and Condition 6 (stubble points go in the same pass).
+// Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proof
+//        of Conditions 1 to 4 needs, whatever the order and the number of workers.
+// Cost:  a brick is looked at again only after it, or a brick that it borders on, has changed.
+// Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
+// Threads: worker w owns a contiguous range of bricks; two meetings per pass.
+// Errors:  CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<DirectionPassTotals> RunDirectionPasses(const Shells& shells, int32_t last,
+                                                       StubblePolicy stubble,
+                                                       const exec::Context& context,
+                                                       ThinningState& state);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_DIRECTION_PASSES_H_

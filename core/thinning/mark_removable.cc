@@ -1,0 +1,237 @@
+#include "core/thinning/mark_removable.h"
+
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/thinning/mark_removable.cc"
+// Compiles the rest of this file once per instruction set, so it comes before other Highway headers.
+#include "hwy/foreach_target.h"
+
+#include "core/volume/brick_planes-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bccskel {
+namespace HWY_NAMESPACE {
+
+constexpr Step StepOf(Sublattice sublattice) {
+  return sublattice == Sublattice::kEven ? Step::kDown : Step::kUp;
+}
+
+// Candidates that are border points of d and have a sequel point. `kAxes` are the axes of d.
+template <Sublattice kSublattice, int kAxes>
+HWY_INLINE Plane BorderWithSequel(const ObjectView& view, BrickIndex brick) {
+  const PlaneReader<StepOf(kSublattice)> read{view.object, view.neighbors[brick]};
+  const Plane own = And(LoadPlane(view.object[brick]), LoadPlane(view.candidates[brick]));
+  return AndNot(read.template Diagonal<7 ^ kAxes>(), And(own, read.template Diagonal<kAxes>()));
+}
+
+template <Sublattice kSublattice, int kAxes>
+HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick) {
+  constexpr Step kStep = StepOf(kSublattice);
+  const PlaneReader<kStep> read{view.object, view.neighbors[brick]};
+  const Plane own = LoadPlane(view.object[brick]);
+  Plane diagonal[8];
+  read.AllDiagonals(diagonal);
+  constexpr int kBack = 7 ^ kAxes;
+  Plane removable =
+      AndNot(diagonal[kBack], And(And(own, LoadPlane(view.candidates[brick])), diagonal[kAxes]));
+  // On each axis, with e the D6 step to d's side: "d's sign on this axis only" => e, and -e =>
+  // "d's sign on the other two". Moving along an axis lies on d's side for an odd brick iff the
+  // direction is positive there; in terms of moved axes both sublattices read alike.
+  constexpr Step kOther = kStep == Step::kDown ? Step::kUp : Step::kDown;
+  Plane right = diagonal[kAxes ^ 1];
+  const auto imply = [&]<int kAxis>(std::integral_constant<int, kAxis>) HWY_ATTR {
+    constexpr bool kMoved = ((kAxes >> kAxis) & 1) != 0;
+    const Plane toward = read.template Axial < kAxis, kMoved ? kStep : kOther > (own);
+    const Plane away = read.template Axial < kAxis, kMoved ? kOther : kStep > (own);
+    const Plane& alone = diagonal[kBack ^ (1 << kAxis)];
+    const Plane& opposite = diagonal[kAxes ^ (1 << kAxis)];
+    removable = AndNot(AndNot(toward, alone), removable);
+    removable = AndNot(AndNot(opposite, away), removable);
+    right = Or(right, Or(toward, opposite));
+  };
+  imply(std::integral_constant<int, 0>());
+  imply(std::integral_constant<int, 1>());
+  imply(std::integral_constant<int, 2>());
+  return And(removable, right);
+}
+
+template <Sublattice kSublattice>
+HWY_INLINE Plane EndPoints(const ObjectView& view, BrickIndex brick) {
+  const Plane own = LoadPlane(view.object[brick]);
+  Plane planes[14];
+  AllPlanes<kSublattice>(view.object, view.neighbors[brick], own, planes);
+  Plane some = planes[0];
+  Plane several = And(planes[0], planes[1]);
+  some = Or(some, planes[1]);
+  for (int n = 2; n < 14; ++n) {
+    several = Or(several, And(some, planes[n]));
+    some = Or(some, planes[n]);
+  }
+  return AndNot(several, And(some, And(own, LoadPlane(view.candidates[brick]))));
+}
+
+template <Sublattice kSublattice>
+HWY_INLINE Plane PossiblySimple(const ObjectView& view, BrickIndex brick) {
+  const Plane own = LoadPlane(view.object[brick]);
+  Plane p[14];
+  AllPlanes<kSublattice>(view.object, view.neighbors[brick], own, p);
+  // A D8 neighbor is adjacent to the D8 neighbors that differ in one sign and to the D6 neighbors
+  // on its three sides; D6 neighbors are not adjacent to each other.
+  Plane adjacent = And(p[0], Or(p[1], Or(p[2], p[4])));
+  adjacent = Or(adjacent, And(p[3], Or(p[1], Or(p[2], p[7]))));
+  adjacent = Or(adjacent, And(p[5], Or(p[1], Or(p[4], p[7]))));
+  adjacent = Or(adjacent, And(p[6], Or(p[2], Or(p[4], p[7]))));
+  adjacent = Or(adjacent, And(p[8], Or(Or(p[1], p[3]), Or(p[5], p[7]))));
+  adjacent = Or(adjacent, And(p[9], Or(Or(p[0], p[2]), Or(p[4], p[6]))));
+  adjacent = Or(adjacent, And(p[10], Or(Or(p[2], p[3]), Or(p[6], p[7]))));
+  adjacent = Or(adjacent, And(p[11], Or(Or(p[0], p[1]), Or(p[4], p[5]))));
+  adjacent = Or(adjacent, And(p[12], Or(Or(p[4], p[5]), Or(p[6], p[7]))));
+  adjacent = Or(adjacent, And(p[13], Or(Or(p[0], p[1]), Or(p[2], p[3]))));
+  return And(adjacent, And(own, LoadPlane(view.candidates[brick])));
+}
+
+// Both loops always write and then advance by a comparison: an early-out branch on such data is
+// mispredicted too often to pay.
+template <typename Test>
+HWY_INLINE size_t KeepIf(std::span<const BrickIndex> bricks, BrickIndex* kept, Test test) {
+  size_t count = 0;
+  for (BrickIndex brick : bricks) {
+    kept[count] = brick;
+    count += IsEmpty(test(brick)) ? 0 : 1;
+  }
+  return count;
+}
+template <typename Test>
+HWY_INLINE size_t MarkIf(std::span<const BrickIndex> bricks, MarkedBrick* marked, Test test) {
+  size_t count = 0;
+  for (BrickIndex brick : bricks) {
+    const Plane marks = test(brick);
+    StorePlane(marks, marked[count].marks);
+    marked[count].brick = brick;
+    count += IsEmpty(marks) ? 0 : 1;
+  }
+  return count;
+}
+
+using KeepFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, BrickIndex*);
+using MarkFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*);
+
+template <Sublattice kSublattice, int kDirection>
+size_t KeepBorder(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept) {
+  return KeepIf(bricks, kept, [&](BrickIndex brick) HWY_ATTR {
+    return BorderWithSequel<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
+  });
+}
+template <Sublattice kSublattice, int kDirection>
+size_t MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
+                     MarkedBrick* marked) {
+  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
+    return Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
+  });
+}
+
+template <Sublattice kSublattice, int... kDirections>
+constexpr std::array<KeepFunction, 8> KeepTable(std::integer_sequence<int, kDirections...>) {
+  return {KeepBorder<kSublattice, kDirections>...};
+}
+template <Sublattice kSublattice, int... kDirections>
+constexpr std::array<MarkFunction, 8> MarkTable(std::integer_sequence<int, kDirections...>) {
+  return {MarkDirection<kSublattice, kDirections>...};
+}
+
+size_t KeepBorderBricksTarget(const ObjectView& view, Sublattice sublattice, int d,
+                              std::span<const BrickIndex> bricks, BrickIndex* kept) {
+  static constexpr std::array<KeepFunction, 8> kTables[2] = {
+      KeepTable<Sublattice::kEven>(std::make_integer_sequence<int, 8>()),
+      KeepTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
+  return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, kept);
+}
+size_t MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
+                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  static constexpr std::array<MarkFunction, 8> kTables[2] = {
+      MarkTable<Sublattice::kEven>(std::make_integer_sequence<int, 8>()),
+      MarkTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
+  return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, marked);
+}
+size_t MarkEndPointsTarget(const ObjectView& view, Sublattice sublattice,
+                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  if (sublattice == Sublattice::kEven) {
+    return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
+      return EndPoints<Sublattice::kEven>(view, brick);
+    });
+  }
+  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
+    return EndPoints<Sublattice::kOdd>(view, brick);
+  });
+}
+size_t MarkPossiblySimpleTarget(const ObjectView& view, Sublattice sublattice,
+                                std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  if (sublattice == Sublattice::kEven) {
+    return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
+      return PossiblySimple<Sublattice::kEven>(view, brick);
+    });
+  }
+  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
+    return PossiblySimple<Sublattice::kOdd>(view, brick);
+  });
+}
+const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bccskel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bccskel {
+
+HWY_EXPORT(KeepBorderBricksTarget);
+HWY_EXPORT(MarkRemovableTarget);
+HWY_EXPORT(MarkEndPointsTarget);
+HWY_EXPORT(MarkPossiblySimpleTarget);
+HWY_EXPORT(TargetName);
+
+size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                        std::span<const BrickIndex> bricks, BrickIndex* kept) {
+  return HWY_DYNAMIC_DISPATCH(KeepBorderBricksTarget)(view, sublattice, d.bit(), bricks, kept);
+}
+size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked);
+}
+size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return HWY_DYNAMIC_DISPATCH(MarkEndPointsTarget)(view, sublattice, bricks, marked);
+}
+size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
+                          std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return HWY_DYNAMIC_DISPATCH(MarkPossiblySimpleTarget)(view, sublattice, bricks, marked);
+}
+
+std::vector<std::string> SupportedInstructionSets() {
+  std::vector<std::string> names;
+  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
+    names.emplace_back(hwy::TargetName(left & -left));  // lower bits are better targets
+  }
+  return names;
+}
+
+bool ChooseInstructionSet(const std::string& name) {
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  if (name.empty()) return true;
+  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
+    const int64_t target = left & -left;
+    if (name != hwy::TargetName(target)) continue;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    return true;
+  }
+  return false;
+}
+
+std::string ChosenInstructionSet() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
+
+}  // namespace bccskel
+#endif  // HWY_ONCE

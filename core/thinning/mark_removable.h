@@ -1,0 +1,75 @@
+#ifndef BCCSKEL_CORE_THINNING_MARK_REMOVABLE_H_
+#define BCCSKEL_CORE_THINNING_MARK_REMOVABLE_H_
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/lattice/directions.h"
+#include "core/volume/brick.h"
+#include "core/volume/brick_neighbors.h"
+
+// Does:  finds the points that a direction pass may remove, a brick (512 points) at a time.
+// Paper: Conditions 1 to 4 of section 3; end points for Condition 6 of section 4.
+// Why it is right: for a border point p of direction d (p - d background, p + d object), Condition
+// 3
+//   holds on all three checking rings through d if and only if, for each of the six neighbors f
+//   with d.f < 0 other than -d, p + f in O implies p + f + d in O: each ring through d is a 6-cycle
+//   -d, f, f + d, d, ..., so its object part is one arc around d exactly if nothing on the far side
+//   stands without its near-side partner. Condition 1 then follows: every object neighbor is joined
+//   to d, every background neighbor to -d. And Condition 2 asks for one more object neighbor than
+//   d, which the implications turn into "one of the six right-hand sides". So twelve three-input
+//   logic operations decide a whole register of points, with no table. All marks of a pass are
+//   taken on one frozen object, which is what the proof needs.
+// Cost:  the pre-test reads 2 to 9 bricks of 64 bytes, the full test 15; no writes to the object.
+// Differs from the paper: no per-point test and no point lists; same points removed.
+
+namespace bccskel {
+
+// What the kernels read. The arrays do not change during a pass.
+struct ObjectView {
+  const BrickBits* object = nullptr;      // padded: index keys.size() is the empty brick
+  const BrickBits* candidates = nullptr;  // points that may go: reached by the shells, not kept
+  const BrickNeighborhood* neighbors = nullptr;
+};
+
+struct MarkedBrick {
+  BrickBits marks;  // never empty
+  BrickIndex brick = 0;
+};
+
+// The bricks of one sublattice that hold candidates which are border points of direction d with a
+// sequel point; the others have nothing to remove along d.
+// Shapes: `bricks` all of `sublattice`; `kept` has room for bricks.size().
+// Returns: how many bricks were written to `kept`, in the order of `bricks`.
+size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                        std::span<const BrickIndex> bricks, BrickIndex* kept);
+
+// Conditions 1 to 4 along d for all candidates of the given bricks.
+// Shapes: `bricks` all of `sublattice`; `marked` has room for bricks.size().
+// Returns: how many bricks have marks.
+size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked);
+
+// The end points among the candidates of the given bricks. Shapes and result as MarkRemovable().
+size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked);
+
+// Points with two adjacent object neighbors among the candidates: every simple point that is not an
+// end point is one of them. Shapes and result as MarkRemovable().
+size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
+                          std::span<const BrickIndex> bricks, MarkedBrick* marked);
+
+// The instruction sets this machine can run, best first; results do not depend on the choice.
+std::vector<std::string> SupportedInstructionSets();
+// Uses this one from now on; an empty name goes back to the best.
+// Returns false when the machine cannot run it. Threads: not while kernels run.
+bool ChooseInstructionSet(const std::string& name);
+// The one in use.
+std::string ChosenInstructionSet();
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_MARK_REMOVABLE_H_

@@ -1,0 +1,45 @@
+#include "core/thinning/stubble.h"
+
+#include <bit>
+
+#include "core/topology/neighborhood.h"
+
+namespace bccskel {
+namespace {
+
+// How many end points stand before direction `before` among the neighbors of a point.
+int EndPointsBefore(const ThinningState& state, const NeighborAddress& q, NeighborMask neighbors,
+                    Direction before) {
+  int count = 0;
+  for (int n = 0; n < before.bit(); ++n) {
+    const Direction d(n);
+    if ((neighbors & d.mask()) == 0) continue;
+    const NeighborAddress e = NeighborAt(state, q.brick, q.bit, d);
+    if (IsEndPoint(state.NeighborsOf(e.brick, e.bit))) ++count;
+  }
+  return count;
+}
+
+// Needs: the point is an end point.
+bool IsStubblePoint(const ThinningState& state, BrickIndex brick, int bit, StubblePolicy policy) {
+  const Direction to_neighbor(std::countr_zero(state.NeighborsOf(brick, bit)));
+  const NeighborAddress q = NeighborAt(state, brick, bit, to_neighbor);
+  const NeighborMask around_q = state.NeighborsOf(q.brick, q.bit);
+  const int neighbors = NeighborsIn(around_q);
+  if (neighbors <= 2) return false;
+  if (policy == StubblePolicy::kLiteral) return true;
+  return EndPointsBefore(state, q, around_q, to_neighbor.Opposite()) < neighbors - 2;
+}
+
+}  // namespace
+
+BrickBits SelectStubble(const ThinningState& state, const MarkedBrick& end_points,
+                        StubblePolicy policy) {
+  BrickBits stubble;
+  end_points.marks.ForEachSetBit([&](int bit) {
+    if (IsStubblePoint(state, end_points.brick, bit, policy)) stubble.Set(bit);
+  });
+  return stubble;
+}
+
+}  // namespace bccskel

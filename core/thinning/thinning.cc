@@ -1,0 +1,47 @@
+#include "core/thinning/thinning.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/thinning/cleanup.h"
+#include "core/thinning/direction_passes.h"
+
+namespace bccskel {
+
+absl::Status CheckThinningOptions(const ThinningOptions& options) {
+  if (!(options.shell_width >= kMinShellWidth && options.shell_width <= kMaxShellWidth)) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("shell width %g: must be %g to %g lattice units", options.shell_width,
+                        kMinShellWidth, kMaxShellWidth));
+  }
+  if (options.last_shell < 0) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "last shell %d: must be 0 (thin to the end) or a shell from 1 up", options.last_shell));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferField& distance,
+                                           const ThinningOptions& options,
+                                           const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
+  const Shells shells = BuildShells(object, distance, options.shell_width, context);
+  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  ThinningState state(object, options.keep);
+  ThinningResult result;
+  result.last_shell = shells.last();
+  const int32_t last =
+      options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
+  BCCSKEL_ASSIGN_OR_RETURN(const DirectionPassTotals totals,
+                           RunDirectionPasses(shells, last, options.stubble, context, state));
+  result.removed = totals.removed;
+  result.direction_passes = totals.passes;
+  if (options.cleanup == ThinnessCleanup::kOn) {
+    BCCSKEL_ASSIGN_OR_RETURN(result.removed_by_cleanup, CleanUpThinness(context, state));
+  }
+  result.thin = std::move(state).ToVolume(object);
+  return result;
+}
+
+}  // namespace bccskel

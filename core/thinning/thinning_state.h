@@ -1,0 +1,46 @@
+#ifndef BCCSKEL_CORE_THINNING_THINNING_STATE_H_
+#define BCCSKEL_CORE_THINNING_THINNING_STATE_H_
+
+#include <span>
+#include <vector>
+
+#include "core/shells/shells.h"
+#include "core/thinning/mark_removable.h"
+#include "core/volume/brick_neighbors.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// The object while it is being thinned, in the brick order of the volume it came from.
+struct ThinningState {
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> object;      // padded with one empty brick
+  std::vector<BrickBits> candidates;  // points that may go
+  std::vector<BrickBits> kept;        // empty, or points that never go
+  std::vector<BrickNeighborhood> neighbors;
+
+  ThinningState(const Volume& volume, std::span<const LatticePoint> keep);
+
+  size_t brick_count() const { return keys.size(); }
+  Sublattice SublatticeOf(BrickIndex brick) const {
+    return static_cast<Sublattice>(keys[brick].value() & 1);
+  }
+  ObjectView View() const { return {object.data(), candidates.data(), neighbors.data()}; }
+
+  // The neighbors of a point that are object points.
+  NeighborMask NeighborsOf(BrickIndex brick, int bit) const;
+
+  // What is left, with the extent and placement of the volume it came from.
+  Volume ToVolume(const Volume& source) &&;
+};
+
+// Where the neighbor of a point in direction `d` is stored.
+struct NeighborAddress {
+  BrickIndex brick = 0;  // the padding brick if it is not stored
+  int bit = 0;
+};
+NeighborAddress NeighborAt(const ThinningState& state, BrickIndex brick, int bit, Direction d);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_THINNING_STATE_H_
