@@ -1,0 +1,18 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_GRAPHML_H_
+#define BCCSKEL_CLIENT_EXPORT_GRAPHML_H_
+
+#include <string>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+// GraphML, one undirected graph with self loops and parallel edges.
+// Nodes: kind, x, y, z, radius; loops and cavities where a closed surface has them.
+// Edges: length, mean_radius, min_radius, points ("x y z radius; x y z radius; ...").
+// World coordinates and units throughout.
+std::string GraphMlText(const SkeletonGraph& graph);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_GRAPHML_H_

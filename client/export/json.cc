@@ -1,0 +1,93 @@
+#include "client/export/json.h"
+
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+#include "client/export/node_kind_name.h"
+#include "client/export/text.h"
+
+namespace bccskel::exporting {
+namespace {
+
+// A JSON list; `write_item` writes each of `items`.
+template <typename Items, typename WriteItem>
+void AddList(Text& text, std::string_view separator, const Items& items, WriteItem write_item) {
+  text.Add('[');
+  std::string_view before;
+  for (const auto& item : items) {
+    text.Add(before);
+    write_item(item);
+    before = separator;
+  }
+  text.Add(']');
+}
+
+void AddPosition(Text& text, const WorldPoint& p) {
+  text.Add('[', p[0], ',', p[1], ',', p[2], ']');
+}
+
+void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node) {
+  text.Add("{\"id\":", &node - graph.nodes.data(), ",\"kind\":\"", NodeKindName(node.kind),
+           "\",\"position\":");
+  AddPosition(text, graph.PositionOf(node.at));
+  text.Add(",\"radius\":", graph.RadiusOf(node.at));
+  if (node.kind == NodeKind::kClosedSurface) {
+    text.Add(",\"cavities\":", node.cavities, ",\"loops\":", node.loops);
+  }
+  text.Add('}');
+}
+
+void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  const auto points = graph.PointsOf(edge);
+  text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
+  AddList(text, ",", points,
+          [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
+  text.Add(",\"radii\":");
+  AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
+  text.Add(",\"length\":", graph.LengthOf(edge), '}');
+}
+
+void AddBettiNumbers(Text& text, const BettiNumbers& betti) {
+  text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,
+           ",\"cavities\":", betti.cavities, '}');
+}
+
+void AddCertificate(Text& text, const Certificate& certificate) {
+  text.Add("{\"input\":");
+  AddBettiNumbers(text, certificate.input);
+  text.Add(",\"skeleton\":");
+  AddBettiNumbers(text, certificate.skeleton);
+  text.Add(",\"simple_points_left\":", certificate.simple_points_left, '}');
+}
+
+double Milliseconds(StageTimings::Duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+void AddTimings(Text& text, const StageTimings& timings) {
+  text.Add("{\"distance_ms\":", Milliseconds(timings.distance),
+           ",\"thinning_ms\":", Milliseconds(timings.thinning),
+           ",\"certificate_ms\":", Milliseconds(timings.certificate),
+           ",\"trace_ms\":", Milliseconds(timings.trace),
+           ",\"total_ms\":", Milliseconds(timings.total), '}');
+}
+
+}  // namespace
+
+std::string JsonText(const SkeletonizeResult& result) {
+  const SkeletonGraph& graph = result.graph;
+  Text text;
+  text.Add("{\n\"nodes\":");
+  AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) { AddNode(text, graph, n); });
+  text.Add(",\n\"edges\":");
+  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e); });
+  text.Add(",\n\"certificate\":");
+  AddCertificate(text, result.certificate);
+  text.Add(",\n\"object_points\":", result.object_points, ",\n\"timings\":");
+  AddTimings(text, result.timings);
+  text.Add(",\n\"sha256\":\"", result.sha256, "\"\n}\n");
+  return std::move(text).Take();
+}
+
+}  // namespace bccskel::exporting

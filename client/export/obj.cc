@@ -1,0 +1,27 @@
+#include "client/export/obj.h"
+
+#include <utility>
+
+#include "client/export/polylines.h"
+#include "client/export/text.h"
+
+namespace bccskel::exporting {
+
+std::string ObjText(const SkeletonGraph& graph) {
+  const Polylines polylines = PolylinesOf(graph);
+  Text text;
+  text.Add("# curve skeleton by bccskel\n");
+  for (const SkeletonPoint& point : polylines.points) {
+    const WorldPoint p = graph.PositionOf(point);
+    text.Add("v ", p[0], ' ', p[1], ' ', p[2], '\n');
+  }
+  for (const std::vector<size_t>& line : polylines.lines) {
+    text.Add('l');
+    for (size_t n : line) text.Add(' ', n + 1);
+    text.Add('\n');
+  }
+  for (size_t n : polylines.lone_nodes) text.Add("p ", n + 1, '\n');
+  return std::move(text).Take();
+}
+
+}  // namespace bccskel::exporting

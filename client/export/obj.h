@@ -1,0 +1,16 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_OBJ_H_
+#define BCCSKEL_CLIENT_EXPORT_OBJ_H_
+
+#include <string>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+// Wavefront OBJ: one `l` element per edge, one `p` element per node without edges. World
+// coordinates; OBJ has no place for radii.
+std::string ObjText(const SkeletonGraph& graph);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_OBJ_H_

@@ -1,0 +1,25 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_CAPTION_H_
+#define BCCSKEL_CLIENT_EXPORT_PICTURE_CAPTION_H_
+
+#include <string>
+
+#include "client/export/picture/picture.h"
+
+namespace bccskel::exporting {
+
+// Replaces the characters that XML and HTML give a meaning, and control characters.
+std::string EscapeMarkup(const std::string& text);
+
+// "12,345,678".
+std::string GroupedDigits(uint64_t number);
+
+// "1 component, 3 loops, 0 cavities".
+std::string BettiPhrase(const BettiNumbers& betti);
+
+// The two lines under a picture's title: what went in, and what came out with its check.
+std::string ObjectPhrase(const SkeletonizeResult& result);
+std::string SkeletonPhrase(const SkeletonizeResult& result);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_CAPTION_H_

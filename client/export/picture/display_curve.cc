@@ -1,0 +1,83 @@
+#include "client/export/picture/display_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace bccskel::exporting {
+namespace {
+
+constexpr int kSmoothingSteps = 6;
+
+// One binomial smoothing step; the first and the last point stay.
+void SmoothOnce(std::vector<WorldPoint>& points) {
+  WorldPoint before = points.front();
+  for (size_t n = 1; n + 1 < points.size(); ++n) {
+    const WorldPoint here = points[n];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      points[n][axis] = (before[axis] + 2 * here[axis] + points[n + 1][axis]) / 4;
+    }
+    before = here;
+  }
+}
+
+DisplayCurve CurveOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  DisplayCurve curve;
+  for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+    curve.points.push_back(graph.PositionOf(p));
+    curve.radii.push_back(graph.RadiusOf(p));
+  }
+  for (int step = 0; step < kSmoothingSteps && !curve.points.empty(); ++step) {
+    SmoothOnce(curve.points);
+  }
+  return curve;
+}
+
+using Rgb = std::array<double, 3>;
+// Dark enough to stand on white everywhere, and told apart without red and green.
+constexpr std::array<Rgb, 5> kRadiusScale = {
+    {{46, 16, 101}, {124, 29, 130}, {196, 45, 96}, {235, 94, 40}, {245, 158, 11}}};
+
+}  // namespace
+
+std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph) {
+  std::vector<DisplayCurve> curves;
+  for (const SkeletonEdge& edge : graph.edges) curves.push_back(CurveOf(graph, edge));
+  return curves;
+}
+
+RadiusRange RadiusRangeOf(const SkeletonGraph& graph) {
+  if (graph.nodes.empty()) return {0, 0};
+  const double first = graph.RadiusOf(graph.nodes.front().at);
+  RadiusRange range = {first, first};
+  const auto include = [&](const SkeletonPoint& p) {
+    range.low = std::min(range.low, graph.RadiusOf(p));
+    range.high = std::max(range.high, graph.RadiusOf(p));
+  };
+  for (const SkeletonNode& node : graph.nodes) include(node.at);
+  for (const SkeletonPoint& p : graph.points) include(p);
+  return range;
+}
+
+int RadiusColorIndex(double radius, const RadiusRange& range) {
+  if (range.high <= range.low) return kRadiusColors / 2;
+  const double part = (radius - range.low) / (range.high - range.low);
+  return std::clamp(static_cast<int>(part * kRadiusColors), 0, kRadiusColors - 1);
+}
+
+std::string RadiusColor(int index) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const double place = static_cast<double>(index) / (kRadiusColors - 1) * (kRadiusScale.size() - 1);
+  const size_t stop = std::min(static_cast<size_t>(place), kRadiusScale.size() - 2);
+  const double part = place - static_cast<double>(stop);
+  std::string color = "#";
+  for (size_t n = 0; n < 3; ++n) {
+    const double value = kRadiusScale[stop][n] * (1 - part) + kRadiusScale[stop + 1][n] * part;
+    const auto byte = static_cast<size_t>(std::lround(value));
+    color.push_back(kHex[byte >> 4]);
+    color.push_back(kHex[byte & 15]);
+  }
+  return color;
+}
+
+}  // namespace bccskel::exporting

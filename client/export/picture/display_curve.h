@@ -1,0 +1,36 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_
+#define BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+// An edge as a picture draws it: in the world, with the steps of the lattice smoothed away between
+// its fixed ends. For the eye only; every other format holds the exact points.
+struct DisplayCurve {
+  std::vector<WorldPoint> points;
+  std::vector<double> radii;
+};
+
+std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph);
+
+// The radii of a graph's points, nodes included; {0, 0} for an empty graph.
+struct RadiusRange {
+  double low;
+  double high;
+};
+RadiusRange RadiusRangeOf(const SkeletonGraph& graph);
+
+// The color of a radius: thin is dark violet, thick is orange.
+inline constexpr int kRadiusColors = 24;
+int RadiusColorIndex(double radius, const RadiusRange& range);  // 0..kRadiusColors - 1
+std::string RadiusColor(int index);                             // "#rrggbb"
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_

@@ -1,0 +1,241 @@
+#include "client/export/picture/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/export/picture/caption.h"
+#include "client/export/picture/display_curve.h"
+#include "client/export/picture/png.h"
+#include "client/export/picture/projection.h"
+#include "client/export/picture/surface_image.h"
+#include "client/export/picture/surface_points.h"
+#include "client/export/text.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::exporting {
+namespace {
+
+constexpr double kWidth = 1240, kHeight = 860;
+constexpr double kPixelsPerUnit = 1.5;  // of the glass images
+constexpr double kMargin = 26;
+
+// Where a view goes on the sheet.
+struct Panel {
+  double x;
+  double y;
+  PanelSize size;
+};
+constexpr std::array<Panel, 3> kPanels = {
+    {{20, 84, {800, 716}}, {840, 84, {380, 348}}, {840, 452, {380, 348}}}};
+
+// What all views share.
+struct Scene {
+  std::vector<WorldPoint> surface;
+  WorldBox box;
+  double point_spacing;  // world units between D8 neighbors, the largest of the axes
+  std::vector<DisplayCurve> curves;
+  RadiusRange radii;
+};
+
+void Include(WorldBox& box, const WorldPoint& p, double pad) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], p[axis] - pad);
+    box.high[axis] = std::max(box.high[axis], p[axis] + pad);
+  }
+}
+
+Scene SceneOf(const PictureSubject& subject) {
+  const Placement& placement = subject.object.placement();
+  Scene scene;
+  scene.point_spacing = *std::ranges::max_element(placement.spacing) * std::sqrt(3.0) / 2;
+  for (const LatticePoint p : SurfacePoints(subject.object)) {
+    scene.surface.push_back(placement.ToWorld(p));
+  }
+  const WorldPoint first = scene.surface.empty() ? placement.origin : scene.surface.front();
+  scene.box = {first, first};
+  Include(scene.box, first, scene.point_spacing);
+  for (const WorldPoint& p : scene.surface) Include(scene.box, p, scene.point_spacing);
+  scene.curves = DisplayCurvesOf(subject.result.graph);
+  scene.radii = RadiusRangeOf(subject.result.graph);
+  return scene;
+}
+
+// Two decimals are a hundredth of a pixel.
+double Rounded(double v) { return std::round(v * 100) / 100; }
+
+absl::StatusOr<std::string> GlassImage(const Scene& scene, const Projection& projection,
+                                       const PanelSize& size) {
+  std::vector<PanelPoint> points;
+  points.reserve(scene.surface.size());
+  for (const WorldPoint& p : scene.surface) {
+    const PanelPoint q = projection.Project(p);
+    points.push_back({q.x * kPixelsPerUnit, q.y * kPixelsPerUnit, q.depth * kPixelsPerUnit});
+  }
+  const double radius = scene.point_spacing * projection.scale() * kPixelsPerUnit;
+  return EncodePng(RenderSurface(points, radius, static_cast<uint32_t>(size.width * kPixelsPerUnit),
+                                 static_cast<uint32_t>(size.height * kPixelsPerUnit)));
+}
+
+// A piece of a curve in one color.
+struct Stroke {
+  std::vector<PanelPoint> points;
+  int color;
+  double depth;
+};
+
+// Cuts a curve where its color changes, and so often that strokes can be sorted by depth.
+void AppendStrokes(const DisplayCurve& curve, const Scene& scene, const Projection& projection,
+                   std::vector<Stroke>& strokes) {
+  constexpr size_t kLongest = 12;
+  for (size_t n = 1; n < curve.points.size(); ++n) {
+    const int color = RadiusColorIndex((curve.radii[n - 1] + curve.radii[n]) / 2, scene.radii);
+    const PanelPoint p = projection.Project(curve.points[n - 1]);
+    const bool starts =
+        n == 1 || strokes.back().color != color || strokes.back().points.size() >= kLongest;
+    if (starts) strokes.push_back({{p}, color, p.depth});
+    strokes.back().points.push_back(projection.Project(curve.points[n]));
+  }
+}
+
+std::vector<Stroke> StrokesFromBack(const Scene& scene, const Projection& projection) {
+  std::vector<Stroke> strokes;
+  for (const DisplayCurve& curve : scene.curves) {
+    AppendStrokes(curve, scene, projection, strokes);
+  }
+  std::ranges::stable_sort(strokes, {}, &Stroke::depth);
+  return strokes;
+}
+
+void AddPath(Text& svg, const Stroke& stroke, std::string_view style) {
+  svg.Add("<path ", style, " d=\"M");
+  for (const PanelPoint& p : stroke.points) svg.Add(' ', Rounded(p.x), ' ', Rounded(p.y));
+  svg.Add("\"/>\n");
+}
+
+void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, double width) {
+  svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"",
+          Rounded(width), "\">\n");
+  // A halo under every stroke shows which of two crossing branches is in front.
+  const std::string halo = "class=\"h\" stroke-width=\"" + std::to_string(width + 2.2) + "\"";
+  for (const Stroke& stroke : strokes) {
+    AddPath(svg, stroke, halo);
+    AddPath(svg, stroke, "stroke=\"" + RadiusColor(stroke.color) + "\"");
+  }
+  svg.Add("</g>\n");
+}
+
+std::string_view NodeStyle(NodeKind kind) {
+  switch (kind) {
+    case NodeKind::kEnd:
+      return "fill=\"#fff\" stroke=\"#1f2937\"";
+    case NodeKind::kJunction:
+      return "fill=\"#1f2937\" stroke=\"#fff\"";
+    case NodeKind::kLoop:
+    case NodeKind::kIsolated:
+    case NodeKind::kClosedSurface:
+      return "fill=\"#0d9488\" stroke=\"#fff\"";
+  }
+  return "";  // not reached: the enumerators are exhausted above
+}
+
+void AddNodes(Text& svg, const SkeletonGraph& graph, const Projection& projection, double radius) {
+  for (const SkeletonNode& node : graph.nodes) {
+    if (node.kind == NodeKind::kLoop) continue;  // only stands for its curve
+    const PanelPoint p = projection.Project(graph.PositionOf(node.at));
+    svg.Add("<circle cx=\"", Rounded(p.x), "\" cy=\"", Rounded(p.y), "\" r=\"", Rounded(radius),
+            "\" stroke-width=\"", Rounded(radius / 3), "\" ", NodeStyle(node.kind), "/>\n");
+  }
+}
+
+void AddAxes(Text& svg, const View& view, const PanelSize& size) {
+  constexpr double kLength = 22;
+  constexpr std::string_view kNames = "xyz";
+  svg.Add("<g class=\"a\" transform=\"translate(34 ", size.height - 34, ")\">\n");
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double x = kLength * view.right[axis], y = -kLength * view.up[axis];
+    if (x * x + y * y < 4) continue;  // points at the viewer
+    svg.Add("<path d=\"M 0 0 L ", Rounded(x), ' ', Rounded(y), "\"/><text x=\"", Rounded(1.45 * x),
+            "\" y=\"", Rounded(1.45 * y + 4), "\">", kNames.substr(axis, 1), "</text>\n");
+  }
+  svg.Add("</g>\n");
+}
+
+absl::Status AddPanel(Text& svg, const PictureSubject& subject, const Scene& scene,
+                      const Panel& panel, const View& view) {
+  const Projection projection(view, scene.box, panel.size, kMargin);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(scene, projection, panel.size));
+  svg.Add("<svg x=\"", panel.x, "\" y=\"", panel.y, "\" width=\"", panel.size.width, "\" height=\"",
+          panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
+          "height=\"100%\" rx=\"10\"/>\n");
+  svg.Add("<image width=\"", panel.size.width, "\" height=\"", panel.size.height,
+          "\" href=\"data:image/png;base64,", EncodeBase64(png), "\"/>\n");
+  const double boldness = panel.size.width > 500 ? 1 : 0.7;
+  const bool dense = subject.result.graph.nodes.size() > 300;
+  AddStrokes(svg, StrokesFromBack(scene, projection), (dense ? 1.6 : 2.6) * boldness);
+  AddNodes(svg, subject.result.graph, projection, (dense ? 1.8 : 3.6) * boldness);
+  AddAxes(svg, view, panel.size);
+  svg.Add("</svg>\n");
+  return absl::OkStatus();
+}
+
+// Four significant digits.
+double Legible(double v) {
+  if (v == 0) return 0;
+  const double unit = std::pow(10.0, 3 - std::floor(std::log10(std::abs(v))));
+  return std::round(v * unit) / unit;
+}
+
+void AddLegend(Text& svg, const RadiusRange& radii) {
+  constexpr double kX = 20, kY = 822, kStep = 9;
+  svg.Add("<text class=\"s\" x=\"", kX, "\" y=\"", kY + 11, "\">radius ", Legible(radii.low),
+          "</text>\n");
+  const double bar = kX + 120;
+  for (int n = 0; n < kRadiusColors; ++n) {
+    svg.Add("<rect x=\"", bar + kStep * n, "\" y=\"", kY, "\" width=\"", kStep + 0.5,
+            "\" height=\"12\" fill=\"", RadiusColor(n), "\"/>\n");
+  }
+  svg.Add("<text class=\"s\" x=\"", bar + kStep * kRadiusColors + 8, "\" y=\"", kY + 11, "\">",
+          Legible(radii.high), "</text>\n");
+  svg.Add("<circle cx=\"520\" cy=\"828\" r=\"4\" stroke-width=\"1.4\" ", NodeStyle(NodeKind::kEnd),
+          "/><text class=\"s\" x=\"532\" y=\"833\">end</text>\n<circle cx=\"588\" cy=\"828\" ",
+          "r=\"4\" ", NodeStyle(NodeKind::kJunction),
+          "/><text class=\"s\" x=\"600\" y=\"833\">junction</text>\n<circle cx=\"688\" ",
+          "cy=\"828\" r=\"4\" ", NodeStyle(NodeKind::kIsolated),
+          "/><text class=\"s\" x=\"700\" y=\"833\">isolated point or closed surface</text>\n");
+}
+
+void AddHead(Text& svg, const PictureSubject& subject) {
+  svg.Add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
+          "viewBox=\"0 0 ", kWidth, ' ', kHeight, "\" width=\"", kWidth, "\" height=\"", kHeight,
+          "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<style>",
+          ".p{fill:#f8fafc;stroke:#e2e8f0}.h{stroke:#fff;stroke-opacity:.75}",
+          ".s{font-size:13px;fill:#475569}.t{font-size:22px;font-weight:bold;fill:#0f172a}",
+          ".a{stroke:#94a3b8;stroke-width:1.3}",
+          ".a text{font-size:12px;fill:#64748b;stroke:none;text-anchor:middle}</style>\n",
+          "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
+  svg.Add("<text class=\"t\" x=\"20\" y=\"36\">", EscapeMarkup(subject.title), "</text>\n",
+          "<text class=\"s\" x=\"20\" y=\"64\">", ObjectPhrase(subject.result), "  →  ",
+          SkeletonPhrase(subject.result), "</text>\n");
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> SvgText(const PictureSubject& subject) {
+  const Scene scene = SceneOf(subject);
+  const std::array<View, 3> views = ViewsOf(scene.box);
+  Text svg;
+  AddHead(svg, subject);
+  for (size_t n = 0; n < kPanels.size(); ++n) {
+    BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, subject, scene, kPanels[n], views[n]));
+  }
+  AddLegend(svg, scene.radii);
+  svg.Add("</svg>\n");
+  return std::move(svg).Take();
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,25 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_POLYLINES_H_
+#define BCCSKEL_CLIENT_EXPORT_POLYLINES_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+// A graph as numbered points and polylines over them, the model of VTP and OBJ.
+struct Polylines {
+  // First the nodes, in their order, then the inner points of every edge.
+  std::vector<SkeletonPoint> points;
+  // One per edge, in the order of the edges: positions in `points`, at least two.
+  std::vector<std::vector<size_t>> lines;
+  // Nodes that no edge touches.
+  std::vector<size_t> lone_nodes;
+};
+
+Polylines PolylinesOf(const SkeletonGraph& graph);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_POLYLINES_H_

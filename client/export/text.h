@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_TEXT_H_
+#define BCCSKEL_CLIENT_EXPORT_TEXT_H_
+
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace bccskel::exporting {
+
+// Builds a text file. Numbers are written in the shortest form that reads back to the same value,
+// whatever the locale, so equal skeletons give equal bytes.
+class Text {
+ public:
+  template <typename... Parts>
+  Text& Add(const Parts&... parts) {
+    (Append(parts), ...);
+    return *this;
+  }
+  std::string Take() && { return std::move(text_); }
+
+ private:
+  void Append(std::string_view part) { text_.append(part); }
+  void Append(char part) { text_.push_back(part); }
+  template <typename Number>
+  requires(std::integral<Number> || std::floating_point<Number>) void Append(Number number) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    text_.append(digits.data(), end);
+  }
+
+  std::string text_;
+};
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_TEXT_H_

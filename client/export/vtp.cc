@@ -1,0 +1,103 @@
+#include "client/export/vtp.h"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/export/polylines.h"
+#include "client/export/text.h"
+
+namespace bccskel::exporting {
+namespace {
+
+// One <DataArray>, its values separated by line ends.
+template <typename WriteValues>
+void AddArray(Text& text, std::string_view type, std::string_view name, WriteValues write_values) {
+  text.Add("<DataArray type=\"", type, "\" Name=\"", name, "\" format=\"ascii\">\n");
+  write_values();
+  text.Add("</DataArray>\n");
+}
+
+void AddPoints(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
+  text.Add("<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" ",
+           "format=\"ascii\">\n");
+  for (const SkeletonPoint& point : polylines.points) {
+    const WorldPoint p = graph.PositionOf(point);
+    text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
+  }
+  text.Add("</DataArray>\n</Points>\n");
+}
+
+void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<size_t>>& cells) {
+  text.Add('<', tag, ">\n");
+  AddArray(text, "Int64", "connectivity", [&] {
+    for (const std::vector<size_t>& cell : cells) {
+      for (size_t n : cell) text.Add(n, ' ');
+      text.Add('\n');
+    }
+  });
+  AddArray(text, "Int64", "offsets", [&] {
+    size_t end = 0;
+    for (const std::vector<size_t>& cell : cells) text.Add(end += cell.size(), '\n');
+  });
+  text.Add("</", tag, ">\n");
+}
+
+double LatticeUnits(const ChamferWeights& weights, uint32_t counts) {
+  return 2.0 * counts / weights.half_units;
+}
+
+void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
+  text.Add("<PointData Scalars=\"radius\">\n");
+  AddArray(text, "Float64", "radius", [&] {
+    for (const SkeletonPoint& p : polylines.points) text.Add(graph.RadiusOf(p), '\n');
+  });
+  AddArray(text, "Float64", "distance", [&] {
+    for (const SkeletonPoint& p : polylines.points) {
+      text.Add(LatticeUnits(graph.weights, p.distance), '\n');
+    }
+  });
+  AddArray(text, "UInt8", "node_kind", [&] {
+    for (size_t n = 0; n < polylines.points.size(); ++n) {
+      text.Add(n < graph.nodes.size() ? 1 + static_cast<int>(graph.nodes[n].kind) : 0, '\n');
+    }
+  });
+  text.Add("</PointData>\n");
+}
+
+void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
+  text.Add("<CellData Scalars=\"edge_id\">\n");
+  AddArray(text, "Int64", "edge_id", [&] {
+    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("-1\n");
+    for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(n, '\n');
+  });
+  AddArray(text, "Float64", "length", [&] {
+    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("0\n");
+    for (const SkeletonEdge& edge : graph.edges) text.Add(graph.LengthOf(edge), '\n');
+  });
+  text.Add("</CellData>\n");
+}
+
+}  // namespace
+
+std::string VtpText(const SkeletonGraph& graph) {
+  const Polylines polylines = PolylinesOf(graph);
+  std::vector<std::vector<size_t>> vertices;
+  for (size_t n : polylines.lone_nodes) vertices.push_back({n});
+  Text text;
+  text.Add("<?xml version=\"1.0\"?>\n<!-- curve skeleton by bccskel -->\n",
+           "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" ",
+           "header_type=\"UInt64\">\n<PolyData>\n");
+  text.Add("<Piece NumberOfPoints=\"", polylines.points.size(), "\" NumberOfVerts=\"",
+           vertices.size(), "\" NumberOfLines=\"", polylines.lines.size(),
+           "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
+  AddPointData(text, graph, polylines);
+  AddCellData(text, graph, polylines);
+  AddPoints(text, graph, polylines);
+  AddCells(text, "Verts", vertices);
+  AddCells(text, "Lines", polylines.lines);
+  text.Add("</Piece>\n</PolyData>\n</VTKFile>\n");
+  return std::move(text).Take();
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,19 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_VTP_H_
+#define BCCSKEL_CLIENT_EXPORT_VTP_H_
+
+#include <string>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+// VTK XML PolyData, version 1.0, ASCII.
+// Cells:       one vertex per node without edges, then one polyline per edge.
+// Point data:  radius (world units), distance (lattice units), node_kind (0 inside an edge, else
+//              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface).
+// Cell data:   edge_id (-1 for vertices), length (world units).
+std::string VtpText(const SkeletonGraph& graph);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_VTP_H_
