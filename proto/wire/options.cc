@@ -1,0 +1,100 @@
+#include "proto/wire/options.h"
+
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+
+namespace bccskel::wire {
+namespace {
+
+v1::StubblePolicy ToMessage(StubblePolicy policy) {
+  switch (policy) {
+    case StubblePolicy::kKeepTwo:
+      return v1::STUBBLE_POLICY_KEEP_TWO;
+    case StubblePolicy::kLiteral:
+      return v1::STUBBLE_POLICY_LITERAL;
+    case StubblePolicy::kNone:
+      return v1::STUBBLE_POLICY_NONE;
+  }
+  return v1::STUBBLE_POLICY_UNSPECIFIED;
+}
+
+absl::StatusOr<StubblePolicy> FromMessage(v1::StubblePolicy policy, const std::string& field) {
+  switch (policy) {
+    case v1::STUBBLE_POLICY_UNSPECIFIED:
+    case v1::STUBBLE_POLICY_KEEP_TWO:
+      return StubblePolicy::kKeepTwo;
+    case v1::STUBBLE_POLICY_LITERAL:
+      return StubblePolicy::kLiteral;
+    case v1::STUBBLE_POLICY_NONE:
+      return StubblePolicy::kNone;
+    default:
+      return InvalidField(field, absl::StrCat("unknown policy ", int{policy}));
+  }
+}
+
+absl::StatusOr<ThinnessCleanup> FromMessage(v1::ThinnessCleanup cleanup, const std::string& field) {
+  switch (cleanup) {
+    case v1::THINNESS_CLEANUP_UNSPECIFIED:
+    case v1::THINNESS_CLEANUP_ON:
+      return ThinnessCleanup::kOn;
+    case v1::THINNESS_CLEANUP_OFF:
+      return ThinnessCleanup::kOff;
+    default:
+      return InvalidField(field, absl::StrCat("unknown clean-up ", int{cleanup}));
+  }
+}
+
+absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& message,
+                                                      const std::string& field) {
+  if (message.y_size() != message.x_size() || message.z_size() != message.x_size()) {
+    return InvalidField(
+        field, absl::StrCat("columns of ", message.x_size(), ", ", message.y_size(), " and ",
+                            message.z_size(), " rows, must have one length"));
+  }
+  std::vector<LatticePoint> points;
+  points.reserve(static_cast<size_t>(message.x_size()));
+  for (int n = 0; n < message.x_size(); ++n) {
+    points.push_back({message.x(n), message.y(n), message.z(n)});
+  }
+  return points;
+}
+
+}  // namespace
+
+v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
+  const ThinningOptions& thinning = options.thinning;
+  v1::SkeletonizeOptions message;
+  message.set_stubble_policy(ToMessage(thinning.stubble));
+  message.set_thinness_cleanup(thinning.cleanup == ThinnessCleanup::kOn ? v1::THINNESS_CLEANUP_ON
+                                                                        : v1::THINNESS_CLEANUP_OFF);
+  message.set_shell_width(thinning.shell_width);
+  message.set_last_shell(thinning.last_shell);
+  for (LatticePoint p : thinning.keep) {
+    message.mutable_keep()->add_x(p.x);
+    message.mutable_keep()->add_y(p.y);
+    message.mutable_keep()->add_z(p.z);
+  }
+  return message;
+}
+
+absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& message,
+                                               const std::string& field) {
+  SkeletonizeOptions options;
+  ThinningOptions& thinning = options.thinning;
+  BCCSKEL_ASSIGN_OR_RETURN(thinning.stubble,
+                           FromMessage(message.stubble_policy(), field + ".stubble_policy"));
+  BCCSKEL_ASSIGN_OR_RETURN(thinning.cleanup,
+                           FromMessage(message.thinness_cleanup(), field + ".thinness_cleanup"));
+  BCCSKEL_ASSIGN_OR_RETURN(thinning.keep, FromMessage(message.keep(), field + ".keep"));
+  if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
+  thinning.last_shell = message.last_shell();
+  if (absl::Status checked = CheckThinningOptions(thinning); !checked.ok()) {
+    return InvalidField(field, std::string(checked.message()));
+  }
+  return options;
+}
+
+}  // namespace bccskel::wire

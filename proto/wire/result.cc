@@ -1,0 +1,139 @@
+#include "proto/wire/result.h"
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/placement.h"
+
+namespace bccskel::wire {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr int64_t kNanosPerSecond = 1'000'000'000;
+constexpr int kDigestBytes = 32;
+
+void Set(google::protobuf::Duration* message, nanoseconds duration) {
+  message->set_seconds(duration.count() / kNanosPerSecond);
+  message->set_nanos(static_cast<int32_t>(duration.count() % kNanosPerSecond));
+}
+
+nanoseconds DurationOf(const google::protobuf::Duration& message) {
+  return nanoseconds(message.seconds() * kNanosPerSecond + message.nanos());
+}
+
+void Set(v1::BettiNumbers* message, const BettiNumbers& betti) {
+  message->set_components(betti.components);
+  message->set_loops(betti.loops);
+  message->set_cavities(betti.cavities);
+}
+
+BettiNumbers FromMessage(const v1::BettiNumbers& message) {
+  return {message.components(), message.loops(), message.cavities()};
+}
+
+void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts& facts) {
+  Set(message->mutable_queue(), facts.queued);
+  Set(message->mutable_decode(), facts.decoded);
+  Set(message->mutable_distance(), timings.distance);
+  Set(message->mutable_thinning(), timings.thinning);
+  Set(message->mutable_certificate(), timings.certificate);
+  Set(message->mutable_trace(), timings.trace);
+  Set(message->mutable_total(), timings.total);
+}
+
+StageTimings FromMessage(const v1::StageTimings& message) {
+  return {.distance = DurationOf(message.distance()),
+          .thinning = DurationOf(message.thinning()),
+          .certificate = DurationOf(message.certificate()),
+          .trace = DurationOf(message.trace()),
+          .total = DurationOf(message.total())};
+}
+
+}  // namespace
+
+v1::Certificate ToMessage(const Certificate& certificate) {
+  v1::Certificate message;
+  Set(message.mutable_input(), certificate.input);
+  Set(message.mutable_skeleton(), certificate.skeleton);
+  message.set_simple_points_left(certificate.simple_points_left);
+  return message;
+}
+
+Certificate FromMessage(const v1::Certificate& message) {
+  return {.input = FromMessage(message.input()),
+          .skeleton = FromMessage(message.skeleton()),
+          .simple_points_left = message.simple_points_left()};
+}
+
+v1::ShellProgress ToMessage(const exec::ShellProgress& progress, nanoseconds elapsed) {
+  v1::ShellProgress message;
+  message.set_shell(progress.shell);
+  message.set_last_shell(progress.last_shell);
+  message.set_points(progress.points);
+  message.set_removed(progress.removed);
+  message.set_remaining(progress.remaining);
+  Set(message.mutable_elapsed(), elapsed);
+  return message;
+}
+
+exec::ShellProgress FromMessage(const v1::ShellProgress& message) {
+  return {.shell = message.shell(),
+          .last_shell = message.last_shell(),
+          .points = message.points(),
+          .removed = message.removed(),
+          .remaining = message.remaining()};
+}
+
+v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& facts) {
+  const SkeletonGraph& graph = result.graph;
+  v1::SkeletonSummary message;
+  *message.mutable_certificate() = ToMessage(result.certificate);
+  message.set_object_points(result.object_points);
+  message.set_skeleton_points(result.skeleton_points);
+  message.set_last_shell(result.last_shell);
+  message.set_node_count(graph.nodes.size());
+  message.set_edge_count(graph.edges.size());
+  message.set_point_count(graph.points.size());
+  message.set_thin_volume_size_bytes(facts.thin_volume_size_bytes);
+  message.mutable_weights()->set_diagonal(graph.weights.diagonal);
+  message.mutable_weights()->set_axial(graph.weights.axial);
+  message.mutable_weights()->set_half_units(graph.weights.half_units);
+  *message.mutable_placement() = ToMessage(graph.placement);
+  Set(message.mutable_timings(), result.timings, facts);
+  message.set_sha256(absl::HexStringToBytes(result.sha256));
+  message.set_algorithm_version(facts.algorithm_version);
+  message.set_method(facts.method);
+  message.set_threads(facts.threads);
+  return message;
+}
+
+JobFacts FactsOf(const v1::SkeletonSummary& message) {
+  return {.queued = DurationOf(message.timings().queue()),
+          .decoded = DurationOf(message.timings().decode()),
+          .threads = message.threads(),
+          .thin_volume_size_bytes = message.thin_volume_size_bytes(),
+          .algorithm_version = message.algorithm_version(),
+          .method = message.method()};
+}
+
+absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message) {
+  if (message.sha256().size() != kDigestBytes) {
+    return absl::DataLossError(absl::StrCat("the summary's digest has ", message.sha256().size(),
+                                            " bytes, must be ", kDigestBytes));
+  }
+  SkeletonizeResult result;
+  const v1::ChamferWeights& weights = message.weights();
+  result.graph.weights = {weights.diagonal(), weights.axial(), weights.half_units()};
+  BCCSKEL_ASSIGN_OR_RETURN(result.graph.placement,
+                           FromMessage(message.placement(), "summary.placement"));
+  result.certificate = FromMessage(message.certificate());
+  result.timings = FromMessage(message.timings());
+  result.object_points = message.object_points();
+  result.skeleton_points = message.skeleton_points();
+  result.last_shell = message.last_shell();
+  result.sha256 = absl::BytesToHexString(message.sha256());
+  return result;
+}
+
+}  // namespace bccskel::wire

@@ -1,0 +1,226 @@
+#include "proto/wire/skeleton_chunks.h"
+
+#include <algorithm>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/result.h"
+
+namespace bccskel::wire {
+namespace {
+
+// Most bytes of a row: 5 for each 32-bit varint, 10 for a 64-bit one, 1 for a kind.
+constexpr size_t kNodeRowBytes = 1 + 6 * 5;
+constexpr size_t kEdgeRowBytes = 2 * 5 + 10;
+constexpr size_t kPointRowBytes = 4 * 5;
+// Tags and lengths of the tables and their columns, and the sequence number.
+constexpr size_t kFramingBytes = 256;
+
+// More points than any lattice has; keeps sums of hostile counts from wrapping around.
+constexpr uint64_t kMaxEdgePoints = uint64_t{1} << 62;
+
+// How many of `left` rows fit; takes their bytes off the budget.
+size_t TakeRows(size_t left, size_t row_bytes, size_t& budget_bytes) {
+  const size_t rows = std::min(left, budget_bytes / row_bytes);
+  budget_bytes -= rows * row_bytes;
+  return rows;
+}
+
+v1::SkeletonNodeKind ToMessage(NodeKind kind) {
+  switch (kind) {
+    case NodeKind::kEnd:
+      return v1::SKELETON_NODE_KIND_END;
+    case NodeKind::kJunction:
+      return v1::SKELETON_NODE_KIND_JUNCTION;
+    case NodeKind::kLoop:
+      return v1::SKELETON_NODE_KIND_LOOP;
+    case NodeKind::kIsolated:
+      return v1::SKELETON_NODE_KIND_ISOLATED;
+    case NodeKind::kClosedSurface:
+      return v1::SKELETON_NODE_KIND_CLOSED_SURFACE;
+  }
+  return v1::SKELETON_NODE_KIND_UNSPECIFIED;
+}
+
+std::optional<NodeKind> FromMessage(int kind) {
+  switch (kind) {
+    case v1::SKELETON_NODE_KIND_END:
+      return NodeKind::kEnd;
+    case v1::SKELETON_NODE_KIND_JUNCTION:
+      return NodeKind::kJunction;
+    case v1::SKELETON_NODE_KIND_LOOP:
+      return NodeKind::kLoop;
+    case v1::SKELETON_NODE_KIND_ISOLATED:
+      return NodeKind::kIsolated;
+    case v1::SKELETON_NODE_KIND_CLOSED_SURFACE:
+      return NodeKind::kClosedSurface;
+    default:
+      return std::nullopt;
+  }
+}
+
+template <typename Columns>
+void AppendPoint(const SkeletonPoint& point, Columns& columns) {
+  columns.add_x(point.point.x);
+  columns.add_y(point.point.y);
+  columns.add_z(point.point.z);
+  columns.add_distance(point.distance);
+}
+
+template <typename Columns>
+SkeletonPoint PointOfRow(const Columns& columns, int row) {
+  return {{columns.x(row), columns.y(row), columns.z(row)}, columns.distance(row)};
+}
+
+absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {
+  for (int size : sizes) {
+    if (size != *sizes.begin()) {
+      return absl::DataLossError(absl::StrCat("the skeleton's ", table, " table has columns of ",
+                                              *sizes.begin(), " and ", size, " rows"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph) {
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckColumns("node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.distance_size(),
+                            c.loops_size(), c.cavities_size()}));
+  for (int row = 0; row < c.kind_size(); ++row) {
+    const std::optional<NodeKind> kind = FromMessage(c.kind(row));
+    if (!kind.has_value()) {
+      return absl::DataLossError(absl::StrCat("unknown skeleton node kind ", int{c.kind(row)}));
+    }
+    graph.nodes.push_back({*kind, PointOfRow(c, row), c.loops(row), c.cavities(row)});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckColumns("point", {c.x_size(), c.y_size(), c.z_size(), c.distance_size()}));
+  for (int row = 0; row < c.x_size(); ++row) graph.points.push_back(PointOfRow(c, row));
+  return absl::OkStatus();
+}
+
+absl::Status CheckCount(const char* table, uint64_t received, uint64_t stated) {
+  if (received == stated) return absl::OkStatus();
+  return absl::DataLossError(
+      absl::StrCat("received ", received, " skeleton ", table, ", the summary states ", stated));
+}
+
+absl::Status CheckEdge(const SkeletonGraph& graph, size_t n) {
+  const SkeletonEdge& edge = graph.edges[n];
+  if (edge.source >= graph.nodes.size() || edge.target >= graph.nodes.size()) {
+    return absl::DataLossError(absl::StrCat("edge ", n, " leads from node ", edge.source, " to ",
+                                            edge.target, " of ", graph.nodes.size()));
+  }
+  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+  if (points.empty() || points.front().point != graph.nodes[edge.source].at.point ||
+      points.back().point != graph.nodes[edge.target].at.point) {
+    return absl::DataLossError(
+        absl::StrCat("the points of edge ", n, " do not run from its source to its target"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
+                        const v1::SkeletonSummary& summary) {
+  BCCSKEL_RETURN_IF_ERROR(CheckCount("nodes", graph.nodes.size(), summary.node_count()));
+  BCCSKEL_RETURN_IF_ERROR(CheckCount("edges", graph.edges.size(), summary.edge_count()));
+  BCCSKEL_RETURN_IF_ERROR(CheckCount("points", graph.points.size(), summary.point_count()));
+  BCCSKEL_RETURN_IF_ERROR(CheckCount("points of edges", edge_points, summary.point_count()));
+  for (size_t n = 0; n < graph.edges.size(); ++n) {
+    BCCSKEL_RETURN_IF_ERROR(CheckEdge(graph, n));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+std::optional<v1::SkeletonChunk> SkeletonChunkPager::Next() {
+  if (AtEnd() && sequence_ > 0) return std::nullopt;
+  v1::SkeletonChunk chunk;
+  chunk.set_sequence(sequence_++);
+  size_t budget_bytes = kMaxSkeletonChunkBytes - kFramingBytes;
+  AddNodes(budget_bytes, *chunk.mutable_nodes());
+  if (node_ == graph_->nodes.size()) AddEdges(budget_bytes, *chunk.mutable_edges());
+  if (edge_ == graph_->edges.size()) AddPoints(budget_bytes, *chunk.mutable_points());
+  return chunk;
+}
+
+bool SkeletonChunkPager::AtEnd() const {
+  return node_ == graph_->nodes.size() && points_edge_ == graph_->edges.size();
+}
+
+void SkeletonChunkPager::AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns& columns) {
+  for (size_t rows = TakeRows(graph_->nodes.size() - node_, kNodeRowBytes, budget_bytes); rows > 0;
+       --rows) {
+    const SkeletonNode& node = graph_->nodes[node_++];
+    columns.add_kind(ToMessage(node.kind));
+    AppendPoint(node.at, columns);
+    columns.add_loops(node.loops);
+    columns.add_cavities(node.cavities);
+  }
+}
+
+void SkeletonChunkPager::AddEdges(size_t& budget_bytes, v1::SkeletonEdgeColumns& columns) {
+  for (size_t rows = TakeRows(graph_->edges.size() - edge_, kEdgeRowBytes, budget_bytes); rows > 0;
+       --rows) {
+    const SkeletonEdge& edge = graph_->edges[edge_++];
+    columns.add_source(edge.source);
+    columns.add_target(edge.target);
+    columns.add_point_count(edge.point_count);
+  }
+}
+
+void SkeletonChunkPager::AddPoints(size_t& budget_bytes, v1::SkeletonPointColumns& columns) {
+  while (points_edge_ < graph_->edges.size()) {
+    const auto points = graph_->PointsOf(graph_->edges[points_edge_]).subspan(edge_point_);
+    const size_t rows = TakeRows(points.size(), kPointRowBytes, budget_bytes);
+    for (const SkeletonPoint& point : points.first(rows)) AppendPoint(point, columns);
+    edge_point_ += rows;
+    if (rows < points.size()) return;
+    ++points_edge_;
+    edge_point_ = 0;
+  }
+}
+
+absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
+  if (chunk.sequence() != chunks_) {
+    return absl::DataLossError(
+        absl::StrCat("received skeleton chunk ", chunk.sequence(), " instead of ", chunks_));
+  }
+  ++chunks_;
+  const v1::SkeletonEdgeColumns& edges = chunk.edges();
+  BCCSKEL_RETURN_IF_ERROR(AppendNodes(chunk.nodes(), graph_));
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckColumns("edge", {edges.source_size(), edges.target_size(), edges.point_count_size()}));
+  for (int row = 0; row < edges.source_size(); ++row) {
+    if (edges.point_count(row) > kMaxEdgePoints - edge_points_) {
+      return absl::DataLossError(absl::StrCat("an edge of ", edges.point_count(row),
+                                              " points after ", edge_points_,
+                                              " points, the limit is ", kMaxEdgePoints));
+    }
+    graph_.edges.push_back(
+        {edges.source(row), edges.target(row), edge_points_, edges.point_count(row)});
+    edge_points_ += edges.point_count(row);
+  }
+  return AppendPoints(chunk.points(), graph_);
+}
+
+absl::StatusOr<SkeletonizeResult> SkeletonAssembler::Finish(const v1::SkeletonSummary& summary) && {
+  BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, FromMessage(summary));
+  BCCSKEL_RETURN_IF_ERROR(CheckGraph(graph_, edge_points_, summary));
+  graph_.weights = result.graph.weights;
+  graph_.placement = result.graph.placement;
+  result.graph = std::move(graph_);
+  if (const std::string digest = SkeletonDigest(result.graph); digest != result.sha256) {
+    return absl::DataLossError(absl::StrCat("the received skeleton has the digest ", digest,
+                                            ", the summary states ", result.sha256));
+  }
+  return result;
+}
+
+}  // namespace bccskel::wire

@@ -1,0 +1,63 @@
+#ifndef BCCSKEL_PROTO_WIRE_SKELETON_CHUNKS_H_
+#define BCCSKEL_PROTO_WIRE_SKELETON_CHUNKS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "bccskel/v1/skeleton.pb.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::wire {
+
+// No serialized SkeletonChunk is longer.
+inline constexpr size_t kMaxSkeletonChunkBytes = 256 * 1024;
+
+// Cuts a graph into chunks, one at a time, so that a stream holds one of them and not all.
+// Needs: `graph` outlives the pager and does not change.
+class SkeletonChunkPager {
+ public:
+  explicit SkeletonChunkPager(const SkeletonGraph& graph) : graph_(&graph) {}
+
+  // The next chunk; nothing after the last one. A graph without nodes has one empty chunk.
+  std::optional<v1::SkeletonChunk> Next();
+
+ private:
+  void AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns& columns);
+  void AddEdges(size_t& budget_bytes, v1::SkeletonEdgeColumns& columns);
+  void AddPoints(size_t& budget_bytes, v1::SkeletonPointColumns& columns);
+  bool AtEnd() const;
+
+  const SkeletonGraph* graph_;
+  uint32_t sequence_ = 0;
+  size_t node_ = 0;
+  size_t edge_ = 0;
+  size_t points_edge_ = 0;   // the edge whose points come next
+  uint64_t edge_point_ = 0;  // and the point within it
+};
+
+// Puts a graph together from chunks and checks it: what a damaged or dishonest server sends is an
+// error, never a graph whose edges lead nowhere.
+class SkeletonAssembler {
+ public:
+  // Errors: DATA_LOSS for a missing or repeated chunk, columns of different lengths, and kinds that
+  //         this version does not know.
+  absl::Status Add(const v1::SkeletonChunk& chunk);
+
+  // The result that the summary and the chunks make together.
+  // Errors: DATA_LOSS for wrong counts, edges to nodes that do not exist, edges whose points do not
+  //         run from source to target, and a graph that has not the summary's digest.
+  absl::StatusOr<SkeletonizeResult> Finish(const v1::SkeletonSummary& summary) &&;
+
+ private:
+  uint32_t chunks_ = 0;
+  SkeletonGraph graph_;
+  uint64_t edge_points_ = 0;  // sum of the edges' point counts
+};
+
+}  // namespace bccskel::wire
+
+#endif  // BCCSKEL_PROTO_WIRE_SKELETON_CHUNKS_H_

@@ -1,0 +1,71 @@
+#include "proto/wire/options.h"
+
+#include <gtest/gtest.h>
+
+#include "proto/wire/error_details.h"
+
+namespace bccskel::wire {
+namespace {
+
+std::string ViolatedField(const absl::Status& status) {
+  const auto bad_request = BadRequestOf(status);
+  return bad_request.has_value() ? bad_request->field_violations(0).field() : "none";
+}
+
+TEST(OptionsRoundTrip, KeepsEveryField) {
+  for (StubblePolicy stubble :
+       {StubblePolicy::kKeepTwo, StubblePolicy::kLiteral, StubblePolicy::kNone}) {
+    for (ThinnessCleanup cleanup : {ThinnessCleanup::kOn, ThinnessCleanup::kOff}) {
+      const SkeletonizeOptions options = {.thinning = {.stubble = stubble,
+                                                       .cleanup = cleanup,
+                                                       .shell_width = 1.5,
+                                                       .last_shell = 3,
+                                                       .keep = {{1, 3, 5}, {2, 0, 4}}}};
+      const auto back = FromMessage(ToMessage(options), "options");
+      ASSERT_TRUE(back.ok()) << back.status();
+      EXPECT_EQ(back->thinning.stubble, stubble);
+      EXPECT_EQ(back->thinning.cleanup, cleanup);
+      EXPECT_EQ(back->thinning.shell_width, 1.5);
+      EXPECT_EQ(back->thinning.last_shell, 3);
+      EXPECT_EQ(back->thinning.keep, options.thinning.keep);
+    }
+  }
+}
+
+TEST(Options, AnEmptyMessageMeansTheDefaults) {
+  const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
+  ASSERT_TRUE(options.ok()) << options.status();
+  const ThinningOptions defaults;
+  EXPECT_EQ(options->thinning.stubble, defaults.stubble);
+  EXPECT_EQ(options->thinning.cleanup, defaults.cleanup);
+  EXPECT_EQ(options->thinning.shell_width, defaults.shell_width);
+  EXPECT_EQ(options->thinning.last_shell, defaults.last_shell);
+  EXPECT_TRUE(options->thinning.keep.empty());
+}
+
+TEST(Options, RefusesEnumeratorsFromTheFuture) {
+  v1::SkeletonizeOptions message;
+  message.set_stubble_policy(static_cast<v1::StubblePolicy>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.stubble_policy");
+  message.Clear();
+  message.set_thinness_cleanup(static_cast<v1::ThinnessCleanup>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.thinness_cleanup");
+}
+
+TEST(Options, RefusesColumnsOfDifferentLengths) {
+  v1::SkeletonizeOptions message;
+  message.mutable_keep()->add_x(1);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.keep");
+}
+
+TEST(Options, RefusesWhatTheCoreRefuses) {
+  v1::SkeletonizeOptions message;
+  message.set_shell_width(0.1);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options");
+  message.Clear();
+  message.set_last_shell(-1);
+  EXPECT_EQ(FromMessage(message, "options").status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace bccskel::wire
