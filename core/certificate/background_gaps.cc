@@ -1,0 +1,94 @@
+#include "core/certificate/background_gaps.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace bccskel {
+namespace {
+
+uint64_t PlaceOf(BrickCoordinates brick) { return BrickKey(brick).value() >> 1; }
+uint64_t RowOf(uint64_t place) { return place >> 21; }  // BrickKey gives bx 21 bits
+
+BrickCoordinates BrickAtPlace(uint64_t place, Sublattice sublattice) {
+  const auto field = [place](int shift) {
+    return static_cast<int32_t>((place >> shift) & ((1 << 21) - 1)) - 1;
+  };
+  return {field(0), field(21), field(42), sublattice};
+}
+
+}  // namespace
+
+BackgroundGaps::BackgroundGaps(std::span<const BrickKey> keys) {
+  for (BrickKey key : keys) rows_[key.value() & 1].push_back(key.value() >> 1);
+  for (const Places& places : rows_) {
+    for (size_t n = 0; n < places.size(); ++n) gap_count_ += IsGapBefore(places, n) ? 1 : 0;
+  }
+}
+
+bool BackgroundGaps::IsGapBefore(const Places& places, size_t n) const {
+  return n > 0 && RowOf(places[n - 1]) == RowOf(places[n]) && places[n - 1] + 1 != places[n];
+}
+
+// The node of the missing bricks just before the n-th stored brick, seen from a row: outside unless
+// both the n-th brick and the one before lie in that row.
+size_t BackgroundGaps::NodeBefore(Sublattice sublattice, size_t n, uint64_t row) const {
+  const Places& places = rows_[static_cast<size_t>(sublattice)];
+  if (n == 0 || n == places.size()) return kOutside;
+  if (RowOf(places[n - 1]) != row || RowOf(places[n]) != row) return kOutside;
+  return 1 + n + (sublattice == Sublattice::kOdd ? rows_[0].size() : 0);
+}
+
+size_t BackgroundGaps::NodeAt(BrickCoordinates missing) const {
+  const Places& places = rows_[static_cast<size_t>(missing.sublattice)];
+  const uint64_t place = PlaceOf(missing);
+  const auto n = static_cast<size_t>(std::ranges::lower_bound(places, place) - places.begin());
+  return NodeBefore(missing.sublattice, n, RowOf(place));
+}
+
+// Walks the row from brick `first` to `last_x`, skipping stored bricks.
+int64_t BackgroundGaps::LinkToRow(size_t node, BrickCoordinates first, int32_t last_x,
+                                  UnionFind& sets) const {
+  const Places& places = rows_[static_cast<size_t>(first.sublattice)];
+  uint64_t at = PlaceOf(first);
+  const uint64_t row = RowOf(at), last = at + static_cast<uint64_t>(last_x - first.bx);
+  auto n = static_cast<size_t>(std::ranges::lower_bound(places, at) - places.begin());
+  int64_t joined = 0;
+  while (at <= last) {
+    if (n < places.size() && places[n] == at) {
+      ++n;
+      ++at;
+      continue;
+    }
+    joined += sets.Unite(node, NodeBefore(first.sublattice, n, row)) ? 1 : 0;
+    if (n == places.size()) break;
+    at = places[n];
+  }
+  return joined;
+}
+
+int64_t BackgroundGaps::LinkGap(size_t place, UnionFind& sets) const {
+  const bool odd = place >= rows_[0].size();
+  const Sublattice sublattice = odd ? Sublattice::kOdd : Sublattice::kEven;
+  const Places& places = rows_[odd ? 1 : 0];
+  const size_t n = odd ? place - rows_[0].size() : place;
+  if (!IsGapBefore(places, n)) return 0;
+  const size_t node = NodeBefore(sublattice, n, RowOf(places[n]));
+  const BrickCoordinates brick = BrickAtPlace(places[n - 1] + 1, sublattice);
+  const int32_t last_x = BrickAtPlace(places[n], sublattice).bx - 1;
+  int64_t joined = 0;
+  for (const auto& [dy, dz] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    joined += LinkToRow(node, {brick.bx, brick.by + dy, brick.bz + dz, sublattice}, last_x, sets);
+  }
+  // An even brick touches the odd bricks at its own coordinates and one step back, an odd brick the
+  // even ones at its own coordinates and one step forth.
+  const int32_t step = odd ? 1 : -1;
+  const int32_t first_x = std::min(brick.bx, brick.bx + step);
+  const Sublattice other = odd ? Sublattice::kEven : Sublattice::kOdd;
+  for (const auto& [dy, dz] : {std::pair{0, 0}, {step, 0}, {0, step}, {step, step}}) {
+    joined += LinkToRow(node, {first_x, brick.by + dy, brick.bz + dz, other},
+                        std::max(last_x, last_x + step), sets);
+  }
+  return joined;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,54 @@
+#ifndef BCCSKEL_CORE_CERTIFICATE_BACKGROUND_GAPS_H_
+#define BCCSKEL_CORE_CERTIFICATE_BACKGROUND_GAPS_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/certificate/union_find.h"
+#include "core/volume/brick.h"
+
+namespace bccskel {
+
+// The background where no bricks are stored, as few pieces instead of many empty bricks. A row is
+// all bricks of one sublattice with the same by and bz. The bricks missing between two stored
+// bricks of a row are one piece, a gap. All other missing bricks are the outside: they lie at the
+// end of a row or in a row without stored bricks. Cost: follows the number of stored bricks,
+// however large the box.
+class BackgroundGaps {
+ public:
+  // Needs: `keys` strictly increasing.
+  explicit BackgroundGaps(std::span<const BrickKey> keys);
+
+  static constexpr size_t kOutside = 0;
+
+  // Node numbers are below node_limit(); node_count() of them are used.
+  size_t node_limit() const { return 1 + place_count(); }
+  int64_t node_count() const { return 1 + gap_count_; }
+
+  // Needs: no brick is stored there.
+  size_t NodeAt(BrickCoordinates missing) const;
+
+  // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
+  // touch it in the eight neighboring rows. Returns how many sets it joined.
+  // Needs: place < place_count().
+  size_t place_count() const { return rows_[0].size() + rows_[1].size(); }
+  int64_t LinkGap(size_t place, UnionFind& sets) const;
+
+ private:
+  // Stored bricks of one sublattice as keys without the sublattice bit, increasing.
+  using Places = std::vector<uint64_t>;
+
+  bool IsGapBefore(const Places& places, size_t n) const;
+  size_t NodeBefore(Sublattice sublattice, size_t n, uint64_t row) const;
+  int64_t LinkToRow(size_t node, BrickCoordinates first, int32_t last_x, UnionFind& sets) const;
+
+  std::array<Places, 2> rows_;
+  int64_t gap_count_ = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_CERTIFICATE_BACKGROUND_GAPS_H_

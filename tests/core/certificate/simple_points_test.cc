@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "core/certificate/certificate.h"
+#include "core/exec/worker_team.h"
+#include "tests/support/random_objects.h"
+#include "tests/support/reference_betti.h"
+#include "tests/support/reference_point_set.h"
+
+namespace bccskel {
+namespace {
+
+uint64_t Count(const std::vector<LatticePoint>& points) {
+  return CountSimpleNonEndPoints(VolumeOfPoints(points), {});
+}
+
+TEST(SimpleNonEndPoints, AreNotTheEndsOfALineButTheCornersOfATriangle) {
+  EXPECT_EQ(Count({{4, 4, 4}, {5, 5, 5}, {6, 6, 6}}), 0u);
+  EXPECT_EQ(Count({{4, 4, 4}, {5, 5, 5}, {6, 4, 4}}), 3u);
+  EXPECT_EQ(Count({{4, 4, 4}}), 0u);
+}
+
+TEST(SimpleNonEndPointsLaw, AgreeWithFloodFillOfNeighborhoods) {
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    const auto points = test::RandomCloud(seed, {19, 6, 11}, static_cast<double>(seed % 20) / 19.0);
+    const uint64_t expected = test::ReferenceSimpleNonEndPoints(test::ReferencePointSet(points));
+    ASSERT_EQ(Count(points), expected) << "seed " << seed;
+  }
+}
+
+TEST(SimpleNonEndPoints, AreAsManyForAnyNumberOfThreads) {
+  const Volume object = VolumeOfPoints(test::RandomCloud(5, {64, 32, 32}, 0.3));
+  const uint64_t expected = CountSimpleNonEndPoints(object, {});
+  for (int threads : {2, 3, 8}) {
+    exec::WorkerTeam team(threads);
+    exec::Context context;
+    context.team = &team;
+    EXPECT_EQ(CountSimpleNonEndPoints(object, context), expected);
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
