@@ -155,7 +155,7 @@ void AddNodes(Text& svg, const SkeletonGraph& graph, const Projection& projectio
 void AddAxes(Text& svg, const View& view, const PanelSize& size) {
   constexpr double kLength = 22;
   constexpr std::string_view kNames = "xyz";
-  svg.Add("<g class=\"a\" transform=\"translate(34 ", size.height - 34, ")\">\n");
+  svg.Add("<g class=\"a\" transform=\"translate(46 ", size.height - 46, ")\">\n");
   for (size_t axis = 0; axis < 3; ++axis) {
     const double x = kLength * view.right[axis], y = -kLength * view.up[axis];
     if (x * x + y * y < 4) continue;  // points at the viewer
@@ -190,30 +190,42 @@ double Legible(double v) {
   return std::round(v * unit) / unit;
 }
 
-void AddLegend(Text& svg, const RadiusRange& radii) {
-  constexpr double kX = 20, kY = 822, kStep = 9;
-  svg.Add("<text class=\"s\" x=\"", kX, "\" y=\"", kY + 11, "\">radius ", Legible(radii.low),
+void AddLegendText(Text& svg, double x, std::string_view anchor, std::string_view label) {
+  svg.Add("<text class=\"s\" x=\"", x, "\" y=\"833\" text-anchor=\"", anchor, "\">", label,
           "</text>\n");
-  const double bar = kX + 120;
+}
+
+void AddRadiusLegend(Text& svg, const RadiusRange& radii) {
+  constexpr double kBar = 150, kStep = 9;
+  Text low, high;
+  low.Add("radius ", Legible(radii.low));
+  high.Add(Legible(radii.high));
+  AddLegendText(svg, kBar - 8, "end", std::move(low).Take());
   for (int n = 0; n < kRadiusColors; ++n) {
-    svg.Add("<rect x=\"", bar + kStep * n, "\" y=\"", kY, "\" width=\"", kStep + 0.5,
+    svg.Add("<rect x=\"", kBar + kStep * n, "\" y=\"822\" width=\"", kStep + 0.5,
             "\" height=\"12\" fill=\"", RadiusColor(n), "\"/>\n");
   }
-  svg.Add("<text class=\"s\" x=\"", bar + kStep * kRadiusColors + 8, "\" y=\"", kY + 11, "\">",
-          Legible(radii.high), "</text>\n");
-  svg.Add("<circle cx=\"520\" cy=\"828\" r=\"4\" stroke-width=\"1.4\" ", NodeStyle(NodeKind::kEnd),
-          "/><text class=\"s\" x=\"532\" y=\"833\">end</text>\n<circle cx=\"588\" cy=\"828\" ",
-          "r=\"4\" ", NodeStyle(NodeKind::kJunction),
-          "/><text class=\"s\" x=\"600\" y=\"833\">junction</text>\n<circle cx=\"688\" ",
-          "cy=\"828\" r=\"4\" ", NodeStyle(NodeKind::kIsolated),
-          "/><text class=\"s\" x=\"700\" y=\"833\">isolated point or closed surface</text>\n");
+  AddLegendText(svg, kBar + kStep * kRadiusColors + 8, "start", std::move(high).Take());
+}
+
+void AddNodeLegend(Text& svg, double x, NodeKind kind, std::string_view label) {
+  svg.Add("<circle cx=\"", x, "\" cy=\"828\" r=\"4\" stroke-width=\"1.4\" ", NodeStyle(kind),
+          "/>\n");
+  AddLegendText(svg, x + 12, "start", label);
+}
+
+void AddLegend(Text& svg, const RadiusRange& radii) {
+  AddRadiusLegend(svg, radii);
+  AddNodeLegend(svg, 520, NodeKind::kEnd, "end");
+  AddNodeLegend(svg, 588, NodeKind::kJunction, "junction");
+  AddNodeLegend(svg, 688, NodeKind::kIsolated, "isolated point or closed surface");
 }
 
 void AddHead(Text& svg, const PictureSubject& subject) {
   svg.Add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
           "viewBox=\"0 0 ", kWidth, ' ', kHeight, "\" width=\"", kWidth, "\" height=\"", kHeight,
           "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<style>",
-          ".p{fill:#f8fafc;stroke:#e2e8f0}.h{stroke:#fff;stroke-opacity:.75}",
+          ".p{fill:#f8fafc;stroke:#e2e8f0}.h{stroke:#fff;stroke-linecap:butt}",
           ".s{font-size:13px;fill:#475569}.t{font-size:22px;font-weight:bold;fill:#0f172a}",
           ".a{stroke:#94a3b8;stroke-width:1.3}",
           ".a text{font-size:12px;fill:#64748b;stroke:none;text-anchor:middle}</style>\n",

@@ -1,0 +1,61 @@
+#include "client/connection.h"
+
+#include <optional>
+#include <utility>
+
+namespace bccskel::client {
+namespace {
+
+using std::chrono::milliseconds;
+
+class RetryingConnection : public Connection {
+ public:
+  RetryingConnection(std::unique_ptr<Stub> stub, const RetryPolicy& policy, Pause pause)
+      : stub_(std::move(stub)), policy_(policy), pause_(std::move(pause)) {}
+
+  absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
+                                                const CallOptions& options) override {
+    return Retry<SkeletonizeResult>(options.timeout, options.stop, [&](auto deadline) {
+      return stub_->Skeletonize(volume, options, deadline);
+    });
+  }
+
+  absl::StatusOr<ServerDescription> Describe(milliseconds timeout) override {
+    return Retry<ServerDescription>(timeout, {},
+                                    [&](auto deadline) { return stub_->Describe(deadline); });
+  }
+
+ private:
+  // Attempts share one deadline; a pause that would pass it is not begun.
+  template <typename Value, typename Attempt>
+  absl::StatusOr<Value> Retry(milliseconds timeout, const std::stop_token& stop, Attempt attempt) {
+    const Stub::Clock::time_point deadline = Stub::Clock::now() + timeout;
+    RetryPauses pauses(policy_);
+    while (true) {
+      absl::StatusOr<Value> result = attempt(deadline);
+      if (result.ok()) return result;
+      const std::optional<milliseconds> pause = pauses.Next(result.status());
+      if (!pause.has_value() || Stub::Clock::now() + *pause >= deadline) return result;
+      pause_(*pause, stop);
+      if (stop.stop_requested())
+        return absl::CancelledError("cancelled while waiting to try again");
+    }
+  }
+
+  std::unique_ptr<Stub> stub_;
+  RetryPolicy policy_;
+  Pause pause_;
+};
+
+}  // namespace
+
+std::shared_ptr<Connection> MakeRetryingConnection(std::unique_ptr<Stub> stub,
+                                                   const RetryPolicy& policy, Pause pause) {
+  return std::make_shared<RetryingConnection>(std::move(stub), policy, std::move(pause));
+}
+
+std::shared_ptr<Connection> Connect(const std::string& address, const RetryPolicy& policy) {
+  return MakeRetryingConnection(MakeGrpcStub(address), policy);
+}
+
+}  // namespace bccskel::client

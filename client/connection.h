@@ -1,0 +1,66 @@
+#ifndef BCCSKEL_CLIENT_CONNECTION_H_
+#define BCCSKEL_CLIENT_CONNECTION_H_
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/call_options.h"
+#include "client/encoded_volume.h"
+#include "client/retry_policy.h"
+
+// The layers of the client: SkeletonizeClient -> Connection (tries again) -> Stub (one attempt).
+// Tests of programs that use the client replace the Connection; tests of the client the Stub.
+
+namespace bccskel::client {
+
+// What a server says about itself.
+struct ServerDescription {
+  std::string server_version;
+  std::string algorithm_version;
+};
+
+// Calls to a server, made to succeed where trying again can help.
+// Threads: safe.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+
+  // Errors: the server's, with its details as payloads (see proto/wire/error_details.h);
+  //         UNAVAILABLE when all attempts failed; CANCELLED; DEADLINE_EXCEEDED; DATA_LOSS when the
+  //         reply is damaged, which includes a skeleton whose digest is not the stated one.
+  virtual absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
+                                                        const CallOptions& options) = 0;
+  virtual absl::StatusOr<ServerDescription> Describe(std::chrono::milliseconds timeout) = 0;
+};
+
+// One attempt at each call.
+// Threads: safe.
+class Stub {
+ public:
+  using Clock = std::chrono::system_clock;
+  virtual ~Stub() = default;
+
+  virtual absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
+                                                        const CallOptions& options,
+                                                        Clock::time_point deadline) = 0;
+  virtual absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) = 0;
+};
+
+// How a retrying connection waits between attempts; tests replace it.
+using Pause = std::function<void(std::chrono::milliseconds, const std::stop_token&)>;
+
+std::shared_ptr<Connection> MakeRetryingConnection(std::unique_ptr<Stub> stub,
+                                                   const RetryPolicy& policy = {},
+                                                   Pause pause = PauseFor);
+
+// Over gRPC, without encryption. `address` is HOST:PORT or unix:PATH.
+std::unique_ptr<Stub> MakeGrpcStub(const std::string& address);
+
+// Both of the above.
+std::shared_ptr<Connection> Connect(const std::string& address, const RetryPolicy& policy = {});
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_CONNECTION_H_

@@ -1,0 +1,42 @@
+#include "client/encoded_volume.h"
+
+#include <utility>
+
+#include "core/exec/context.h"
+#include "core/exec/status_macros.h"
+#include "core/io/volume_codec.h"
+
+namespace bccskel::client {
+namespace {
+
+// Coordinates and bits of a brick.
+constexpr uint64_t kBrickBytes = 8 + sizeof(BrickBits);
+
+// The wire's compressions: quick to make, small enough.
+VolumeCompression WireCompression(VolumeEncoding encoding) {
+  return encoding == VolumeEncoding::kOpenExr ? VolumeCompression::kRle : VolumeCompression::kZstd;
+}
+
+}  // namespace
+
+VolumeEncoding BestEncodingOf(const Volume& volume) {
+  const uint64_t bricks_bytes = volume.brick_count() * kBrickBytes;
+  return bricks_bytes <= DensePlaneBytes(volume.extent()) ? VolumeEncoding::kBricks
+                                                          : VolumeEncoding::kOpenExr;
+}
+
+absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncoding encoding,
+                                               const std::stop_token& stop) {
+  exec::Context context;
+  context.stop = stop;
+  EncodedVolume encoded;
+  encoded.encoding = encoding;
+  encoded.extent = volume.extent();
+  encoded.placement = volume.placement();
+  encoded.bricks = volume.brick_count();
+  BCCSKEL_ASSIGN_OR_RETURN(encoded.bytes,
+                           EncodeVolume(volume, encoding, WireCompression(encoding), context));
+  return encoded;
+}
+
+}  // namespace bccskel::client

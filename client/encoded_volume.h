@@ -1,0 +1,35 @@
+#ifndef BCCSKEL_CLIENT_ENCODED_VOLUME_H_
+#define BCCSKEL_CLIENT_ENCODED_VOLUME_H_
+
+#include <cstdint>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/io/volume_header.h"
+#include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::client {
+
+// A volume ready to be sent.
+struct EncodedVolume {
+  VolumeEncoding encoding = VolumeEncoding::kBricks;
+  LatticeExtent extent;
+  Placement placement;
+  uint64_t bricks = 0;  // occupied ones
+  std::string bytes;
+};
+
+// Bricks where the object fills little of its box, OpenEXR where it fills most of it: whichever is
+// smaller before compression.
+VolumeEncoding BestEncodingOf(const Volume& volume);
+
+// Errors: INVALID_ARGUMENT, CANCELLED, and what the encoder's library says.
+// Needs:  kBricks or kOpenExr.
+absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncoding encoding,
+                                               const std::stop_token& stop);
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_ENCODED_VOLUME_H_

@@ -1,0 +1,19 @@
+#include "client/grpc_status.h"
+
+#include "bccskel/v1/rpc_details.pb.h"
+#include "proto/wire/error_details.h"
+
+namespace bccskel::client {
+
+absl::Status FromGrpcStatus(const grpc::Status& status) {
+  if (status.ok()) return absl::OkStatus();
+  const auto code = static_cast<absl::StatusCode>(status.error_code());  // the numbers are the same
+  v1::Status details;
+  if (!status.error_details().empty() && details.ParseFromString(status.error_details()) &&
+      details.code() == static_cast<int>(status.error_code())) {
+    return wire::FromRpcStatus(details);
+  }
+  return absl::Status(code, status.error_message());
+}
+
+}  // namespace bccskel::client

@@ -1,0 +1,16 @@
+#ifndef BCCSKEL_CLIENT_GRPC_STATUS_H_
+#define BCCSKEL_CLIENT_GRPC_STATUS_H_
+
+#include <grpcpp/support/status.h>
+
+#include "absl/status/status.h"
+
+namespace bccskel::client {
+
+// The one place where the client takes a grpc::Status apart. The details in its trailer become
+// payloads of the absl::Status.
+absl::Status FromGrpcStatus(const grpc::Status& status);
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_GRPC_STATUS_H_

@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_CLIENT_SKELETONIZE_CLIENT_H_
+#define BCCSKEL_CLIENT_SKELETONIZE_CLIENT_H_
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "client/call_options.h"
+#include "client/connection.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::client {
+
+// Skeletons from a server.
+//
+//   bccskel::client::SkeletonizeClient client(bccskel::client::Connect("127.0.0.1:50051"));
+//   absl::StatusOr<bccskel::SkeletonizeResult> result = client.Skeletonize(volume, {});
+//
+// Threads: safe; calls run beside each other.
+class SkeletonizeClient {
+ public:
+  explicit SkeletonizeClient(std::shared_ptr<Connection> connection)
+      : connection_(std::move(connection)) {}
+
+  // The same result as core/pipeline gives on this machine; `thin` only where the options ask.
+  // Errors: see Connection::Skeletonize().
+  absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object, const CallOptions& options);
+
+ private:
+  std::shared_ptr<Connection> connection_;
+};
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_SKELETONIZE_CLIENT_H_
