@@ -7,6 +7,7 @@
 
 #include "core/distance/chamfer_distance.h"
 #include "core/exec/context.h"
+#include "core/shells/slice_bricks.h"
 #include "core/volume/brick.h"
 #include "core/volume/volume.h"
 
@@ -22,8 +23,6 @@ int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_w
 // shells are at least kMinShellWidth wide.
 class Shells {
  public:
-  static constexpr int kPlanes = 6;
-  using Planes = std::array<BrickBits, kPlanes>;
   struct Range {
     int32_t first = 0;  // smallest and largest shell of the brick's points
     int32_t last = 0;
@@ -39,7 +38,7 @@ class Shells {
 
  private:
   friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);
-  std::vector<Planes> planes_;
+  std::vector<ShellPlanes> planes_;
   std::vector<Range> ranges_;
   int32_t last_ = 0;
 };

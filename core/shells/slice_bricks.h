@@ -1,0 +1,59 @@
+#ifndef BCCSKEL_CORE_SHELLS_SLICE_BRICKS_H_
+#define BCCSKEL_CORE_SHELLS_SLICE_BRICKS_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/volume/brick.h"
+
+namespace bccskel {
+
+inline constexpr int kShellPlanes = 6;
+using ShellPlanes = std::array<BrickBits, kShellPlanes>;
+
+// Which shell a distance is in, exactly: the shell grows by one at every multiple of the width less
+// a half. Lengths are scaled by 128 so that half widths are whole.
+class ShellRule {
+ public:
+  explicit ShellRule(uint64_t scaled_width) : width_(scaled_width) {}
+
+  int32_t operator()(uint32_t distance) const {
+    const uint64_t shell = (uint64_t{256} * distance + width_) / (2 * width_);
+    return shell < 1 ? 1 : static_cast<int32_t>(shell);
+  }
+  uint64_t width() const { return width_; }
+
+ private:
+  uint64_t width_;  // of a shell, in 1/128 counts
+};
+
+// The same in single precision: shell = max(1, trunc(distance * scale + offset)).
+struct FloatShellRule {
+  float scale;
+  float offset;
+};
+
+// Finds factors that give ShellRule's result for every distance up to `largest`; because rounding
+// is monotonic it is enough to look at both sides of each shell's border. Returns: whether they do,
+// with the factors.
+struct CheckedFloatRule {
+  FloatShellRule rule;
+  bool exact;
+};
+CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest);
+
+// The smallest and the largest nonzero distance of a brick; {0xffff, 0} if all are zero.
+struct DistanceRange {
+  uint16_t smallest;
+  uint16_t largest;
+};
+
+// Slices shell modulo 64 of every point of a brick into planes.
+// Shapes: `distances` holds kBrickPoints values in bit order.
+DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
+                         ShellPlanes& planes);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SHELLS_SLICE_BRICKS_H_
