@@ -16,6 +16,19 @@ BrickCoordinates BrickAtPlace(uint64_t place, Sublattice sublattice) {
   return {field(0), field(21), field(42), sublattice};
 }
 
+// std::lower_bound that looks near `start` first.
+size_t LowerBoundFrom(const std::vector<uint64_t>& places, size_t start, uint64_t wanted) {
+  if (start > places.size() || (start > 0 && places[start - 1] >= wanted)) start = 0;
+  size_t step = 1;
+  while (start + step < places.size() && places[start + step] < wanted) {
+    start += step;
+    step *= 2;
+  }
+  const auto begin = places.begin() + static_cast<ptrdiff_t>(start);
+  const auto end = places.begin() + static_cast<ptrdiff_t>(std::min(start + step, places.size()));
+  return static_cast<size_t>(std::lower_bound(begin, end, wanted) - places.begin());
+}
+
 }  // namespace
 
 BackgroundGaps::BackgroundGaps(std::span<const BrickKey> keys) {
@@ -38,11 +51,11 @@ size_t BackgroundGaps::NodeBefore(Sublattice sublattice, size_t n, uint64_t row)
   return 1 + n + (sublattice == Sublattice::kOdd ? rows_[0].size() : 0);
 }
 
-size_t BackgroundGaps::NodeAt(BrickCoordinates missing) const {
+size_t BackgroundGaps::NodeAt(BrickCoordinates missing, size_t& place) const {
   const Places& places = rows_[static_cast<size_t>(missing.sublattice)];
-  const uint64_t place = PlaceOf(missing);
-  const auto n = static_cast<size_t>(std::ranges::lower_bound(places, place) - places.begin());
-  return NodeBefore(missing.sublattice, n, RowOf(place));
+  const uint64_t wanted = PlaceOf(missing);
+  place = LowerBoundFrom(places, place, wanted);
+  return NodeBefore(missing.sublattice, place, RowOf(wanted));
 }
 
 // Walks the row from brick `first` to `last_x`, skipping stored bricks.

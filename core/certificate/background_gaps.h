@@ -29,7 +29,8 @@ class BackgroundGaps {
   int64_t node_count() const { return 1 + gap_count_; }
 
   // Needs: no brick is stored there.
-  size_t NodeAt(BrickCoordinates missing) const;
+  // Cost:  a few steps when `place`, taken from the last call, is not far off.
+  size_t NodeAt(BrickCoordinates missing, size_t& place) const;
 
   // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
   // touch it in the eight neighboring rows. Returns how many sets it joined.
@@ -47,6 +48,18 @@ class BackgroundGaps {
 
   std::array<Places, 2> rows_;
   int64_t gap_count_ = 0;
+};
+
+// Where the bricks before the last ones looked up are, one number for each kind of neighbor, since
+// each kind is asked for in increasing order. One per thread.
+class GapPlaces {
+ public:
+  size_t& of(BrickCoordinates brick, int position) {
+    return places_[static_cast<size_t>(brick.sublattice)][static_cast<size_t>(position)];
+  }
+
+ private:
+  alignas(64) std::array<std::array<size_t, 14>, 2> places_ = {};
 };
 
 }  // namespace bccskel

@@ -22,8 +22,10 @@ namespace bccskel {
 namespace {
 
 int64_t LinkBricks(const Volume& object, ComponentLinks& links, const exec::Context& context) {
-  return SumOverBricks(context, object.brick_count(),
-                       [&](int, size_t n) { return links.LinkBrick(static_cast<BrickIndex>(n)); });
+  std::vector<GapPlaces> places(static_cast<size_t>(context.threads()));
+  return SumOverBricks(context, object.brick_count(), [&](int worker, size_t n) {
+    return links.LinkBrick(static_cast<BrickIndex>(n), places[static_cast<size_t>(worker)]);
+  });
 }
 
 int64_t CountObjectComponents(const Volume& object, std::span<const BrickNeighborhood> neighbors,

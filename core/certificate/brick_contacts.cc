@@ -1,18 +1,11 @@
 #include "core/certificate/brick_contacts.h"
 
-#include <array>
-#include <vector>
+#include <algorithm>
 
 #include "core/volume/brick_neighbors.h"
 
 namespace bccskel {
 namespace {
-
-struct ContactTables {
-  // By sublattice and direction, and by sublattice and position.
-  std::array<std::array<std::vector<BrickContact>, kNeighborCount>, 2> along;
-  std::array<std::array<BrickBits, kNeighborCount>, 2> with;
-};
 
 // A brick far enough from the origin that all its neighbors have coordinates >= 0.
 constexpr BrickCoordinates SomeBrick(Sublattice sublattice) { return {1, 1, 1, sublattice}; }
@@ -29,37 +22,30 @@ BrickBits PointsTouching(Sublattice sublattice, Direction d, BrickCoordinates ot
   return points;
 }
 
-ContactTables ComputeTables() {
-  ContactTables tables;
-  for (Sublattice sublattice : kSublattices) {
-    const auto s = static_cast<size_t>(sublattice);
-    for (size_t d = 0; d < kNeighborCount; ++d) {
-      for (int position = 0; position < kNeighborCount; ++position) {
-        const BrickBits points = PointsTouching(sublattice, Direction(static_cast<int>(d)),
-                                                NeighborBrick(SomeBrick(sublattice), position));
-        if (points.Empty()) continue;
-        tables.along[s][d].push_back({position, points});
-        BrickBits& with = tables.with[s][static_cast<size_t>(position)];
-        for (size_t k = 0; k < 8; ++k) with.words[k] |= points.words[k];
-      }
+BrickContacts ComputeContacts(Sublattice sublattice) {
+  BrickContacts contacts;
+  for (int position = 0; position < kNeighborCount; ++position) {
+    const auto p = static_cast<size_t>(position);
+    const BrickCoordinates other = NeighborBrick(SomeBrick(sublattice), position);
+    for (int d = 0; d < kNeighborCount; ++d) {
+      const BrickBits points = PointsTouching(sublattice, Direction(d), other);
+      if (points.Empty()) continue;
+      contacts.at[p].push_back({position, Direction(d), points});
+      contacts.along[static_cast<size_t>(d)].push_back(contacts.at[p].back());
+      for (size_t k = 0; k < 8; ++k) contacts.points_at[p].words[k] |= points.words[k];
     }
+    std::ranges::stable_sort(contacts.at[p], std::greater<>(),
+                             [](const BrickContact& contact) { return contact.points.Count(); });
   }
-  return tables;
-}
-
-const ContactTables& Tables() {
-  static const ContactTables tables = ComputeTables();
-  return tables;
+  return contacts;
 }
 
 }  // namespace
 
-std::span<const BrickContact> ContactsAlong(Sublattice sublattice, Direction d) {
-  return Tables().along[static_cast<size_t>(sublattice)][static_cast<size_t>(d.bit())];
-}
-
-const BrickBits& ContactWith(Sublattice sublattice, int position) {
-  return Tables().with[static_cast<size_t>(sublattice)][static_cast<size_t>(position)];
+const BrickContacts& ContactsOf(Sublattice sublattice) {
+  static const std::array<BrickContacts, 2> contacts = {ComputeContacts(Sublattice::kEven),
+                                                        ComputeContacts(Sublattice::kOdd)};
+  return contacts[static_cast<size_t>(sublattice)];
 }
 
 int NeighborBit(Sublattice sublattice, Direction d, int bit) {

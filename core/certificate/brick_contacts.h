@@ -1,7 +1,8 @@
 #ifndef BCCSKEL_CORE_CERTIFICATE_BRICK_CONTACTS_H_
 #define BCCSKEL_CORE_CERTIFICATE_BRICK_CONTACTS_H_
 
-#include <span>
+#include <array>
+#include <vector>
 
 #include "core/lattice/directions.h"
 #include "core/volume/brick.h"
@@ -11,14 +12,22 @@ namespace bccskel {
 // The points of a brick whose neighbor in one direction lies in one other brick.
 struct BrickContact {
   int position;  // which brick, as in BrickNeighborhood
+  Direction direction;
   BrickBits points;
 };
 
-// All contacts of a direction: eight at most for D8, one for D6.
-std::span<const BrickContact> ContactsAlong(Sublattice sublattice, Direction d);
+// Where the bricks of one sublattice touch their 14 neighboring bricks.
+struct BrickContacts {
+  // By direction: eight contacts at most for D8, one for D6.
+  std::array<std::vector<BrickContact>, kNeighborCount> along;
+  // By position, those with the most points first.
+  std::array<std::vector<BrickContact>, kNeighborCount> at;
+  // By position: all points with any neighbor in the brick there.
+  std::array<BrickBits, kNeighborCount> points_at;
+};
 
-// The points of a brick with any neighbor in the brick at `position`.
-const BrickBits& ContactWith(Sublattice sublattice, int position);
+// Threads: safe; the tables are filled on first use.
+const BrickContacts& ContactsOf(Sublattice sublattice);
 
 // The bit, in its own brick, of the neighbor in direction `d` of the point `bit`.
 int NeighborBit(Sublattice sublattice, Direction d, int bit);

@@ -29,15 +29,16 @@ class ComponentLinks {
         first_member_(gaps == nullptr ? 0 : gaps->node_limit()),
         sets_(sets) {}
 
-  // Links brick n to all stored bricks along the seven directions with x + y + z < 0, so that each
-  // pair of neighboring points is looked at once, and to all gaps. Returns how many sets it joined.
-  int64_t LinkBrick(BrickIndex n);
+  // Links brick n to every stored brick that touches it, each pair of bricks from one side only,
+  // and to all gaps. `places` belongs to the calling thread. Returns how many sets it
+  // joined.
+  int64_t LinkBrick(BrickIndex n, GapPlaces& places);
 
  private:
-  int64_t LinkAlong(BrickIndex n, Direction d);
-  bool NeedsLink(BrickIndex n, Direction d) const;
-  int64_t LinkFragments(BrickIndex n, Direction d, const BrickBits& main_plane);
-  int64_t LinkToGap(BrickIndex n, int position);
+  int64_t LinkMains(BrickIndex n, int position);
+  bool HasFragmentsAround(BrickIndex n) const;
+  int64_t LinkFragments(BrickIndex n, Direction d);
+  int64_t LinkToGap(BrickIndex n, int position, GapPlaces& places);
   int64_t Unite(size_t a, size_t b) { return sets_.Unite(a, b) ? 1 : 0; }
   size_t MemberOf(BrickIndex n, int bit) const {
     return first_member_ + components_.ComponentOf(n, bit);

@@ -27,6 +27,11 @@ std::vector<BrickKey> BoxWith(Keep keep) {
   return KeysOf(bricks);
 }
 
+size_t NodeAt(const BackgroundGaps& gaps, BrickCoordinates missing) {
+  size_t place = 0;
+  return gaps.NodeAt(missing, place);
+}
+
 int64_t ComponentsOf(const std::vector<BrickKey>& keys) {
   const BackgroundGaps gaps(keys);
   UnionFind sets(gaps.node_limit());
@@ -44,7 +49,7 @@ bool IsInside(const BrickCoordinates& b, int32_t low, int32_t high) {
 
 TEST(BackgroundGaps, WithoutBricksOnlyTheOutsideIsLeft) {
   EXPECT_EQ(ComponentsOf({}), 1);
-  EXPECT_EQ(BackgroundGaps({}).NodeAt({3, 4, 5, Sublattice::kOdd}), BackgroundGaps::kOutside);
+  EXPECT_EQ(NodeAt(BackgroundGaps({}), {3, 4, 5, Sublattice::kOdd}), BackgroundGaps::kOutside);
 }
 
 TEST(BackgroundGaps, LieBetweenStoredBricksOfOneRowAndSublattice) {
@@ -54,15 +59,26 @@ TEST(BackgroundGaps, LieBetweenStoredBricksOfOneRowAndSublattice) {
                             {10, 1, 1, Sublattice::kEven}});
   const BackgroundGaps gaps(keys);
   EXPECT_EQ(gaps.node_count(), 2);
-  const size_t gap = gaps.NodeAt({3, 1, 1, Sublattice::kEven});
+  const size_t gap = NodeAt(gaps, {3, 1, 1, Sublattice::kEven});
   EXPECT_NE(gap, BackgroundGaps::kOutside);
-  EXPECT_EQ(gaps.NodeAt({8, 1, 1, Sublattice::kEven}), gap);
+  EXPECT_EQ(NodeAt(gaps, {8, 1, 1, Sublattice::kEven}), gap);
   for (int32_t bx : {-1, 0, 1, 11, 30}) {
-    EXPECT_EQ(gaps.NodeAt({bx, 1, 1, Sublattice::kEven}), BackgroundGaps::kOutside);
+    EXPECT_EQ(NodeAt(gaps, {bx, 1, 1, Sublattice::kEven}), BackgroundGaps::kOutside);
   }
-  EXPECT_EQ(gaps.NodeAt({6, 1, 1, Sublattice::kOdd}), BackgroundGaps::kOutside);
-  EXPECT_EQ(gaps.NodeAt({6, 2, 1, Sublattice::kEven}), BackgroundGaps::kOutside);
+  EXPECT_EQ(NodeAt(gaps, {6, 1, 1, Sublattice::kOdd}), BackgroundGaps::kOutside);
+  EXPECT_EQ(NodeAt(gaps, {6, 2, 1, Sublattice::kEven}), BackgroundGaps::kOutside);
   EXPECT_EQ(ComponentsOf(keys), 1) << "the gap is open to the rows above";
+}
+
+TEST(BackgroundGaps, AreFoundFromAnyStartingPlace) {
+  const auto keys = BoxWith([](const auto& b) { return (b.bx + b.by * b.bz) % 3 != 0; });
+  const BackgroundGaps gaps(keys);
+  for (const BrickKey& key : BoxWith([](const auto& b) { return (b.bx + b.by * b.bz) % 3 == 0; })) {
+    for (size_t start = 0; start <= keys.size() + 3; ++start) {
+      size_t place = start;
+      EXPECT_EQ(gaps.NodeAt(key.coordinates(), place), NodeAt(gaps, key.coordinates()));
+    }
+  }
 }
 
 TEST(BackgroundGaps, AHollowBoxOfBricksEnclosesOneComponent) {

@@ -15,6 +15,10 @@ int PositionOf(BrickCoordinates brick, LatticePoint p) {
   return -1;
 }
 
+const BrickBits& PointsAt(Sublattice sublattice, int position) {
+  return ContactsOf(sublattice).points_at[static_cast<size_t>(position)];
+}
+
 TEST(BrickContacts, HoldEachPointOnceForEachDirectionThatLeavesTheBrick) {
   for (Sublattice sublattice : kSublattices) {
     const BrickCoordinates brick = {3, 5, 2, sublattice};
@@ -23,10 +27,11 @@ TEST(BrickContacts, HoldEachPointOnceForEachDirectionThatLeavesTheBrick) {
         const LatticePoint p = PointOf(brick, bit) + Direction(d).offset();
         const int position = PositionOf(brick, p);
         int found = 0;
-        for (const BrickContact& contact : ContactsAlong(sublattice, Direction(d))) {
+        for (const BrickContact& contact : ContactsOf(sublattice).along[static_cast<size_t>(d)]) {
           if (!contact.points.Test(bit)) continue;
           EXPECT_EQ(contact.position, position);
-          EXPECT_TRUE(ContactWith(sublattice, position).Test(bit));
+          EXPECT_TRUE(PointsAt(sublattice, position).Test(bit));
+          EXPECT_EQ(contact.direction, Direction(d));
           ++found;
         }
         EXPECT_EQ(found, position < 0 ? 0 : 1);
@@ -38,10 +43,10 @@ TEST(BrickContacts, HoldEachPointOnceForEachDirectionThatLeavesTheBrick) {
 
 TEST(BrickContacts, CountThePointsThatTouchEachNeighboringBrick) {
   for (Sublattice sublattice : kSublattices) {
-    EXPECT_EQ(ContactWith(sublattice, 0).Count(), 512u);       // same cells, other sublattice
-    EXPECT_EQ(ContactWith(sublattice, 7).Count(), 1u);         // across the corner
-    EXPECT_EQ(ContactWith(sublattice, 1).Count(), 4u * 8u);    // across the x face
-    EXPECT_EQ(ContactWith(sublattice, 13).Count(), 16u * 4u);  // along -z
+    EXPECT_EQ(PointsAt(sublattice, 0).Count(), 512u);       // same cells, other sublattice
+    EXPECT_EQ(PointsAt(sublattice, 7).Count(), 1u);         // across the corner
+    EXPECT_EQ(PointsAt(sublattice, 1).Count(), 4u * 8u);    // across the x face
+    EXPECT_EQ(PointsAt(sublattice, 13).Count(), 16u * 4u);  // along -z
   }
 }
 
