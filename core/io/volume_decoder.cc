@@ -1,0 +1,52 @@
+#include "core/io/volume_decoder.h"
+
+#include "core/exec/status_macros.h"
+#include "core/io/bricks_decoder.h"
+#include "core/io/exr_decoder.h"
+#include "core/io/planes_decoder.h"
+
+namespace bccskel {
+namespace {
+
+absl::StatusOr<Volume> DecodeWhole(const VolumeHeader& header, std::span<const std::byte> bytes,
+                                   const VolumeLimits& limits, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<VolumeDecoder> decoder,
+                           MakeVolumeDecoder(header, limits));
+  BCCSKEL_RETURN_IF_ERROR(decoder->Append(bytes));
+  return decoder->Finish(context);
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHeader& header,
+                                                                 const VolumeLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader checked, CompleteVolumeHeader(header, limits));
+  switch (checked.encoding) {
+    case VolumeEncoding::kOpenExr:
+      return std::make_unique<ExrDecoder>(checked, limits);
+    case VolumeEncoding::kRawPlanes:
+      return std::make_unique<PlanesDecoder>(checked);
+    case VolumeEncoding::kBricks:
+      return std::make_unique<BricksDecoder>(checked, limits);
+  }
+  return absl::InvalidArgumentError("unknown volume encoding");
+}
+
+absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::span<const std::byte> bytes,
+                                    const VolumeLimits& limits, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, ScanVolumeHeader(encoding, bytes, limits));
+  return DecodeWhole(header, bytes, limits, context);
+}
+
+absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::string_view bytes,
+                                    const VolumeLimits& limits, const exec::Context& context) {
+  return DecodeVolume(encoding, std::as_bytes(std::span(bytes)), limits, context);
+}
+
+absl::StatusOr<Volume> DecodePlanes(const LatticeExtent& extent, const Placement& placement,
+                                    std::span<const std::byte> bytes, const VolumeLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, MakePlanesHeader(extent, placement, limits));
+  return DecodeWhole(header, bytes, limits, exec::Context());
+}
+
+}  // namespace bccskel

@@ -1,0 +1,205 @@
+#include "core/io/volume_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/io/byte_sink.h"
+#include "core/io/volume_decoder.h"
+#include "core/io/volume_encoder.h"
+
+namespace bccskel {
+namespace {
+
+constexpr size_t kReadBytes = 1 << 20;
+static_assert(kReadBytes >= kMaxHeaderBytes);
+
+absl::Status SystemError(const char* what) { return absl::ErrnoToStatus(errno, what); }
+
+absl::Status InFile(const std::string& path, const absl::Status& status) {
+  return absl::Status(status.code(), absl::StrFormat("%s: %s", path, status.message()));
+}
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  int get() const { return descriptor_; }
+  bool is_open() const { return descriptor_ >= 0; }
+  // True when the system has taken everything written.
+  bool Close() { return close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+// Reads until `buffer` is full or the file ends.
+absl::StatusOr<std::span<const std::byte>> ReadSome(const FileDescriptor& file,
+                                                    std::span<std::byte> buffer) {
+  size_t filled = 0;
+  while (filled < buffer.size()) {
+    const ssize_t count = read(file.get(), buffer.data() + filled, buffer.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemError("cannot read");
+    if (count == 0) break;
+    filled += static_cast<size_t>(count);
+  }
+  return buffer.first(filled);
+}
+
+class FileSink final : public ByteSink {
+ public:
+  explicit FileSink(int descriptor) : descriptor_(descriptor) {}
+
+  absl::Status WriteAt(uint64_t offset, std::span<const std::byte> bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t count =
+          pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return SystemError("cannot write");
+      offset += static_cast<uint64_t>(count);
+      bytes = bytes.subspan(static_cast<size_t>(count));
+    }
+    return absl::OkStatus();
+  }
+
+ private:
+  int descriptor_;
+};
+
+// A file beside `path` that takes its place or disappears. mkstemp() would ignore the umask.
+class ReplacementFile {
+ public:
+  explicit ReplacementFile(const std::string& path)
+      : path_(path),
+        temporary_(absl::StrFormat("%s.tmp.%d.%d", path, getpid(), NextNumber())),
+        file_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {}
+  ReplacementFile(const ReplacementFile&) = delete;
+  ReplacementFile& operator=(const ReplacementFile&) = delete;
+  ~ReplacementFile() {
+    if (created_ && !committed_) unlink(temporary_.c_str());
+  }
+
+  absl::Status CheckOpen() const {
+    return created_ ? absl::OkStatus() : SystemError("cannot create");
+  }
+  int descriptor() const { return file_.get(); }
+
+  absl::Status Commit() {
+    if (fsync(file_.get()) != 0 || !file_.Close()) return SystemError("cannot write");
+    if (rename(temporary_.c_str(), path_.c_str()) != 0) return SystemError("cannot rename");
+    committed_ = true;
+    return absl::OkStatus();
+  }
+
+ private:
+  static int NextNumber() {
+    static std::atomic<int> number = 0;
+    return number.fetch_add(1);
+  }
+
+  std::string path_;
+  std::string temporary_;
+  FileDescriptor file_;
+  bool created_ = file_.is_open();
+  bool committed_ = false;
+};
+
+absl::StatusOr<VolumeEncoding> EncodingOfName(std::string_view path) {
+  if (path.ends_with(".exr")) return VolumeEncoding::kOpenExr;
+  if (path.ends_with(".bccb")) return VolumeEncoding::kBricks;
+  return absl::InvalidArgumentError(
+      "the name of a volume file must end in .exr (OpenEXR) or .bccb (bricks)");
+}
+
+absl::StatusOr<EncodeVolumeOptions> EncodingFor(const std::string& path,
+                                                const WriteVolumeOptions& options) {
+  EncodeVolumeOptions chosen = {.max_dense_bytes = options.max_dense_bytes};
+  if (options.encoding) {
+    chosen.encoding = *options.encoding;
+  } else {
+    BCCSKEL_ASSIGN_OR_RETURN(chosen.encoding, EncodingOfName(path));
+  }
+  if (chosen.encoding == VolumeEncoding::kRawPlanes) {
+    return absl::InvalidArgumentError("raw planes have no header and are not a file format");
+  }
+  const bool exr = chosen.encoding == VolumeEncoding::kOpenExr;
+  chosen.compression =
+      options.compression.value_or(exr ? VolumeCompression::kZip : VolumeCompression::kZstd);
+  return chosen;
+}
+
+absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const VolumeLimits& limits,
+                                  const exec::Context& context) {
+  std::vector<std::byte> buffer(kReadBytes);
+  BCCSKEL_ASSIGN_OR_RETURN(std::span<const std::byte> part, ReadSome(file, buffer));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeEncoding encoding, SniffVolumeEncoding(part));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, ScanVolumeHeader(encoding, part, limits));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<VolumeDecoder> decoder,
+                           MakeVolumeDecoder(header, limits));
+  while (!part.empty()) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    BCCSKEL_RETURN_IF_ERROR(decoder->Append(part));
+    BCCSKEL_ASSIGN_OR_RETURN(part, ReadSome(file, buffer));
+  }
+  return decoder->Finish(context);
+}
+
+absl::StatusOr<VolumeHeader> InspectFile(const FileDescriptor& file, const VolumeLimits& limits) {
+  std::vector<std::byte> buffer(kMaxHeaderBytes);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::span<const std::byte> front, ReadSome(file, buffer));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeEncoding encoding, SniffVolumeEncoding(front));
+  return ScanVolumeHeader(encoding, front, limits);
+}
+
+absl::Status ReplaceFile(const std::string& path, const Volume& volume,
+                         const WriteVolumeOptions& options, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const EncodeVolumeOptions encoding, EncodingFor(path, options));
+  ReplacementFile replacement(path);
+  BCCSKEL_RETURN_IF_ERROR(replacement.CheckOpen());
+  FileSink sink(replacement.descriptor());
+  BCCSKEL_RETURN_IF_ERROR(EncodeVolumeTo(volume, encoding, sink, context));
+  return replacement.Commit();
+}
+
+}  // namespace
+
+absl::StatusOr<Volume> ReadVolumeFile(const std::string& path, const VolumeLimits& limits,
+                                      const exec::Context& context) {
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) return InFile(path, SystemError("cannot open"));
+  absl::StatusOr<Volume> volume = DecodeFile(file, limits, context);
+  if (!volume.ok()) return InFile(path, volume.status());
+  return volume;
+}
+
+absl::StatusOr<VolumeHeader> InspectVolumeFile(const std::string& path,
+                                               const VolumeLimits& limits) {
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) return InFile(path, SystemError("cannot open"));
+  absl::StatusOr<VolumeHeader> header = InspectFile(file, limits);
+  if (!header.ok()) return InFile(path, header.status());
+  return header;
+}
+
+absl::Status WriteVolumeFile(const std::string& path, const Volume& volume,
+                             const WriteVolumeOptions& options, const exec::Context& context) {
+  const absl::Status written = ReplaceFile(path, volume, options, context);
+  return written.ok() ? written : InFile(path, written);
+}
+
+}  // namespace bccskel

@@ -1,0 +1,43 @@
+#ifndef BCCSKEL_CORE_IO_VOLUME_FILE_H_
+#define BCCSKEL_CORE_IO_VOLUME_FILE_H_
+
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/io/volume_header.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Reads a volume file, OpenEXR or bricks; the first bytes decide which, not the name.
+// Errors: as ScanVolumeHeader() and VolumeDecoder; NOT_FOUND, PERMISSION_DENIED or another code for
+//         what the system says. Every message begins with the path.
+absl::StatusOr<Volume> ReadVolumeFile(const std::string& path, const VolumeLimits& limits = {},
+                                      const exec::Context& context = {});
+
+// Reads no more than the header.
+absl::StatusOr<VolumeHeader> InspectVolumeFile(const std::string& path,
+                                               const VolumeLimits& limits = {});
+
+struct WriteVolumeOptions {
+  // What is not given follows from the name: .exr is OpenEXR with ZIP, .bccb bricks with zstd.
+  std::optional<VolumeEncoding> encoding;
+  std::optional<VolumeCompression> compression;
+  uint64_t max_dense_bytes = uint64_t{4} << 30;
+};
+
+// Writes a volume file. A reader of `path` sees the old file or the whole new one, never a part;
+// after an error the old file is still there.
+// Errors: INVALID_ARGUMENT for a name with another ending when no encoding is given, for raw planes
+//         (they have no header, so they are not a file format), and as EncodeVolume(); what the
+//         system says.
+absl::Status WriteVolumeFile(const std::string& path, const Volume& volume,
+                             const WriteVolumeOptions& options = {},
+                             const exec::Context& context = {});
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IO_VOLUME_FILE_H_
