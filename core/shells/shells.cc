@@ -65,20 +65,6 @@ int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_w
   return RuleFor(weights, shell_width)(distance);
 }
 
-BrickBits Shells::PointsIn(BrickIndex brick, int32_t shell) const {
-  const ShellPlanes& planes = planes_[brick];
-  BrickBits equal;
-  for (size_t k = 0; k < equal.words.size(); ++k) {
-    uint64_t same = ~uint64_t{0};
-    for (int b = 0; b < kShellPlanes; ++b) {
-      const uint64_t wanted = (shell >> b & 1) != 0 ? ~uint64_t{0} : 0;
-      same &= ~(planes[static_cast<size_t>(b)].words[k] ^ wanted);
-    }
-    equal.words[k] = same;
-  }
-  return equal;
-}
-
 Shells BuildShells(const Volume& object, const ChamferField& distance, double shell_width,
                    const exec::Context& context) {
   const Slicer slice(object, distance, RuleFor(distance.weights(), shell_width));

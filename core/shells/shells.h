@@ -32,9 +32,8 @@ class Shells {
   const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
   size_t brick_count() const { return ranges_.size(); }
 
-  // The points of `brick` in shell `shell`. Background points may be set.
-  // Needs: RangeOf(brick).first <= shell <= RangeOf(brick).last.
-  BrickBits PointsIn(BrickIndex brick, int32_t shell) const;
+  // Planes of shell modulo 64. Background points may have any bits.
+  const ShellPlanes& PlanesOf(BrickIndex brick) const { return planes_[brick]; }
 
  private:
   friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);

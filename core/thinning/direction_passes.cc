@@ -7,38 +7,10 @@
 #include <vector>
 
 #include "core/thinning/stubble.h"
+#include "core/thinning/unsettled.h"
 
 namespace bccskel {
 namespace {
-
-// What may have to be looked at again in a brick: bit d for direction d, and the end points.
-using Unsettled = uint16_t;
-constexpr Unsettled kEndPointsUnsettled = 1 << 8;
-constexpr Unsettled kDirectionsUnsettled = kEndPointsUnsettled - 1;
-
-// For a set of axes, all its subsets: bit s of the result stands for the subset s.
-constexpr std::array<uint32_t, 8> kSubsetsOf = [] {
-  std::array<uint32_t, 8> subsets = {};
-  for (uint32_t axes = 0; axes < 8; ++axes) {
-    for (uint32_t s = 0; s < 8; ++s) {
-      if ((s & ~axes) == 0) subsets[axes] |= 1u << s;
-    }
-  }
-  return subsets;
-}();
-
-// The neighboring bricks (positions of BrickNeighborhood) that hold neighbors of removed points.
-uint32_t BricksThatSee(const BrickBits& removed, Sublattice sublattice) {
-  uint64_t any = 0;
-  for (uint64_t word : removed.words) any |= word;
-  const uint32_t low = ((any & 0x0001000100010001) != 0 ? 1u : 0u) |
-                       ((any & 0xffff) != 0 ? 2u : 0u) | (removed.words[0] != 0 ? 4u : 0u);
-  const uint32_t high = ((any & 0x8000800080008000) != 0 ? 1u : 0u) | ((any >> 48) != 0 ? 2u : 0u) |
-                        (removed.words[7] != 0 ? 4u : 0u);
-  const uint32_t axial = (high & 1) << 8 | (low & 1) << 9 | (high & 2) << 9 | (low & 2) << 10 |
-                         (high & 4) << 10 | (low & 4) << 11;
-  return kSubsetsOf[sublattice == Sublattice::kEven ? low : high] | axial;
-}
 
 // One worker's bricks and buffers.
 struct alignas(64) Worker {
@@ -47,10 +19,11 @@ struct alignas(64) Worker {
   size_t reached = 0;                      // how many of them have been reached
   std::vector<BrickIndex> opening;         // reached, and deeper points still to come
 
-  std::array<std::vector<BrickIndex>, 2> directions_to_do;  // by sublattice
-  std::array<std::vector<BrickIndex>, 2> end_points_to_do;
+  BrickLists directions_to_do;
+  BrickLists end_points_to_do;
   std::vector<BrickIndex> border;
-  std::vector<MarkedBrick> marked;
+  std::vector<MarkedBrick> marked;  // only grows; the first marked_count are this pass's
+  size_t marked_count = 0;
 
   // Bricks of other workers that border on points removed here. Written in one pass and read by
   // their owners in the next, hence two.
@@ -71,11 +44,14 @@ class DirectionPasses {
         state_(state),
         watched_(stubble == StubblePolicy::kNone ? kDirectionsUnsettled
                                                  : kDirectionsUnsettled | kEndPointsUnsettled),
-        unsettled_(state.brick_count()),
-        enabled_(state.brick_count()),
+        unsettled_(groups() * kUnsettledGroup),
+        enabled_(unsettled_.size()),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
         barrier_(static_cast<int>(workers_.size())) {
     for (const BrickBits& brick : state.object) points_at_start_ += brick.Count();
+    for (BrickIndex n = 0; n < state.brick_count(); ++n) {
+      if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
+    }
   }
 
   absl::StatusOr<DirectionPassTotals> Run() {
@@ -104,16 +80,17 @@ class DirectionPasses {
   }
 
   void Prepare(int index, Worker& worker) {
-    worker.bricks = exec::ShareOf(state_.brick_count(), index, static_cast<int>(workers_.size()));
+    const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
+    worker.bricks = {share.begin * kUnsettledGroup,
+                     std::min(share.end * kUnsettledGroup, state_.brick_count())};
     const size_t count = worker.bricks.end - worker.bricks.begin;
     worker.by_first_shell.resize(count);
     std::iota(worker.by_first_shell.begin(), worker.by_first_shell.end(),
               static_cast<BrickIndex>(worker.bricks.begin));
     std::ranges::stable_sort(worker.by_first_shell, {},
                              [this](BrickIndex n) { return shells_.RangeOf(n).first; });
-    for (auto* lists : {&worker.directions_to_do, &worker.end_points_to_do}) {
-      for (std::vector<BrickIndex>& list : *lists) list.reserve(count);
-    }
+    worker.directions_to_do.Reserve(count);
+    worker.end_points_to_do.Reserve(count);
     worker.border.resize(count);
   }
 
@@ -132,16 +109,26 @@ class DirectionPasses {
   }
 
   uint64_t OpenBrick(BrickIndex n, int32_t shell) {
-    BrickBits opened = shells_.PointsIn(n, shell);
-    for (size_t k = 0; k < opened.words.size(); ++k) {
-      opened.words[k] &= state_.object[n].words[k];
-      if (!state_.kept.empty()) opened.words[k] &= ~state_.kept[n].words[k];
-      state_.candidates[n].words[k] |= opened.words[k];
+    BrickBits& candidates = state_.candidates[n];
+    const ShellPlanes& planes = shells_.PlanesOf(n);
+    const uint64_t points =
+        state_.kept.empty()
+            ? OpenShellInBrick(planes, shell, state_.object[n], candidates)
+            : OpenShellInBrick(planes, shell, Without(state_.object[n], state_.kept[n]),
+                               candidates);
+    if (points != 0) {
+      enabled_[n] = watched_;
+      unsettled_[n] |= watched_;
     }
-    const uint64_t points = opened.Count();
-    if (points != 0) unsettled_[n] = enabled_[n] = watched_;
     return points;
   }
+
+  static BrickBits Without(BrickBits points, const BrickBits& kept) {
+    for (size_t k = 0; k < points.words.size(); ++k) points.words[k] &= ~kept.words[k];
+    return points;
+  }
+
+  size_t groups() const { return (state_.brick_count() + kUnsettledGroup - 1) / kUnsettledGroup; }
 
   // One pass along d. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, DiagonalDirection d) {
@@ -150,13 +137,14 @@ class DirectionPasses {
       ++passes_;
     }
     TakeOverUnsettled(worker);
-    worker.marked.clear();
-    ListUnsettled(worker, d);
+    worker.marked_count = 0;
+    TakeUnsettled(unsettled_, worker.bricks.begin, worker.bricks.end, d, worker.directions_to_do,
+                  worker.end_points_to_do);
     MarkDirection(worker, d);
     MarkStubble(worker);
     barrier_.Wait();  // nobody reads the old object any more
     if (stopped_) return false;
-    RemoveMarked(worker);
+    Remove(worker);
     barrier_.Wait();  // the new object is complete
     worker.parity ^= 1;
     return true;
@@ -171,81 +159,53 @@ class DirectionPasses {
     }
   }
 
-  // A listed brick counts as settled; removing points from it or beside it unsettles it again.
-  void ListUnsettled(Worker& worker, DiagonalDirection d) {
-    for (auto* lists : {&worker.directions_to_do, &worker.end_points_to_do}) {
-      for (std::vector<BrickIndex>& list : *lists) list.clear();
+  // Room for `count` more marked bricks.
+  static MarkedBrick* Room(Worker& worker, size_t count) {
+    if (worker.marked.size() < worker.marked_count + count) {
+      worker.marked.resize(worker.marked_count + count);
     }
-    const auto along_d = static_cast<Unsettled>(1u << d.bit());
-    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
-      const Unsettled unsettled = unsettled_[n];
-      if ((unsettled & (along_d | kEndPointsUnsettled)) == 0) continue;
-      const auto brick = static_cast<BrickIndex>(n);
-      const auto sublattice = static_cast<size_t>(state_.SublatticeOf(brick));
-      if ((unsettled & along_d) != 0) worker.directions_to_do[sublattice].push_back(brick);
-      if ((unsettled & kEndPointsUnsettled) != 0) {
-        worker.end_points_to_do[sublattice].push_back(brick);
-      }
-      unsettled_[n] = static_cast<Unsettled>(unsettled & ~(along_d | kEndPointsUnsettled));
-    }
+    return worker.marked.data() + worker.marked_count;
   }
 
   void MarkDirection(Worker& worker, DiagonalDirection d) {
     const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
-      const std::vector<BrickIndex>& bricks =
-          worker.directions_to_do[static_cast<size_t>(sublattice)];
-      const size_t border = KeepBorderBricks(view, sublattice, d, bricks, worker.border.data());
-      const size_t marked = worker.marked.size();
-      worker.marked.resize(marked + border);
-      worker.marked.resize(marked + MarkRemovable(view, sublattice, d,
-                                                  std::span(worker.border).first(border),
-                                                  worker.marked.data() + marked));
+      const size_t border = KeepBorderBricks(
+          view, sublattice, d, worker.directions_to_do.Of(sublattice), worker.border.data());
+      worker.marked_count += MarkRemovable(
+          view, sublattice, d, std::span(worker.border).first(border), Room(worker, border));
     }
   }
 
   // Whether an end point is a stubble point depends on points up to three steps away, so a brick
   // with end points stays unsettled for them.
   void MarkStubble(Worker& worker) {
+    const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
-      const std::vector<BrickIndex>& bricks =
-          worker.end_points_to_do[static_cast<size_t>(sublattice)];
-      const size_t first = worker.marked.size();
-      worker.marked.resize(first + bricks.size());
-      worker.marked.resize(
-          first + MarkEndPoints(state_.View(), sublattice, bricks, worker.marked.data() + first));
-      for (size_t m = first; m < worker.marked.size(); ++m) {
-        MarkedBrick& marked = worker.marked[m];
-        unsettled_[marked.brick] |= kEndPointsUnsettled;
-        marked.marks = SelectStubble(state_, marked, stubble_);
+      const size_t thin =
+          KeepThinBricks(view, worker.end_points_to_do.Of(sublattice), worker.border.data());
+      MarkedBrick* marked = Room(worker, thin);
+      const size_t count =
+          MarkEndPoints(view, sublattice, std::span(worker.border).first(thin), marked);
+      for (MarkedBrick& m : std::span(marked, count)) {
+        unsettled_[m.brick] |= kEndPointsUnsettled;
+        m.marks = SelectStubble(state_, m, stubble_);
       }
+      worker.marked_count += count;
     }
   }
 
-  void RemoveMarked(Worker& worker) {
-    worker.seen_elsewhere[worker.parity].clear();
-    for (const MarkedBrick& marked : worker.marked) {
-      const uint64_t count = marked.marks.Count();
-      if (count == 0) continue;
-      worker.removed += count;
-      BrickBits& object = state_.object[marked.brick];
-      for (size_t k = 0; k < object.words.size(); ++k) object.words[k] &= ~marked.marks.words[k];
-      Unsettle(worker, marked.brick, marked.marks);
-    }
-  }
-
-  void Unsettle(Worker& worker, BrickIndex brick, const BrickBits& removed) {
-    unsettled_[brick] |= enabled_[brick];
-    const BrickNeighborhood& neighbors = state_.neighbors[brick];
-    for (uint32_t left = BricksThatSee(removed, state_.SublatticeOf(brick)); left != 0;
-         left &= left - 1) {
-      const BrickIndex n = neighbors[static_cast<size_t>(std::countr_zero(left))];
-      if (Owns(worker, n)) {
-        unsettled_[n] |= enabled_[n];
-      } else if (n != state_.brick_count()) {
-        worker.seen_elsewhere[worker.parity].push_back(n);
-      }
-    }
+  void Remove(Worker& worker) {
+    std::vector<BrickIndex>& elsewhere = worker.seen_elsewhere[worker.parity];
+    elsewhere.clear();
+    const RemovalView view = {.object = state_.object.data(),
+                              .neighbors = state_.neighbors.data(),
+                              .unsettled = unsettled_.data(),
+                              .enabled = enabled_.data(),
+                              .first = static_cast<BrickIndex>(worker.bricks.begin),
+                              .last = static_cast<BrickIndex>(worker.bricks.end)};
+    worker.removed +=
+        RemoveMarked(view, std::span(worker.marked).first(worker.marked_count), elsewhere);
   }
 
   static bool Owns(const Worker& worker, BrickIndex n) {

@@ -4,11 +4,13 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/thinning/mark_removable.cc"
-// Compiles the rest of this file once per instruction set, so it comes before other Highway headers.
+// Compiles the rest of this file once per instruction set, so it comes before other Highway
+// headers.
+// clang-format off
 #include "hwy/foreach_target.h"
-
 #include "core/volume/brick_planes-inl.h"
 #include "hwy/highway.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace bccskel {
@@ -55,6 +57,21 @@ HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick) {
   imply(std::integral_constant<int, 1>());
   imply(std::integral_constant<int, 2>());
   return And(removable, right);
+}
+
+// At most one of four planes.
+HWY_INLINE Plane AtMostOne(const Plane& a, const Plane& b, const Plane& c, const Plane& d,
+                           const Plane& among) {
+  const Plane two = Or(And(a, b), And(c, d));
+  return AndNot(Or(two, And(Or(a, b), Or(c, d))), among);
+}
+
+HWY_INLINE Plane Thin(const ObjectView& view, BrickIndex brick) {
+  const PlaneReader<Step::kUp> read{view.object, view.neighbors[brick]};  // D6 planes only
+  const Plane own = LoadPlane(view.object[brick]);
+  return AtMostOne(read.template Axial<1, Step::kUp>(own), read.template Axial<1, Step::kDown>(own),
+                   read.template Axial<2, Step::kUp>(own), read.template Axial<2, Step::kDown>(own),
+                   And(own, LoadPlane(view.candidates[brick])));
 }
 
 template <Sublattice kSublattice>
@@ -155,6 +172,10 @@ size_t MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
       MarkTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
   return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, marked);
 }
+size_t KeepThinBricksTarget(const ObjectView& view, std::span<const BrickIndex> bricks,
+                            BrickIndex* kept) {
+  return KeepIf(bricks, kept, [&](BrickIndex brick) HWY_ATTR { return Thin(view, brick); });
+}
 size_t MarkEndPointsTarget(const ObjectView& view, Sublattice sublattice,
                            std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   if (sublattice == Sublattice::kEven) {
@@ -188,6 +209,7 @@ namespace bccskel {
 
 HWY_EXPORT(KeepBorderBricksTarget);
 HWY_EXPORT(MarkRemovableTarget);
+HWY_EXPORT(KeepThinBricksTarget);
 HWY_EXPORT(MarkEndPointsTarget);
 HWY_EXPORT(MarkPossiblySimpleTarget);
 HWY_EXPORT(TargetName);
@@ -199,6 +221,10 @@ size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalD
 size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked);
+}
+size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks,
+                      BrickIndex* kept) {
+  return HWY_DYNAMIC_DISPATCH(KeepThinBricksTarget)(view, bricks, kept);
 }
 size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked) {

@@ -53,6 +53,10 @@ size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalD
 size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked);
 
+// The bricks that hold candidates with at most one object neighbor along y and z
+// by D6 steps; the others have no end points. Shapes and result as KeepBorderBricks().
+size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept);
+
 // The end points among the candidates of the given bricks. Shapes and result as MarkRemovable().
 size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked);

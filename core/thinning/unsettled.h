@@ -1,0 +1,78 @@
+#ifndef BCCSKEL_CORE_THINNING_UNSETTLED_H_
+#define BCCSKEL_CORE_THINNING_UNSETTLED_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice/directions.h"
+#include "core/shells/slice_bricks.h"
+#include "core/thinning/mark_removable.h"
+#include "core/volume/brick.h"
+#include "core/volume/brick_neighbors.h"
+
+// Which bricks have to be looked at again, and the brick operations around the marking of a pass.
+
+namespace bccskel {
+
+// For each brick: bit d says that points may have become removable along direction d, bit 8 that
+// there may be end points, bit 15 that the brick is of the odd sublattice.
+using Unsettled = uint16_t;
+inline constexpr Unsettled kEndPointsUnsettled = 1 << 8;
+inline constexpr Unsettled kDirectionsUnsettled = kEndPointsUnsettled - 1;
+inline constexpr Unsettled kOddBrick = 1 << 15;
+
+// Ranges of bricks start at multiples of this, and arrays of Unsettled are padded to one.
+inline constexpr size_t kUnsettledGroup = 32;
+
+// Bricks listed for a pass, by sublattice. The storage is as long as the list can get and is never
+// cleared: refilling it costs nothing.
+class BrickLists {
+ public:
+  void Reserve(size_t bricks) {
+    for (std::vector<BrickIndex>& list : storage_) list.resize(bricks);
+  }
+  std::span<const BrickIndex> Of(Sublattice sublattice) const {
+    const auto s = static_cast<size_t>(sublattice);
+    return {storage_[s].data(), count_[s]};
+  }
+  std::array<BrickIndex*, 2> storage() { return {storage_[0].data(), storage_[1].data()}; }
+  void SetCount(size_t sublattice, size_t count) { count_[sublattice] = count; }
+
+ private:
+  std::array<std::vector<BrickIndex>, 2> storage_;
+  std::array<size_t, 2> count_ = {0, 0};
+};
+
+// Lists the bricks in [first, last) that are unsettled along d, and those that are for end points;
+// both are then settled until something beside them is removed.
+// Needs: first is a multiple of kUnsettledGroup, and so is last or the rest of its group is zero;
+//        the lists have room for last - first.
+void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, DiagonalDirection d,
+                   BrickLists& along_d, BrickLists& end_points);
+
+// What a removal changes.
+struct RemovalView {
+  BrickBits* object = nullptr;
+  const BrickNeighborhood* neighbors = nullptr;
+  Unsettled* unsettled = nullptr;
+  const Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
+  BrickIndex first = 0;                // own bricks
+  BrickIndex last = 0;
+};
+
+// Removes the marked points, unsettles the bricks that see them, and appends to `elsewhere` those
+// outside [first, last).
+// Returns: the number of points removed.
+uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
+                      std::vector<BrickIndex>& elsewhere);
+
+// Makes the object's points of one shell candidates. Returns how many there are.
+uint64_t OpenShellInBrick(const ShellPlanes& planes, int32_t shell, const BrickBits& object,
+                          BrickBits& candidates);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_UNSETTLED_H_
