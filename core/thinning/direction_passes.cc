@@ -199,6 +199,7 @@ class DirectionPasses {
     std::vector<BrickIndex>& elsewhere = worker.seen_elsewhere[worker.parity];
     elsewhere.clear();
     const RemovalView view = {.object = state_.object.data(),
+                              .candidates = state_.candidates.data(),
                               .neighbors = state_.neighbors.data(),
                               .unsettled = unsettled_.data(),
                               .enabled = enabled_.data(),

@@ -56,9 +56,10 @@ void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Di
 // What a removal changes.
 struct RemovalView {
   BrickBits* object = nullptr;
+  const BrickBits* candidates = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
   Unsettled* unsettled = nullptr;
-  const Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
+  Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
   BrickIndex first = 0;                // own bricks
   BrickIndex last = 0;
 };
