@@ -17,8 +17,11 @@ constexpr double kMaxCrossings = 1 << 27;
 constexpr int kMaxSlabs = 256;
 constexpr size_t kTrianglesBetweenStops = 1 << 14;
 
-absl::Status CheckWork(const FillRequest& request) {
+absl::Status CheckWork(const FillRequest& request, const SegmentRule& rule) {
   CrossingWork total;
+  for (const SegmentRule::Region& region : rule.extra_regions()) {
+    total.crossings += 4.0 * (region.j.end - region.j.begin) * (region.k.end - region.k.begin);
+  }
   for (size_t t = 0; t < request.triangles.size(); ++t) {
     const CrossingWork work = EstimateWork(request, t);
     total.rows += work.rows;
@@ -257,7 +260,7 @@ class SlabFiller {
 
 absl::StatusOr<Volume> FillRows(const FillRequest& request, const SegmentRule& rule,
                                 const exec::Context& context) {
-  BCCSKEL_RETURN_IF_ERROR(CheckWork(request));
+  BCCSKEL_RETURN_IF_ERROR(CheckWork(request, rule));
   SlabFiller filler(request, rule, context);
   context.Run([&filler](int) { filler.Work(); });
   return filler.Finish();

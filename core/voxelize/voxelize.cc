@@ -7,6 +7,8 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/voxelize/boundary_caps.h"
+#include "core/voxelize/generalized_winding.h"
 #include "core/voxelize/grid_fit.h"
 #include "core/voxelize/row_fill.h"
 
@@ -45,12 +47,14 @@ absl::Status CheckOptions(const VoxelizeOptions& options) {
   return absl::OkStatus();
 }
 
+absl::Status CheckTriangles(const Surface& surface) {
+  if (!surface.triangles.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "nothing enclosed: every triangle of the mesh names a vertex twice after joining equal "
+      "vertices (are coordinates in float too far from the origin?)");
+}
+
 absl::Status CheckSize(const Surface& surface) {
-  if (surface.triangles.empty()) {
-    return absl::InvalidArgumentError(
-        "nothing enclosed: every triangle of the mesh names a vertex twice after joining equal "
-        "vertices (are coordinates in float too far from the origin?)");
-  }
   if (std::ranges::min(surface.upper_unit) <= 0) {
     return absl::InvalidArgumentError("nothing enclosed: the mesh is flat along an axis");
   }
@@ -98,14 +102,43 @@ std::vector<int8_t> TriangleSigns(const Surface& surface) {
   return signs;
 }
 
+// An open surface made closed, and the sense in which it turns outward.
+struct CappedSurface {
+  BoundaryCaps caps;
+  std::vector<TriangleMesh::Vertex> vertices;  // of the surface, then the apexes
+  std::vector<TriangleMesh::Triangle> triangles;
+  int8_t sign = 1;
+};
+
+double SignedVolume(const CappedSurface& capped) {
+  double volume = 0;
+  for (const auto& [u, v, w] : capped.triangles) {
+    const auto &a = capped.vertices[u], &b = capped.vertices[v], &c = capped.vertices[w];
+    volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+              a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return volume / 6;
+}
+
+CappedSurface CapSurface(const Surface& surface) {
+  CappedSurface capped = {CapBoundary(surface), surface.vertices, surface.triangles};
+  const BoundaryCaps& caps = capped.caps;
+  capped.vertices.insert(capped.vertices.end(), caps.apexes.begin(), caps.apexes.end());
+  capped.triangles.insert(capped.triangles.end(), caps.triangles.begin(), caps.triangles.end());
+  capped.sign = SignedVolume(capped) < 0 ? -1 : 1;
+  return capped;
+}
+
 class Voxelizer {
  public:
   Voxelizer(Surface surface, const VoxelizeOptions& options, const exec::Context& context)
       : surface_(std::move(surface)), options_(options), context_(context) {}
 
   absl::StatusOr<VoxelizeResult> Run() {
-    BCCSKEL_RETURN_IF_ERROR(CheckSize(surface_));
+    BCCSKEL_RETURN_IF_ERROR(CheckTriangles(surface_));
     BCCSKEL_ASSIGN_OR_RETURN(rule_, ChooseRule(surface_.report, options_.fill));
+    BCCSKEL_RETURN_IF_ERROR(CheckSize(surface_));
+    WarnAboutSurface();
     VoxelizeResult result;
     if (options_.spacing) {
       const double unit_spacing = *options_.spacing / surface_.half_size / 2;
@@ -120,14 +153,53 @@ class Voxelizer {
   }
 
  private:
+  void WarnAboutSurface() {
+    const MeshReport& mesh = surface_.report;
+    if (mesh.closure == SurfaceClosure::kOpen) {
+      warnings_.push_back(absl::StrFormat(
+          "the mesh is not closed (%s): filled where its generalized winding number exceeds 1/2",
+          DescribeDefects(mesh)));
+    } else if (mesh.closure == SurfaceClosure::kClosed) {
+      warnings_.push_back(
+          absl::StrFormat("the mesh is not consistently oriented (%d edges): filled by parity",
+                          mesh.misoriented_edges));
+    }
+    if (mesh.dropped_triangles > 0) {
+      warnings_.push_back(
+          absl::StrFormat("%d degenerate triangles were dropped", mesh.dropped_triangles));
+    }
+  }
+
   absl::StatusOr<Volume> Fill(double unit_spacing) {
     BCCSKEL_ASSIGN_OR_RETURN(const GridFit fit, FitGrid(surface_, unit_spacing));
-    FillRequest request = {fit.extent,         fit.placement,           {},
-                           surface_.triangles, TriangleSigns(surface_), options_.max_points};
-    request.vertices.reserve(surface_.vertices.size());
-    for (const auto& vertex : surface_.vertices) request.vertices.push_back(fit.Snap(vertex));
+    if (surface_.report.closure == SurfaceClosure::kOpen) return FillOpen(fit);
+    const FillRequest request = {
+        fit.extent,         fit.placement,           SnapAll(fit, surface_.vertices),
+        surface_.triangles, TriangleSigns(surface_), options_.max_points};
     if (rule_ == FillRule::kParity) return FillRows(request, ParityRule(), context_);
     return FillRows(request, WindingRule(), context_);
+  }
+
+  absl::StatusOr<Volume> FillOpen(const GridFit& fit) {
+    if (!capped_) capped_ = CapSurface(surface_);
+    const FillRequest request = {fit.extent,
+                                 fit.placement,
+                                 SnapAll(fit, capped_->vertices),
+                                 capped_->triangles,
+                                 std::vector<int8_t>(capped_->triangles.size(), capped_->sign),
+                                 options_.max_points};
+    std::vector<GeneralizedWindingRule::Vector> lattice;
+    for (const auto& vertex : capped_->vertices) lattice.push_back(fit.ToLattice(vertex));
+    const GeneralizedWindingRule rule(lattice, capped_->caps, fit.extent, capped_->sign);
+    return FillRows(request, rule, context_);
+  }
+
+  static std::vector<GridPoint> SnapAll(const GridFit& fit,
+                                        std::span<const TriangleMesh::Vertex> vertices) {
+    std::vector<GridPoint> snapped;
+    snapped.reserve(vertices.size());
+    for (const auto& vertex : vertices) snapped.push_back(fit.Snap(vertex));
+    return snapped;
   }
 
   // Spacing for a first try: from the enclosed volume, or a coarse one from the box.
@@ -176,6 +248,7 @@ class Voxelizer {
   }
 
   Surface surface_;
+  std::optional<CappedSurface> capped_;
   const VoxelizeOptions& options_;
   const exec::Context& context_;
   FillRule rule_ = FillRule::kParity;
