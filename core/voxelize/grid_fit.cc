@@ -7,6 +7,12 @@
 #include "core/volume/volume.h"
 
 namespace bccskel {
+namespace {
+
+// Unlike each other and less than the margin of half a lattice unit.
+constexpr std::array<double, 3> kOffCenterUnits = {0.31, -0.23, 0.37};
+
+}  // namespace
 
 GridPoint GridFit::Snap(const TriangleMesh::Vertex& unit) const {
   constexpr double kTicks = 1 << kTickBits;
@@ -19,7 +25,7 @@ std::array<double, 3> GridFit::ToLattice(const TriangleMesh::Vertex& unit) const
   return {offset[0] + unit[0] * scale, offset[1] + unit[1] * scale, offset[2] + unit[2] * scale};
 }
 
-absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing) {
+absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing, GridShift shift) {
   GridFit fit;
   fit.scale = 2 / unit_spacing;
   std::array<int32_t*, 3> cells = {&fit.extent.nx, &fit.extent.ny, &fit.extent.nz};
@@ -35,6 +41,7 @@ absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing) {
     }
     *cells[axis] = static_cast<int32_t>(needed);
     fit.offset[axis] = needed - 0.5 - length / 2 * fit.scale;
+    if (shift == GridShift::kOffCenter) fit.offset[axis] += kOffCenterUnits[axis];
     fit.placement.origin[axis] =
         surface.lower[axis] - fit.offset[axis] * (unit_spacing / 2) * surface.half_size * 2;
   }

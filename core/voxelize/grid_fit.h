@@ -14,6 +14,10 @@ namespace bccskel {
 // lattice units along an axis times 2^16 ticks stay within the 40 bits of exact ray crossing.
 inline constexpr int kTickBits = 16;
 
+// Where the middle of the mesh comes to lie: on the middle of the lattice, or some thirds of a
+// lattice unit beside it, still within the margin.
+enum class GridShift { kCentered, kOffCenter };
+
 // A bcc grid laid over the unit cube of a Surface: the middle of the box is the middle of the
 // lattice, at lattice coordinate n - 1/2 along each axis, with at least half a lattice unit of
 // margin. So a mesh and its mirror image get mirrored points.
@@ -31,7 +35,7 @@ struct GridFit {
 // Units:  `unit_spacing` is the edge of the cubic cell in units of the surface.
 // Errors: INVALID_ARGUMENT when origin or spacing do not fit a double; RESOURCE_EXHAUSTED when an
 //         axis needs more than kMaxExtentCells cells.
-absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing);
+absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing, GridShift shift);
 
 }  // namespace bccskel
 

@@ -7,30 +7,17 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
 #include "core/exec/context.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/volume/volume.h"
+#include "core/voxelize/fill_rule.h"
 
 namespace bccskel {
 
-// Which points are inside.
-//
-// kAuto     closed and consistently oriented surfaces: kWinding. Closed ones with inconsistent
-//           orientation: kParity, with a warning. Open ones are refused; the message says how many
-//           boundary edges there are.
-// kParity   inside where a ray crosses the surface an odd number of times. Needs a closed surface.
-//           Where parts overlap there is a hole; a nested shell is a cavity whatever its
-//           orientation; a part given twice vanishes.
-// kWinding  inside where the winding number is not 0. Each outermost component and all that it
-//           encloses are first turned so that the outermost one points outward, so inverted meshes
-//           give the same bits. Overlapping parts are joined; a nested shell is a cavity when it
-//           is oriented against the shell around it, and changes nothing when it is oriented alike.
-//           Closed surfaces of inconsistent orientation are refused. Open ones, and those with odd
-//           edges, are filled where the generalized winding number (Jacobson, Kavan,
-//           Sorkine-Hornung 2013) exceeds 1/2, after turning the mesh so that its volume is
-//           positive, with a warning.
-enum class FillRule { kAuto, kParity, kWinding };
+// Whether the topology of the grid is counted and compared with that of the mesh.
+enum class TopologyCheck { kCompare, kSkip };
 
 struct VoxelizeOptions {
   // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
@@ -38,14 +25,16 @@ struct VoxelizeOptions {
   std::optional<uint64_t> points;
   std::optional<double> spacing;
   FillRule fill = FillRule::kAuto;
+  TopologyCheck topology = TopologyCheck::kCompare;
   uint64_t max_points = uint64_t{1} << 33;
 };
 
 struct VoxelizeResult {
   Volume volume;
   MeshReport mesh;
-  std::vector<std::string> warnings;  // sentences for a person
-  FillRule fill = FillRule::kParity;  // the rule used, never kAuto
+  std::vector<std::string> warnings;     // sentences for a person
+  FillRule fill = FillRule::kParity;     // the rule used, never kAuto
+  std::optional<BettiNumbers> topology;  // of the volume, with TopologyCheck::kCompare
 };
 
 // Lays a bcc grid over the mesh, its middle on the middle of the box, and takes the lattice points
