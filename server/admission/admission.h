@@ -1,0 +1,79 @@
+#ifndef BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
+#define BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
+
+#include <cstdint>
+#include <mutex>
+#include <utility>
+
+#include "absl/status/statusor.h"
+
+namespace bccskel::server {
+
+class Admission;
+
+// A job's right to memory and to a place among the jobs. Gives both back when destroyed. An empty
+// ticket holds nothing.
+// Threads: one at a time per ticket.
+class Ticket {
+ public:
+  Ticket() = default;
+  ~Ticket() { Release(); }
+  Ticket(Ticket&& other) noexcept { *this = std::move(other); }
+  Ticket& operator=(Ticket&& other) noexcept;
+
+  uint64_t bytes() const { return bytes_; }
+  // Gives back what is over `bytes`.
+  void ShrinkTo(uint64_t bytes);
+  // Gives back the place among the jobs; the memory stays.
+  void LeavePlace();
+
+ private:
+  friend class Admission;
+  Ticket(Admission* admission, uint64_t bytes) : admission_(admission), bytes_(bytes), places_(1) {}
+  void Release();
+
+  Admission* admission_ = nullptr;
+  uint64_t bytes_ = 0;
+  int places_ = 0;
+};
+
+// Lets jobs in while the sum of their demands stays within the limits. It decides at once, from
+// what a volume's declaration says, and nothing ever waits for it. Needs: outlives its tickets.
+class Admission {
+ public:
+  struct Limits {
+    uint64_t bytes = 0;  // of all jobs together
+    int places = 0;      // jobs that receive, wait or run
+  };
+  struct Usage {
+    uint64_t bytes = 0;
+    int places = 0;
+
+    friend bool operator==(const Usage&, const Usage&) = default;
+  };
+
+  explicit Admission(const Limits& limits) : limits_(limits) {}
+
+  // Errors: a Refusal: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
+  // or
+  //         kDraining.
+  absl::StatusOr<Ticket> Admit(uint64_t bytes);
+
+  // From now on every job is refused as kDraining.
+  void StopAdmitting();
+
+  Usage usage() const;
+
+ private:
+  friend class Ticket;
+  void GiveBack(const Usage& part);
+
+  const Limits limits_;
+  mutable std::mutex mutex_;
+  Usage usage_;            // guarded by mutex_
+  bool admitting_ = true;  // guarded by mutex_
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_ADMISSION_ADMISSION_H_

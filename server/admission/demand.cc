@@ -1,0 +1,43 @@
+#include "server/admission/demand.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace bccskel::server {
+namespace {
+
+// Memory of the pipeline per occupied brick. Measured peak of resident memory; see the test
+// DemandLaw in tests/server/admission, which fails when the pipeline needs more.
+constexpr uint64_t kPipelineBytesPerBrick = 4096;
+// Stacks, tables, chunks in flight and the allocator's slack.
+constexpr uint64_t kFixedBytes = uint64_t{4} << 20;
+
+uint64_t SaturatingAdd(uint64_t a, uint64_t b) {
+  uint64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<uint64_t>::max() : sum;
+}
+
+uint64_t PipelineBytes(uint64_t bricks) {
+  uint64_t bytes = 0;
+  return __builtin_mul_overflow(bricks, kPipelineBytesPerBrick, &bytes)
+             ? std::numeric_limits<uint64_t>::max()
+             : bytes;
+}
+
+}  // namespace
+
+uint64_t BytesToSkeletonize(const VolumeHeader& declared, uint64_t size_bytes) {
+  return SaturatingAdd(SaturatingAdd(declared.DecodingBytes(size_bytes), kFixedBytes),
+                       PipelineBytes(declared.max_bricks));
+}
+
+uint64_t BytesToSkeletonize(const Volume& volume) {
+  return kFixedBytes + PipelineBytes(volume.brick_count());
+}
+
+int ThreadsFor(uint64_t bricks, int wanted, int threads) {
+  if (bricks <= kSmallJobBricks) return 1;
+  return wanted > 0 ? std::min(wanted, threads) : threads;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,43 @@
+#include "server/jobs/job_pool.h"
+
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "server/admission/demand.h"
+#include "server/admission/refusal.h"
+#include "server/jobs/pool_job.h"
+
+namespace bccskel::server {
+namespace {
+
+// Decoding is several times faster than a connection brings bytes; two threads keep a job with a
+// slow decoder from holding up the others' uploads.
+constexpr int kDecoderThreads = 2;
+
+absl::Status CheckSize(const JobRequest& request, uint64_t max_volume_bytes) {
+  if (request.size_bytes <= max_volume_bytes) return absl::OkStatus();
+  return Refuse(Refusal::kVolumeTooLarge,
+                absl::StrFormat("the declared volume has %d bytes, the limit is %d",
+                                request.size_bytes, max_volume_bytes));
+}
+
+}  // namespace
+
+JobPool::JobPool(const Limits& limits)
+    : limits_(limits),
+      admission_({.bytes = limits.max_bytes, .places = limits.max_jobs + limits.max_queue}),
+      compute_(limits.threads, limits.max_jobs),
+      decoders_(kDecoderThreads) {}
+
+absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
+                                                    std::shared_ptr<JobListener> listener) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(request, limits_.max_volume_bytes));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      Ticket ticket, admission_.Admit(BytesToSkeletonize(request.header, request.size_bytes)));
+  return std::make_shared<PoolJob>(absl::StrFormat("jobs/%d", next_job_++), std::move(request),
+                                   std::move(ticket), limits_.volume, std::move(listener),
+                                   decoders_, compute_);
+}
+
+}  // namespace bccskel::server

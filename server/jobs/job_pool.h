@@ -1,0 +1,49 @@
+#ifndef BCCSKEL_SERVER_JOBS_JOB_POOL_H_
+#define BCCSKEL_SERVER_JOBS_JOB_POOL_H_
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "server/admission/admission.h"
+#include "server/jobs/compute_queue.h"
+#include "server/jobs/job_runner.h"
+#include "server/jobs/task_threads.h"
+
+namespace bccskel::server {
+
+// Runs jobs in this process: admits them, decodes on threads of their own, computes on the threads
+// of a ComputeQueue. Jobs end with the process.
+class JobPool : public JobRunner {
+ public:
+  struct Limits {
+    int threads = 1;                // for computing, all jobs together
+    int max_jobs = 1;               // that run at the same time
+    int max_queue = 0;              // that receive or wait beside them
+    uint64_t max_bytes = 0;         // working memory of all jobs together
+    uint64_t max_volume_bytes = 0;  // encoded, of one job
+    VolumeLimits volume;
+  };
+
+  explicit JobPool(const Limits& limits);
+
+  absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
+                                             std::shared_ptr<JobListener> listener) override;
+
+  // New jobs are refused; those that were let in go on.
+  void StopAdmitting() { admission_.StopAdmitting(); }
+
+  ComputeQueue::Usage compute_usage() const { return compute_.usage(); }
+  Admission::Usage admission_usage() const { return admission_.usage(); }
+
+ private:
+  const Limits limits_;
+  Admission admission_;
+  std::atomic<uint64_t> next_job_{1};
+  ComputeQueue compute_;
+  TaskThreads decoders_;  // destroyed first: what it runs may still post to compute_
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_JOB_POOL_H_

@@ -1,0 +1,79 @@
+#ifndef BCCSKEL_SERVER_JOBS_JOB_RUNNER_H_
+#define BCCSKEL_SERVER_JOBS_JOB_RUNNER_H_
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+#include "core/exec/context.h"
+#include "core/io/volume_header.h"
+#include "core/pipeline/skeletonize.h"
+#include "server/admission/admission.h"
+
+namespace bccskel::server {
+
+// What a caller wants computed, and the volume it promises to send.
+struct JobRequest {
+  VolumeHeader header;      // as declared and completed; not yet compared with the bytes
+  uint64_t size_bytes = 0;  // of the encoded volume
+  SkeletonizeOptions options;
+  std::optional<VolumeEncoding> thin_volume;  // how to encode the thinned volume, if it is wanted
+  int threads_wanted = 0;                     // 0 leaves it to the server
+  exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
+};
+
+struct JobResult {
+  SkeletonizeResult skeleton;
+  std::string thin_volume;  // encoded; empty unless asked for
+  std::chrono::nanoseconds queued{0};
+  std::chrono::nanoseconds decoded{0};
+  int threads = 1;
+  Ticket ticket;  // keeps the result's memory admitted for as long as the result lives
+};
+
+// Hears what becomes of a job. Called on the job's threads, never from inside a call to the job;
+// the listener must not block.
+class JobListener {
+ public:
+  virtual ~JobListener() = default;
+  // The bytes of the last Append() are decoded: there is room for more. May come after OnEnd().
+  virtual void OnBytesConsumed() = 0;
+  // `elapsed` since the computation began.
+  virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
+  // Exactly once, whatever happens.
+  virtual void OnEnd(absl::StatusOr<JobResult> result) = 0;
+};
+
+// A job that has been let in. No call blocks. A job whose handle is dropped goes on; Cancel() ends
+// it.
+// Threads: safe.
+class Job {
+ public:
+  virtual ~Job() = default;
+  virtual const std::string& name() const = 0;
+  // The volume's next bytes. Needs: OnBytesConsumed() has come for the bytes before.
+  virtual void Append(std::string bytes) = 0;
+  // No more bytes come. `expected` is the digest that the sender found, if it found one.
+  // Needs: as Append(); called once, after the last Append().
+  virtual void FinishVolume(std::optional<Sha256Digest> expected) = 0;
+  // The job ends with CANCELLED, unless it has ended already.
+  virtual void Cancel() = 0;
+};
+
+// Where handlers get their jobs done. This interface is the place where durable jobs will enter.
+class JobRunner {
+ public:
+  virtual ~JobRunner() = default;
+  // Decides at once from the declaration; nothing is decoded yet.
+  // Errors: a Refusal (admission/refusal.h).
+  virtual absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
+                                                     std::shared_ptr<JobListener> listener) = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_JOB_RUNNER_H_

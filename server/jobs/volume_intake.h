@@ -1,0 +1,50 @@
+#ifndef BCCSKEL_SERVER_JOBS_VOLUME_INTAKE_H_
+#define BCCSKEL_SERVER_JOBS_VOLUME_INTAKE_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+#include "core/exec/context.h"
+#include "core/io/volume_decoder.h"
+
+namespace bccskel::server {
+
+// Takes in the bytes of a declared volume: digests them, holds the volume's own header against the
+// declaration, decodes.
+// Threads: one at a time.
+class VolumeIntake {
+ public:
+  // Needs: `declared` completed under `limits`.
+  VolumeIntake(const VolumeHeader& declared, uint64_t size_bytes, const VolumeLimits& limits);
+
+  // Needs: no more than `size_bytes` in all.
+  // Errors: INVALID_ARGUMENT for bytes that are malformed or not what was declared;
+  //         RESOURCE_EXHAUSTED for a volume over the limits.
+  absl::Status Append(std::string_view bytes);
+
+  // Errors: as Append(); INVALID_ARGUMENT for another digest than `expected`; CANCELLED,
+  //         DEADLINE_EXCEEDED.
+  absl::StatusOr<Volume> Finish(const std::optional<Sha256Digest>& expected,
+                                const exec::Context& context);
+
+ private:
+  absl::Status Decode(std::string_view bytes);
+  absl::Status StartDecoder(std::string_view front);
+  absl::Status AsCallersError(absl::Status status) const;
+
+  const VolumeHeader declared_;
+  const uint64_t size_bytes_;
+  VolumeLimits limits_;
+  Sha256 sha256_;
+  std::string front_;  // until the header is complete
+  std::unique_ptr<VolumeDecoder> decoder_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_VOLUME_INTAKE_H_

@@ -1,0 +1,32 @@
+#ifndef BCCSKEL_SERVER_LOGGING_JSON_LOG_H_
+#define BCCSKEL_SERVER_LOGGING_JSON_LOG_H_
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <variant>
+
+// Structured logs: one JSON object a line on standard error, with time, level, event and the
+// event's own fields.
+
+namespace bccskel::server {
+
+enum class LogLevel { kDebug, kInfo, kWarning, kError };
+
+struct LogField {
+  std::string_view name;
+  std::variant<int64_t, double, std::string> value;
+};
+
+// `level` as on the command line: trace, debug, info, warning, error, off.
+void StartLogging(const std::string& level);
+
+void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
+
+// A JSON string with its quotes. Bytes that are not UTF-8 are replaced.
+std::string JsonString(std::string_view text);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_LOGGING_JSON_LOG_H_

@@ -1,0 +1,127 @@
+#include "server/service/job_request.h"
+
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+#include "proto/wire/options.h"
+#include "proto/wire/placement.h"
+
+namespace bccskel::server {
+namespace {
+
+using wire::InvalidField;
+
+absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
+  switch (encoding) {
+    case v1::VOLUME_ENCODING_OPENEXR:
+      return VolumeEncoding::kOpenExr;
+    case v1::VOLUME_ENCODING_RAW_PLANES:
+      return VolumeEncoding::kRawPlanes;
+    case v1::VOLUME_ENCODING_BRICKS:
+      return VolumeEncoding::kBricks;
+    case v1::VOLUME_ENCODING_UNSPECIFIED:
+      return InvalidField(field, "must be set");
+    default:
+      return InvalidField(field, absl::StrCat("unknown encoding ", int{encoding}));
+  }
+}
+
+absl::StatusOr<VolumeCompression> CompressionOf(const v1::VolumeDeclaration& volume,
+                                                const std::string& field) {
+  switch (volume.compression()) {
+    case v1::VOLUME_COMPRESSION_UNSPECIFIED:
+      return VolumeCompression::kNone;
+    case v1::VOLUME_COMPRESSION_NONE:
+      return VolumeCompression::kNone;
+    case v1::VOLUME_COMPRESSION_ZSTD:
+      return VolumeCompression::kZstd;
+    default:
+      return InvalidField(field, absl::StrCat("unknown compression ", int{volume.compression()}));
+  }
+}
+
+absl::StatusOr<std::optional<VolumeEncoding>> ThinVolumeOf(v1::ThinVolumeReturn thin) {
+  switch (thin) {
+    case v1::THIN_VOLUME_RETURN_UNSPECIFIED:
+    case v1::THIN_VOLUME_RETURN_OMIT:
+      return std::nullopt;
+    case v1::THIN_VOLUME_RETURN_OPENEXR:
+      return VolumeEncoding::kOpenExr;
+    case v1::THIN_VOLUME_RETURN_BRICKS:
+      return VolumeEncoding::kBricks;
+    default:
+      return InvalidField("config.thin_volume_return", absl::StrCat("unknown ", int{thin}));
+  }
+}
+
+// The compression whose decoder needs the most memory stands for those that a volume's own bytes
+// name later.
+VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
+  switch (encoding) {
+    case VolumeEncoding::kOpenExr:
+      return VolumeCompression::kZip;
+    case VolumeEncoding::kRawPlanes:
+      return declared;
+    case VolumeEncoding::kBricks:
+      return VolumeCompression::kZstd;
+  }
+  return declared;
+}
+
+// What the core finds wrong with a declaration, with the details that a caller gets.
+absl::Status DeclarationError(absl::Status status) {
+  if (!absl::IsResourceExhausted(status)) {
+    return InvalidField("config.volume", std::string(status.message()));
+  }
+  return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
+}
+
+absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
+                                      const VolumeLimits& limits) {
+  const std::string field = "config.volume";
+  VolumeHeader header;
+  BCCSKEL_ASSIGN_OR_RETURN(header.encoding, EncodingOf(volume.encoding(), field + ".encoding"));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeCompression compression,
+                           CompressionOf(volume, field + ".compression"));
+  header.compression = ReservedCompression(header.encoding, compression);
+  BCCSKEL_ASSIGN_OR_RETURN(header.extent, wire::FromMessage(volume.extent(), field + ".extent"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.placement,
+                           wire::FromMessage(volume.placement(), field + ".placement"));
+  if (volume.max_bricks() > 0) header.declared_bricks = volume.max_bricks();
+  if (header.encoding == VolumeEncoding::kBricks && !header.declared_bricks.has_value()) {
+    return InvalidField(field + ".max_bricks", "0, must be the number of bricks");
+  }
+  absl::StatusOr<VolumeHeader> complete = CompleteVolumeHeader(header, limits);
+  if (!complete.ok()) return DeclarationError(complete.status());
+  return complete;
+}
+
+absl::Status CheckSize(const VolumeHeader& header, uint64_t size_bytes) {
+  if (size_bytes == 0) return InvalidField("config.volume.size_bytes", "must be set");
+  if (size_bytes <= header.max_encoded_bytes) return absl::OkStatus();
+  return InvalidField("config.volume.size_bytes",
+                      absl::StrCat(size_bytes, " bytes, a volume of this extent and encoding has ",
+                                   header.max_encoded_bytes, " at most"));
+}
+
+}  // namespace
+
+absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
+                                        const VolumeLimits& limits) {
+  JobRequest request;
+  BCCSKEL_ASSIGN_OR_RETURN(request.header, HeaderOf(config.volume(), limits));
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.header, config.volume().size_bytes()));
+  request.size_bytes = config.volume().size_bytes();
+  BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
+  BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
+  if (config.threads() < 0) {
+    return InvalidField("config.threads", absl::StrCat(config.threads(), ", must be at least 0"));
+  }
+  request.threads_wanted = config.threads();
+  return request;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,96 @@
+#include "server/service/request_sequence.h"
+
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+
+namespace bccskel::server {
+namespace {
+
+using wire::WithField, wire::WithReason;
+
+constexpr size_t kDigestBytes = 32;
+
+absl::Status WrongSize(const std::string& field, const std::string& message) {
+  return WithField(WithReason(absl::InvalidArgumentError(message), "VOLUME_SIZE"), field);
+}
+
+}  // namespace
+
+absl::Status RequestSequence::Take(const v1::SkeletonizeRequest& request) {
+  switch (request.request_case()) {
+    case v1::SkeletonizeRequest::kConfig:
+      return TakeConfig(request.config());
+    case v1::SkeletonizeRequest::kChunk:
+      return TakeChunk(request.chunk());
+    case v1::SkeletonizeRequest::kFinish:
+      return TakeFinish(request.finish());
+    case v1::SkeletonizeRequest::REQUEST_NOT_SET:
+      break;
+  }
+  return wire::InvalidField("request", "holds neither config nor chunk nor finish");
+}
+
+absl::Status RequestSequence::HalfClose() const {
+  if (finished()) return absl::OkStatus();
+  return WithReason(absl::InvalidArgumentError(
+                        absl::StrCat("the stream was closed without finish after ",
+                                     committed_bytes_, " of ", declared_bytes_, " declared bytes")),
+                    "VOLUME_TRUNCATED");
+}
+
+absl::Status RequestSequence::TakeConfig(const v1::SkeletonizeConfig& config) {
+  BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kConfig, "config"));
+  expected_ = Expected::kBytes;
+  declared_bytes_ = config.volume().size_bytes();
+  return absl::OkStatus();
+}
+
+absl::Status RequestSequence::TakeChunk(const v1::VolumeChunk& chunk) {
+  BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kBytes, "chunk"));
+  if (chunk.offset() != committed_bytes_) {
+    return WithReason(absl::OutOfRangeError(absl::StrCat("chunk at offset ", chunk.offset(), ", ",
+                                                         committed_bytes_, " bytes came so far")),
+                      "CHUNK_OFFSET", {{"committed_size", absl::StrCat(committed_bytes_)}});
+  }
+  const size_t size = chunk.data().size();
+  if (size > kMaxChunkBytes) {
+    return wire::InvalidField("chunk.data",
+                              absl::StrCat(size, " bytes, the limit is ", kMaxChunkBytes));
+  }
+  if (size > declared_bytes_ - committed_bytes_) {
+    return WrongSize("chunk.data", absl::StrCat("more than the declared ", declared_bytes_,
+                                                " bytes of the volume"));
+  }
+  committed_bytes_ += size;
+  return absl::OkStatus();
+}
+
+absl::Status RequestSequence::TakeFinish(const v1::VolumeFinish& finish) {
+  BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kBytes, "finish"));
+  if (finish.size_bytes() != committed_bytes_ || committed_bytes_ != declared_bytes_) {
+    return WrongSize("finish.size_bytes",
+                     absl::StrCat("finish states ", finish.size_bytes(), " bytes, ",
+                                  committed_bytes_, " came, ", declared_bytes_, " were declared"));
+  }
+  if (!finish.sha256().empty() && finish.sha256().size() != kDigestBytes) {
+    return wire::InvalidField(
+        "finish.sha256", absl::StrCat(finish.sha256().size(), " bytes, must be ", kDigestBytes));
+  }
+  expected_ = Expected::kNothing;
+  return absl::OkStatus();
+}
+
+absl::Status RequestSequence::CheckExpected(Expected expected, const char* request) const {
+  if (expected == expected_) return absl::OkStatus();
+  const char* const place = expected_ == Expected::kConfig  ? "before config"
+                            : expected_ == Expected::kBytes ? "after config"
+                                                            : "after finish";
+  return WithReason(absl::InvalidArgumentError(absl::StrCat(request, " came ", place)),
+                    "REQUEST_ORDER");
+}
+
+}  // namespace bccskel::server

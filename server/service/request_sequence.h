@@ -1,0 +1,43 @@
+#ifndef BCCSKEL_SERVER_SERVICE_REQUEST_SEQUENCE_H_
+#define BCCSKEL_SERVER_SERVICE_REQUEST_SEQUENCE_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "bccskel/v1/skeletonization_service.pb.h"
+
+namespace bccskel::server {
+
+inline constexpr size_t kMaxChunkBytes = size_t{1} << 20;
+
+// Holds the requests of a stream to their order: config, chunks without gaps, finish, half-close.
+class RequestSequence {
+ public:
+  // Checks one more request against what came before and the declared size.
+  // Errors: INVALID_ARGUMENT for a request out of order, a chunk or a volume of a wrong size;
+  //         OUT_OF_RANGE, with the committed size, for a chunk with a wrong offset.
+  absl::Status Take(const v1::SkeletonizeRequest& request);
+
+  // The caller sends no more.
+  // Errors: INVALID_ARGUMENT before finish.
+  absl::Status HalfClose() const;
+
+  bool finished() const { return expected_ == Expected::kNothing; }
+
+ private:
+  enum class Expected { kConfig, kBytes, kNothing };
+
+  absl::Status TakeConfig(const v1::SkeletonizeConfig& config);
+  absl::Status TakeChunk(const v1::VolumeChunk& chunk);
+  absl::Status TakeFinish(const v1::VolumeFinish& finish);
+  absl::Status CheckExpected(Expected expected, const char* request) const;
+
+  Expected expected_ = Expected::kConfig;
+  uint64_t declared_bytes_ = 0;
+  uint64_t committed_bytes_ = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SERVICE_REQUEST_SEQUENCE_H_

@@ -1,0 +1,44 @@
+#ifndef BCCSKEL_SERVER_SERVICE_RESPONSE_OUTBOX_H_
+#define BCCSKEL_SERVER_SERVICE_RESPONSE_OUTBOX_H_
+
+#include <optional>
+#include <string>
+
+#include "bccskel/v1/skeletonization_service.pb.h"
+#include "proto/wire/skeleton_chunks.h"
+#include "server/jobs/job_runner.h"
+
+namespace bccskel::server {
+
+// What is still to be sent on a stream. Memory is bounded however slowly the caller reads: of the
+// progress only the latest is kept, and a result is cut into responses one at a time.
+class ResponseOutbox {
+ public:
+  void Accept(const std::string& job);
+  void Report(v1::ShellProgress progress) { progress_ = std::move(progress); }
+  void Complete(JobResult result);
+
+  // The next response, if there is one now.
+  std::optional<v1::SkeletonizeResponse> Next();
+
+  // The summary has been handed out: nothing will come any more.
+  bool AtEnd() const { return stage_ == Stage::kEnd; }
+
+ private:
+  enum class Stage { kJob, kSkeleton, kThinVolume, kSummary, kEnd };
+
+  std::optional<v1::SkeletonizeResponse> NextOfResult();
+  v1::SkeletonizeResponse NextThinVolumeChunk();
+  v1::SkeletonizeResponse Summary() const;
+
+  std::optional<v1::SkeletonizeAccepted> accepted_;
+  std::optional<v1::ShellProgress> progress_;
+  Stage stage_ = Stage::kJob;
+  JobResult result_;
+  std::optional<wire::SkeletonChunkPager> pager_;  // over result_
+  size_t thin_volume_offset_ = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SERVICE_RESPONSE_OUTBOX_H_

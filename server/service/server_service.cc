@@ -1,0 +1,44 @@
+#include "server/service/server_service.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <string>
+
+#include "core/version/version.h"
+#include "server/service/algorithm.h"
+#include "server/service/request_sequence.h"
+
+namespace bccskel::server {
+namespace {
+
+void Set(v1::ServerLimits& message, const JobPool::Limits& limits) {
+  message.set_max_volume_bytes(limits.max_volume_bytes);
+  message.set_max_bricks(limits.volume.max_bricks);
+  message.set_max_admitted_bytes(limits.max_bytes);
+  message.set_max_jobs(static_cast<uint32_t>(limits.max_jobs));
+  message.set_max_queue(static_cast<uint32_t>(limits.max_queue));
+  message.set_threads(static_cast<uint32_t>(limits.threads));
+  message.set_max_chunk_bytes(kMaxChunkBytes);
+  message.set_max_message_bytes(kMaxMessageBytes);
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerContext* context,
+                                                         const v1::GetCapabilitiesRequest*,
+                                                         v1::GetCapabilitiesResponse* response) {
+  response->set_server_version(std::string(Version()));
+  response->set_algorithm_version(kAlgorithmVersion);
+  response->add_api_versions("v1");
+  response->add_encodings(v1::VOLUME_ENCODING_OPENEXR);
+  response->add_encodings(v1::VOLUME_ENCODING_RAW_PLANES);
+  response->add_encodings(v1::VOLUME_ENCODING_BRICKS);
+  response->add_compressions(v1::VOLUME_COMPRESSION_NONE);
+  response->add_compressions(v1::VOLUME_COMPRESSION_ZSTD);
+  Set(*response->mutable_limits(), limits_);
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(grpc::Status::OK);
+  return reactor;
+}
+
+}  // namespace bccskel::server

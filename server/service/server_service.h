@@ -1,0 +1,25 @@
+#ifndef BCCSKEL_SERVER_SERVICE_SERVER_SERVICE_H_
+#define BCCSKEL_SERVER_SERVICE_SERVER_SERVICE_H_
+
+#include "bccskel/v1/server_service.grpc.pb.h"
+#include "server/jobs/job_pool.h"
+
+namespace bccskel::server {
+
+inline constexpr int kMaxMessageBytes = 4 << 20;
+
+class ServerService final : public v1::ServerService::CallbackService {
+ public:
+  explicit ServerService(const JobPool::Limits& limits) : limits_(limits) {}
+
+  grpc::ServerUnaryReactor* GetCapabilities(grpc::CallbackServerContext* context,
+                                            const v1::GetCapabilitiesRequest* request,
+                                            v1::GetCapabilitiesResponse* response) override;
+
+ private:
+  const JobPool::Limits limits_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SERVICE_SERVER_SERVICE_H_

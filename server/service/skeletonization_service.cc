@@ -1,0 +1,12 @@
+#include "server/service/skeletonization_service.h"
+
+#include "server/service/skeletonize_stream.h"
+
+namespace bccskel::server {
+
+grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>*
+SkeletonizationService::Skeletonize(grpc::CallbackServerContext* context) {
+  return SkeletonizeStream::Start(context, runner_, limits_);
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,78 @@
+#include "server/status_mapping.h"
+
+#include <string>
+#include <utility>
+
+#include "proto/wire/error_details.h"
+#include "server/admission/refusal.h"
+
+namespace bccskel::server {
+namespace {
+
+// A job frees its place within seconds at most times; clients add jitter and back off.
+const absl::Duration kRetryDelay = absl::Seconds(1);
+
+// The reason of an error that has none of its own. Handlers name theirs; what is left comes from a
+// job, where a wrong argument is a wrong volume.
+const char* DefaultReason(absl::StatusCode code) {
+  switch (code) {
+    case absl::StatusCode::kInvalidArgument:
+      return "VOLUME_INVALID";
+    case absl::StatusCode::kResourceExhausted:
+      return "LIMIT_EXCEEDED";
+    case absl::StatusCode::kUnavailable:
+      return "UNAVAILABLE";
+    case absl::StatusCode::kCancelled:
+      return "CANCELLED";
+    case absl::StatusCode::kDeadlineExceeded:
+      return "DEADLINE_EXCEEDED";
+    default:
+      return "SERVER_DEFECT";
+  }
+}
+
+absl::Status WithRefusal(absl::Status status, Refusal refusal) {
+  using wire::WithQuota, wire::WithReason, wire::WithRetryDelay;
+  switch (refusal) {
+    case Refusal::kVolumeTooLarge:
+      return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_volume_bytes");
+    case Refusal::kTooManyBricks:
+      return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
+    case Refusal::kTooMuchMemory:
+      return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_admitted_bytes");
+    case Refusal::kQueueFull:
+      return WithRetryDelay(WithReason(std::move(status), "QUEUE_FULL"), kRetryDelay);
+    case Refusal::kMemoryBusy:
+      return WithRetryDelay(WithReason(std::move(status), "MEMORY_BUSY"), kRetryDelay);
+    case Refusal::kDraining:
+      return WithRetryDelay(WithReason(std::move(status), "DRAINING"), kRetryDelay);
+  }
+  return status;
+}
+
+// What a job found too large only while decoding: the number of bricks.
+absl::Status WithJobLimit(absl::Status status) {
+  return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
+}
+
+absl::Status WithAllDetails(const absl::Status& status) {
+  // Payloads of our own, such as the refusal, stay here.
+  absl::Status detailed = wire::FromRpcStatus(wire::ToRpcStatus(status));
+  if (const auto refusal = RefusalOf(status); refusal.has_value()) {
+    return WithRefusal(absl::Status(status.code(), status.message()), *refusal);
+  }
+  if (wire::ErrorInfoOf(detailed).has_value()) return detailed;
+  if (absl::IsResourceExhausted(status)) return WithJobLimit(std::move(detailed));
+  return wire::WithReason(std::move(detailed), DefaultReason(status.code()));
+}
+
+}  // namespace
+
+grpc::Status ToGrpcStatus(const absl::Status& status) {
+  if (status.ok()) return grpc::Status::OK;
+  const v1::Status detailed = wire::ToRpcStatus(WithAllDetails(status));
+  return grpc::Status(static_cast<grpc::StatusCode>(detailed.code()), detailed.message(),
+                      detailed.SerializeAsString());
+}
+
+}  // namespace bccskel::server
