@@ -14,7 +14,8 @@
 namespace bccskel {
 
 // The shell of a distance: floor(distance / shell_width + 1/2), at least 1 (section 4, S_i, for
-// object points). `distance` in counts of `weights`, `shell_width` in lattice units.
+// object points). `distance` in counts of `weights`; `shell_width` in lattice units, rounded to a
+// 64th of a count so that the rule is one of integers.
 int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
 
 // The shells of an object's points, sliced into bit planes: plane b of a brick holds bit b of

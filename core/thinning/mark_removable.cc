@@ -198,7 +198,6 @@ size_t MarkPossiblySimpleTarget(const ObjectView& view, Sublattice sublattice,
     return PossiblySimple<Sublattice::kOdd>(view, brick);
   });
 }
-const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bccskel
@@ -212,7 +211,6 @@ HWY_EXPORT(MarkRemovableTarget);
 HWY_EXPORT(KeepThinBricksTarget);
 HWY_EXPORT(MarkEndPointsTarget);
 HWY_EXPORT(MarkPossiblySimpleTarget);
-HWY_EXPORT(TargetName);
 
 size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
                         std::span<const BrickIndex> bricks, BrickIndex* kept) {
@@ -234,30 +232,6 @@ size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   return HWY_DYNAMIC_DISPATCH(MarkPossiblySimpleTarget)(view, sublattice, bricks, marked);
 }
-
-std::vector<std::string> SupportedInstructionSets() {
-  std::vector<std::string> names;
-  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
-    names.emplace_back(hwy::TargetName(left & -left));  // lower bits are better targets
-  }
-  return names;
-}
-
-bool ChooseInstructionSet(const std::string& name) {
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  if (name.empty()) return true;
-  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
-    const int64_t target = left & -left;
-    if (name != hwy::TargetName(target)) continue;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return true;
-  }
-  return false;
-}
-
-std::string ChosenInstructionSet() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
 
 }  // namespace bccskel
 #endif  // HWY_ONCE

@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "core/lattice/directions.h"
 #include "core/volume/brick.h"
@@ -65,14 +63,6 @@ size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
 // end point is one of them. Shapes and result as MarkRemovable().
 size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
                           std::span<const BrickIndex> bricks, MarkedBrick* marked);
-
-// The instruction sets this machine can run, best first; results do not depend on the choice.
-std::vector<std::string> SupportedInstructionSets();
-// Uses this one from now on; an empty name goes back to the best.
-// Returns false when the machine cannot run it. Threads: not while kernels run.
-bool ChooseInstructionSet(const std::string& name);
-// The one in use.
-std::string ChosenInstructionSet();
 
 }  // namespace bccskel
 

@@ -1,0 +1,185 @@
+#include "core/distance/chamfer_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/distance/chamfer_rows.h"
+#include "core/exec/instruction_sets.h"
+#include "tests/support/random_objects.h"
+#include "tests/support/reference_distance.h"
+#include "tests/support/reference_point_set.h"
+
+namespace bccskel {
+namespace {
+
+void ExpectReferenceDistances(const Volume& object, const exec::Context& context) {
+  const auto field = ComputeChamferDistance(object, context);
+  ASSERT_TRUE(field.ok()) << field.status();
+  const test::ReferencePointSet points(object);
+  const std::vector<uint32_t> expected = test::ReferenceChamfer(points);
+  uint32_t largest = 0;
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      const LatticePoint p = PointOf(object.keys()[n].coordinates(), bit);
+      const uint32_t wanted = points.Contains(p) ? expected[points.Index(p)] : 0;
+      ASSERT_EQ(field->At(n, bit), wanted) << p.x << " " << p.y << " " << p.z;
+      largest = std::max(largest, wanted);
+    }
+  }
+  EXPECT_EQ(field->largest(), largest);
+}
+
+TEST(ChamferDistance, OfTwoPointsIsTheShortestPathOfSteps) {
+  const LatticePoint origin = {20, 20, 20};
+  for (int x = 0; x < 40; ++x) {
+    for (int y = 0; y < 40; ++y) {
+      for (int z = 0; z < 40; ++z) {
+        if (!IsOnLattice({x, y, z})) continue;
+        ASSERT_EQ(ChamferBetween(origin, {x, y, z}, kShortChamfer),
+                  test::ReferenceChamferBetween(origin, {x, y, z}));
+      }
+    }
+  }
+}
+
+TEST(ChamferDistance, WeightsAreRootThreeAndTwoOfTheUnit) {
+  for (const ChamferWeights& w : {kShortChamfer, kLongChamfer}) {
+    const double unit = w.half_units / 2.0;
+    EXPECT_EQ(w.axial / unit, 2);
+    EXPECT_NEAR(w.diagonal / unit, std::sqrt(3.0), 1e-4);
+  }
+}
+
+// The promise of both headers: fixed point rounds as the real weights do.
+TEST(ChamferDistance, FixedPointRoundsAsTheRealWeightsDo) {
+  struct Range {
+    ChamferWeights weights;
+    int units;
+  };
+  for (const Range& range : {Range{kShortChamfer, 627}, Range{kLongChamfer, 4200}}) {
+    const auto& w = range.weights;
+    for (int diagonal = 0; diagonal * std::sqrt(3.0) < range.units; ++diagonal) {
+      for (int axial = 0; diagonal * std::sqrt(3.0) + 2 * axial < range.units; ++axial) {
+        const double real = diagonal * std::sqrt(3.0) + 2 * axial;
+        const uint64_t counts = uint64_t{w.diagonal} * static_cast<uint64_t>(diagonal) +
+                                uint64_t{w.axial} * static_cast<uint64_t>(axial);
+        const auto rounded = (4 * counts + w.half_units) / (2 * w.half_units);
+        ASSERT_EQ(static_cast<double>(rounded), std::floor(real + 0.5)) << diagonal << "," << axial;
+      }
+    }
+  }
+}
+
+class ChamferDistanceLaw : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(ChamferDistanceLaw, AgreesWithTheReferenceOnRandomObjects) {
+  const uint64_t seed = GetParam();
+  const LatticeExtent extent = {37, 21, 19};
+  std::vector<std::vector<LatticePoint>> objects;
+  for (double density : {0.3, 0.9, 0.999}) {
+    objects.push_back(test::RandomCloud(seed, extent, density));
+  }
+  objects.push_back(test::RandomBlob(seed, extent, 5, 14));
+  for (const std::vector<LatticePoint>& points : objects) {
+    const Volume object = VolumeOfPoints(points);
+    for (int threads : {1, 3}) {
+      exec::WorkerTeam team(threads);
+      exec::Context context;
+      context.team = &team;
+      context.min_bricks_per_worker = 1;
+      ExpectReferenceDistances(object, context);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, ChamferDistanceLaw, testing::Range<uint64_t>(0, 6));
+
+TEST(ChamferDistance, IsTheSameOnEveryInstructionSet) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(7, {40, 30, 30}, 6, 18));
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    ExpectReferenceDistances(object, exec::Context());
+  }
+  exec::ChooseInstructionSet("");
+}
+
+// A plate is thin but so wide that distances within a layer overflow 16 bits on the way.
+TEST(ChamferDistance, DoesNotOverflowInAWidePlate) {
+  VolumeBuilder builder({700, 700, 2});
+  for (int32_t k = 0; k < 2; ++k) {
+    for (int32_t j = 0; j < 700; ++j) {
+      for (int32_t i = 0; i < 700; ++i) builder.Add(PointAt(Sublattice::kEven, i, j, k));
+    }
+  }
+  const Volume plate = *std::move(builder).Build();
+  const auto field = ComputeChamferDistance(plate, exec::Context());
+  ASSERT_TRUE(field.ok());
+  EXPECT_EQ(field->weights(), kShortChamfer);
+  // Above and below every point lies background of the other sublattice.
+  EXPECT_EQ(field->largest(), kShortChamfer.diagonal);
+}
+
+// The 32-bit loops are for objects deeper than 620 units; here they are held against the 16-bit
+// ones.
+TEST(ChamferDistance, LongAndShortLoopsGiveTheSameMixturesOfSteps) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(3, {30, 30, 30}, 4, 16));
+  const std::vector<BrickNeighborhood> neighbors = FindBrickNeighbors(object.keys());
+  std::vector<uint32_t> values((object.brick_count() + 1) * kBrickPoints);
+  // With the short weights both must agree to the last count.
+  const DistanceView<uint32_t> view = {object.padded_bricks().data(), neighbors.data(),
+                                       values.data(), kShortChamfer};
+  BrickIndex first = 0;
+  std::vector<std::array<std::vector<BrickIndex>, 2>> slabs;
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    const BrickCoordinates brick = object.keys()[n].coordinates();
+    if (n == 0 || brick.bz != object.keys()[n - 1].coordinates().bz) {
+      if (n != 0) SweepWithinLayers(view, first, n);
+      first = n;
+      slabs.emplace_back();
+    }
+    slabs.back()[static_cast<size_t>(brick.sublattice)].push_back(n);
+  }
+  SweepWithinLayers(view, first, static_cast<BrickIndex>(object.brick_count()));
+  for (const auto& slab : slabs) {
+    for (int k = 0; k < kBrickZ; ++k) {
+      JoinLayers(view, Sublattice::kEven, slab[0], k, ScanDirection::kUpward);
+      JoinLayers(view, Sublattice::kOdd, slab[1], k, ScanDirection::kUpward);
+    }
+  }
+  for (size_t s = slabs.size(); s-- > 0;) {
+    for (int k = kBrickZ - 1; k >= 0; --k) {
+      JoinLayers(view, Sublattice::kOdd, slabs[s][1], k, ScanDirection::kDownward);
+      JoinLayers(view, Sublattice::kEven, slabs[s][0], k, ScanDirection::kDownward);
+    }
+  }
+  const auto field = ComputeChamferDistance(object, exec::Context());
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      ASSERT_EQ(values[size_t{n} * kBrickPoints + static_cast<size_t>(bit)], field->At(n, bit));
+    }
+  }
+}
+
+TEST(ChamferDistance, StopsWhenAsked) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_EQ(ComputeChamferDistance(object, context).status().code(), absl::StatusCode::kCancelled);
+  exec::Context late;
+  late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
+  EXPECT_EQ(ComputeChamferDistance(object, late).status().code(),
+            absl::StatusCode::kDeadlineExceeded);
+}
+
+TEST(ChamferDistance, OfAnEmptyObjectIsEmpty) {
+  const auto field = ComputeChamferDistance(Volume(), exec::Context());
+  ASSERT_TRUE(field.ok());
+  EXPECT_EQ(field->largest(), 0u);
+}
+
+}  // namespace
+}  // namespace bccskel

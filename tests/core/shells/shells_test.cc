@@ -1,0 +1,88 @@
+#include "core/shells/shells.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/exec/instruction_sets.h"
+#include "tests/support/random_objects.h"
+#include "tests/support/reference_distance.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kWidths[] = {kMinShellWidth, 1, 1.5, 2, 3.14159, 17, kMaxShellWidth};
+
+TEST(ShellOf, RoundsTheDistanceAsTheReferenceDoes) {
+  for (double wanted : kWidths) {
+    const double width = std::round(wanted * 209 * 64) / (209 * 64);
+    for (uint32_t distance = 1; distance <= 65535; ++distance) {
+      ASSERT_EQ(ShellOf(distance, kShortChamfer, width), test::ReferenceShell(distance, width))
+          << distance << " at width " << width;
+    }
+  }
+}
+
+TEST(ShellOf, IsAtLeastOne) { EXPECT_EQ(ShellOf(1, kShortChamfer, 64), 1); }
+
+// The register version decides with single precision; what it accepts must be exact.
+TEST(FloatShellRule, IsAcceptedOnlyWhereItIsExact) {
+  int accepted = 0;
+  for (double width : kWidths) {
+    const ShellRule exact(static_cast<uint64_t>(std::llround(209 * width * 64)));
+    const CheckedFloatRule checked = MakeFloatRule(exact, 65535);
+    if (!checked.exact) continue;
+    ++accepted;
+    alignas(64) uint16_t distances[kBrickPoints];
+    for (uint32_t first = 0; first < 65536; first += kBrickPoints) {
+      for (uint32_t n = 0; n < kBrickPoints; ++n) distances[n] = static_cast<uint16_t>(first + n);
+      ShellPlanes planes;
+      SliceBrick(checked.rule, distances, planes);
+      for (int n = 0; n < kBrickPoints; ++n) {
+        int32_t shell = 0;
+        for (size_t b = 0; b < kShellPlanes; ++b) shell |= (planes[b].Test(n) ? 1 : 0) << b;
+        ASSERT_EQ(shell, exact(distances[n]) & 63) << distances[n] << " at width " << width;
+      }
+    }
+  }
+  EXPECT_GE(accepted, 4);
+}
+
+void ExpectShells(const Volume& object, double width) {
+  const auto distance = ComputeChamferDistance(object, exec::Context());
+  ASSERT_TRUE(distance.ok());
+  const Shells shells = BuildShells(object, *distance, width, exec::Context());
+  int32_t last = 0;
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    Shells::Range range = {INT32_MAX, 0};
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      const int32_t shell = ShellOf(distance->At(n, bit), distance->weights(), width);
+      range.first = std::min(range.first, shell);
+      range.last = std::max(range.last, shell);
+      int32_t sliced = 0;
+      for (size_t b = 0; b < kShellPlanes; ++b) {
+        sliced |= (shells.PlanesOf(n)[b].Test(bit) ? 1 : 0) << b;
+      }
+      ASSERT_EQ(sliced, shell & 63);
+    });
+    ASSERT_EQ(shells.RangeOf(n).first, range.first);
+    ASSERT_EQ(shells.RangeOf(n).last, range.last);
+    ASSERT_LT(range.last - range.first, 64) << "modulo 64 would not tell shells apart";
+    last = std::max(last, range.last);
+  }
+  EXPECT_EQ(shells.last(), last);
+}
+
+TEST(Shells, HoldTheShellOfEveryPointOnEveryInstructionSet) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(5, {60, 50, 50}, 3, 45));
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    for (double width : kWidths) ExpectShells(object, width);
+  }
+  exec::ChooseInstructionSet("");
+}
+
+}  // namespace
+}  // namespace bccskel

@@ -1,0 +1,140 @@
+#include "core/thinning/thinning.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/exec/instruction_sets.h"
+#include "core/thinning/thinning_state.h"
+#include "tests/support/random_objects.h"
+#include "tests/support/reference_point_set.h"
+
+namespace bccskel {
+namespace {
+
+ThinningResult Thin(const Volume& object, const ThinningOptions& options,
+                    const exec::Context& context = {}) {
+  auto result = ThinToCurve(object, *ComputeChamferDistance(object, {}), options, context);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return *std::move(result);
+}
+
+Volume Blob(uint64_t seed) { return VolumeOfPoints(test::RandomBlob(seed, {40, 40, 40}, 7, 16)); }
+
+TEST(Thinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
+  const Volume object = Blob(11);
+  const Volume expected = Thin(object, {}).thin;
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    for (int threads : {1, 2, 5, 8}) {
+      exec::WorkerTeam team(threads);
+      exec::Context context;
+      context.team = &team;
+      context.min_bricks_per_worker = 1;
+      EXPECT_TRUE(Thin(object, {}, context).thin == expected) << threads << " threads";
+    }
+  }
+  exec::ChooseInstructionSet("");
+}
+
+TEST(Thinning, ReportsEveryShellOnce) {
+  const Volume object = Blob(3);
+  std::vector<exec::ShellProgress> reports;
+  exec::Context context;
+  context.on_shell = [&](const exec::ShellProgress& p) { reports.push_back(p); };
+  const ThinningResult result = Thin(object, {}, context);
+  ASSERT_EQ(reports.size(), static_cast<size_t>(result.last_shell));
+  uint64_t opened = 0;
+  for (size_t n = 0; n < reports.size(); ++n) {
+    EXPECT_EQ(reports[n].shell, static_cast<int32_t>(n) + 1);
+    EXPECT_EQ(reports[n].last_shell, result.last_shell);
+    EXPECT_EQ(reports[n].removed + reports[n].remaining, object.PointCount());
+    opened += reports[n].points;
+  }
+  EXPECT_LE(opened,
+            object.PointCount());  // points removed as stubble before their shell opens: none
+  EXPECT_EQ(reports.back().removed, result.removed);
+  EXPECT_EQ(result.thin.PointCount() + result.removed + result.removed_by_cleanup,
+            object.PointCount());
+}
+
+TEST(Thinning, KeepsExtentAndPlacement) {
+  VolumeBuilder builder({30, 20, 10}, {.spacing = {1, 2, 3}, .origin = {4, 5, 6}});
+  for (int i = 3; i < 25; ++i) {
+    for (int j = 3; j < 9; ++j) builder.Add(PointAt(Sublattice::kOdd, i, j, 5));
+  }
+  const Volume object = *std::move(builder).Build();
+  const Volume thin = Thin(object, {}).thin;
+  EXPECT_EQ(thin.extent(), object.extent());
+  EXPECT_EQ(thin.placement(), object.placement());
+}
+
+TEST(Thinning, OfAnEmptyObjectIsEmpty) {
+  const ThinningResult result = Thin(Volume(), {});
+  EXPECT_TRUE(result.thin.empty());
+  EXPECT_EQ(result.last_shell, 0);
+}
+
+TEST(Thinning, RefusesBadOptionsWithValueAndLimit) {
+  const Volume object = Blob(1);
+  const auto distance = ComputeChamferDistance(object, {});
+  for (double width : {0.0, 0.5, 65.0, std::nan("")}) {
+    const auto status = ThinToCurve(object, *distance, {.shell_width = width}, {}).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(status.message().find("must be 0.75 to 64"), absl::string_view::npos) << status;
+  }
+  const auto status = ThinToCurve(object, *distance, {.last_shell = -1}, {}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Thinning, StopsInTheMiddleWhenAskedWithAnyNumberOfThreads) {
+  const Volume object = Blob(2);
+  for (int threads : {1, 2, 8}) {
+    std::stop_source source;
+    exec::WorkerTeam team(threads);
+    exec::Context context;
+    context.team = &team;
+    context.min_bricks_per_worker = 1;
+    context.stop = source.get_token();
+    int32_t shells = 0;
+    context.on_shell = [&](const exec::ShellProgress& p) {
+      shells = p.shell;
+      if (p.shell == 3) source.request_stop();
+    };
+    const auto result = ThinToCurve(object, *ComputeChamferDistance(object, {}), {}, context);
+    EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
+    EXPECT_EQ(shells, 3);
+  }
+}
+
+TEST(ThinningState, FindsTheNeighborsOfEveryPoint) {
+  const std::vector<LatticePoint> points = test::RandomCloud(4, {36, 12, 20}, 0.5);
+  const Volume object = VolumeOfPoints(points);
+  const test::ReferencePointSet reference(object);
+  const ThinningState state(object, {});
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      const LatticePoint p = PointOf(object.keys()[n].coordinates(), bit);
+      ASSERT_EQ(state.NeighborsOf(n, bit), reference.NeighborsOf(p));
+    });
+  }
+}
+
+// Where a plain bar loses everything with other tools.
+TEST(Thinning, LeavesACurveInAPlainBar) {
+  VolumeBuilder builder({4, 4, 100});
+  for (Sublattice s : kSublattices) {
+    for (int k = 0; k < 100; ++k) {
+      for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) builder.Add(PointAt(s, i, j, k));
+      }
+    }
+  }
+  const Volume thin = Thin(*std::move(builder).Build(), {}).thin;
+  EXPECT_GT(thin.PointCount(), 80u);
+  EXPECT_LT(thin.PointCount(), 250u);
+}
+
+}  // namespace
+}  // namespace bccskel
