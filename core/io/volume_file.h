@@ -24,8 +24,8 @@ absl::StatusOr<VolumeHeader> InspectVolumeFile(const std::string& path,
 
 struct WriteVolumeOptions {
   // What is not given follows from the name: .exr is OpenEXR with ZIP, .bccb bricks with zstd.
-  std::optional<VolumeEncoding> encoding;
-  std::optional<VolumeCompression> compression;
+  std::optional<VolumeEncoding> encoding = std::nullopt;
+  std::optional<VolumeCompression> compression = std::nullopt;
   uint64_t max_dense_bytes = uint64_t{4} << 30;
 };
 
