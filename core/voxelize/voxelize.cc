@@ -110,7 +110,7 @@ class Voxelizer {
     if (!mesh || *mesh == SolidTopology{grid.components, grid.loops, grid.cavities}) return;
     warnings_.push_back(absl::StrFormat(
         "the grid has %d components, %d loops, %d cavities, the mesh %d, %d, %d: walls or gaps "
-        "thinner than a cell, or a surface that crosses itself; more points may help",
+        "thinner than a cell, or parts that touch or cross",
         grid.components, grid.loops, grid.cavities, mesh->components, mesh->loops, mesh->cavities));
   }
 
