@@ -15,11 +15,15 @@
 
 namespace bccskel {
 
+// A cluster is a connected set of points that are not on a plain curve: three or more neighbors, or
+// two that are adjacent to each other. A cluster without loops and cavities counts as one point: it
+// is an isolated point, an end, a bend of its branch (no node) or a junction when it has no, one,
+// two or more branches.
 enum class NodeKind : uint8_t {
-  kEnd,            // one object neighbor
-  kJunction,       // a cluster of points where three or more branches meet, or that encloses loops
+  kEnd,            // one branch
+  kJunction,       // three or more branches, or a cluster that encloses loops
   kLoop,           // stands for a closed curve without junction; one edge leads from it to itself
-  kIsolated,       // no object neighbor
+  kIsolated,       // no branch
   kClosedSurface,  // what a cavity leaves: a cluster with cavities
 };
 
@@ -33,7 +37,8 @@ struct SkeletonPoint {
 
 struct SkeletonNode {
   NodeKind kind = NodeKind::kEnd;
-  // The point that stands for the node: for a cluster its deepest point, on ties the smallest.
+  // The point that stands for the node: for a cluster or a closed curve its deepest point, on ties
+  // the smallest; for a cluster that encloses loops the deepest point on those loops.
   SkeletonPoint at;
   // Loops and cavities that no edge of the graph shows. Only closed surfaces have any.
   uint32_t loops = 0;
@@ -42,12 +47,14 @@ struct SkeletonNode {
   friend constexpr bool operator==(const SkeletonNode&, const SkeletonNode&) = default;
 };
 
-// A branch. Its points run from the source node's point to the target node's point, both included;
-// consecutive points are neighbors in N14. Inside a junction cluster the path follows the cluster's points.
+// A branch, or a loop inside a cluster. Its points run from the source node's point to the target
+// node's point, both included; consecutive points are neighbors in N14. Inside a cluster it takes a
+// path of the fewest steps.
 struct SkeletonEdge {
   uint32_t source = 0;  // index into nodes
   uint32_t target = 0;
-  uint64_t first_point = 0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
+  uint64_t first_point =
+      0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
 
   friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
@@ -57,7 +64,9 @@ struct SkeletonEdge {
 // Invariants: loops of the object = edges - nodes + components + sum of the nodes' loops;
 //             cavities of the object = sum of the nodes' cavities;
 //             components of the graph = components of the object.
-// Order is canonical: nodes by their point, edges by (source, target, points).
+// Order is canonical: nodes by their point, edges by (source, target, points) with source <=
+// target; an edge from a node to itself runs in the direction that gives the smaller sequence of
+// points.
 struct SkeletonGraph {
   Placement placement;
   ChamferWeights weights = kShortChamfer;
@@ -78,12 +87,14 @@ struct SkeletonGraph {
 };
 
 // SHA-256, in lower-case hex, over the integers of the graph (lattice points, distances, kinds,
-// topology) in canonical order, little-endian. Placement is not part of it. The byte layout is
-// stated at the definition; it is a public contract.
+// topology) in canonical order. Placement is not part of it. The byte layout is stated at the
+// definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
-// Reads the graph off a thin volume.
+// Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives
+// few nodes for large clusters.
 // Shapes: `distance` belongs to `object`, whose points include those of `thin`.
+// Cost:   follows the points of `thin`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
                                             const ChamferField& distance,

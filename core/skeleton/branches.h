@@ -1,0 +1,31 @@
+#ifndef BCCSKEL_CORE_SKELETON_BRANCHES_H_
+#define BCCSKEL_CORE_SKELETON_BRANCHES_H_
+
+#include <vector>
+
+#include "core/skeleton/clusters.h"
+#include "core/skeleton/spanning_trees.h"
+#include "core/skeleton/stop_poll.h"
+#include "core/skeleton/thin_points.h"
+
+namespace bccskel {
+
+// A chain of points from a point of one cluster to a point of another or the same, with curve
+// points or bends between them.
+struct Branch {
+  ClusterIndex source = 0;
+  ClusterIndex target = 0;
+  PointPath points;
+};
+
+struct Branches {
+  std::vector<Branch> between;    // clusters that are no bends
+  std::vector<PointPath> closed;  // curves without junction; first and last point are the same
+};
+
+// Follows all curves of the volume. Order and direction of the result mean nothing.
+Branches FollowBranches(const ThinPoints& points, const Clusters& clusters, StopPoll& poll);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_BRANCHES_H_

@@ -1,0 +1,29 @@
+#ifndef BCCSKEL_CORE_SKELETON_CLUSTER_TOPOLOGY_H_
+#define BCCSKEL_CORE_SKELETON_CLUSTER_TOPOLOGY_H_
+
+#include <cstdint>
+#include <span>
+
+#include "core/skeleton/stop_poll.h"
+#include "core/skeleton/thin_points.h"
+
+namespace bccskel {
+
+struct ClusterTopology {
+  uint32_t loops = 0;
+  uint32_t cavities = 0;
+
+  friend bool operator==(const ClusterTopology&, const ClusterTopology&) = default;
+};
+
+// Loops and cavities of a connected set of points by itself.
+// Shapes: `cluster` holds the set; masks[p] says, for each of its points, which neighbors belong to
+//         the set; `seen` is scratch of the same size, zero where nobody has been.
+// Cost:   follows the points of the set.
+ClusterTopology MeasureCluster(const ThinPoints& points, std::span<const PointIndex> cluster,
+                               std::span<const NeighborMask> masks, std::span<NeighborMask> seen,
+                               StopPoll& poll);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_CLUSTER_TOPOLOGY_H_

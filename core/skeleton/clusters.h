@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_CORE_SKELETON_CLUSTERS_H_
+#define BCCSKEL_CORE_SKELETON_CLUSTERS_H_
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/skeleton/cluster_topology.h"
+#include "core/skeleton/stop_poll.h"
+#include "core/skeleton/thin_points.h"
+
+namespace bccskel {
+
+// Position of a cluster in Clusters.
+using ClusterIndex = uint32_t;
+
+// End points and isolated points count as clusters of one point.
+struct Cluster {
+  std::vector<PointIndex> points;  // increasing
+  ClusterTopology topology;
+  uint32_t branches = 0;  // pairs of neighbors, one in the cluster and one outside
+
+  bool IsContractible() const { return topology == ClusterTopology{}; }
+  // A thick spot of one branch, which goes through it. It is no node of the graph.
+  bool IsBend() const { return IsContractible() && branches == 2; }
+};
+
+// Splits the points into plain curve points and clusters.
+//
+// A plain curve point has two neighbors that are not adjacent to each other, an end point one: no
+// three mutually adjacent points contain either. So the clique complex of the volume is that of the
+// clusters plus chains of edges, each edge glued at single points, and its components and loops are
+// those of the graph that has a node for each cluster, plus the clusters' own loops and cavities.
+// This holds for any volume, thin or not.
+class Clusters {
+ public:
+  // Left unfinished when `poll` says stop.
+  Clusters(const ThinPoints& points, StopPoll& poll);
+
+  size_t size() const { return clusters_.size(); }
+  const Cluster& operator[](ClusterIndex c) const { return clusters_[c]; }
+  bool IsPlainCurvePoint(PointIndex p) const { return plain_[p] != 0; }
+  // Needs: not a plain curve point.
+  ClusterIndex ClusterOf(PointIndex p) const { return cluster_of_[p]; }
+  // The neighbors of p in p's own cluster, by point; 0 for plain curve points.
+  std::span<const NeighborMask> inner_masks() const { return inner_masks_; }
+
+ private:
+  void Classify(const ThinPoints& points, StopPoll& poll);
+  Cluster Collect(const ThinPoints& points, PointIndex start, StopPoll& poll);
+
+  std::vector<uint8_t> plain_;
+  std::vector<NeighborMask> inner_masks_;
+  std::vector<uint8_t> collected_;
+  std::vector<ClusterIndex> cluster_of_;
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_CLUSTERS_H_

@@ -1,0 +1,64 @@
+#ifndef BCCSKEL_CORE_SKELETON_THIN_POINTS_H_
+#define BCCSKEL_CORE_SKELETON_THIN_POINTS_H_
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/distance/chamfer_distance.h"
+#include "core/lattice/directions.h"
+#include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/stop_poll.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Position of a point in ThinPoints.
+using PointIndex = uint32_t;
+
+// The points of a thin volume as a list in lattice order, with their distances and neighbors.
+// Translating the volume translates the list: nothing that follows depends on bricks.
+class ThinPoints {
+ public:
+  // Left unfinished when `poll` says stop.
+  ThinPoints(const Volume& thin, const Volume& object, const ChamferField& distance,
+             StopPoll& poll);
+
+  size_t size() const { return points_.size(); }
+  const SkeletonPoint& operator[](PointIndex p) const { return points_[p]; }
+  // The point with the largest distance, on ties the smallest. Needs: some points.
+  PointIndex DeepestOf(std::span<const PointIndex> some) const;
+  NeighborMask mask(PointIndex p) const { return masks_[p]; }
+  // In the order of kDirections14.
+  std::span<const PointIndex> neighbors(PointIndex p) const {
+    return std::span(neighbors_).subspan(first_[p], first_[p + 1] - first_[p]);
+  }
+  // Needs: mask(p) has d.
+  PointIndex Neighbor(PointIndex p, Direction d) const {
+    const auto before = static_cast<unsigned>(masks_[p] & (d.mask() - 1));
+    return neighbors_[first_[p] + static_cast<size_t>(std::popcount(before))];
+  }
+
+ private:
+  void Gather(const Volume& thin, const Volume& object, const ChamferField& distance,
+              StopPoll& poll);
+  void FindNeighbors(StopPoll& poll);
+
+  std::vector<SkeletonPoint> points_;
+  std::vector<NeighborMask> masks_;
+  std::vector<size_t> first_;
+  std::vector<PointIndex> neighbors_;
+};
+
+// Calls visit(Direction) for the directions in `mask`, in order.
+template <typename Visit>
+void ForEachDirection(NeighborMask mask, Visit visit) {
+  for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
+    visit(Direction(std::countr_zero(rest)));
+  }
+}
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_THIN_POINTS_H_

@@ -1,0 +1,180 @@
+// Does: points -> clusters -> branches -> graph, then brings the graph into its canonical order.
+// Why it is right: see clusters.h for the topology; a cluster's own loops become edges from its
+// node
+//       to itself, or numbers of the node where a cavity leaves a closed surface.
+// Cost: sorting the points and 14 walks over them; the rest follows clusters and branches.
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "core/skeleton/branches.h"
+#include "core/skeleton/cluster_loops.h"
+#include "core/skeleton/clusters.h"
+#include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/spanning_trees.h"
+#include "core/skeleton/thin_points.h"
+
+namespace bccskel {
+namespace {
+
+NodeKind KindOf(const Cluster& cluster) {
+  if (cluster.topology.cavities > 0) return NodeKind::kClosedSurface;
+  if (cluster.topology.loops == 1 && cluster.branches == 0) return NodeKind::kLoop;
+  if (cluster.topology.loops > 0 || cluster.branches > 1) return NodeKind::kJunction;
+  return cluster.branches == 1 ? NodeKind::kEnd : NodeKind::kIsolated;
+}
+
+// Position of a node in the order in which it was found.
+using NodeIndex = uint32_t;
+
+struct TracedEdge {
+  NodeIndex source;
+  NodeIndex target;
+  PointPath points;
+};
+
+class GraphBuilder {
+ public:
+  GraphBuilder(const ThinPoints& points, const Clusters& clusters, StopPoll& poll)
+      : points_(points),
+        clusters_(clusters),
+        poll_(poll),
+        node_of_(clusters.size()),
+        loops_(points, clusters, poll),
+        paths_(points, clusters.inner_masks()) {}
+
+  void AddClusters() {
+    for (ClusterIndex c = 0; c < clusters_.size() && !poll_.Stopped(); ++c) {
+      if (!clusters_[c].IsBend()) AddCluster(c);
+    }
+  }
+
+  void AddBranches(const Branches& branches) {
+    for (const Branch& branch : branches.between) AddBranch(branch);
+    for (const PointPath& curve : branches.closed) AddClosedCurve(curve);
+  }
+
+  SkeletonGraph Finish(const Placement& placement, const ChamferWeights& weights) &&;
+
+ private:
+  void AddCluster(ClusterIndex c) {
+    const Cluster& cluster = clusters_[c];
+    const NodeKind kind = KindOf(cluster);
+    node_of_[c] = static_cast<NodeIndex>(nodes_.size());
+    PointIndex at = points_.DeepestOf(cluster.points);
+    SkeletonNode node{kind, {}, 0, 0};
+    if (kind == NodeKind::kClosedSurface) {
+      node.loops = cluster.topology.loops;
+      node.cavities = cluster.topology.cavities;
+    } else if (cluster.topology.loops > 0) {
+      ClusterLoops loops = loops_.Find(cluster);
+      at = loops.at;
+      for (PointPath& path : loops.paths) AddEdge(node_of_[c], node_of_[c], std::move(path));
+    }
+    node.at = points_[at];
+    nodes_.push_back(node);
+    if (cluster.branches > 0) paths_.GrowFrom(at, poll_);
+  }
+
+  // Inside both clusters the branch goes on to the node's point.
+  void AddBranch(const Branch& branch) {
+    PointPath path = paths_.PathTo(branch.points.front());
+    path.insert(path.end(), branch.points.begin() + 1, branch.points.end());
+    const PointPath last = paths_.PathTo(branch.points.back());
+    path.insert(path.end(), last.rbegin() + 1, last.rend());
+    AddEdge(node_of_[branch.source], node_of_[branch.target], std::move(path));
+  }
+
+  void AddClosedCurve(const PointPath& curve) {
+    PointPath turned(curve.begin(), curve.end() - 1);
+    std::ranges::rotate(turned, std::ranges::find(turned, points_.DeepestOf(turned)));
+    turned.push_back(turned.front());
+    const auto node = static_cast<NodeIndex>(nodes_.size());
+    nodes_.push_back({NodeKind::kLoop, points_[turned.front()], 0, 0});
+    AddEdge(node, node, std::move(turned));
+  }
+
+  void AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
+    edges_.push_back({source, target, std::move(path)});
+  }
+
+  void SortNodes();
+  void TurnEdges();
+
+  const ThinPoints& points_;
+  const Clusters& clusters_;
+  StopPoll& poll_;
+  std::vector<NodeIndex> node_of_;  // by cluster, for those that are no bends
+  ClusterLoopFinder loops_;
+  SpanningTrees paths_;
+  std::vector<SkeletonNode> nodes_;
+  std::vector<TracedEdge> edges_;
+};
+
+void GraphBuilder::SortNodes() {
+  std::vector<NodeIndex> order(nodes_.size());
+  std::iota(order.begin(), order.end(), NodeIndex{0});
+  std::ranges::sort(order, {}, [&](NodeIndex n) { return nodes_[n].at.point; });
+  std::vector<SkeletonNode> sorted;
+  std::vector<NodeIndex> place(nodes_.size());
+  for (NodeIndex n : order) {
+    place[n] = static_cast<NodeIndex>(sorted.size());
+    sorted.push_back(nodes_[n]);
+  }
+  nodes_ = std::move(sorted);
+  for (TracedEdge& edge : edges_) {
+    edge.source = place[edge.source];
+    edge.target = place[edge.target];
+  }
+}
+
+// The list of points is in lattice order, so positions in it compare like the points.
+void GraphBuilder::TurnEdges() {
+  for (TracedEdge& edge : edges_) {
+    PointPath back(edge.points.rbegin(), edge.points.rend());
+    if (std::tie(edge.target, edge.source, back) <
+        std::tie(edge.source, edge.target, edge.points)) {
+      std::swap(edge.source, edge.target);
+      edge.points = std::move(back);
+    }
+  }
+  std::ranges::sort(edges_, {}, [](const TracedEdge& edge) {
+    return std::tie(edge.source, edge.target, edge.points);
+  });
+}
+
+SkeletonGraph GraphBuilder::Finish(const Placement& placement, const ChamferWeights& weights) && {
+  SortNodes();
+  TurnEdges();
+  SkeletonGraph graph;
+  graph.placement = placement;
+  graph.weights = weights;
+  graph.nodes = std::move(nodes_);
+  for (const TracedEdge& edge : edges_) {
+    graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
+    for (PointIndex p : edge.points) graph.points.push_back(points_[p]);
+  }
+  return graph;
+}
+
+}  // namespace
+
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
+                                            const ChamferField& distance,
+                                            const exec::Context& context) {
+  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
+  StopPoll poll(context);
+  const ThinPoints points(thin, object, distance, poll);
+  if (poll.Stopped()) return context.StopStatus();
+  const Clusters clusters(points, poll);
+  if (poll.Stopped()) return context.StopStatus();
+  const Branches branches = FollowBranches(points, clusters, poll);
+  GraphBuilder builder(points, clusters, poll);
+  builder.AddClusters();
+  if (poll.Stopped()) return context.StopStatus();
+  builder.AddBranches(branches);
+  return std::move(builder).Finish(object.placement(), distance.weights());
+}
+
+}  // namespace bccskel

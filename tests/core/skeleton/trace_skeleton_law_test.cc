@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/certificate/certificate.h"
+#include "core/lattice/directions.h"
+#include "core/topology/neighborhood.h"
+#include "tests/core/skeleton/traced.h"
+#include "tests/support/random_objects.h"
+#include "tests/support/reference_point_set.h"
+
+namespace bccskel {
+namespace {
+
+using test::RandomBlob;
+using test::RandomCloud;
+using test::ReferencePointSet;
+
+int64_t ComponentsOf(const SkeletonGraph& graph) {
+  std::vector<size_t> root(graph.nodes.size());
+  std::iota(root.begin(), root.end(), size_t{0});
+  auto components = static_cast<int64_t>(root.size());
+  for (const SkeletonEdge& edge : graph.edges) {
+    const size_t from = root[edge.source], to = root[edge.target];
+    if (from == to) continue;
+    std::ranges::replace(root, from, to);
+    --components;
+  }
+  return components;
+}
+
+BettiNumbers BettiOf(const SkeletonGraph& graph) {
+  BettiNumbers betti;
+  betti.components = ComponentsOf(graph);
+  betti.loops = static_cast<int64_t>(graph.edges.size()) -
+                static_cast<int64_t>(graph.nodes.size()) + betti.components;
+  for (const SkeletonNode& node : graph.nodes) {
+    betti.loops += node.loops;
+    betti.cavities += node.cavities;
+  }
+  return betti;
+}
+
+void ExpectNodesToBeOfTheirKind(const SkeletonGraph& graph) {
+  std::vector<int> degree(graph.nodes.size()), self(graph.nodes.size());
+  for (const SkeletonEdge& edge : graph.edges) {
+    ++degree[edge.source];
+    ++degree[edge.target];
+    self[edge.source] += edge.source == edge.target ? 1 : 0;
+  }
+  for (size_t n = 0; n < graph.nodes.size(); ++n) {
+    const SkeletonNode& node = graph.nodes[n];
+    switch (node.kind) {
+      case NodeKind::kEnd:
+        EXPECT_EQ(degree[n], 1);
+        break;
+      case NodeKind::kIsolated:
+        EXPECT_EQ(degree[n], 0);
+        break;
+      case NodeKind::kLoop:
+        EXPECT_EQ(degree[n], 2);
+        EXPECT_EQ(self[n], 1);
+        break;
+      case NodeKind::kJunction:
+        EXPECT_GE(degree[n], 3);
+        break;
+      case NodeKind::kClosedSurface:
+        EXPECT_GE(node.cavities, 1u);
+        break;
+    }
+    if (node.kind != NodeKind::kClosedSurface) {
+      EXPECT_EQ(node.loops + node.cavities, 0u);
+    }
+  }
+}
+
+void ExpectEdgesToRunFromSourceToTarget(const SkeletonGraph& graph, const Volume& thin) {
+  uint64_t first = 0;
+  for (const SkeletonEdge& edge : graph.edges) {
+    const auto path = graph.PointsOf(edge);
+    ASSERT_EQ(edge.first_point, first);
+    first += edge.point_count;
+    ASSERT_GE(path.size(), 2u);
+    EXPECT_EQ(path.front(), graph.nodes[edge.source].at);
+    EXPECT_EQ(path.back(), graph.nodes[edge.target].at);
+    for (size_t n = 0; n < path.size(); ++n) {
+      EXPECT_TRUE(thin.Contains(path[n].point));
+      if (n > 0) {
+        EXPECT_TRUE(FindDirection(path[n].point - path[n - 1].point));
+      }
+    }
+  }
+  EXPECT_EQ(first, graph.points.size());
+}
+
+void ExpectCanonicalOrder(const SkeletonGraph& graph) {
+  for (size_t n = 1; n < graph.nodes.size(); ++n) {
+    EXPECT_LT(graph.nodes[n - 1].at.point, graph.nodes[n].at.point);
+  }
+  using Key = std::tuple<uint32_t, uint32_t, std::vector<SkeletonPoint>>;
+  std::vector<Key> keys;
+  for (const SkeletonEdge& edge : graph.edges) {
+    const auto path = graph.PointsOf(edge);
+    keys.emplace_back(edge.source, edge.target, std::vector(path.begin(), path.end()));
+    const Key back(edge.target, edge.source, std::vector(path.rbegin(), path.rend()));
+    EXPECT_LE(keys.back(), back);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(keys));
+}
+
+// Points with two neighbors that are not adjacent lie inside exactly one edge, once.
+void ExpectPlainCurvePointsOnce(const SkeletonGraph& graph, const Volume& thin) {
+  std::map<LatticePoint, int> uses;
+  for (const SkeletonEdge& edge : graph.edges) {
+    const auto path = graph.PointsOf(edge);
+    for (const SkeletonPoint& p : path.first(path.size() - 1)) ++uses[p.point];
+  }
+  const ReferencePointSet set(thin);
+  thin.ForEachPoint([&](LatticePoint p) {
+    const NeighborMask mask = set.NeighborsOf(p);
+    if (IsCurvePoint(mask) && ComponentsIn(mask) == 2) {
+      EXPECT_EQ(uses[p], 1);
+    }
+  });
+}
+
+void ExpectInvariants(const std::vector<LatticePoint>& points) {
+  const Volume thin = VolumeOfPoints(points);
+  const SkeletonGraph graph = test::Trace(points, test::RuggedDepth);
+  const BettiNumbers expected = CountBettiNumbers(thin, {}).value();
+  const BettiNumbers found = BettiOf(graph);
+  EXPECT_EQ(found.components, expected.components);
+  EXPECT_EQ(found.loops, expected.loops);
+  EXPECT_EQ(found.cavities, expected.cavities);
+  ExpectNodesToBeOfTheirKind(graph);
+  ExpectEdgesToRunFromSourceToTarget(graph, thin);
+  ExpectCanonicalOrder(graph);
+  ExpectPlainCurvePointsOnce(graph, thin);
+}
+
+// Removes points that are simple and no end points, one after the other.
+std::vector<LatticePoint> ThinnedOneByOne(const std::vector<LatticePoint>& points) {
+  ReferencePointSet set(points);
+  for (bool again = true; again;) {
+    again = false;
+    for (LatticePoint p : points) {
+      if (!set.Contains(p) || !IsSimpleNonEnd(set.NeighborsOf(p))) continue;
+      set.Erase(p);
+      again = true;
+    }
+  }
+  return set.SortedPoints();
+}
+
+TEST(TraceSkeletonLaw, KeepsTheTopologyOfRandomCloudsOfAllDensities) {
+  for (uint64_t seed = 0; seed < 3000 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    ExpectInvariants(RandomCloud(seed, {5, 4, 4}, static_cast<double>(seed % 30 + 1) / 30.0));
+  }
+}
+
+TEST(TraceSkeletonLaw, KeepsTheTopologyOfThinnedRandomClouds) {
+  for (uint64_t seed = 0; seed < 600 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    ExpectInvariants(
+        ThinnedOneByOne(RandomCloud(seed, {7, 6, 6}, static_cast<double>(seed % 30 + 1) / 30.0)));
+  }
+}
+
+TEST(TraceSkeletonLaw, KeepsTheTopologyOfSparseNetsOfThickLines) {
+  for (uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    const auto thin = ThinnedOneByOne(RandomCloud(seed, {8, 8, 8}, 0.6));
+    auto net = test::RandomSubset(seed, RandomCloud(seed + 1, {8, 8, 8}, 1), 0.05);
+    net.insert(net.end(), thin.begin(), thin.end());
+    ExpectInvariants(net);
+  }
+}
+
+TEST(TraceSkeletonLaw, KeepsTheTopologyOfThickBlobsAndTheirShells) {
+  for (uint64_t seed = 0; seed < 40 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    const auto blob = RandomBlob(seed, {14, 14, 14}, 6, 9);
+    ExpectInvariants(blob);
+    ExpectInvariants(test::WithNoisyBoundary(seed, blob, 0.3));
+    const ReferencePointSet solid(blob);
+    std::vector<LatticePoint> border;
+    for (LatticePoint p : blob) {
+      if (solid.NeighborsOf(p) != kAllNeighbors) border.push_back(p);
+    }
+    ExpectInvariants(border);
+    ExpectInvariants(test::RandomSubset(seed, border, 0.9));
+    ExpectInvariants(ThinnedOneByOne(border));
+  }
+}
+
+TEST(TraceSkeletonLaw, MovingTheObjectMovesTheGraph) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const auto points = ThinnedOneByOne(RandomCloud(seed, {9, 9, 9}, 0.5));
+    const SkeletonGraph graph = test::Trace(points);
+    for (int32_t shift : {1, 5, 15, 16, 31}) {
+      const LatticePoint by = {shift, shift + 2, shift + 4};
+      const SkeletonGraph moved = test::Trace(test::Translated(points, by));
+      ASSERT_EQ(moved.edges, graph.edges);
+      ASSERT_EQ(moved.nodes.size(), graph.nodes.size());
+      for (size_t n = 0; n < graph.nodes.size(); ++n) {
+        ASSERT_EQ(moved.nodes[n].at.point, graph.nodes[n].at.point + by);
+      }
+      for (size_t n = 0; n < graph.points.size(); ++n) {
+        ASSERT_EQ(moved.points[n].point, graph.points[n].point + by);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
