@@ -61,6 +61,12 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   }
 }
 
+Barrier::Barrier(int size)
+    : size_(size),
+      spins_(static_cast<unsigned>(size) <= std::thread::hardware_concurrency()
+                 ? kSpinsBeforeBlocking
+                 : 0) {}
+
 void Barrier::Wait() {
   if (size_ == 1) return;
   const uint32_t phase = phase_.load(std::memory_order_acquire);
@@ -70,7 +76,7 @@ void Barrier::Wait() {
     phase_.notify_all();
     return;
   }
-  for (int spin = 0; spin < kSpinsBeforeBlocking; ++spin) {
+  for (int spin = 0; spin < spins_; ++spin) {
     if (phase_.load(std::memory_order_acquire) != phase) return;
     Pause();
   }

@@ -45,11 +45,12 @@ class WorkerTeam {
 // machine with fewer free cores than workers stays responsive.
 class Barrier {
  public:
-  explicit Barrier(int size) : size_(size) {}
+  explicit Barrier(int size);
   void Wait();
 
  private:
   const int size_;
+  const int spins_;  // none when there are more workers than processors
   std::atomic<int> arrived_{0};
   std::atomic<uint32_t> phase_{0};
 };

@@ -14,13 +14,24 @@ using NeighborMask = uint16_t;
 inline constexpr int kNeighborCount = 14;
 inline constexpr NeighborMask kAllNeighbors = (1u << kNeighborCount) - 1;
 
-// The offsets of N14 (section 2). Bits 0..7 are D8: bit 0 of the index is the sign of x, bit 1 of y,
-// bit 2 of z. Bits 8..13 are D6: +x, -x, +y, -y, +z, -z. The order is part of the public contract:
-// results that break ties by neighbor rank and the published table hashes depend on it.
+// The offsets of N14 (section 2). Bits 0..7 are D8: bit 0 of the index is the sign of x, bit 1 of
+// y, bit 2 of z. Bits 8..13 are D6: +x, -x, +y, -y, +z, -z. The order is part of the public
+// contract: results that break ties by neighbor rank and the published table hashes depend on it.
 inline constexpr std::array<LatticePoint, kNeighborCount> kDirections14 = {{
-    {-1, -1, -1}, {+1, -1, -1}, {-1, +1, -1}, {+1, +1, -1},
-    {-1, -1, +1}, {+1, -1, +1}, {-1, +1, +1}, {+1, +1, +1},
-    {+2, 0, 0}, {-2, 0, 0}, {0, +2, 0}, {0, -2, 0}, {0, 0, +2}, {0, 0, -2},
+    {-1, -1, -1},
+    {+1, -1, -1},
+    {-1, +1, -1},
+    {+1, +1, -1},
+    {-1, -1, +1},
+    {+1, -1, +1},
+    {-1, +1, +1},
+    {+1, +1, +1},
+    {+2, 0, 0},
+    {-2, 0, 0},
+    {0, +2, 0},
+    {0, -2, 0},
+    {0, 0, +2},
+    {0, 0, -2},
 }};
 
 // An index into kDirections14.
@@ -31,9 +42,7 @@ class Direction {
   constexpr LatticePoint offset() const { return kDirections14[bit_]; }
   constexpr bool is_diagonal() const { return bit_ < 8; }
   constexpr NeighborMask mask() const { return static_cast<NeighborMask>(1u << bit_); }
-  constexpr Direction Opposite() const {
-    return Direction(is_diagonal() ? 7 - bit_ : bit_ ^ 1);
-  }
+  constexpr Direction Opposite() const { return Direction(is_diagonal() ? 7 - bit_ : bit_ ^ 1); }
   friend constexpr bool operator==(Direction, Direction) = default;
 
  private:
@@ -43,7 +52,8 @@ class Direction {
 // One of the eight thinning directions of D8.
 class DiagonalDirection {
  public:
-  constexpr explicit DiagonalDirection(int bit) : bit_(static_cast<uint8_t>(bit)) {}  // Needs: 0..7.
+  constexpr explicit DiagonalDirection(int bit)
+      : bit_(static_cast<uint8_t>(bit)) {}  // Needs: 0..7.
   constexpr int bit() const { return bit_; }
   constexpr operator Direction() const { return Direction(bit_); }  // NOLINT: it is a Direction
   constexpr LatticePoint offset() const { return kDirections14[bit_]; }

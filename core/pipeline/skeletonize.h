@@ -15,7 +15,7 @@
 namespace bccskel {
 
 struct SkeletonizeOptions {
-  ThinningOptions thinning;
+  ThinningOptions thinning = {};
 };
 
 // Wall time of each stage.

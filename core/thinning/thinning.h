@@ -37,7 +37,7 @@ struct ThinningOptions {
   // Stop after this shell; 0 means thin to the end.
   int32_t last_shell = 0;
   // Points that are never removed. Points outside the object are ignored.
-  std::vector<LatticePoint> keep;
+  std::vector<LatticePoint> keep = {};
 };
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
