@@ -4,7 +4,7 @@
 
 #include "core/exec/context.h"
 #include "core/exec/status_macros.h"
-#include "core/io/volume_codec.h"
+#include "core/io/volume_encoder.h"
 
 namespace bccskel::client {
 namespace {
@@ -34,8 +34,9 @@ absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncod
   encoded.extent = volume.extent();
   encoded.placement = volume.placement();
   encoded.bricks = volume.brick_count();
-  BCCSKEL_ASSIGN_OR_RETURN(encoded.bytes,
-                           EncodeVolume(volume, encoding, WireCompression(encoding), context));
+  const EncodeVolumeOptions options = {.encoding = encoding,
+                                       .compression = WireCompression(encoding)};
+  BCCSKEL_ASSIGN_OR_RETURN(encoded.bytes, EncodeVolume(volume, options, context));
   return encoded;
 }
 

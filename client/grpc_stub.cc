@@ -13,7 +13,7 @@
 #include "client/grpc_status.h"
 #include "core/digest/sha256.h"
 #include "core/exec/status_macros.h"
-#include "core/io/volume_file.h"
+#include "core/io/volume_decoder.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
 #include "proto/wire/result.h"
@@ -141,8 +141,7 @@ class SkeletonizeCall {
   absl::StatusOr<SkeletonizeResult> Assemble() {
     BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, std::move(assembler_).Finish(*summary_));
     if (options_.thin_volume == ThinVolume::kReturn) {
-      absl::StatusOr<Volume> thin =
-          DecodeVolume(VolumeEncoding::kBricks, std::as_bytes(std::span(thin_bytes_)), {}, {});
+      absl::StatusOr<Volume> thin = DecodeVolume(VolumeEncoding::kBricks, thin_bytes_);
       if (!thin.ok()) {
         return absl::DataLossError("the thinned volume is damaged: " +
                                    std::string(thin.status().message()));

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,7 +29,7 @@ class Text {
   requires(std::integral<Number> || std::floating_point<Number>) void Append(Number number) {
     std::array<char, 32> digits;
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    text_.append(digits.data(), end);
+    text_.append(digits.data(), static_cast<size_t>(end - digits.data()));
   }
 
   std::string text_;

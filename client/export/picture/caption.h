@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "client/export/picture/picture.h"
+#include "client/export/subject.h"
 
 namespace bccskel::exporting {
 

@@ -183,7 +183,8 @@ RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius
   DepthMap depth(static_cast<int>(width), static_cast<int>(height));
   const double radius = std::max(point_radius, 0.8);
   for (const PanelPoint& p : surface) depth.AddSphere(p, radius);
-  // Averaging over about three point radii hides the lattice; a limit bounds the time for tiny grids.
+  // Averaging over about three point radii hides the lattice; a limit bounds the time for tiny
+  // grids.
   const int steps = static_cast<int>(std::clamp(10 * radius * radius, 10.0, 120.0));
   const auto largest_step = static_cast<float>(4 * radius);
   for (int step = 0; step < steps; ++step) depth.Smooth(largest_step);

@@ -12,8 +12,8 @@
 #include "client/export/picture/display_curve.h"
 #include "client/export/picture/png.h"
 #include "client/export/picture/projection.h"
+#include "client/export/picture/scene.h"
 #include "client/export/picture/surface_image.h"
-#include "client/export/picture/surface_points.h"
 #include "client/export/text.h"
 #include "core/exec/status_macros.h"
 
@@ -33,47 +33,15 @@ struct Panel {
 constexpr std::array<Panel, 3> kPanels = {
     {{20, 84, {800, 716}}, {840, 84, {380, 348}}, {840, 452, {380, 348}}}};
 
-// What all views share.
-struct Scene {
-  std::vector<WorldPoint> surface;
-  WorldBox box;
-  double point_spacing;  // world units between D8 neighbors, the largest of the axes
-  std::vector<DisplayCurve> curves;
-  RadiusRange radii;
-};
-
-void Include(WorldBox& box, const WorldPoint& p, double pad) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(box.low[axis], p[axis] - pad);
-    box.high[axis] = std::max(box.high[axis], p[axis] + pad);
-  }
-}
-
-Scene SceneOf(const PictureSubject& subject) {
-  const Placement& placement = subject.object.placement();
-  Scene scene;
-  scene.point_spacing = *std::ranges::max_element(placement.spacing) * std::sqrt(3.0) / 2;
-  for (const LatticePoint p : SurfacePoints(subject.object)) {
-    scene.surface.push_back(placement.ToWorld(p));
-  }
-  const WorldPoint first = scene.surface.empty() ? placement.origin : scene.surface.front();
-  scene.box = {first, first};
-  Include(scene.box, first, scene.point_spacing);
-  for (const WorldPoint& p : scene.surface) Include(scene.box, p, scene.point_spacing);
-  scene.curves = DisplayCurvesOf(subject.result.graph);
-  scene.radii = RadiusRangeOf(subject.result.graph);
-  return scene;
-}
-
 // Two decimals are a hundredth of a pixel.
 double Rounded(double v) { return std::round(v * 100) / 100; }
 
-absl::StatusOr<std::string> GlassImage(const Scene& scene, const Projection& projection,
-                                       const PanelSize& size) {
+absl::StatusOr<std::string> GlassImage(const Scene& scene, const Placement& placement,
+                                       const Projection& projection, const PanelSize& size) {
   std::vector<PanelPoint> points;
   points.reserve(scene.surface.size());
-  for (const WorldPoint& p : scene.surface) {
-    const PanelPoint q = projection.Project(p);
+  for (const LatticePoint p : scene.surface) {
+    const PanelPoint q = projection.Project(placement.ToWorld(p));
     points.push_back({q.x * kPixelsPerUnit, q.y * kPixelsPerUnit, q.depth * kPixelsPerUnit});
   }
   const double radius = scene.point_spacing * projection.scale() * kPixelsPerUnit;
@@ -165,10 +133,11 @@ void AddAxes(Text& svg, const View& view, const PanelSize& size) {
   svg.Add("</g>\n");
 }
 
-absl::Status AddPanel(Text& svg, const PictureSubject& subject, const Scene& scene,
-                      const Panel& panel, const View& view) {
+absl::Status AddPanel(Text& svg, const Subject& subject, const Scene& scene, const Panel& panel,
+                      const View& view) {
   const Projection projection(view, scene.box, panel.size, kMargin);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(scene, projection, panel.size));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string png,
+                           GlassImage(scene, subject.object.placement(), projection, panel.size));
   svg.Add("<svg x=\"", panel.x, "\" y=\"", panel.y, "\" width=\"", panel.size.width, "\" height=\"",
           panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
           "height=\"100%\" rx=\"10\"/>\n");
@@ -221,7 +190,7 @@ void AddLegend(Text& svg, const RadiusRange& radii) {
   AddNodeLegend(svg, 688, NodeKind::kIsolated, "isolated point or closed surface");
 }
 
-void AddHead(Text& svg, const PictureSubject& subject) {
+void AddHead(Text& svg, const Subject& subject) {
   svg.Add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
           "viewBox=\"0 0 ", kWidth, ' ', kHeight, "\" width=\"", kWidth, "\" height=\"", kHeight,
           "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<style>",
@@ -237,7 +206,7 @@ void AddHead(Text& svg, const PictureSubject& subject) {
 
 }  // namespace
 
-absl::StatusOr<std::string> SvgText(const PictureSubject& subject) {
+absl::StatusOr<std::string> SvgText(const Subject& subject) {
   const Scene scene = SceneOf(subject);
   const std::array<View, 3> views = ViewsOf(scene.box);
   Text svg;

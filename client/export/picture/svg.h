@@ -4,14 +4,14 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "client/export/picture/picture.h"
+#include "client/export/subject.h"
 
 namespace bccskel::exporting {
 
 // A self-contained SVG: the object as tinted glass in three views, its skeleton colored by radius
 // within, and the certificate in words.
 // Errors: RESOURCE_EXHAUSTED.
-absl::StatusOr<std::string> SvgText(const PictureSubject& subject);
+absl::StatusOr<std::string> SvgText(const Subject& subject);
 
 }  // namespace bccskel::exporting
 

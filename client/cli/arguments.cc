@@ -1,0 +1,278 @@
+#include "client/cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "client/cli/load_object.h"
+#include "client/export/skeleton_file.h"
+#include "core/thinning/thinning.h"
+#include "core/version/version.h"
+
+// The only file that includes CLI11, which is slow to compile.
+
+namespace bccskel::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit codes: 0 success, 2 wrong command line, 3 input cannot be read or is not what it should\n"
+    "be, 4 server unavailable, 5 deadline passed or job cancelled by the server, 6 internal error\n"
+    "or topology not kept, 7 over a limit, 8 output cannot be written, 130 interrupted (Ctrl-C),\n"
+    "143 terminated. See bccskel(1).";
+
+std::string ShapeNames() {
+  std::string names;
+  for (const Shape shape : kShapes) {
+    if (!names.empty()) names += ", ";
+    names += ShapeName(shape);
+  }
+  return names;
+}
+
+void AddCommon(CLI::App& command, CommonArguments& common) {
+  command.add_flag_callback(
+      "--json", [&common] { common.summary = SummaryStyle::kJson; },
+      "Print the summary as one JSON object");
+}
+
+void AddThreads(CLI::App& command, CommonArguments& common) {
+  command.add_option("--threads", common.threads, "Threads to use; 0 means all (default)")
+      ->check(CLI::Range(0, 1024));
+}
+
+void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
+  CLI::Option* points =
+      command.add_option("--points", grid.points, "Lattice points the solid shall have");
+  command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
+      ->excludes(points);
+  const std::map<std::string, FillRule> rules = {
+      {"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}};
+  command.add_option("--fill", grid.fill, "What is inside a mesh: auto (default), parity, winding")
+      ->transform(CLI::CheckedTransformer(rules));
+}
+
+void AddThinning(CLI::App& command, ThinningOptions& thinning) {
+  const std::map<std::string, StubblePolicy> policies = {{"keep-two", StubblePolicy::kKeepTwo},
+                                                         {"literal", StubblePolicy::kLiteral},
+                                                         {"none", StubblePolicy::kNone}};
+  command
+      .add_option("--stubble", thinning.stubble,
+                  "Which stubble points to remove: keep-two (default), literal, none")
+      ->transform(CLI::CheckedTransformer(policies));
+  command.add_option("--shell-width", thinning.shell_width,
+                     "Thickness of a shell in lattice units, 0.75 to 64 (default 1)");
+  command.add_option("--last-shell", thinning.last_shell,
+                     "Stop after this shell; 0 thins to the end (default)");
+  command.add_flag_callback(
+      "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
+      "Leave the simple points that parallel thinning leaves");
+}
+
+void AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {
+  command
+      .add_option("-o,--output", outputs,
+                  "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
+                      "; may be given several times")
+      ->required()
+      ->allow_extra_args(false);
+}
+
+void AddProgress(CLI::App& command, SkeletonizeArguments& arguments) {
+  const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::kAuto},
+                                                       {"always", ProgressStyle::kAlways},
+                                                       {"never", ProgressStyle::kNever}};
+  command
+      .add_option("--progress", arguments.progress,
+                  "Show the shells: auto (on a terminal, default), always, never")
+      ->transform(CLI::CheckedTransformer(styles));
+  command
+      .add_option_function<double>(
+          "--timeout",
+          [&arguments](double seconds) {
+            arguments.timeout = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
+          },
+          "Give up after this many seconds (default 3600)")
+      ->check(CLI::Range(0.001, 1e7));
+}
+
+CLI::Option* AddServer(CLI::App& command, SkeletonizeArguments& arguments) {
+  return command.add_option("--server", arguments.server,
+                            "Server, HOST:PORT or unix:PATH (default " + arguments.server + ")");
+}
+
+CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("voxelize", "Fill a mesh with bcc lattice points");
+  command.add_option("MESH", arguments.mesh, "OBJ, STL, PLY or OFF file, also .gz")->required();
+  command.add_option("-o,--output", arguments.output, "Volume to write: .exr or .bccb")->required();
+  AddGrid(command, arguments.grid);
+  AddThreads(command, arguments.common);
+  AddCommon(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("submit", "Send a volume to a server for its skeleton");
+  arguments.accepted = AcceptedInput::kVolumeOnly;
+  command.add_option("VOLUME", arguments.input, "Volume file, .exr or .bccb")->required();
+  AddOutputs(command, arguments.outputs);
+  AddServer(command, arguments);
+  AddThinning(command, arguments.skeletonize.thinning);
+  AddThreads(command, arguments.common);
+  AddProgress(command, arguments);
+  AddCommon(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("skeletonize", "Make the skeleton of a mesh or a volume in one go");
+  command.add_option("INPUT", arguments.input, "Mesh or volume file")->required();
+  AddOutputs(command, arguments.outputs);
+  AddGrid(command, arguments.grid);
+  CLI::Option* server = AddServer(command, arguments);
+  command
+      .add_flag_callback(
+          "--local", [&arguments] { arguments.place = Place::kLocal; },
+          "Compute on this machine, without a server")
+      ->excludes(server);
+  AddThinning(command, arguments.skeletonize.thinning);
+  AddThreads(command, arguments.common);
+  AddProgress(command, arguments);
+  AddCommon(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("info", "Describe a mesh or a volume");
+  command.add_option("FILE", arguments.file, "Mesh or volume file")->required();
+  AddThreads(command, arguments.common);
+  AddCommon(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("generate", "Make a test object");
+  command
+      .add_option_function<std::string>(
+          "SHAPE",
+          [&arguments](const std::string& name) {
+            const absl::StatusOr<Shape> shape = ParseShapeName(name);
+            if (!shape.ok()) throw CLI::ValidationError(std::string(shape.status().message()));
+            arguments.shape = *shape;
+          },
+          "One of " + ShapeNames())
+      ->required();
+  command.add_option("-o,--output", arguments.output, "Volume to write: .exr or .bccb")->required();
+  command.add_option("--points", arguments.options.points,
+                     "Points the object shall have (default 850000)");
+  command.add_option("--seed", arguments.options.seed, "Chooses the random parts (default 0)");
+  command.add_option("--noise", arguments.options.noise,
+                     "Fraction of boundary points that change sides, 0 to 0.1 (default 0)");
+  AddCommon(command, arguments.common);
+  return command;
+}
+
+// All commands, each with what it fills in.
+struct CommandLine {
+  CLI::App app{"Curve skeletons by parallel thinning on the body-centered cubic grid", "bccskel"};
+  VoxelizeArguments voxelize_arguments;
+  SkeletonizeArguments submit_arguments;
+  SkeletonizeArguments skeletonize_arguments;
+  InfoArguments info_arguments;
+  GenerateArguments generate_arguments;
+  CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
+  CLI::App& submit = AddSubmit(app, submit_arguments);
+  CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
+  CLI::App& info = AddInfo(app, info_arguments);
+  CLI::App& generate = AddGenerate(app, generate_arguments);
+
+  CommandLine() {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "bccskel " + std::string(Version()));
+    app.footer(kFooter);
+    for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
+  }
+
+  Arguments Chosen() const {
+    if (voxelize.parsed()) return voxelize_arguments;
+    if (submit.parsed()) return submit_arguments;
+    if (skeletonize.parsed()) return skeletonize_arguments;
+    if (info.parsed()) return info_arguments;
+    return generate_arguments;
+  }
+};
+
+using Complaint = std::optional<std::string>;
+
+Complaint IfError(const absl::Status& status) {
+  if (status.ok()) return std::nullopt;
+  return std::string(status.message());
+}
+
+Complaint VolumeOutputComplaint(const std::string& path) {
+  const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
+  if (format.ok() && *format == exporting::SkeletonFormat::kVolume) return std::nullopt;
+  return path + ": a volume file ends in .exr or .bccb";
+}
+
+// Writing over the input would destroy what cannot be computed again.
+Complaint OverwriteComplaint(const std::string& input, const std::string& output) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(input, output, none)) return std::nullopt;
+  return output + ": is the input, too, and would be overwritten";
+}
+
+Complaint GridComplaint(const SkeletonizeArguments& arguments) {
+  const VoxelizeOptions& grid = arguments.grid;
+  const bool given =
+      grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto;
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input);
+  if (!given || !kind.ok() || *kind == InputKind::kMesh) return std::nullopt;
+  return "--points, --spacing and --fill are for meshes; " + arguments.input + " is a volume";
+}
+
+Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
+  for (const std::string& output : arguments.outputs) {
+    if (Complaint c = IfError(exporting::SkeletonFormatOf(output).status()); c.has_value())
+      return c;
+    if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
+  }
+  if (Complaint c = GridComplaint(arguments); c.has_value()) return c;
+  return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
+}
+
+Complaint ComplaintAbout(const VoxelizeArguments& arguments) {
+  if (!arguments.grid.points.has_value() && !arguments.grid.spacing.has_value()) {
+    return "voxelize needs --points or --spacing";
+  }
+  return VolumeOutputComplaint(arguments.output);
+}
+
+Complaint ComplaintAbout(const GenerateArguments& arguments) {
+  return VolumeOutputComplaint(arguments.output);
+}
+
+Complaint ComplaintAbout(const InfoArguments&) { return std::nullopt; }
+
+}  // namespace
+
+std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* argv) {
+  CommandLine line;
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return line.app.exit(error) == 0 ? ExitCode::kOk : ExitCode::kUsage;
+  }
+  Arguments arguments = line.Chosen();
+  const Complaint complaint =
+      std::visit([](const auto& chosen) { return ComplaintAbout(chosen); }, arguments);
+  if (!complaint.has_value()) return arguments;
+  std::fprintf(stderr, "bccskel: error: %s\n", complaint->c_str());
+  return ExitCode::kUsage;
+}
+
+}  // namespace bccskel::cli

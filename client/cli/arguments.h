@@ -1,0 +1,76 @@
+#ifndef BCCSKEL_CLIENT_CLI_ARGUMENTS_H_
+#define BCCSKEL_CLIENT_CLI_ARGUMENTS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "client/cli/exit_code.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/shapes/shapes.h"
+#include "core/voxelize/voxelize.h"
+
+namespace bccskel::cli {
+
+enum class SummaryStyle { kText, kJson };
+enum class ProgressStyle {
+  kAuto,    // a bar on a terminal, nothing elsewhere
+  kAlways,  // a bar on a terminal, a line per shell elsewhere
+  kNever,
+};
+
+// What all commands know.
+struct CommonArguments {
+  SummaryStyle summary = SummaryStyle::kText;
+  int threads = 0;  // 0: all of the machine, or the server's choice
+};
+
+struct VoxelizeArguments {
+  CommonArguments common;
+  std::string mesh;
+  std::string output;
+  VoxelizeOptions grid;
+};
+
+enum class Place { kServer, kLocal };
+
+// `submit` is the same with a volume as the only kind of input and a server as the only place.
+enum class AcceptedInput { kMeshOrVolume, kVolumeOnly };
+
+struct SkeletonizeArguments {
+  CommonArguments common;
+  AcceptedInput accepted = AcceptedInput::kMeshOrVolume;
+  std::string input;
+  std::vector<std::string> outputs;
+  VoxelizeOptions grid;
+  SkeletonizeOptions skeletonize;
+  Place place = Place::kServer;
+  std::string server = "127.0.0.1:50051";
+  std::chrono::milliseconds timeout = std::chrono::hours(1);
+  ProgressStyle progress = ProgressStyle::kAuto;
+};
+
+struct InfoArguments {
+  CommonArguments common;
+  std::string file;
+};
+
+struct GenerateArguments {
+  CommonArguments common;
+  std::string output;
+  Shape shape = Shape::kBall;
+  ShapeOptions options;
+};
+
+using Arguments =
+    std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments, GenerateArguments>;
+
+// Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
+// has been printed and the exit code is returned.
+std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* argv);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_ARGUMENTS_H_

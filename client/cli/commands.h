@@ -1,0 +1,19 @@
+#ifndef BCCSKEL_CLIENT_CLI_COMMANDS_H_
+#define BCCSKEL_CLIENT_CLI_COMMANDS_H_
+
+#include <stop_token>
+
+#include "client/cli/arguments.h"
+#include "client/cli/exit_code.h"
+
+namespace bccskel::cli {
+
+// Each runs one command, prints what it has to say and returns how the program ends.
+ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_COMMANDS_H_

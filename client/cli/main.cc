@@ -1,0 +1,38 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <variant>
+
+#include "client/cli/arguments.h"
+#include "client/cli/commands.h"
+#include "client/cli/interrupt.h"
+
+namespace {
+
+using bccskel::cli::Arguments;
+using bccskel::cli::ExitCode;
+
+// Libraries throw where memory runs out; that is the one exception that our code can meet.
+ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
+  try {
+    return std::visit([&](const auto& chosen) { return bccskel::cli::Run(chosen, stop); },
+                      arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bccskel: error: out of memory or another failure of the system: %s\n",
+                 error.what());
+    return ExitCode::kTooLarge;
+  }
+}
+
+ExitCode Main(int argc, char** argv) {
+  const auto parsed = bccskel::cli::ParseArguments(argc, argv);
+  if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of Print()
+  const bccskel::cli::Interrupt interrupt;
+  const ExitCode code = RunCommand(std::get<Arguments>(parsed), interrupt.token());
+  return code == ExitCode::kOk ? code : interrupt.exit_code().value_or(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }

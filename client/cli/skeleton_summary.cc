@@ -1,0 +1,121 @@
+#include "client/cli/skeleton_summary.h"
+
+#include <chrono>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "client/cli/json_text.h"
+#include "client/cli/load_object.h"
+#include "client/cli/mesh_summary.h"
+#include "client/cli/volume_summary.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
+
+namespace bccskel::cli {
+namespace {
+
+using exporting::BettiPhrase;
+using exporting::GroupedDigits;
+using exporting::Text;
+
+double Seconds(StageTimings::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::string Decimals(double seconds) {
+  std::string text(32, '\0');
+  text.resize(static_cast<size_t>(std::snprintf(text.data(), text.size(), "%.3f", seconds)));
+  return text;
+}
+
+std::string CheckPhrase(const Certificate& certificate) {
+  if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
+  Text text;
+  text.Add("topology kept, ", certificate.simple_points_left,
+           certificate.simple_points_left == 1 ? " simple point left" : " simple points left");
+  return std::move(text).Take();
+}
+
+void AddTimes(Text& text, const SkeletonSummary& summary) {
+  const StageTimings& timings = summary.result.timings;
+  text.Add("time:      ", Decimals(summary.seconds), " s, of which skeleton ",
+           Decimals(Seconds(timings.total)), " (distance ", Decimals(Seconds(timings.distance)),
+           ", thinning ", Decimals(Seconds(timings.thinning)), ", certificate ",
+           Decimals(Seconds(timings.certificate)), ", graph ", Decimals(Seconds(timings.trace)),
+           ")\n");
+}
+
+void AddTimingsJson(Text& text, const StageTimings& timings) {
+  text.Add("{\"distance_ms\":", 1e3 * Seconds(timings.distance),
+           ",\"thinning_ms\":", 1e3 * Seconds(timings.thinning),
+           ",\"certificate_ms\":", 1e3 * Seconds(timings.certificate),
+           ",\"trace_ms\":", 1e3 * Seconds(timings.trace),
+           ",\"total_ms\":", 1e3 * Seconds(timings.total), '}');
+}
+
+void AddMeshJson(Text& text, const MeshStage& stage) {
+  text.Add(",\"mesh\":", MeshJson(stage.mesh), ",\"fill\":\"", FillRuleName(stage.fill),
+           "\",\"warnings\":[");
+  for (size_t n = 0; n < stage.warnings.size(); ++n) {
+    text.Add(n > 0 ? "," : "", JsonString(stage.warnings[n]));
+  }
+  text.Add(']');
+}
+
+void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {
+  text.Add(",\"outputs\":[");
+  for (size_t n = 0; n < files.size(); ++n) {
+    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(files[n].path),
+             ",\"note\":", JsonString(files[n].note), '}');
+  }
+  text.Add(']');
+}
+
+}  // namespace
+
+std::string SkeletonSummaryText(const SkeletonSummary& summary) {
+  const SkeletonizeResult& result = summary.result;
+  const Certificate& certificate = result.certificate;
+  Text text;
+  text.Add("input:     ", FileName(summary.arguments.input));
+  if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
+  text.Add("\nobject:    ", GroupedDigits(result.object_points), " points, ",
+           BettiPhrase(certificate.input), '\n');
+  text.Add("skeleton:  ", GroupedDigits(result.skeleton_points), " points, ",
+           BettiPhrase(certificate.skeleton), ", ", result.graph.nodes.size(), " nodes, ",
+           result.graph.edges.size(), " edges\n");
+  text.Add("check:     ", CheckPhrase(certificate), '\n');
+  AddTimes(text, summary);
+  text.Add("sha256:    ", result.sha256, '\n');
+  for (const WrittenFile& file : summary.files) {
+    text.Add("written:   ", file.path);
+    if (!file.note.empty()) text.Add(" (", file.note, ')');
+    text.Add('\n');
+  }
+  return std::move(text).Take();
+}
+
+std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
+  const SkeletonizeResult& result = summary.result;
+  const Certificate& certificate = result.certificate;
+  Text text;
+  text.Add("{\"input\":", JsonString(summary.arguments.input),
+           ",\"volume\":", VolumeJson(summary.object, std::nullopt));
+  if (summary.mesh.has_value()) AddMeshJson(text, *summary.mesh);
+  text.Add(",\"object_points\":", result.object_points,
+           ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
+           ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
+  text.Add(",\"certificate\":{\"input\":", BettiJson(certificate.input),
+           ",\"skeleton\":", BettiJson(certificate.skeleton),
+           ",\"simple_points_left\":", certificate.simple_points_left,
+           "},\"topology_kept\":", certificate.TopologyKept() ? "true" : "false", ",\"sha256\":\"",
+           result.sha256, "\",\"timings\":");
+  AddTimingsJson(text, result.timings);
+  text.Add(",\"seconds\":", summary.seconds);
+  AddFilesJson(text, summary.files);
+  text.Add("}\n");
+  return std::move(text).Take();
+}
+
+}  // namespace bccskel::cli

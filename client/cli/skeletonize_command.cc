@@ -1,0 +1,136 @@
+#include <chrono>
+#include <utility>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/load_object.h"
+#include "client/cli/local_team.h"
+#include "client/cli/progress_bar.h"
+#include "client/cli/skeleton_summary.h"
+#include "client/export/skeleton_file.h"
+#include "client/skeletonize_client.h"
+#include "core/exec/status_macros.h"
+#include "core/io/volume_file.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The object to thin, and the mesh that it was made from if there was one.
+struct Object {
+  Volume volume;
+  std::optional<MeshStage> mesh;
+};
+
+absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
+                                const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
+                           VoxelizeFile(arguments.input, arguments.grid, context));
+  for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
+  return Object{std::move(result.volume),
+                MeshStage{std::move(result.mesh), result.fill, std::move(result.warnings)}};
+}
+
+absl::StatusOr<Object> FromVolume(const SkeletonizeArguments& arguments,
+                                  const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, ReadVolumeFile(arguments.input, {}, context));
+  return Object{std::move(volume), std::nullopt};
+}
+
+absl::StatusOr<Object> Load(const SkeletonizeArguments& arguments, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.input));
+  if (kind == InputKind::kVolume) return FromVolume(arguments, context);
+  if (arguments.accepted == AcceptedInput::kMeshOrVolume) return FromMesh(arguments, context);
+  return absl::InvalidArgumentError(arguments.input +
+                                    ": submit takes volumes; skeletonize takes meshes, too");
+}
+
+bool WantsThinVolume(const SkeletonizeArguments& arguments) {
+  for (const std::string& path : arguments.outputs) {
+    const auto format = exporting::SkeletonFormatOf(path);
+    if (format.ok() && *format == exporting::SkeletonFormat::kVolume) return true;
+  }
+  return false;
+}
+
+absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments,
+                                           const Volume& object, ProgressBar& bar,
+                                           const std::stop_token& stop) {
+  client::CallOptions options;
+  options.skeletonize = arguments.skeletonize;
+  options.threads = arguments.common.threads;
+  options.thin_volume =
+      WantsThinVolume(arguments) ? client::ThinVolume::kReturn : client::ThinVolume::kOmit;
+  options.timeout = arguments.timeout;
+  options.stop = stop;
+  options.on_shell = bar.Callback();
+  return client::SkeletonizeClient(client::Connect(arguments.server)).Skeletonize(object, options);
+}
+
+absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,
+                                                const Volume& object, ProgressBar& bar,
+                                                exec::Context& context) {
+  context.deadline = Clock::now() + arguments.timeout;
+  context.on_shell = bar.Callback();
+  return Skeletonize(object, arguments.skeletonize, context);
+}
+
+absl::StatusOr<SkeletonizeResult> Compute(const SkeletonizeArguments& arguments,
+                                          const Volume& object, exec::Context& context) {
+  ProgressBar bar(arguments.progress);
+  if (arguments.place == Place::kLocal) return OnThisMachine(arguments, object, bar, context);
+  return OnServer(arguments, object, bar, context.stop);
+}
+
+absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
+                                                      const Object& object,
+                                                      const SkeletonizeResult& result) {
+  const exporting::Subject subject = {result, object.volume,
+                                      std::string(FileName(arguments.input))};
+  std::vector<WrittenFile> files;
+  for (const std::string& path : arguments.outputs) {
+    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));
+    files.push_back({path, std::move(note)});
+  }
+  return files;
+}
+
+ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
+  if (arguments.place == Place::kLocal) return Fail(error);
+  const std::string message(error.message());
+  const absl::Status named(error.code(), "server " + arguments.server + ": " + message);
+  const bool unavailable = absl::IsUnavailable(error);
+  return Fail(named, unavailable ? "start bccskel-server, name another with --server, or compute "
+                                   "here with `bccskel skeletonize --local`"
+                                 : "");
+}
+
+ExitCode PrintSummary(const SkeletonSummary& summary) {
+  const bool json = summary.arguments.common.summary == SummaryStyle::kJson;
+  return Print(json ? SkeletonSummaryJson(summary) : SkeletonSummaryText(summary));
+}
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
+  const Clock::time_point start = Clock::now();
+  LocalTeam team(arguments.place == Place::kLocal ? arguments.common.threads : 0, stop);
+  const absl::StatusOr<Object> object = Load(arguments, team.context());
+  if (!object.ok()) return Fail(object.status(), HintForMesh(object.status()));
+  const absl::StatusOr<SkeletonizeResult> result =
+      Compute(arguments, object->volume, team.context());
+  if (!result.ok()) return FailComputing(arguments, result.status());
+  absl::StatusOr<std::vector<WrittenFile>> files = WriteOutputs(arguments, *object, *result);
+  if (!files.ok()) return FailWith(ExitCode::kOutput, files.status());
+  const ExitCode printed = PrintSummary(
+      {arguments, object->volume, *result, object->mesh, *std::move(files), SecondsSince(start)});
+  return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;
+}
+
+}  // namespace bccskel::cli

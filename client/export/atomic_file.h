@@ -1,0 +1,19 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_ATOMIC_FILE_H_
+#define BCCSKEL_CLIENT_EXPORT_ATOMIC_FILE_H_
+
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+
+namespace bccskel::exporting {
+
+// Writes a file as a whole or not at all: whoever opens `path` sees the old bytes or the new ones.
+// Something that is not a plain file, such as /dev/null or a pipe, is written to directly.
+// Errors: NOT_FOUND, PERMISSION_DENIED, RESOURCE_EXHAUSTED (no space), UNKNOWN; each names the
+// path.
+absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_ATOMIC_FILE_H_

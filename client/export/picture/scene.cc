@@ -1,0 +1,37 @@
+#include "client/export/picture/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "client/export/picture/surface_points.h"
+
+namespace bccskel::exporting {
+namespace {
+
+void Include(WorldBox& box, const WorldPoint& p, double pad) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], p[axis] - pad);
+    box.high[axis] = std::max(box.high[axis], p[axis] + pad);
+  }
+}
+
+}  // namespace
+
+Scene SceneOf(const Subject& subject) {
+  const Placement& placement = subject.object.placement();
+  Scene scene;
+  scene.point_spacing = *std::ranges::max_element(placement.spacing) * std::sqrt(3.0) / 2;
+  scene.surface = SurfacePoints(subject.object);
+  const WorldPoint first =
+      scene.surface.empty() ? placement.origin : placement.ToWorld(scene.surface.front());
+  scene.box = {first, first};
+  Include(scene.box, first, scene.point_spacing);
+  for (const LatticePoint p : scene.surface) {
+    Include(scene.box, placement.ToWorld(p), scene.point_spacing);
+  }
+  scene.curves = DisplayCurvesOf(subject.result.graph);
+  scene.radii = RadiusRangeOf(subject.result.graph);
+  return scene;
+}
+
+}  // namespace bccskel::exporting

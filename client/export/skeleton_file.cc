@@ -1,0 +1,126 @@
+#include "client/export/skeleton_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "client/export/atomic_file.h"
+#include "client/export/graphml.h"
+#include "client/export/json.h"
+#include "client/export/obj.h"
+#include "client/export/picture/html.h"
+#include "client/export/picture/svg.h"
+#include "client/export/swc.h"
+#include "client/export/vtp.h"
+#include "core/exec/status_macros.h"
+#include "core/io/volume_file.h"
+
+namespace bccskel::exporting {
+namespace {
+
+struct Ending {
+  std::string_view text;
+  SkeletonFormat format;
+};
+constexpr std::array<Ending, 9> kEndings = {{{".swc", SkeletonFormat::kSwc},
+                                             {".vtp", SkeletonFormat::kVtp},
+                                             {".graphml", SkeletonFormat::kGraphMl},
+                                             {".obj", SkeletonFormat::kObj},
+                                             {".json", SkeletonFormat::kJson},
+                                             {".exr", SkeletonFormat::kVolume},
+                                             {".bccb", SkeletonFormat::kVolume},
+                                             {".svg", SkeletonFormat::kSvg},
+                                             {".html", SkeletonFormat::kHtml}}};
+
+char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool IsFinite(const SkeletonGraph& graph, const SkeletonPoint& point) {
+  const WorldPoint p = graph.PositionOf(point);
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
+         std::isfinite(graph.RadiusOf(point));
+}
+
+// Text formats cannot hold infinities.
+absl::Status CheckFinite(const SkeletonGraph& graph) {
+  const auto finite = [&](const SkeletonPoint& p) { return IsFinite(graph, p); };
+  const bool all = std::ranges::all_of(graph.points, finite) &&
+                   std::ranges::all_of(graph.nodes, finite, &SkeletonNode::at) &&
+                   std::ranges::all_of(graph.edges, [&](const SkeletonEdge& edge) {
+                     return std::isfinite(graph.LengthOf(edge));
+                   });
+  return all ? absl::OkStatus()
+             : absl::InvalidArgumentError("the skeleton's coordinates do not fit a double");
+}
+
+struct Document {
+  std::string bytes;
+  std::string note;
+};
+
+absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
+  if (!bytes.ok()) return std::move(bytes).status();
+  return Document{*std::move(bytes), ""};
+}
+
+// Needs: a format that is made in memory, so any but kVolume.
+absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
+  const SkeletonGraph& graph = subject.result.graph;
+  switch (format) {
+    case SkeletonFormat::kSwc: {
+      SwcDocument swc = WriteSwc(graph);
+      return Document{std::move(swc.text), std::move(swc.note)};
+    }
+    case SkeletonFormat::kVtp:
+      return WithoutNote(VtpText(graph));
+    case SkeletonFormat::kGraphMl:
+      return WithoutNote(GraphMlText(graph));
+    case SkeletonFormat::kObj:
+      return WithoutNote(ObjText(graph));
+    case SkeletonFormat::kJson:
+      return WithoutNote(JsonText(subject.result));
+    case SkeletonFormat::kSvg:
+      return WithoutNote(SvgText(subject));
+    case SkeletonFormat::kHtml:
+      return WithoutNote(HtmlText(subject));
+    case SkeletonFormat::kVolume:
+      break;
+  }
+  return absl::InternalError("this format is not made in memory");
+}
+
+}  // namespace
+
+absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
+  std::string lower;
+  std::ranges::transform(path, std::back_inserter(lower), LowerCase);
+  for (const Ending& ending : kEndings) {
+    if (lower.ends_with(ending.text)) return ending.format;
+  }
+  return absl::InvalidArgumentError(path + ": no output format has this ending; there are " +
+                                    SkeletonFormatEndings());
+}
+
+std::string SkeletonFormatEndings() {
+  std::string endings;
+  for (const Ending& ending : kEndings) {
+    if (!endings.empty()) endings += ", ";
+    endings += ending.text;
+  }
+  return endings;
+}
+
+absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject) {
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
+  if (format == SkeletonFormat::kVolume) {
+    BCCSKEL_RETURN_IF_ERROR(WriteVolumeFile(path, subject.result.thin));
+    return std::string();
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.result.graph));
+  BCCSKEL_ASSIGN_OR_RETURN(const Document document, Compose(format, subject));
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes));
+  return document.note;
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,29 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
+#define BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/export/subject.h"
+
+namespace bccskel::exporting {
+
+enum class SkeletonFormat { kSwc, kVtp, kGraphMl, kObj, kJson, kVolume, kSvg, kHtml };
+
+// The format that a file's ending asks for, in capitals or not.
+// Errors: INVALID_ARGUMENT with the endings there are.
+absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
+
+// The endings, for messages: ".swc, .vtp, ...".
+std::string SkeletonFormatEndings();
+
+// Writes one file; either all of it appears or nothing. Equal subjects give equal bytes.
+// Returns what the format could not hold, a sentence for the user; empty if it held everything.
+// Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
+// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), and those of
+//         WriteFileAtomically().
+absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_

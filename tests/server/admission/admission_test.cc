@@ -1,0 +1,87 @@
+#include "server/admission/admission.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "server/admission/refusal.h"
+
+namespace bccskel::server {
+namespace {
+
+using Usage = Admission::Usage;
+
+TEST(Admission, CountsBytesAndPlaces) {
+  Admission admission({.bytes = 100, .places = 3});
+  const auto first = admission.Admit(60);
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 60, .places = 1}));
+  const auto second = admission.Admit(40);
+  ASSERT_TRUE(second.ok());
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
+}
+
+TEST(Admission, GivesBackWhenATicketIsDestroyed) {
+  Admission admission({.bytes = 100, .places = 1});
+  { const auto ticket = admission.Admit(100); }
+  EXPECT_EQ(admission.usage(), Usage());
+}
+
+TEST(Admission, ATicketMovesWithoutBeingGivenBackTwice) {
+  Admission admission({.bytes = 100, .places = 2});
+  Ticket ticket = *admission.Admit(70);
+  Ticket moved = std::move(ticket);
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 70, .places = 1}));
+  moved = *admission.Admit(30);
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 30, .places = 1}));
+  moved = Ticket();
+  EXPECT_EQ(admission.usage(), Usage());
+}
+
+TEST(Admission, APartOfATicketCanBeGivenBack) {
+  Admission admission({.bytes = 100, .places = 1});
+  Ticket ticket = *admission.Admit(100);
+  ticket.ShrinkTo(10);
+  ticket.ShrinkTo(50);
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 10, .places = 1}));
+  ticket.LeavePlace();
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 10, .places = 0}));
+  ticket = Ticket();
+  EXPECT_EQ(admission.usage(), Usage());
+}
+
+TEST(Admission, RefusesForGoodWhatCanNeverFit) {
+  Admission admission({.bytes = 100, .places = 1});
+  const absl::Status status = admission.Admit(101).status();
+  EXPECT_EQ(RefusalOf(status), Refusal::kTooMuchMemory);
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+}
+
+TEST(Admission, RefusesForNowWhenItIsFull) {
+  Admission admission({.bytes = 100, .places = 2});
+  const auto first = admission.Admit(60);
+  const absl::Status memory = admission.Admit(60).status();
+  EXPECT_EQ(RefusalOf(memory), Refusal::kMemoryBusy);
+  EXPECT_EQ(memory.code(), absl::StatusCode::kUnavailable);
+  const auto second = admission.Admit(1);
+  const absl::Status places = admission.Admit(1).status();
+  EXPECT_EQ(RefusalOf(places), Refusal::kQueueFull);
+  EXPECT_EQ(places.code(), absl::StatusCode::kUnavailable);
+}
+
+TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
+  Admission admission({.bytes = 100, .places = 2});
+  admission.StopAdmitting();
+  const absl::Status status = admission.Admit(1).status();
+  EXPECT_EQ(RefusalOf(status), Refusal::kDraining);
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+}
+
+TEST(Refusal, IsNotFoundInOtherErrors) {
+  EXPECT_EQ(RefusalOf(absl::UnavailableError("queue full")), std::nullopt);
+  EXPECT_EQ(RefusalOf(absl::OkStatus()), std::nullopt);
+}
+
+}  // namespace
+}  // namespace bccskel::server
