@@ -1,0 +1,122 @@
+#include "core/exec/worker_team.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace bccskel::exec {
+namespace {
+
+int MoreThanProcessors() { return 4 * static_cast<int>(std::thread::hardware_concurrency()) + 3; }
+
+std::vector<int> TeamSizes() { return {1, 2, 3, 8, MoreThanProcessors()}; }
+
+TEST(WorkerTeam, RunsTheWorkOnceForEveryWorkerTimeAfterTime) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    ASSERT_EQ(team.size(), size);
+    std::vector<int> runs(static_cast<size_t>(size));  // plain integers: Run() orders the accesses
+    constexpr int kRuns = 100;
+    for (int n = 1; n <= kRuns; ++n) {
+      team.Run([&](int worker) { ++runs[static_cast<size_t>(worker)]; });
+      ASSERT_EQ(runs, std::vector<int>(runs.size(), n)) << size << " workers";
+    }
+  }
+}
+
+TEST(WorkerTeam, CallerIsWorkerZeroAndTheOthersHaveThreadsOfTheirOwn) {
+  WorkerTeam team(4);
+  std::vector<std::thread::id> ids(4);
+  team.Run([&](int worker) { ids[static_cast<size_t>(worker)] = std::this_thread::get_id(); });
+  EXPECT_EQ(ids[0], std::this_thread::get_id());
+  EXPECT_EQ(std::set(ids.begin(), ids.end()).size(), 4u);
+}
+
+TEST(WorkerTeam, AllWorkersAreThereAtTheSameTime) {
+  const int size = MoreThanProcessors();
+  WorkerTeam team(size);
+  std::atomic<int> present{0};
+  team.Run([&](int) {
+    ++present;
+    while (present < size) std::this_thread::yield();
+  });
+  EXPECT_EQ(present, size);
+}
+
+TEST(WorkerTeam, EndsWithoutEverHavingRun) {
+  for (int size : TeamSizes()) const WorkerTeam team(size);
+}
+
+TEST(WorkerTeam, RunsWorkOfALaterCallOnlyAfterTheEarlierCall) {
+  WorkerTeam team(3);
+  std::vector<int> order;
+  for (int n = 0; n < 50; ++n) {
+    team.Run([&](int worker) {
+      if (worker == n % 3) order.push_back(n);
+    });
+  }
+  for (int n = 0; n < 50; ++n) EXPECT_EQ(order[static_cast<size_t>(n)], n);
+}
+
+TEST(Barrier, LetsNobodyPassBeforeAllHaveCome) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    Barrier barrier(size);
+    constexpr int kPhases = 60;
+    std::vector<int> phase_of(static_cast<size_t>(size));  // guarded by the barrier alone
+    std::atomic<int> early{0};
+    team.Run([&](int worker) {
+      for (int phase = 1; phase <= kPhases; ++phase) {
+        phase_of[static_cast<size_t>(worker)] = phase;
+        barrier.Wait();
+        for (int other : phase_of) early += other != phase ? 1 : 0;
+        barrier.Wait();
+      }
+    });
+    EXPECT_EQ(early, 0) << size << " workers";
+  }
+}
+
+TEST(Barrier, WaitsForAWorkerThatSleeps) {
+  WorkerTeam team(2);
+  Barrier barrier(2);
+  int written = 0, seen = 0;
+  team.Run([&](int worker) {
+    if (worker == 1) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // far longer than any spinning
+      written = 7;
+    }
+    barrier.Wait();
+    if (worker == 0) seen = written;
+  });
+  EXPECT_EQ(seen, 7);
+}
+
+TEST(ShareOf, CoversAllItemsOnceInOrderAndEvenly) {
+  for (size_t count : {size_t{0}, size_t{1}, size_t{2}, size_t{7}, size_t{64}, size_t{1000003}}) {
+    for (int workers : {1, 2, 3, 7, 64}) {
+      size_t next = 0;
+      for (int worker = 0; worker < workers; ++worker) {
+        const Share share = ShareOf(count, worker, workers);
+        EXPECT_EQ(share.begin, next);
+        const size_t items = share.end - share.begin;
+        EXPECT_GE(items, count / static_cast<size_t>(workers));
+        EXPECT_LE(items, count / static_cast<size_t>(workers) + 1);
+        next = share.end;
+      }
+      EXPECT_EQ(next, count) << workers << " workers";
+    }
+  }
+}
+
+TEST(ShareOf, HoldsForMoreItemsThanAnyVolumeHasBricks) {
+  constexpr size_t kCount = size_t{1} << 40;
+  static_assert(ShareOf(kCount, 255, 256).end == kCount);
+  static_assert(ShareOf(kCount, 128, 256).begin == kCount / 2);
+}
+
+}  // namespace
+}  // namespace bccskel::exec
