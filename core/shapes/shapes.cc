@@ -76,8 +76,12 @@ absl::StatusOr<Shape> ParseShapeName(std::string_view name) {
 }
 
 absl::StatusOr<Volume> GenerateShape(Shape shape, const ShapeOptions& options) {
+  return shapes::GenerateFigure(shapes::FigureOf(shape, options.seed), options);
+}
+
+absl::StatusOr<Volume> shapes::GenerateFigure(std::span<const Solid> figure,
+                                              const ShapeOptions& options) {
   BCCSKEL_RETURN_IF_ERROR(CheckShapeOptions(options));
-  const std::vector<shapes::Solid> figure = shapes::FigureOf(shape, options.seed);
   const double wanted = static_cast<double>(options.points);
   double scale = FirstScale(figure, options.points);
   double ratio = 0;
@@ -88,9 +92,9 @@ absl::StatusOr<Volume> GenerateShape(Shape shape, const ShapeOptions& options) {
     if (std::abs(ratio - 1) <= allowed) return volume;
     scale /= CubeRoot(ratio);
   }
-  return absl::InternalError(absl::StrFormat(
-      "no scale of the %s has within %g %% of %d points: the last had %.0f",
-      std::string(ShapeName(shape)), 100 * kTolerance, options.points, ratio * wanted));
+  return absl::InternalError(
+      absl::StrFormat("no scale has within %g %% of %d points: the last had %.0f", 100 * kTolerance,
+                      options.points, ratio * wanted));
 }
 
 }  // namespace bccskel
