@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/voxelize/grid_fit.h"
+
 namespace bccskel {
 namespace {
 
@@ -27,11 +29,43 @@ Vector Cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// Exact: 40 bits fit a double.
+Vector InLatticeUnits(const GridPoint& p) {
+  constexpr double kTick = 1.0 / (1 << kTickBits);
+  return {static_cast<double>(p.x) * kTick, static_cast<double>(p.y) * kTick,
+          static_cast<double>(p.z) * kTick};
+}
+
+std::array<Int128, 3> InTicks(const Vector& v) {
+  constexpr double kTicks = 1 << kTickBits;
+  return {static_cast<Int128>(v[0] * kTicks), static_cast<Int128>(v[1] * kTicks),
+          static_cast<Int128>(v[2] * kTicks)};
+}
+
+// The sign of Dot(a, Cross(b, c)), exactly; 0 for a triangle without area. Where the origin lies in
+// the triangle's plane it is moved as the rays are (see ray_crossing.h), so that solid angles and
+// rays agree about the side.
+double ExactSide(const Vector& a, const Vector& b, const Vector& c) {
+  const auto [ax, ay, az] = InTicks(a);
+  const auto [bx, by, bz] = InTicks(b - a);
+  const auto [cx, cy, cz] = InTicks(c - a);
+  const Int128 nx = by * cz - bz * cy, ny = bz * cx - bx * cz, nz = bx * cy - by * cx;
+  const Int128 side = ax * nx + ay * ny + az * nz;
+  if (side != 0) return side > 0 ? 1 : -1;
+  const Int128 slope = ny != 0 ? ny : nz != 0 ? nz : nx;
+  return slope == 0 ? 0 : slope < 0 ? 1 : -1;
+}
+
 // Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
+// Needs: corners whose coordinates are whole ticks.
 double SolidAngle(const Vector& a, const Vector& b, const Vector& c) {
+  constexpr double kRounding = 1e-14;  // of a determinant, relative to the lengths
   const double la = Length(a), lb = Length(b), lc = Length(c);
   const double along = la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb;
-  return 2 * std::atan2(Dot(a, Cross(b, c)), along);
+  const double across = Dot(a, Cross(b, c));
+  if (along > 0 || std::abs(across) > kRounding * la * lb * lc)
+    return 2 * std::atan2(across, along);
+  return 2 * ExactSide(a, b, c) * std::atan2(std::abs(across), along);
 }
 
 // Most that a boundary of this length adds to the gradient from this distance or farther.
@@ -50,7 +84,7 @@ void AppendSpan(CellSpan span, std::vector<CellSpan>& spans) {
 
 }  // namespace
 
-GeneralizedWindingRule::GeneralizedWindingRule(std::span<const Vector> vertices,
+GeneralizedWindingRule::GeneralizedWindingRule(std::span<const GridPoint> vertices,
                                                const BoundaryCaps& caps,
                                                const LatticeExtent& extent, int sign)
     : sign_(sign) {
@@ -61,11 +95,11 @@ GeneralizedWindingRule::GeneralizedWindingRule(std::span<const Vector> vertices,
 }
 
 GeneralizedWindingRule::Cap GeneralizedWindingRule::MakeCap(
-    std::span<const Vector> vertices, std::span<const TriangleMesh::Triangle> triangles) {
+    std::span<const GridPoint> vertices, std::span<const TriangleMesh::Triangle> triangles) {
   Cap cap;
-  cap.middle = vertices[triangles[0][2]];
+  cap.middle = InLatticeUnits(vertices[triangles[0][2]]);
   for (const auto& [a, b, c] : triangles) {
-    const CapTriangle t = {vertices[a], vertices[b], vertices[c]};
+    const CapTriangle t = {InLatticeUnits(vertices[a]), InLatticeUnits(vertices[b]), cap.middle};
     cap.radius = std::max(cap.radius, Length(t.from - cap.middle));
     cap.perimeter += Length(t.to - t.from);
     cap.dipole = cap.dipole + Cross(t.from - t.apex, t.to - t.apex) * (0.5 / kFourPi);

@@ -21,14 +21,15 @@ namespace bccskel {
 //        Savart), so one value may decide a whole segment.
 // Cost:  per segment the near boundary edges, times a few halvings beside them. A cap seen from
 //        more than 4 of its radii away counts as a dipole (Barill et al. 2018), error below 10^-3.
-// Ties:  a value of 1/2, as in the plane of a hole, is outside; 10^-9 keep rounding out of it.
+// Ties:  on a cap the solid angle jumps by 4 pi; its side is found exactly, as for the rays.
+//        A value of 1/2, as in the plane of a hole, is outside; 10^-9 keep rounding out of it.
 class GeneralizedWindingRule : public SegmentRule {
  public:
   using Vector = std::array<double, 3>;
 
-  // Shapes: `vertices` in lattice coordinates, apexes included. `sign` is the sense (+1 or -1) of
+  // Shapes: `vertices` in ticks as for the rays, apexes included. `sign` is the sense (+1 or -1) of
   //         the surface and its caps.
-  GeneralizedWindingRule(std::span<const Vector> vertices, const BoundaryCaps& caps,
+  GeneralizedWindingRule(std::span<const GridPoint> vertices, const BoundaryCaps& caps,
                          const LatticeExtent& extent, int sign);
 
   void Append(const LatticeRow& row, CellSpan segment, int winding, int crossings,
@@ -53,7 +54,7 @@ class GeneralizedWindingRule : public SegmentRule {
     double change = 0;
   };
 
-  static Cap MakeCap(std::span<const Vector> vertices,
+  static Cap MakeCap(std::span<const GridPoint> vertices,
                      std::span<const TriangleMesh::Triangle> triangles);
   static Region BoxOf(const Cap& cap, const LatticeExtent& extent);
   static void AddNear(const Cap& cap, const Vector& p, double reach, Field& field);

@@ -16,13 +16,10 @@ constexpr std::array<double, 3> kOffCenterUnits = {0.31, -0.23, 0.37};
 
 GridPoint GridFit::Snap(const TriangleMesh::Vertex& unit) const {
   constexpr double kTicks = 1 << kTickBits;
-  const std::array<double, 3> lattice = ToLattice(unit);
-  return {std::llround(lattice[0] * kTicks), std::llround(lattice[1] * kTicks),
-          std::llround(lattice[2] * kTicks)};
-}
-
-std::array<double, 3> GridFit::ToLattice(const TriangleMesh::Vertex& unit) const {
-  return {offset[0] + unit[0] * scale, offset[1] + unit[1] * scale, offset[2] + unit[2] * scale};
+  const auto snap = [&](size_t axis) {
+    return std::llround((offset[axis] + unit[axis] * scale) * kTicks);
+  };
+  return {snap(0), snap(1), snap(2)};
 }
 
 absl::StatusOr<GridFit> FitGrid(const Surface& surface, double unit_spacing, GridShift shift) {

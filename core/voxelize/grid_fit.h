@@ -20,7 +20,7 @@ enum class GridShift { kCentered, kOffCenter };
 
 // A bcc grid laid over the unit cube of a Surface: the middle of the box is the middle of the
 // lattice, at lattice coordinate n - 1/2 along each axis, with at least half a lattice unit of
-// margin. So a mesh and its mirror image get mirrored points.
+// margin. So a mesh and its reflection in a point get reflected points.
 struct GridFit {
   LatticeExtent extent;
   Placement placement;
@@ -28,8 +28,6 @@ struct GridFit {
   double scale = 0;
 
   GridPoint Snap(const TriangleMesh::Vertex& unit) const;
-  // Lattice coordinates without rounding to ticks.
-  std::array<double, 3> ToLattice(const TriangleMesh::Vertex& unit) const;
 };
 
 // Units:  `unit_spacing` is the edge of the cubic cell in units of the surface.

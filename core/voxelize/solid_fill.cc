@@ -70,10 +70,7 @@ absl::StatusOr<Volume> SolidFill::Fill(const GridFit& fit, const exec::Context& 
   for (const auto& vertex : vertices_) request.vertices.push_back(fit.Snap(vertex));
   if (rule_ == FillRule::kParity) return FillRows(request, ParityRule(), context);
   if (caps_.caps.empty()) return FillRows(request, WindingRule(), context);
-  std::vector<GeneralizedWindingRule::Vector> lattice;
-  lattice.reserve(vertices_.size());
-  for (const auto& vertex : vertices_) lattice.push_back(fit.ToLattice(vertex));
-  const GeneralizedWindingRule rule(lattice, caps_, fit.extent, signs_.front());
+  const GeneralizedWindingRule rule(request.vertices, caps_, fit.extent, signs_.front());
   return FillRows(request, rule, context);
 }
 

@@ -134,6 +134,7 @@ class Voxelizer {
   // middle, where opposite walls jump at different spacings.
   absl::StatusOr<Volume> FillToCount(uint64_t target) {
     constexpr int kTries = 16;
+    constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
     constexpr double kTolerance = 0.02;
     SpacingSearch search(FirstSpacing(target));
     Volume best;
@@ -141,6 +142,7 @@ class Voxelizer {
     for (int n = 0; n < kTries; ++n) {
       if (n == kTries / 2) search = SpacingSearch(search.spacing());
       const GridShift shift = n < kTries / 2 ? GridShift::kCentered : GridShift::kOffCenter;
+      if (n == kFruitlessTries && best.empty()) break;
       BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(search.spacing(), shift));
       const uint64_t count = volume.PointCount();
       const double ratio = static_cast<double>(count) / static_cast<double>(target);

@@ -22,8 +22,8 @@ enum class TopologyCheck { kCompare, kSkip };
 struct VoxelizeOptions {
   // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
   // them; the spacing is the edge of the cubic cell in the mesh's unit of length.
-  std::optional<uint64_t> points;
-  std::optional<double> spacing;
+  std::optional<uint64_t> points = {};
+  std::optional<double> spacing = {};
   FillRule fill = FillRule::kAuto;
   TopologyCheck topology = TopologyCheck::kCompare;
   uint64_t max_points = uint64_t{1} << 33;
