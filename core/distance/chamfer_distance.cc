@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/distance/chamfer_rows.h"
+#include "core/exec/status_macros.h"
 
 // Does:  chamfer distance to the background for every point of the stored bricks.
 // Paper: section 4, local distances sqrt(3) between D8 and 2 between D6 neighbors.
@@ -23,9 +24,9 @@ namespace {
 template <typename T>
 class DistanceScan {
  public:
-  DistanceScan(const Volume& object, ChamferWeights weights, std::vector<T>& values)
-      : neighbors_(FindBrickNeighbors(object.keys())),
-        view_{object.padded_bricks().data(), neighbors_.data(), values.data(), weights} {
+  DistanceScan(const Volume& object, ChamferWeights weights, T* values)
+      : bricks_(object.brick_count()),
+        view_{object.padded_bricks().data(), object.neighbors().data(), values, weights} {
     const std::span<const BrickKey> keys = object.keys();
     for (BrickIndex n = 0; n < keys.size(); ++n) {
       const BrickCoordinates brick = keys[n].coordinates();
@@ -36,7 +37,7 @@ class DistanceScan {
   }
 
   absl::Status Run(const exec::Context& context) {
-    const int workers = context.WorkersFor(neighbors_.size());
+    const int workers = context.WorkersFor(bricks_);
     exec::Barrier barrier(workers);
     std::atomic<bool> stopped = false;
     context.Run([&](int worker) {
@@ -106,7 +107,7 @@ class DistanceScan {
     team.barrier.Wait();
   }
 
-  const std::vector<BrickNeighborhood> neighbors_;
+  const size_t bricks_;
   const DistanceView<T> view_;
   std::vector<Slab> slabs_;
 };
@@ -114,10 +115,10 @@ class DistanceScan {
 template <typename T>
 absl::StatusOr<ChamferField> Compute(const Volume& object, ChamferWeights weights,
                                      const exec::Context& context) {
-  std::vector<T> values((object.brick_count() + 1) * kBrickPoints);
-  absl::Status status = DistanceScan<T>(object, weights, values).Run(context);
-  if (!status.ok()) return status;
-  const T largest = values.empty() ? T{0} : *std::ranges::max_element(values);
+  exec::UninitializedVector<T> values((object.brick_count() + 1) * kBrickPoints);
+  std::fill(values.end() - kBrickPoints, values.end(), T{0});  // the padding brick
+  BCCSKEL_RETURN_IF_ERROR(DistanceScan<T>(object, weights, values.data()).Run(context));
+  const T largest = LargestOf(std::span<const T>(values));
   return ChamferField(weights, std::move(values), largest);
 }
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <variant>
-#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/exec/uninitialized.h"
 #include "core/lattice/lattice_point.h"
 #include "core/volume/volume.h"
 
@@ -39,7 +39,8 @@ class ChamferField {
  public:
   // 16-bit values for kShortChamfer, 32-bit ones for kLongChamfer; which one is used follows from
   // the object's bounding box alone.
-  using Values = std::variant<std::vector<uint16_t>, std::vector<uint32_t>>;
+  using Values =
+      std::variant<exec::UninitializedVector<uint16_t>, exec::UninitializedVector<uint32_t>>;
 
   ChamferField(ChamferWeights weights, Values values, uint32_t largest)
       : weights_(weights), values_(std::move(values)), largest_(largest) {}

@@ -40,6 +40,10 @@ void JoinLayers(const DistanceView<uint16_t>& view, Sublattice sublattice,
 void JoinLayers(const DistanceView<uint32_t>& view, Sublattice sublattice,
                 std::span<const BrickIndex> bricks, int k, ScanDirection direction);
 
+// Shapes: whole bricks.
+uint16_t LargestOf(std::span<const uint16_t> values);
+uint32_t LargestOf(std::span<const uint32_t> values);
+
 // Where layer k of a brick finds its adjacent layers.
 struct AdjacentLayers {
   // Bricks of the other sublattice: at the same place, beside it in x, in y, and in both.

@@ -95,4 +95,8 @@ void JoinLayers(const View& view, Sublattice sublattice, std::span<const BrickIn
   }
 }
 
+uint32_t LargestOf(std::span<const uint32_t> values) {
+  return values.empty() ? 0 : *std::ranges::max_element(values);
+}
+
 }  // namespace bccskel

@@ -80,19 +80,20 @@ uint16_t Longer(uint32_t run) {
 }
 
 // The run lengths at the far side of a brick, given those at its near side.
-void ContinueLeft(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side) {
+template <typename RunInRow>
+void Continue(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side,
+              RunInRow run_in_row) {
   for (size_t row = 0; row < far_side.size(); ++row) {
     const uint16_t bits = RowBits(brick, row);
-    far_side[row] = bits == 0xffff ? Longer(near_side[row] + kBrickX)
-                                   : static_cast<uint16_t>(std::countl_one(bits));
+    far_side[row] = bits == 0xffff ? Longer(near_side[row] + uint32_t{kBrickX})
+                                   : static_cast<uint16_t>(run_in_row(bits));
   }
 }
+void ContinueLeft(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side) {
+  Continue(brick, near_side, far_side, [](uint16_t bits) { return std::countl_one(bits); });
+}
 void ContinueRight(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side) {
-  for (size_t row = 0; row < far_side.size(); ++row) {
-    const uint16_t bits = RowBits(brick, row);
-    far_side[row] = bits == 0xffff ? Longer(near_side[row] + kBrickX)
-                                   : static_cast<uint16_t>(std::countr_one(bits));
-  }
+  Continue(brick, near_side, far_side, [](uint16_t bits) { return std::countr_one(bits); });
 }
 
 SideRuns FindSideRuns(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last) {
@@ -191,30 +192,37 @@ HWY_INLINE Row FromUpperColumn(const Row& own, const Row& beside) {
   return out;
 }
 
-// Distances along x of half a row whose points are `bits`; `left` and `right` are the runs beside
-// it.
-HWY_INLINE void WriteHalfRow(uint32_t bits, uint32_t left, uint32_t right, uint16_t* values) {
+// Distances along x of half a row whose points are `bits`, eight at a time or as many as a register
+// holds; `left` and `right` are the runs beside it.
+HWY_INLINE hn::Vec<HalfTag> HalfRow(uint32_t bits, uint32_t left, uint32_t right, size_t i) {
   const HalfTag tag;
-  const uint16_t* inside = kRunTables.inside[bits].data();
   const auto from_left = hn::Set(tag, static_cast<uint16_t>(left * kShortChamfer.axial));
   const auto from_right = hn::Set(tag, static_cast<uint16_t>(right * kShortChamfer.axial));
-  for (size_t i = 0; i < kHalf; i += hn::Lanes(tag)) {
-    const auto up = hn::SaturatedAdd(from_left, hn::Load(tag, kRamps.up.data() + i));
-    const auto down = hn::SaturatedAdd(from_right, hn::Load(tag, kRamps.down.data() + i));
-    hn::StoreU(hn::Min(hn::Load(tag, inside + i), hn::Min(up, down)), tag, values + i);
-  }
+  const auto up = hn::SaturatedAdd(from_left, hn::Load(tag, kRamps.up.data() + i));
+  const auto down = hn::SaturatedAdd(from_right, hn::Load(tag, kRamps.down.data() + i));
+  return hn::Min(hn::Load(tag, kRunTables.inside[bits].data() + i), hn::Min(up, down));
 }
 
-HWY_INLINE void WriteRow(uint32_t bits, uint32_t left, uint32_t right, uint16_t* values) {
+// Distances along x of a whole row. It stays in registers: reading back what was just written in
+// halves would wait for the stores.
+HWY_INLINE Row RowOfRuns(uint32_t bits, uint32_t left, uint32_t right) {
   const uint32_t low = bits & 0xff, high = bits >> 8;
-  const uint32_t past_low = low == 0xff
-                                ? left + kHalf
-                                : static_cast<uint32_t>(std::countl_one(static_cast<uint8_t>(low)));
-  const uint32_t past_high =
-      high == 0xff ? right + kHalf
-                   : static_cast<uint32_t>(std::countr_one(static_cast<uint8_t>(high)));
-  WriteHalfRow(low, left, past_high < kLongestRun ? past_high : kLongestRun, values);
-  WriteHalfRow(high, past_low < kLongestRun ? past_low : kLongestRun, right, values + kHalf);
+  const auto from_low = static_cast<uint32_t>(std::countl_one(static_cast<uint8_t>(low)));
+  const auto from_high = static_cast<uint32_t>(std::countr_one(static_cast<uint8_t>(high)));
+  const uint32_t past_low = Longer(low == 0xff ? left + kHalf : from_low);
+  const uint32_t past_high = Longer(high == 0xff ? right + kHalf : from_high);
+  Row row;
+#if HWY_TARGET <= HWY_AVX2
+  row.v[0] =
+      hn::Combine(RowTag(), HalfRow(high, past_low, right, 0), HalfRow(low, left, past_high, 0));
+#else
+  const size_t lanes = hn::Lanes(HalfTag());
+  for (size_t n = 0; n < kRowVectors / 2; ++n) {
+    row.v[n] = HalfRow(low, left, past_high, n * lanes);
+    row.v[n + kRowVectors / 2] = HalfRow(high, past_low, right, n * lanes);
+  }
+#endif
+  return row;
 }
 
 HWY_INLINE void SweepBrickForward(const DistanceView<uint16_t>& view, BrickIndex brick,
@@ -224,8 +232,8 @@ HWY_INLINE void SweepBrickForward(const DistanceView<uint16_t>& view, BrickIndex
     for (int j = 0; j < kBrickY; ++j) {
       const auto row = static_cast<size_t>(4 * k + j);
       uint16_t* values = RowOf(view, brick, k, j);
-      WriteRow(RowBits(view.object[brick], row), left[row], right[row], values);
-      below = Min(LoadRow(values), Plus(below, kShortChamfer.axial));
+      const Row by_x = RowOfRuns(RowBits(view.object[brick], row), left[row], right[row]);
+      below = Min(by_x, Plus(below, kShortChamfer.axial));
       StoreRow(below, values);
     }
   }
@@ -301,6 +309,21 @@ void JoinLayersTarget(const DistanceView<uint16_t>& view, Sublattice sublattice,
   }
 }
 
+uint16_t LargestOfTarget(const uint16_t* values, size_t count) {
+  const RowTag tag;
+  Row largest;
+  for (auto& v : largest.v) v = hn::Zero(tag);
+  for (size_t n = 0; n < count; n += kBrickX) {
+    const Row row = LoadRow(values + n);
+    for (size_t v = 0; v < kRowVectors; ++v) largest.v[v] = hn::Max(largest.v[v], row.v[v]);
+  }
+  std::array<uint16_t, kBrickX> lanes;
+  StoreRow(largest, lanes.data());
+  uint16_t result = 0;
+  for (const uint16_t lane : lanes) result = lane > result ? lane : result;
+  return result;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace bccskel
 HWY_AFTER_NAMESPACE();
@@ -310,6 +333,7 @@ namespace bccskel {
 
 HWY_EXPORT(SweepWithinLayersTarget);
 HWY_EXPORT(JoinLayersTarget);
+HWY_EXPORT(LargestOfTarget);
 
 void SweepWithinLayers(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last) {
   HWY_DYNAMIC_DISPATCH(SweepWithinLayersTarget)(view, first, last);
@@ -317,6 +341,9 @@ void SweepWithinLayers(const DistanceView<uint16_t>& view, BrickIndex first, Bri
 void JoinLayers(const DistanceView<uint16_t>& view, Sublattice sublattice,
                 std::span<const BrickIndex> bricks, int k, ScanDirection direction) {
   HWY_DYNAMIC_DISPATCH(JoinLayersTarget)(view, sublattice, bricks, k, direction);
+}
+uint16_t LargestOf(std::span<const uint16_t> values) {
+  return HWY_DYNAMIC_DISPATCH(LargestOfTarget)(values.data(), values.size());
 }
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/distance/chamfer_distance.h"
@@ -34,7 +35,7 @@ class Shells {
   size_t brick_count() const { return ranges_.size(); }
 
   // Planes of shell modulo 64. Background points may have any bits.
-  const ShellPlanes& PlanesOf(BrickIndex brick) const { return planes_[brick]; }
+  std::span<const ShellPlanes> planes() const { return planes_; }
 
  private:
   friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);

@@ -21,7 +21,7 @@ struct alignas(64) Worker {
 
   BrickLists directions_to_do;
   BrickLists end_points_to_do;
-  std::vector<BrickIndex> border;
+  std::vector<BrickIndex> thin;     // bricks that may have end points
   std::vector<MarkedBrick> marked;  // only grows; the first marked_count are this pass's
   size_t marked_count = 0;
 
@@ -89,9 +89,19 @@ class DirectionPasses {
               static_cast<BrickIndex>(worker.bricks.begin));
     std::ranges::stable_sort(worker.by_first_shell, {},
                              [this](BrickIndex n) { return shells_.RangeOf(n).first; });
+    if (workers_.size() > 1) MarkBorder(worker);
     worker.directions_to_do.Reserve(count);
     worker.end_points_to_do.Reserve(count);
-    worker.border.resize(count);
+    worker.thin.resize(count);
+  }
+
+  void MarkBorder(const Worker& worker) {
+    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
+      const bool border = std::ranges::any_of(state_.neighbors[n], [&](BrickIndex other) {
+        return other < state_.brick_count() && !Owns(worker, other);
+      });
+      if (border) unsettled_[n] |= kBorderBrick;
+    }
   }
 
   // Condition 5: the points of this shell become candidates.
@@ -100,32 +110,18 @@ class DirectionPasses {
            shells_.RangeOf(worker.by_first_shell[worker.reached]).first <= shell) {
       worker.opening.push_back(worker.by_first_shell[worker.reached++]);
     }
-    uint64_t points = 0;
-    std::erase_if(worker.opening, [&](BrickIndex n) {
-      points += OpenBrick(n, shell);
-      return shells_.RangeOf(n).last == shell;
-    });
-    worker.shell_points[static_cast<size_t>(shell & 1)] = points;
-  }
-
-  uint64_t OpenBrick(BrickIndex n, int32_t shell) {
-    BrickBits& candidates = state_.candidates[n];
-    const ShellPlanes& planes = shells_.PlanesOf(n);
-    const uint64_t points =
-        state_.kept.empty()
-            ? OpenShellInBrick(planes, shell, state_.object[n], candidates)
-            : OpenShellInBrick(planes, shell, Without(state_.object[n], state_.kept[n]),
-                               candidates);
-    if (points != 0) {
-      enabled_[n] = watched_;
-      unsettled_[n] |= watched_;
-    }
-    return points;
-  }
-
-  static BrickBits Without(BrickBits points, const BrickBits& kept) {
-    for (size_t k = 0; k < points.words.size(); ++k) points.words[k] &= ~kept.words[k];
-    return points;
+    const OpeningView view = {
+        .object = state_.object.data(),
+        .kept = state_.kept.empty() ? nullptr : state_.kept.data(),
+        .planes = shells_.planes().data(),
+        .candidates = state_.candidates.data(),
+        .unsettled = unsettled_.data(),
+        .enabled = enabled_.data(),
+        .watched = watched_,
+    };
+    worker.shell_points[static_cast<size_t>(shell & 1)] =
+        ::bccskel::OpenShell(view, shell, worker.opening);
+    std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last == shell; });
   }
 
   size_t groups() const { return (state_.brick_count() + kUnsettledGroup - 1) / kUnsettledGroup; }
@@ -170,10 +166,9 @@ class DirectionPasses {
   void MarkDirection(Worker& worker, DiagonalDirection d) {
     const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
-      const size_t border = KeepBorderBricks(
-          view, sublattice, d, worker.directions_to_do.Of(sublattice), worker.border.data());
-      worker.marked_count += MarkRemovable(
-          view, sublattice, d, std::span(worker.border).first(border), Room(worker, border));
+      const std::span<const BrickIndex> bricks = worker.directions_to_do.Of(sublattice);
+      worker.marked_count +=
+          MarkRemovable(view, sublattice, d, bricks, Room(worker, bricks.size()));
     }
   }
 
@@ -183,15 +178,16 @@ class DirectionPasses {
     const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
       const size_t thin =
-          KeepThinBricks(view, worker.end_points_to_do.Of(sublattice), worker.border.data());
+          KeepThinBricks(view, worker.end_points_to_do.Of(sublattice), worker.thin.data());
       MarkedBrick* marked = Room(worker, thin);
       const size_t count =
-          MarkEndPoints(view, sublattice, std::span(worker.border).first(thin), marked);
-      for (MarkedBrick& m : std::span(marked, count)) {
+          MarkEndPoints(view, sublattice, std::span(worker.thin).first(thin), marked);
+      for (const MarkedBrick& m : std::span(marked, count)) {
         unsettled_[m.brick] |= kEndPointsUnsettled;
-        m.marks = SelectStubble(state_, m, stubble_);
+        const BrickBits stubble = SelectStubble(state_, m, stubble_);
+        if (stubble.Empty()) continue;
+        worker.marked[worker.marked_count++] = {stubble, m.brick};
       }
-      worker.marked_count += count;
     }
   }
 
@@ -204,7 +200,8 @@ class DirectionPasses {
                               .unsettled = unsettled_.data(),
                               .enabled = enabled_.data(),
                               .first = static_cast<BrickIndex>(worker.bricks.begin),
-                              .last = static_cast<BrickIndex>(worker.bricks.end)};
+                              .last = static_cast<BrickIndex>(worker.bricks.end),
+                              .none = static_cast<BrickIndex>(state_.brick_count())};
     worker.removed +=
         RemoveMarked(view, std::span(worker.marked).first(worker.marked_count), elsewhere);
   }

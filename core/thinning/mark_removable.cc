@@ -20,14 +20,7 @@ constexpr Step StepOf(Sublattice sublattice) {
   return sublattice == Sublattice::kEven ? Step::kDown : Step::kUp;
 }
 
-// Candidates that are border points of d and have a sequel point. `kAxes` are the axes of d.
-template <Sublattice kSublattice, int kAxes>
-HWY_INLINE Plane BorderWithSequel(const ObjectView& view, BrickIndex brick) {
-  const PlaneReader<StepOf(kSublattice)> read{view.object, view.neighbors[brick]};
-  const Plane own = And(LoadPlane(view.object[brick]), LoadPlane(view.candidates[brick]));
-  return AndNot(read.template Diagonal<7 ^ kAxes>(), And(own, read.template Diagonal<kAxes>()));
-}
-
+// Conditions 1 to 4. `kAxes` are the axes of d.
 template <Sublattice kSublattice, int kAxes>
 HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick) {
   constexpr Step kStep = StepOf(kSublattice);
@@ -132,15 +125,8 @@ HWY_INLINE size_t MarkIf(std::span<const BrickIndex> bricks, MarkedBrick* marked
   return count;
 }
 
-using KeepFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, BrickIndex*);
 using MarkFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*);
 
-template <Sublattice kSublattice, int kDirection>
-size_t KeepBorder(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept) {
-  return KeepIf(bricks, kept, [&](BrickIndex brick) HWY_ATTR {
-    return BorderWithSequel<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
-  });
-}
 template <Sublattice kSublattice, int kDirection>
 size_t MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
                      MarkedBrick* marked) {
@@ -150,21 +136,10 @@ size_t MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
 }
 
 template <Sublattice kSublattice, int... kDirections>
-constexpr std::array<KeepFunction, 8> KeepTable(std::integer_sequence<int, kDirections...>) {
-  return {KeepBorder<kSublattice, kDirections>...};
-}
-template <Sublattice kSublattice, int... kDirections>
 constexpr std::array<MarkFunction, 8> MarkTable(std::integer_sequence<int, kDirections...>) {
   return {MarkDirection<kSublattice, kDirections>...};
 }
 
-size_t KeepBorderBricksTarget(const ObjectView& view, Sublattice sublattice, int d,
-                              std::span<const BrickIndex> bricks, BrickIndex* kept) {
-  static constexpr std::array<KeepFunction, 8> kTables[2] = {
-      KeepTable<Sublattice::kEven>(std::make_integer_sequence<int, 8>()),
-      KeepTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
-  return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, kept);
-}
 size_t MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
                            std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   static constexpr std::array<MarkFunction, 8> kTables[2] = {
@@ -206,16 +181,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bccskel {
 
-HWY_EXPORT(KeepBorderBricksTarget);
 HWY_EXPORT(MarkRemovableTarget);
 HWY_EXPORT(KeepThinBricksTarget);
 HWY_EXPORT(MarkEndPointsTarget);
 HWY_EXPORT(MarkPossiblySimpleTarget);
 
-size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                        std::span<const BrickIndex> bricks, BrickIndex* kept) {
-  return HWY_DYNAMIC_DISPATCH(KeepBorderBricksTarget)(view, sublattice, d.bit(), bricks, kept);
-}
 size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked);

@@ -21,7 +21,8 @@
 //   d, which the implications turn into "one of the six right-hand sides". So twelve three-input
 //   logic operations decide a whole register of points, with no table. All marks of a pass are
 //   taken on one frozen object, which is what the proof needs.
-// Cost:  the pre-test reads 2 to 9 bricks of 64 bytes, the full test 15; no writes to the object.
+// Cost:  15 bricks of 64 bytes are read for each brick. A pre-test for border points alone would be
+//        twice as fast but every second brick passes it.
 // Differs from the paper: no per-point test and no point lists; same points removed.
 
 namespace bccskel {
@@ -38,21 +39,15 @@ struct MarkedBrick {
   BrickIndex brick = 0;
 };
 
-// The bricks of one sublattice that hold candidates which are border points of direction d with a
-// sequel point; the others have nothing to remove along d.
-// Shapes: `bricks` all of `sublattice`; `kept` has room for bricks.size().
-// Returns: how many bricks were written to `kept`, in the order of `bricks`.
-size_t KeepBorderBricks(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                        std::span<const BrickIndex> bricks, BrickIndex* kept);
-
 // Conditions 1 to 4 along d for all candidates of the given bricks.
 // Shapes: `bricks` all of `sublattice`; `marked` has room for bricks.size().
-// Returns: how many bricks have marks.
+// Returns: how many bricks have marks; they come in the order of `bricks`.
 size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked);
 
-// The bricks that hold candidates with at most one object neighbor along y and z
-// by D6 steps; the others have no end points. Shapes and result as KeepBorderBricks().
+// The bricks that hold candidates with at most one object neighbor along y and z by D6 steps; the
+// others have no end points. Shapes: `kept` has room for bricks.size().
+// Returns: how many bricks were written to `kept`, in the order of `bricks`.
 size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept);
 
 // The end points among the candidates of the given bricks. Shapes and result as MarkRemovable().

@@ -45,10 +45,10 @@ const HopTable& Hops() {
 }  // namespace
 
 ThinningState::ThinningState(const Volume& volume, std::span<const LatticePoint> keep)
-    : keys(volume.keys().begin(), volume.keys().end()),
+    : keys(volume.keys()),
       object(volume.padded_bricks().begin(), volume.padded_bricks().end()),
       candidates(volume.brick_count()),
-      neighbors(FindBrickNeighbors(volume.keys())) {
+      neighbors(volume.neighbors()) {
   for (LatticePoint p : keep) {
     if (!volume.Contains(p)) continue;
     if (kept.empty()) kept.resize(volume.brick_count());
@@ -76,8 +76,8 @@ NeighborMask ThinningState::NeighborsOf(BrickIndex brick, int bit) const {
 
 Volume ThinningState::ToVolume(const Volume& source) && {
   object.pop_back();
-  return Volume::FromSortedBricks(source.extent(), source.placement(), std::move(keys),
-                                  std::move(object));
+  return Volume::FromSortedBricks(source.extent(), source.placement(),
+                                  std::vector(keys.begin(), keys.end()), std::move(object));
 }
 
 }  // namespace bccskel

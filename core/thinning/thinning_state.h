@@ -11,13 +11,14 @@
 
 namespace bccskel {
 
-// The object while it is being thinned, in the brick order of the volume it came from.
+// The object while it is being thinned, in the brick order of the volume it came from, which must
+// outlive it.
 struct ThinningState {
-  std::vector<BrickKey> keys;
+  std::span<const BrickKey> keys;
   std::vector<BrickBits> object;      // padded with one empty brick
   std::vector<BrickBits> candidates;  // points that may go
   std::vector<BrickBits> kept;        // empty, or points that never go
-  std::vector<BrickNeighborhood> neighbors;
+  std::span<const BrickNeighborhood> neighbors;
 
   ThinningState(const Volume& volume, std::span<const LatticePoint> keep);
 

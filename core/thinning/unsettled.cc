@@ -17,17 +17,6 @@
 namespace bccskel {
 namespace {
 
-// For a set of axes, all its subsets: bit s of the result stands for the subset s.
-constexpr std::array<uint32_t, 8> kSubsetsOf = [] {
-  std::array<uint32_t, 8> subsets = {};
-  for (uint32_t axes = 0; axes < 8; ++axes) {
-    for (uint32_t s = 0; s < 8; ++s) {
-      if ((s & ~axes) == 0) subsets[axes] |= 1u << s;
-    }
-  }
-  return subsets;
-}();
-
 // The position in a BrickNeighborhood at which the neighbor p + offset of a point p may be stored,
 // if it is not in the brick that `position` names: whether the offset can lead there.
 constexpr bool LeadsTo(Sublattice sublattice, int position, int direction) {
@@ -59,6 +48,39 @@ constexpr std::array<std::array<Unsettled, 14>, 2> kWakes = [] {
   return wakes;
 }();
 
+// Which sides of a brick removed points touch: bits 0 to 2 the low sides along x, y and z, bits 3
+// to 5 the high ones.
+using Sides = uint32_t;
+
+// Whether points at these sides have neighbors in the brick at a position.
+constexpr bool Sees(Sublattice sublattice, Sides sides, int position) {
+  const Sides low = sides & 7, high = sides >> 3;
+  if (position < 8) {
+    const Sides toward = sublattice == Sublattice::kEven ? low : high;
+    return (static_cast<Sides>(position) & ~toward) == 0;
+  }
+  const int axis = (position - 8) / 2;
+  return ((position % 2 == 0 ? high : low) >> axis & 1) != 0;
+}
+
+// What a removal unsettles around it, by sublattice and sides: a table because the loop over the
+// neighbors has no other branch that could be mispredicted.
+using WakeRow = std::array<Unsettled, 14>;
+using WakeRows = std::array<std::array<WakeRow, 64>, 2>;
+constexpr WakeRows kWakeRows = [] {
+  WakeRows rows = {};
+  for (size_t sublattice = 0; sublattice < 2; ++sublattice) {
+    for (Sides sides = 0; sides < 64; ++sides) {
+      for (int position = 0; position < 14; ++position) {
+        const auto at = static_cast<size_t>(position);
+        if (!Sees(static_cast<Sublattice>(sublattice), sides, position)) continue;
+        rows[sublattice][sides][at] = kWakes[sublattice][at];
+      }
+    }
+  }
+  return rows;
+}();
+
 }  // namespace
 }  // namespace bccskel
 #endif  // tables
@@ -74,6 +96,7 @@ struct GroupBits {
   uint32_t odd = 0;
 };
 
+// Reads a group and settles it.
 HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled along_d) {
   GroupBits bits;
 #if HWY_TARGET == HWY_SCALAR
@@ -84,110 +107,156 @@ HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled along_d) {
     group[n] = static_cast<Unsettled>(group[n] & ~(along_d | kEndPointsUnsettled));
   }
 #else
-  const hn::CappedTag<uint16_t, kUnsettledGroup> tag;
+  const hn::CappedTag<Unsettled, kUnsettledGroup> tag;
   const auto d = hn::Set(tag, along_d), ends = hn::Set(tag, kEndPointsUnsettled);
-  const auto odd = hn::Set(tag, kOddBrick);
+  const auto odd = hn::Set(tag, kOddBrick), taken = hn::Or(d, ends);
   for (size_t n = 0; n < kUnsettledGroup; n += hn::Lanes(tag)) {
     const auto lanes = hn::LoadU(tag, group + n);
-    hn::StoreMaskBits(tag, hn::TestBit(lanes, d),
-                      reinterpret_cast<uint8_t*>(&bits.along_d) + n / 8);
-    hn::StoreMaskBits(tag, hn::TestBit(lanes, ends),
-                      reinterpret_cast<uint8_t*>(&bits.end_points) + n / 8);
-    hn::StoreMaskBits(tag, hn::TestBit(lanes, odd), reinterpret_cast<uint8_t*>(&bits.odd) + n / 8);
-    hn::StoreU(hn::AndNot(hn::Or(d, ends), lanes), tag, group + n);
+    // Most groups are at rest.
+    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, taken), hn::Zero(tag)))) continue;
+    const auto store = [&](auto mask, uint32_t& to) HWY_ATTR {
+      hn::StoreMaskBits(tag, mask, reinterpret_cast<uint8_t*>(&to) + n / 8);
+    };
+    store(hn::TestBit(lanes, d), bits.along_d);
+    store(hn::TestBit(lanes, ends), bits.end_points);
+    store(hn::TestBit(lanes, odd), bits.odd);
+    hn::StoreU(hn::AndNot(taken, lanes), tag, group + n);
   }
 #endif
   return bits;
 }
 
-HWY_INLINE size_t Append(uint32_t bits, size_t first, BrickIndex* list, size_t count) {
-  for (; bits != 0; bits &= bits - 1) {
-    list[count++] = static_cast<BrickIndex>(first + static_cast<size_t>(std::countr_zero(bits)));
+// One list being written.
+struct ListWriter {
+  BrickIndex* list;
+  size_t count = 0;
+
+  // Appends first + n for every set bit n. With AVX-512 whole registers are written and the next
+  // ones overwrite their tails; elsewhere compressing costs more than mispredicted loop ends.
+  HWY_INLINE void Append(uint32_t bits, size_t first) {
+#if HWY_TARGET <= HWY_AVX3
+    const hn::CappedTag<uint32_t, 16> tag;
+    for (size_t n = 0; n < kUnsettledGroup; n += 16, bits >>= 16) {
+      const auto half = static_cast<uint16_t>(bits);
+      const auto mask = hn::LoadMaskBits(tag, reinterpret_cast<const uint8_t*>(&half));
+      const auto bricks = hn::Iota(tag, static_cast<uint32_t>(first + n));
+      hn::StoreU(hn::Compress(bricks, mask), tag, list + count);
+      count += static_cast<size_t>(std::popcount(half));
+    }
+#else
+    for (; bits != 0; bits &= bits - 1) {
+      list[count++] = static_cast<BrickIndex>(first + static_cast<size_t>(std::countr_zero(bits)));
+    }
+#endif
   }
-  return count;
-}
+};
 
 void TakeUnsettledTarget(std::span<Unsettled> unsettled, size_t first, size_t last,
                          Unsettled along_d, BrickLists& lists, BrickLists& end_lists) {
-  const std::array<BrickIndex*, 2> list = lists.storage(), end_list = end_lists.storage();
-  size_t count[2] = {0, 0}, ends[2] = {0, 0};
+  ListWriter even = {lists.storage()[0]}, odd = {lists.storage()[1]};
+  ListWriter even_ends = {end_lists.storage()[0]}, odd_ends = {end_lists.storage()[1]};
   for (size_t at = first; at < last; at += kUnsettledGroup) {
     const GroupBits bits = TakeGroup(unsettled.data() + at, along_d);
     if ((bits.along_d | bits.end_points) == 0) continue;
-    count[0] = Append(bits.along_d & ~bits.odd, at, list[0], count[0]);
-    count[1] = Append(bits.along_d & bits.odd, at, list[1], count[1]);
-    ends[0] = Append(bits.end_points & ~bits.odd, at, end_list[0], ends[0]);
-    ends[1] = Append(bits.end_points & bits.odd, at, end_list[1], ends[1]);
+    even.Append(bits.along_d & ~bits.odd, at);
+    odd.Append(bits.along_d & bits.odd, at);
+    even_ends.Append(bits.end_points & ~bits.odd, at);
+    odd_ends.Append(bits.end_points & bits.odd, at);
   }
-  for (size_t s = 0; s < 2; ++s) {
-    lists.SetCount(s, count[s]);
-    end_lists.SetCount(s, ends[s]);
-  }
+  lists.SetCounts(even.count, odd.count);
+  end_lists.SetCounts(even_ends.count, odd_ends.count);
 }
 
-// The neighboring bricks (positions of BrickNeighborhood) that hold neighbors of removed points.
-HWY_INLINE uint32_t BricksThatSee(const BrickBits& removed, bool odd) {
+HWY_INLINE Sides SidesOf(const BrickBits& removed) {
   uint64_t any = 0;
   for (uint64_t word : removed.words) any |= word;
-  const uint32_t low = ((any & 0x0001000100010001) != 0 ? 1u : 0u) |
-                       ((any & 0xffff) != 0 ? 2u : 0u) | (removed.words[0] != 0 ? 4u : 0u);
-  const uint32_t high = ((any & 0x8000800080008000) != 0 ? 1u : 0u) | ((any >> 48) != 0 ? 2u : 0u) |
-                        (removed.words[7] != 0 ? 4u : 0u);
-  const uint32_t axial = (high & 1) << 8 | (low & 1) << 9 | (high & 2) << 9 | (low & 2) << 10 |
-                         (high & 4) << 10 | (low & 4) << 11;
-  return kSubsetsOf[odd ? high : low] | axial;
+  const auto bit = [](uint64_t bits, int place) {
+    return static_cast<Sides>(bits != 0 ? 1 : 0) << place;
+  };
+  return bit(any & 0x0001000100010001, 0) | bit(any & 0xffff, 1) | bit(removed.words[0], 2) |
+         bit(any & 0x8000800080008000, 3) | bit(any >> 48, 4) | bit(removed.words[7], 5);
 }
 
-HWY_INLINE uint64_t CountBits(const BrickBits& bits) {
-  uint64_t count = 0;
-  for (uint64_t word : bits.words) count += static_cast<uint64_t>(std::popcount(word));
-  return count;
+// Takes the points out of the brick and unsettles it. Most bricks run out of candidates before the
+// next shell opens; looking at them again would be two thirds of all pre-tests.
+HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
+  const Plane left_over = AndNot(LoadPlane(m.marks), LoadPlane(view.object[m.brick]));
+  StorePlane(left_over, view.object[m.brick]);
+  const bool done = IsEmpty(And(left_over, LoadPlane(view.candidates[m.brick])));
+  const auto stays = static_cast<Unsettled>(done ? 0 : 0xffff);
+  const auto enabled = static_cast<Unsettled>(view.enabled[m.brick] & stays);
+  view.enabled[m.brick] = enabled;
+  view.unsettled[m.brick] = static_cast<Unsettled>(
+      (view.unsettled[m.brick] & (kOddBrick | kBorderBrick | stays)) | enabled);
+}
+
+HWY_INLINE void UnsettleAround(const RemovalView& view, BrickIndex brick, const WakeRow& wakes) {
+  const BrickNeighborhood& neighbors = view.neighbors[brick];
+  for (size_t position = 0; position < wakes.size(); ++position) {
+    // The padding brick belongs to nobody, so nobody may write to it.
+    const BrickIndex n = neighbors[position] == view.none ? brick : neighbors[position];
+    view.unsettled[n] =
+        static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & wakes[position]));
+  }
+}
+
+// The same for a brick that borders on other workers' bricks.
+HWY_NOINLINE void UnsettleAcrossBorder(const RemovalView& view, BrickIndex brick,
+                                       const WakeRow& wakes, std::vector<BrickIndex>& elsewhere) {
+  for (size_t position = 0; position < wakes.size(); ++position) {
+    const BrickIndex n = view.neighbors[brick][position];
+    if (wakes[position] == 0 || n == view.none) continue;
+    if (n >= view.first && n < view.last) {
+      view.unsettled[n] =
+          static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & wakes[position]));
+    } else {
+      elsewhere.push_back(n);
+    }
+  }
 }
 
 uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick> marked,
                             std::vector<BrickIndex>& elsewhere) {
   uint64_t removed = 0;
   for (const MarkedBrick& m : marked) {
-    const uint64_t count = CountBits(m.marks);
-    if (count == 0) continue;
-    removed += count;
-    const Plane left_over = AndNot(LoadPlane(m.marks), LoadPlane(view.object[m.brick]));
-    StorePlane(left_over, view.object[m.brick]);
-    const size_t odd = view.unsettled[m.brick] >> 15;
-    // Most bricks run out of candidates before the next shell opens; looking at them again would be
-    // two thirds of all pre-tests.
-    if (IsEmpty(And(left_over, LoadPlane(view.candidates[m.brick])))) {
-      view.enabled[m.brick] = 0;
-      view.unsettled[m.brick] &= kOddBrick;
+    removed += CountBits(LoadPlane(m.marks));
+    const Unsettled kind = view.unsettled[m.brick];
+    RemoveFromBrick(view, m);
+    const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
+    if ((kind & kBorderBrick) == 0) {
+      UnsettleAround(view, m.brick, wakes);
     } else {
-      view.unsettled[m.brick] |= view.enabled[m.brick];
-    }
-    const BrickNeighborhood& neighbors = view.neighbors[m.brick];
-    for (uint32_t left = BricksThatSee(m.marks, odd != 0); left != 0; left &= left - 1) {
-      const auto position = static_cast<size_t>(std::countr_zero(left));
-      const BrickIndex n = neighbors[position];
-      if (n - view.first < view.last - view.first) {
-        view.unsettled[n] =
-            static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & kWakes[odd][position]));
-      } else {
-        elsewhere.push_back(n);
-      }
+      UnsettleAcrossBorder(view, m.brick, wakes, elsewhere);
     }
   }
   return removed;
 }
 
-uint64_t OpenShellInBrickTarget(const ShellPlanes& planes, int32_t shell, const BrickBits& object,
+// Makes the points of one shell candidates. Returns how many there are.
+HWY_INLINE uint64_t OpenInBrick(const ShellPlanes& planes, int32_t shell, const Plane& may_go,
                                 BrickBits& candidates) {
-  Plane opened = LoadPlane(object);
+  Plane opened = may_go;
   for (size_t b = 0; b < kShellPlanes; ++b) {
     const Plane plane = LoadPlane(planes[b]);
     opened = (shell >> b & 1) != 0 ? And(plane, opened) : AndNot(plane, opened);
   }
   StorePlane(Or(opened, LoadPlane(candidates)), candidates);
-  BrickBits bits;
-  StorePlane(opened, bits);
-  return CountBits(bits);
+  return CountBits(opened);
+}
+
+uint64_t OpenShellTarget(const OpeningView& view, int32_t shell,
+                         std::span<const BrickIndex> bricks) {
+  uint64_t points = 0;
+  for (const BrickIndex n : bricks) {
+    Plane may_go = LoadPlane(view.object[n]);
+    if (view.kept != nullptr) may_go = AndNot(LoadPlane(view.kept[n]), may_go);
+    const uint64_t opened = OpenInBrick(view.planes[n], shell, may_go, view.candidates[n]);
+    points += opened;
+    const auto woken = static_cast<Unsettled>(opened != 0 ? view.watched : 0);
+    view.enabled[n] |= woken;
+    view.unsettled[n] |= woken;
+  }
+  return points;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -199,7 +268,7 @@ namespace bccskel {
 
 HWY_EXPORT(TakeUnsettledTarget);
 HWY_EXPORT(RemoveMarkedTarget);
-HWY_EXPORT(OpenShellInBrickTarget);
+HWY_EXPORT(OpenShellTarget);
 
 void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, DiagonalDirection d,
                    BrickLists& along_d, BrickLists& end_points) {
@@ -210,9 +279,8 @@ uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> mark
                       std::vector<BrickIndex>& elsewhere) {
   return HWY_DYNAMIC_DISPATCH(RemoveMarkedTarget)(view, marked, elsewhere);
 }
-uint64_t OpenShellInBrick(const ShellPlanes& planes, int32_t shell, const BrickBits& object,
-                          BrickBits& candidates) {
-  return HWY_DYNAMIC_DISPATCH(OpenShellInBrickTarget)(planes, shell, object, candidates);
+uint64_t OpenShell(const OpeningView& view, int32_t shell, std::span<const BrickIndex> bricks) {
+  return HWY_DYNAMIC_DISPATCH(OpenShellTarget)(view, shell, bricks);
 }
 
 }  // namespace bccskel

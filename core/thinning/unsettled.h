@@ -18,28 +18,30 @@
 namespace bccskel {
 
 // For each brick: bit d says that points may have become removable along direction d, bit 8 that
-// there may be end points, bit 15 that the brick is of the odd sublattice.
+// there may be end points; bits 14 and 15 never change and say that the brick borders on bricks of
+// other workers and that it is of the odd sublattice.
 using Unsettled = uint16_t;
 inline constexpr Unsettled kEndPointsUnsettled = 1 << 8;
 inline constexpr Unsettled kDirectionsUnsettled = kEndPointsUnsettled - 1;
+inline constexpr Unsettled kBorderBrick = 1 << 14;
 inline constexpr Unsettled kOddBrick = 1 << 15;
 
 // Ranges of bricks start at multiples of this, and arrays of Unsettled are padded to one.
 inline constexpr size_t kUnsettledGroup = 32;
 
-// Bricks listed for a pass, by sublattice. The storage is as long as the list can get and is never
-// cleared: refilling it costs nothing.
+// Bricks listed for a pass, by sublattice. The storage is as long as the list can get, and a
+// register longer; it is never cleared, so refilling it costs nothing.
 class BrickLists {
  public:
   void Reserve(size_t bricks) {
-    for (std::vector<BrickIndex>& list : storage_) list.resize(bricks);
+    for (std::vector<BrickIndex>& list : storage_) list.resize(bricks + kUnsettledGroup);
   }
   std::span<const BrickIndex> Of(Sublattice sublattice) const {
     const auto s = static_cast<size_t>(sublattice);
     return {storage_[s].data(), count_[s]};
   }
   std::array<BrickIndex*, 2> storage() { return {storage_[0].data(), storage_[1].data()}; }
-  void SetCount(size_t sublattice, size_t count) { count_[sublattice] = count; }
+  void SetCounts(size_t even, size_t odd) { count_ = {even, odd}; }
 
  private:
   std::array<std::vector<BrickIndex>, 2> storage_;
@@ -60,8 +62,9 @@ struct RemovalView {
   const BrickNeighborhood* neighbors = nullptr;
   Unsettled* unsettled = nullptr;
   Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
-  BrickIndex first = 0;                // own bricks
+  BrickIndex first = 0;          // own bricks
   BrickIndex last = 0;
+  BrickIndex none = 0;  // the padding brick
 };
 
 // Removes the marked points, unsettles the bricks that see them, and appends to `elsewhere` those
@@ -70,9 +73,20 @@ struct RemovalView {
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere);
 
-// Makes the object's points of one shell candidates. Returns how many there are.
-uint64_t OpenShellInBrick(const ShellPlanes& planes, int32_t shell, const BrickBits& object,
-                          BrickBits& candidates);
+// What opening a shell reads and changes.
+struct OpeningView {
+  const BrickBits* object = nullptr;
+  const BrickBits* kept = nullptr;  // points that never go; null if there are none
+  const ShellPlanes* planes = nullptr;
+  BrickBits* candidates = nullptr;
+  Unsettled* unsettled = nullptr;
+  Unsettled* enabled = nullptr;
+  Unsettled watched = 0;  // what is looked for in a brick with candidates
+};
+
+// Condition 5: makes the points of one shell in the given bricks candidates.
+// Returns: how many points.
+uint64_t OpenShell(const OpeningView& view, int32_t shell, std::span<const BrickIndex> bricks);
 
 }  // namespace bccskel
 

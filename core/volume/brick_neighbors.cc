@@ -17,22 +17,55 @@ BrickCoordinates NeighborBrick(BrickCoordinates brick, int position) {
           brick.bz + step * (position >> 2), even ? Sublattice::kOdd : Sublattice::kEven};
 }
 
+namespace {
+
+// What the key of a brick's neighbor differs by; fields do not carry into each other because each
+// has room for one step below the first brick.
+uint64_t KeyStep(Sublattice sublattice, int position) {
+  const BrickCoordinates home = {1, 1, 1, sublattice};
+  return BrickKey(NeighborBrick(home, position)).value() - BrickKey(home).value();
+}
+
+// Which of the bricks look for their neighbor.
+enum class Seekers : uint8_t { kEven, kAll };
+
+// Finds all neighbors at `position`, and so those at `opposite` that see them: adding a constant
+// keeps keys in order, so both lists are walked once.
+void LinkPairs(std::span<const BrickKey> keys, Seekers seekers, int position, int opposite,
+               std::vector<BrickNeighborhood>& neighbors) {
+  const uint64_t step = KeyStep(Sublattice::kEven, position);
+  size_t at = 0;
+  for (size_t n = 0; n < keys.size(); ++n) {
+    if (seekers == Seekers::kEven && (keys[n].value() & 1) != 0) continue;
+    const uint64_t wanted = keys[n].value() + step;
+    while (at < keys.size() && keys[at].value() < wanted) ++at;
+    if (at == keys.size()) return;
+    if (keys[at].value() != wanted) continue;
+    neighbors[n][static_cast<size_t>(position)] = static_cast<BrickIndex>(at);
+    neighbors[at][static_cast<size_t>(opposite)] = static_cast<BrickIndex>(n);
+  }
+}
+
+}  // namespace
+
 std::vector<BrickNeighborhood> FindBrickNeighbors(std::span<const BrickKey> keys) {
-  const auto none = static_cast<BrickIndex>(keys.size());
-  std::vector<BrickNeighborhood> neighbors(keys.size());
-  for (int position = 0; position < 14; ++position) {
-    // The neighbor's key is the key plus a constant that depends on the sublattice only, so for
-    // each sublattice both lists are walked in increasing order once.
-    size_t cursor[2] = {0, 0};
-    for (size_t n = 0; n < keys.size(); ++n) {
-      const BrickKey wanted(NeighborBrick(keys[n].coordinates(), position));
-      size_t& at = cursor[keys[n].value() & 1];
-      while (at < keys.size() && keys[at] < wanted) ++at;
-      neighbors[n][static_cast<size_t>(position)] =
-          at < keys.size() && keys[at] == wanted ? static_cast<BrickIndex>(at) : none;
-    }
+  BrickNeighborhood nothing;
+  nothing.fill(static_cast<BrickIndex>(keys.size()));
+  std::vector<BrickNeighborhood> neighbors(keys.size(), nothing);
+  // The odd brick at a position of an even one has the even one at the same position.
+  for (int position = 0; position < 8; ++position) {
+    LinkPairs(keys, Seekers::kEven, position, position, neighbors);
+  }
+  for (int position = 8; position < 14; position += 2) {
+    LinkPairs(keys, Seekers::kAll, position, position + 1, neighbors);
   }
   return neighbors;
+}
+
+std::span<const BrickNeighborhood> LazyBrickNeighbors::Of(std::span<const BrickKey> keys) const {
+  if (keys.empty()) return {};
+  std::call_once(table_->once, [&] { table_->rows = FindBrickNeighbors(keys); });
+  return table_->rows;
 }
 
 }  // namespace bccskel

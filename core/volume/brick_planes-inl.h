@@ -8,6 +8,8 @@
 // of axes S (bit 0 = x, bit 1 = y, bit 2 = z), down or up depending on the sublattice alone; and
 // the set of -d is the complement of the set of d. A D6 plane is the brick itself, moved.
 
+#include <bit>
+
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 #include "hwy/highway.h"
@@ -69,6 +71,19 @@ HWY_INLINE bool IsEmpty(const Plane& plane) {
   BrickLane any = plane.v[0];
   for (size_t n = 1; n < kVectors; ++n) any = hn::Or(any, plane.v[n]);
   return hn::AllTrue(tag, hn::Eq(any, hn::Zero(tag)));
+}
+
+// The number of set bits.
+HWY_INLINE uint64_t CountBits(const Plane& plane) {
+#if HWY_TARGET <= HWY_AVX3_DL
+  return static_cast<uint64_t>(_mm512_reduce_add_epi64(_mm512_popcnt_epi64(plane.v[0].raw)));
+#else
+  BrickBits bits;
+  StorePlane(plane, bits);
+  uint64_t count = 0;
+  for (uint64_t word : bits.words) count += static_cast<uint64_t>(std::popcount(word));
+  return count;
+#endif
 }
 
 // Which way the cells of the neighbor plane lie: kDown takes the cell with the smaller index.

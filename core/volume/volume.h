@@ -11,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "core/lattice/lattice_point.h"
 #include "core/volume/brick.h"
+#include "core/volume/brick_neighbors.h"
 
 namespace bccskel {
 
@@ -42,6 +43,9 @@ class Volume {
   std::span<const BrickBits> bricks() const { return {bricks_.data(), keys_.size()}; }
   // One longer: the last brick is empty and stands for every brick that is not stored.
   std::span<const BrickBits> padded_bricks() const { return bricks_; }
+  // neighbors()[n] are the bricks around keys()[n]. Found on first use and kept, since every stage
+  // asks for them.
+  std::span<const BrickNeighborhood> neighbors() const { return neighbors_.Of(keys_); }
 
   std::optional<BrickIndex> Find(BrickKey key) const;
   // False for points off the lattice or outside the extent.
@@ -66,6 +70,7 @@ class Volume {
   Placement placement_;
   std::vector<BrickKey> keys_;
   std::vector<BrickBits> bricks_;  // keys_.size() + 1, the last one empty
+  LazyBrickNeighbors neighbors_;
 };
 
 // OK when each axis has 1..kMaxExtentCells cells and the spacing is finite and positive.

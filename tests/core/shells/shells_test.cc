@@ -62,7 +62,7 @@ void ExpectShells(const Volume& object, double width) {
       range.last = std::max(range.last, shell);
       int32_t sliced = 0;
       for (size_t b = 0; b < kShellPlanes; ++b) {
-        sliced |= (shells.PlanesOf(n)[b].Test(bit) ? 1 : 0) << b;
+        sliced |= (shells.planes()[n][b].Test(bit) ? 1 : 0) << b;
       }
       ASSERT_EQ(sliced, shell & 63);
     });
