@@ -97,7 +97,8 @@ void SkeletonizeStream::OnWriteDone(bool ok) {
   {
     std::lock_guard lock(mutex_);
     writing_ = false;
-    if (ok) return Advance();
+    // A call that has failed while it wrote waits for this moment to finish.
+    if (ok || error_.has_value()) return Advance();
   }
   Fail(absl::CancelledError("the caller is gone"));
 }
