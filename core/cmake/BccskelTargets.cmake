@@ -15,6 +15,10 @@ function(bccskel_target_defaults target)
   if(BCCSKEL_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${BCCSKEL_SANITIZE} -fno-omit-frame-pointer
                                              -fno-sanitize-recover=all)
+    # A sanitizer judges one vector instruction set and the plain code; each costs half a minute of
+    # compile time, most of it in checks of references to what lies on the stack.
+    target_compile_definitions(${target} PRIVATE
+      "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
     target_link_options(${target} PUBLIC -fsanitize=${BCCSKEL_SANITIZE})
   endif()
 endfunction()
@@ -34,7 +38,8 @@ function(bccskel_library name)
   set_property(GLOBAL APPEND PROPERTY BCCSKEL_INSTALLED_TARGETS bccskel_${name})
 endfunction()
 
-# bccskel_test(thinning_test SOURCES a.cc LIBS deps...) makes one ctest entry per file.
+# bccskel_test(thinning_test SOURCES a.cc LIBS deps...) makes one test program and its ctest entry.
+# Its labels are its folder under tests (core, proto, server, client, integration) and LABELS.
 function(bccskel_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -44,6 +49,11 @@ function(bccskel_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   bccskel_target_defaults(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest GTest::gtest_main)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/tests
+             OUTPUT_VARIABLE folder)
+  string(REGEX REPLACE "/.*" "" folder ${folder})
+  list(APPEND ARG_LABELS ${folder})
+  list(REMOVE_DUPLICATES ARG_LABELS)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
 endfunction()
