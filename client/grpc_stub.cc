@@ -60,9 +60,9 @@ v1::SkeletonizeRequest ConfigRequest(const EncodedVolume& volume, const CallOpti
 // One Skeletonize call from its first to its last message, on the calling thread.
 class SkeletonizeCall {
  public:
-  SkeletonizeCall(SkeletonizeStream& stream, const EncodedVolume& volume,
-                  const CallOptions& options)
-      : stream_(stream), volume_(volume), options_(options) {}
+  SkeletonizeCall(grpc::ClientContext& context, SkeletonizeStream& stream,
+                  const EncodedVolume& volume, const CallOptions& options)
+      : context_(context), stream_(stream), volume_(volume), options_(options) {}
 
   absl::StatusOr<SkeletonizeResult> Run() {
     // A write that fails means that the call has ended; Finish() knows why.
@@ -82,6 +82,7 @@ class SkeletonizeCall {
     if (!stream_.Read(&response)) return false;
     if (!response.has_accepted()) {
       reply_error_ = absl::DataLossError("the server's first reply does not accept the job");
+      context_.TryCancel();  // such a server may wait for the volume until the deadline
       return false;
     }
     chunk_bytes_ = std::min<size_t>(kChunkBytes, response.accepted().max_chunk_bytes());
@@ -151,6 +152,7 @@ class SkeletonizeCall {
     return result;
   }
 
+  grpc::ClientContext& context_;
   SkeletonizeStream& stream_;
   const EncodedVolume& volume_;
   const CallOptions& options_;
@@ -175,7 +177,7 @@ class GrpcStub : public Stub {
     context.set_deadline(deadline);
     const std::stop_callback cancel(options.stop, [&context] { context.TryCancel(); });
     const auto stream = skeletonization_->Skeletonize(&context);
-    return SkeletonizeCall(*stream, volume, options).Run();
+    return SkeletonizeCall(context, *stream, volume, options).Run();
   }
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {

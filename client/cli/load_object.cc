@@ -20,10 +20,10 @@ std::string LowerCase(std::string text) {
   return text;
 }
 
-// The same error with the path in front, unless it is there.
+// The same error with the path in front, unless it is in there.
 absl::Status WithPath(const absl::Status& error, const std::string& path) {
   const std::string message(error.message());
-  if (message.starts_with(path)) return error;
+  if (message.find(path) != message.npos) return error;
   return absl::Status(error.code(), path + ": " + message);
 }
 
@@ -52,12 +52,6 @@ absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const Voxel
   absl::StatusOr<VoxelizeResult> result = Voxelize(*mesh, options, context);
   if (!result.ok()) return WithPath(result.status(), path);
   return result;
-}
-
-std::string_view HintForMesh(const absl::Status& error) {
-  // Only open meshes are refused so.
-  if (!absl::IsFailedPrecondition(error)) return "";
-  return "--fill winding closes gaps by the generalized winding number";
 }
 
 std::string_view FileName(std::string_view path) { return path.substr(path.rfind('/') + 1); }

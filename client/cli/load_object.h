@@ -22,12 +22,9 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path);
 inline constexpr uint64_t kDefaultPoints = 850'000;
 
 // Reads a mesh and fills it. Without points or spacing, kDefaultPoints.
-// Errors: as ReadMeshFile() and Voxelize(); every message begins with the path.
+// Errors: as ReadMeshFile() and Voxelize(); every message names the path.
 absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const VoxelizeOptions& grid,
                                             const exec::Context& context);
-
-// What a user can do about a mesh that Voxelize() refuses; may be empty.
-std::string_view HintForMesh(const absl::Status& error);
 
 // The last part of a path: what titles and summaries call a file.
 std::string_view FileName(std::string_view path);

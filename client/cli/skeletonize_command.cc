@@ -107,6 +107,12 @@ ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status
                                  : "");
 }
 
+// The one invalid argument of writing is an object with coordinates that no format can hold.
+ExitCode FailWriting(const SkeletonizeArguments& arguments, const absl::Status& error) {
+  if (!absl::IsInvalidArgument(error)) return FailWith(ExitCode::kOutput, error);
+  return Fail(absl::InvalidArgumentError(arguments.input + ": " + std::string(error.message())));
+}
+
 ExitCode PrintSummary(const SkeletonSummary& summary) {
   const bool json = summary.arguments.common.summary == SummaryStyle::kJson;
   return Print(json ? SkeletonSummaryJson(summary) : SkeletonSummaryText(summary));
@@ -120,14 +126,14 @@ double SecondsSince(Clock::time_point start) {
 
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
-  LocalTeam team(arguments.place == Place::kLocal ? arguments.common.threads : 0, stop);
+  LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Object> object = Load(arguments, team.context());
-  if (!object.ok()) return Fail(object.status(), HintForMesh(object.status()));
+  if (!object.ok()) return Fail(object.status());
   const absl::StatusOr<SkeletonizeResult> result =
       Compute(arguments, object->volume, team.context());
   if (!result.ok()) return FailComputing(arguments, result.status());
   absl::StatusOr<std::vector<WrittenFile>> files = WriteOutputs(arguments, *object, *result);
-  if (!files.ok()) return FailWith(ExitCode::kOutput, files.status());
+  if (!files.ok()) return FailWriting(arguments, files.status());
   const ExitCode printed = PrintSummary(
       {arguments, object->volume, *result, object->mesh, *std::move(files), SecondsSince(start)});
   return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;

@@ -44,7 +44,7 @@ ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<VoxelizeResult> result =
       VoxelizeFile(arguments.mesh, arguments.grid, team.context());
-  if (!result.ok()) return Fail(result.status(), HintForMesh(result.status()));
+  if (!result.ok()) return Fail(result.status());
   for (const std::string& warning : result->warnings) Warn(arguments.mesh + ": " + warning);
   const absl::Status written =
       WriteVolumeFile(arguments.output, result->volume, {}, team.context());

@@ -11,6 +11,7 @@
 #include "client/export/picture/caption.h"
 #include "client/export/picture/png.h"
 #include "client/export/picture/scene.h"
+#include "client/export/picture/surface_points.h"
 #include "client/export/picture/viewer_page.h"
 #include "client/export/text.h"
 #include "core/lattice/directions.h"
@@ -18,7 +19,7 @@
 namespace bccskel::exporting {
 namespace {
 
-constexpr size_t kMostSurfacePoints = 60000;
+constexpr size_t kMostSurfacePoints = 50000;
 
 // World coordinates as 16-bit integers: 32767 is the radius of the sphere around the box.
 class Quantizer {
@@ -98,16 +99,16 @@ std::array<char, 3> NormalAt(const Volume& object, LatticePoint p) {
 
 void AddSurface(Text& json, const Scene& scene, const Volume& object, const Quantizer& quantize) {
   std::string positions, normals;
-  const std::vector<LatticePoint> points = Thinned(scene.surface);
+  const std::vector<LatticePoint> surface = SurfacePoints(object);
+  const std::vector<LatticePoint> points = Thinned(surface);
   for (const LatticePoint p : points) {
     AppendLittleEndian(positions, quantize(object.placement().ToWorld(p)));
     const std::array<char, 3> normal = NormalAt(object, p);
     normals.append(normal.data(), normal.size());
   }
   // Fewer points must be larger to cover the same surface.
-  const double share = points.empty() ? 1
-                                      : static_cast<double>(scene.surface.size()) /
-                                            static_cast<double>(points.size());
+  const double share =
+      points.empty() ? 1 : static_cast<double>(surface.size()) / static_cast<double>(points.size());
   json.Add("\"spacing\":", quantize.StepsOf(scene.point_spacing) * std::sqrt(share),
            ",\n\"surface\":\"", EncodeBase64(positions), "\",\n\"normals\":\"",
            EncodeBase64(normals), "\"");

@@ -50,7 +50,7 @@ absl::StatusOr<std::string> Compress(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string compressed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 9);
+                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
   if (code != Z_OK) return absl::ResourceExhaustedError("zlib found no memory for a picture");
   compressed.resize(size);
   return compressed;

@@ -15,13 +15,22 @@ WorldPoint Combine(double s, const WorldPoint& a, double t, const WorldPoint& b)
   return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }
 
-// Length of the box's shadow on a unit vector.
-double ShadowOf(const WorldBox& box, const WorldPoint& v) {
-  double length = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    length += std::abs(v[axis]) * (box.high[axis] - box.low[axis]);
+// Smallest and largest place along a unit vector.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  double middle() const { return low / 2 + high / 2; }
+};
+
+Range RangeAlong(const WorldPoint& v, const Spheres& shown) {
+  Range range;
+  for (const WorldPoint& center : shown.centers) {
+    const double place = Dot(v, center);
+    range.low = std::min(range.low, place - shown.radius);
+    range.high = std::max(range.high, place + shown.radius);
   }
-  return length;
+  return range;
 }
 
 // Looks straight at the box's broadest side. Up is +y, or +z when y is the thinnest axis.
@@ -47,18 +56,19 @@ WorldPoint Negated(const WorldPoint& v) { return {-v[0], -v[1], -v[2]}; }
 
 }  // namespace
 
-Projection::Projection(const View& view, const WorldBox& box, PanelSize panel, double margin)
+Projection::Projection(const View& view, const Spheres& shown, PanelSize panel, double margin)
     : view_(view), panel_(panel) {
-  for (size_t axis = 0; axis < 3; ++axis) center_[axis] = (box.low[axis] + box.high[axis]) / 2;
-  const double width = std::max(ShadowOf(box, view.right), std::numeric_limits<double>::min());
-  const double height = std::max(ShadowOf(box, view.up), std::numeric_limits<double>::min());
-  scale_ = std::min((panel.width - 2 * margin) / width, (panel.height - 2 * margin) / height);
+  const Range right = RangeAlong(view.right, shown), up = RangeAlong(view.up, shown);
+  scale_ = std::min((panel.width - 2 * margin) / (right.high - right.low),
+                    (panel.height - 2 * margin) / (up.high - up.low));
+  middle_right_ = right.middle();
+  middle_up_ = up.middle();
 }
 
 PanelPoint Projection::Project(const WorldPoint& p) const {
-  const WorldPoint v = {p[0] - center_[0], p[1] - center_[1], p[2] - center_[2]};
-  return {panel_.width / 2 + scale_ * Dot(v, view_.right),
-          panel_.height / 2 - scale_ * Dot(v, view_.up), scale_ * Dot(v, view_.toward)};
+  return {panel_.width / 2 + scale_ * (Dot(p, view_.right) - middle_right_),
+          panel_.height / 2 - scale_ * (Dot(p, view_.up) - middle_up_),
+          scale_ * Dot(p, view_.toward)};
 }
 
 std::array<View, 3> ViewsOf(const WorldBox& box) {

@@ -22,6 +22,12 @@ struct WorldBox {
   WorldPoint high;
 };
 
+// Spheres of one radius in the world: what a picture must have room for.
+struct Spheres {
+  std::span<const WorldPoint> centers;
+  double radius;
+};
+
 // A panel of a picture in its own units, x to the right and y down.
 struct PanelSize {
   double width;
@@ -35,11 +41,11 @@ struct PanelPoint {
   double depth;
 };
 
-// Parallel projection of a world box that fills a panel.
+// Parallel projection that fills a panel with what it shows.
 class Projection {
  public:
-  // Needs: a box with low <= high; the panel larger than twice the margin.
-  Projection(const View& view, const WorldBox& box, PanelSize panel, double margin);
+  // Needs: at least one center, a radius > 0, the panel larger than twice the margin.
+  Projection(const View& view, const Spheres& shown, PanelSize panel, double margin);
 
   PanelPoint Project(const WorldPoint& p) const;
   double scale() const { return scale_; }  // panel units per world unit
@@ -47,9 +53,10 @@ class Projection {
 
  private:
   View view_;
-  WorldPoint center_;
   PanelSize panel_;
   double scale_;
+  double middle_right_;  // along the view's axes, world units
+  double middle_up_;
 };
 
 // A three-quarter view on the broadest side of the box, then from its side, then from above.

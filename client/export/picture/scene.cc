@@ -21,14 +21,12 @@ Scene SceneOf(const Subject& subject) {
   const Placement& placement = subject.object.placement();
   Scene scene;
   scene.point_spacing = *std::ranges::max_element(placement.spacing) * std::sqrt(3.0) / 2;
-  scene.surface = SurfacePoints(subject.object);
-  const WorldPoint first =
-      scene.surface.empty() ? placement.origin : placement.ToWorld(scene.surface.front());
-  scene.box = {first, first};
-  Include(scene.box, first, scene.point_spacing);
-  for (const LatticePoint p : scene.surface) {
-    Include(scene.box, placement.ToWorld(p), scene.point_spacing);
+  for (const LatticePoint p : SurfacePoints(subject.object)) {
+    scene.surface.push_back(placement.ToWorld(p));
   }
+  if (scene.surface.empty()) scene.surface.push_back(placement.origin);
+  scene.box = {scene.surface.front(), scene.surface.front()};
+  for (const WorldPoint& p : scene.surface) Include(scene.box, p, scene.point_spacing);
   scene.curves = DisplayCurvesOf(subject.result.graph);
   scene.radii = RadiusRangeOf(subject.result.graph);
   return scene;

@@ -12,9 +12,9 @@ namespace bccskel::exporting {
 
 // What all views of a picture share.
 struct Scene {
-  std::vector<LatticePoint> surface;
-  WorldBox box;          // around the surface; never empty
-  double point_spacing;  // world units between D8 neighbors, by the largest spacing
+  std::vector<WorldPoint> surface;  // at least one point
+  WorldBox box;                     // around the surface
+  double point_spacing;             // world units between D8 neighbors, by the largest spacing
   std::vector<DisplayCurve> curves;
   RadiusRange radii;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -37,12 +38,12 @@ class DepthMap {
     }
   }
 
-  // One step of averaging every pixel with the neighbors that lie on the same piece of surface.
-  void Smooth(float largest_step) {
+  // Averages every pixel with the eight that lie `stride` away on the same piece of surface.
+  void Smooth(int stride, float largest_step) {
     std::vector<float> next = depth_;
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
-        if (Covered(x, y)) next[Index(x, y)] = MeanAround(x, y, largest_step);
+        if (Covered(x, y)) next[Index(x, y)] = MeanAround(x, y, stride, largest_step);
       }
     }
     depth_ = std::move(next);
@@ -60,17 +61,20 @@ class DepthMap {
     depth = std::max(depth, static_cast<float>(p.depth + std::sqrt(rest)));
   }
 
-  float MeanAround(int x, int y, float largest_step) const {
+  // Binomial weights: strides of 1, 2, 4, ... together make a smooth bell.
+  float MeanAround(int x, int y, int stride, float largest_step) const {
     const float here = At(x, y);
-    float sum = here;
-    float count = 1;
-    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      const float there = At(x + dx, y + dy);
-      if (std::abs(there - here) > largest_step) continue;
-      sum += there;
-      ++count;
+    float sum = 0, total = 0;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const float there = At(x + stride * dx, y + stride * dy);
+        if (!(std::abs(there - here) <= largest_step)) continue;
+        const auto weight = static_cast<float>((2 - std::abs(dx)) * (2 - std::abs(dy)));
+        sum += weight * there;
+        total += weight;
+      }
     }
-    return sum / count;
+    return sum / total;
   }
 
   int width_;
@@ -183,11 +187,13 @@ RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius
   DepthMap depth(static_cast<int>(width), static_cast<int>(height));
   const double radius = std::max(point_radius, 0.8);
   for (const PanelPoint& p : surface) depth.AddSphere(p, radius);
-  // Averaging over about three point radii hides the lattice; a limit bounds the time for tiny
-  // grids.
-  const int steps = static_cast<int>(std::clamp(10 * radius * radius, 10.0, 120.0));
+  // Averaging over about three point radii hides the lattice. Wide strides leave steps beside
+  // outlines, so the narrow ones come last.
   const auto largest_step = static_cast<float>(4 * radius);
-  for (int step = 0; step < steps; ++step) depth.Smooth(largest_step);
+  const auto widest = std::bit_floor(static_cast<unsigned>(std::clamp(2 * radius, 2.0, 32.0)));
+  for (unsigned stride = widest; stride > 0; stride /= 2) {
+    for (int turn = 0; turn < 2; ++turn) depth.Smooth(static_cast<int>(stride), largest_step);
+  }
   const int reach = static_cast<int>(std::clamp(radius, 1.0, 12.0));
   return Shade(depth, Coverage(depth, reach), largest_step);
 }

@@ -36,15 +36,15 @@ constexpr std::array<Panel, 3> kPanels = {
 // Two decimals are a hundredth of a pixel.
 double Rounded(double v) { return std::round(v * 100) / 100; }
 
-absl::StatusOr<std::string> GlassImage(const Scene& scene, const Placement& placement,
-                                       const Projection& projection, const PanelSize& size) {
+absl::StatusOr<std::string> GlassImage(const Spheres& surface, const Projection& projection,
+                                       const PanelSize& size) {
   std::vector<PanelPoint> points;
-  points.reserve(scene.surface.size());
-  for (const LatticePoint p : scene.surface) {
-    const PanelPoint q = projection.Project(placement.ToWorld(p));
+  points.reserve(surface.centers.size());
+  for (const WorldPoint& p : surface.centers) {
+    const PanelPoint q = projection.Project(p);
     points.push_back({q.x * kPixelsPerUnit, q.y * kPixelsPerUnit, q.depth * kPixelsPerUnit});
   }
-  const double radius = scene.point_spacing * projection.scale() * kPixelsPerUnit;
+  const double radius = surface.radius * projection.scale() * kPixelsPerUnit;
   return EncodePng(RenderSurface(points, radius, static_cast<uint32_t>(size.width * kPixelsPerUnit),
                                  static_cast<uint32_t>(size.height * kPixelsPerUnit)));
 }
@@ -135,9 +135,9 @@ void AddAxes(Text& svg, const View& view, const PanelSize& size) {
 
 absl::Status AddPanel(Text& svg, const Subject& subject, const Scene& scene, const Panel& panel,
                       const View& view) {
-  const Projection projection(view, scene.box, panel.size, kMargin);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string png,
-                           GlassImage(scene, subject.object.placement(), projection, panel.size));
+  const Spheres surface = {scene.surface, scene.point_spacing};
+  const Projection projection(view, surface, panel.size, kMargin);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(surface, projection, panel.size));
   svg.Add("<svg x=\"", panel.x, "\" y=\"", panel.y, "\" width=\"", panel.size.width, "\" height=\"",
           panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
           "height=\"100%\" rx=\"10\"/>\n");
