@@ -8,12 +8,13 @@
 #include <system_error>
 #include <utility>
 
+#include "client/cli/bench_arguments.h"
 #include "client/cli/load_object.h"
 #include "client/export/skeleton_file.h"
 #include "core/thinning/thinning.h"
 #include "core/version/version.h"
 
-// The only file that includes CLI11, which is slow to compile.
+// Only this file and bench_arguments.cc include CLI11, which is slow to compile.
 
 namespace bccskel::cli {
 namespace {
@@ -184,11 +185,13 @@ struct CommandLine {
   SkeletonizeArguments skeletonize_arguments;
   InfoArguments info_arguments;
   GenerateArguments generate_arguments;
+  BenchCoreArguments bench_core_arguments;
   CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
   CLI::App& submit = AddSubmit(app, submit_arguments);
   CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
   CLI::App& info = AddInfo(app, info_arguments);
   CLI::App& generate = AddGenerate(app, generate_arguments);
+  CLI::App& bench = AddBench(app, bench_core_arguments);
 
   CommandLine() {
     app.require_subcommand(1);
@@ -202,7 +205,8 @@ struct CommandLine {
     if (submit.parsed()) return submit_arguments;
     if (skeletonize.parsed()) return skeletonize_arguments;
     if (info.parsed()) return info_arguments;
-    return generate_arguments;
+    if (generate.parsed()) return generate_arguments;
+    return bench_core_arguments;
   }
 };
 
@@ -257,6 +261,7 @@ Complaint ComplaintAbout(const GenerateArguments& arguments) {
 }
 
 Complaint ComplaintAbout(const InfoArguments&) { return std::nullopt; }
+Complaint ComplaintAbout(const BenchCoreArguments&) { return std::nullopt; }
 
 }  // namespace
 

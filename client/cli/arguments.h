@@ -64,8 +64,16 @@ struct GenerateArguments {
   ShapeOptions options;
 };
 
-using Arguments =
-    std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments, GenerateArguments>;
+struct BenchCoreArguments {
+  CommonArguments common;
+  std::string shape = "ball";  // one of kBenchObjects
+  uint64_t points = 850'000;
+  int repeat = 11;              // warm runs
+  std::string instruction_set;  // empty: the best
+};
+
+using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments,
+                               GenerateArguments, BenchCoreArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

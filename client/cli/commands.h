@@ -13,6 +13,7 @@ ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop);
 
 }  // namespace bccskel::cli
 

@@ -1,0 +1,73 @@
+#include "client/cli/bench_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_join.h"
+#include "client/cli/bench_objects.h"
+#include "core/exec/instruction_sets.h"
+#include "core/shapes/shapes.h"
+
+namespace bccskel::cli {
+namespace {
+
+// A check in CLI11's way: the complaint, or nothing when the value is one of the names.
+template <typename Names>
+std::function<std::string(const std::string&)> OneOf(const Names& names, const char* what) {
+  return [names, what](const std::string& value) -> std::string {
+    if (std::ranges::find(names, value) != names.end()) return "";
+    return std::string(what) + " \"" + value + "\": must be one of " + absl::StrJoin(names, ", ");
+  };
+}
+
+std::string CheckMethod(const std::string& method) {
+  if (method == "directional") return "";
+  return "method \"" + method + "\" does not exist yet: must be directional";
+}
+
+void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
+  core.add_option("--shape", arguments.shape, "What to thin (default ball)")
+      ->check(OneOf(kBenchObjects, "shape"))
+      ->option_text(absl::StrJoin(kBenchObjects, "|"));
+  core.add_option("--points", arguments.points, "Points the object shall have (default 850000)")
+      ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
+      ->option_text("N");
+}
+
+void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
+  const std::vector<std::string> sets = exec::SupportedInstructionSets();
+  core.add_option("--threads", arguments.common.threads,
+                  "Threads to use; 0 means all of this machine (default)")
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+  core.add_option("--isa", arguments.instruction_set, "Instruction set (default the first)")
+      ->check(OneOf(sets, "instruction set"))
+      ->option_text(absl::StrJoin(sets, "|"));
+  core.add_option_function<std::string>(
+          "--method", [](const std::string&) {}, "How to thin (default directional)")
+      ->check(CheckMethod)
+      ->option_text("directional");
+}
+
+}  // namespace
+
+CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
+  CLI::App& bench = *app.add_subcommand("bench", "Measure the speed of this machine");
+  bench.require_subcommand(1);
+  CLI::App& core = *bench.add_subcommand(
+      "core", "Time and memory from a volume in memory to its skeleton in memory");
+  AddObject(core, arguments);
+  AddEngine(core, arguments);
+  core.add_option("--repeat", arguments.repeat, "Warm runs, after a cold one (default 11)")
+      ->check(CLI::Range(1, 100'000))
+      ->option_text("N");
+  core.add_flag_callback(
+      "--json", [&arguments] { arguments.common.summary = SummaryStyle::kJson; },
+      "Print the summary as one JSON object");
+  return bench;
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,65 @@
+#ifndef BCCSKEL_CLIENT_CLI_BENCH_CORE_H_
+#define BCCSKEL_CLIENT_CLI_BENCH_CORE_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/volume/volume.h"
+
+// Measures the engine: a volume in memory becomes a skeleton in memory, without files or a server.
+
+namespace bccskel::cli {
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+struct BenchStage {
+  const char* name;
+  StageTimings::Duration StageTimings::*time;
+};
+inline constexpr std::array<BenchStage, 4> kBenchStages = {{
+    {"distance", &StageTimings::distance},
+    {"thinning", &StageTimings::thinning},  // shells, directions and clean-up
+    {"certificate", &StageTimings::certificate},
+    {"graph", &StageTimings::trace},
+}};
+
+// From the solid to thin points; the whole has certificate and graph besides.
+inline Milliseconds CoreTime(const StageTimings& timings) {
+  return timings.distance + timings.thinning;
+}
+inline Milliseconds WholeTime(const StageTimings& timings) { return timings.total; }
+
+struct Spread {
+  double min = 0;
+  double median = 0;  // of an even number of values, the mean of the two in the middle
+  double max = 0;
+};
+Spread SpreadOf(std::vector<double> values);  // Needs: at least one value.
+
+struct CoreMeasurement {
+  uint64_t points = 0;
+  size_t bricks = 0;
+  StageTimings cold;               // first run, on memory that the process did not have before
+  std::vector<StageTimings> warm;  // the runs after it
+  // Of the cold run: the object, everything computed from it, and the result.
+  std::optional<uint64_t> peak_bytes;
+  std::string sha256;  // of the skeleton
+};
+
+// One cold run and `repeat` warm ones. A tiny object goes first, so that the cold run does not have
+// to load the program's code.
+// Needs:  repeat >= 1.
+// Errors: as Skeletonize(); INTERNAL if two runs gave different skeletons.
+absl::StatusOr<CoreMeasurement> MeasureCore(const Volume& object, int repeat,
+                                            const exec::Context& context);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_BENCH_CORE_H_

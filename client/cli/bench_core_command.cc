@@ -1,0 +1,136 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "client/cli/bench_core.h"
+#include "client/cli/bench_objects.h"
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/local_team.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
+#include "core/exec/instruction_sets.h"
+
+namespace bccskel::cli {
+namespace {
+
+using exporting::GroupedDigits;
+using exporting::Text;
+
+// What is timed, in milliseconds.
+struct Figure {
+  const char* name;
+  double (*of)(const StageTimings&);
+};
+constexpr Figure kCore = {"core", [](const StageTimings& t) { return CoreTime(t).count(); }};
+constexpr Figure kWhole = {"whole", [](const StageTimings& t) { return WholeTime(t).count(); }};
+
+template <typename Of>
+Spread WarmSpread(const CoreMeasurement& measured, Of of, double factor) {
+  std::vector<double> values;
+  for (const StageTimings& timings : measured.warm) values.push_back(factor * of(timings));
+  return SpreadOf(std::move(values));
+}
+
+double StageTime(const BenchStage& stage, const StageTimings& timings) {
+  return Milliseconds(timings.*stage.time).count();
+}
+
+double NanosecondsPerPoint(const CoreMeasurement& measured) {
+  return 1e6 / static_cast<double>(measured.points);
+}
+
+std::string SpreadJson(const Spread& spread) {
+  return absl::StrFormat(R"({"min":%.6g,"median":%.6g,"max":%.6g})", spread.min, spread.median,
+                         spread.max);
+}
+
+std::string StagesJson(const CoreMeasurement& measured) {
+  std::string json;
+  for (const BenchStage& stage : kBenchStages) {
+    const auto time = [&stage](const StageTimings& timings) { return StageTime(stage, timings); };
+    absl::StrAppendFormat(&json, R"(%s"%s":%s)", json.empty() ? "" : ",", stage.name,
+                          SpreadJson(WarmSpread(measured, time, 1)));
+  }
+  return "{" + json + "}";
+}
+
+std::string Json(const BenchCoreArguments& arguments, int threads,
+                 const CoreMeasurement& measured) {
+  const double ns = NanosecondsPerPoint(measured);
+  Text text;
+  text.Add("{\"method\":\"directional\",\"isa\":\"", exec::ChosenInstructionSet(),
+           "\",\"threads\":", threads, ",\"shape\":\"", arguments.shape,
+           "\",\"points\":", measured.points, ",\"bricks\":", measured.bricks,
+           ",\"repeat\":", arguments.repeat);
+  text.Add(",\"ns_per_point\":", SpreadJson(WarmSpread(measured, kCore.of, ns)),
+           ",\"whole_ns_per_point\":", SpreadJson(WarmSpread(measured, kWhole.of, ns)));
+  text.Add(",\"cold\":{\"ns_per_point\":", absl::StrFormat("%.6g", ns * kCore.of(measured.cold)),
+           ",\"whole_ns_per_point\":", absl::StrFormat("%.6g", ns * kWhole.of(measured.cold)),
+           "},\"stages\":", StagesJson(measured), ",\"peak_bytes\":");
+  if (measured.peak_bytes.has_value()) {
+    text.Add(*measured.peak_bytes);
+  } else {
+    text.Add("null");
+  }
+  text.Add(",\"sha256\":\"", measured.sha256, "\"}\n");
+  return std::move(text).Take();
+}
+
+std::string TableRow(const char* name, const Spread& warm, double cold, const char* unit) {
+  return absl::StrFormat("%-12s%10.3f%10.3f%10.3f%10.3f  %s\n", name, warm.min, warm.median,
+                         warm.max, cold, unit);
+}
+
+std::string Table(const CoreMeasurement& measured) {
+  const double ns = NanosecondsPerPoint(measured);
+  std::string table =
+      absl::StrFormat("%-12s%10s%10s%10s%10s\n", "", "min", "median", "max", "cold");
+  for (const Figure& figure : {kCore, kWhole}) {
+    table += TableRow(figure.name, WarmSpread(measured, figure.of, ns),
+                      ns * figure.of(measured.cold), "ns per point");
+  }
+  for (const BenchStage& stage : kBenchStages) {
+    const auto time = [&stage](const StageTimings& timings) { return StageTime(stage, timings); };
+    table += TableRow(stage.name, WarmSpread(measured, time, 1), time(measured.cold), "ms");
+  }
+  return table;
+}
+
+std::string PeakText(const CoreMeasurement& measured) {
+  if (!measured.peak_bytes.has_value()) return "not known on this system";
+  const auto bytes = static_cast<double>(*measured.peak_bytes);
+  const auto lattice_points = static_cast<double>(measured.bricks * kBrickPoints);
+  return absl::StrFormat("%.1f MB, %.2f bytes per lattice point of the object's bricks",
+                         bytes / 1e6, bytes / lattice_points);
+}
+
+std::string Summary(const BenchCoreArguments& arguments, int threads,
+                    const CoreMeasurement& measured) {
+  Text text;
+  text.Add("object:      ", arguments.shape, ", ", GroupedDigits(measured.points), " points in ",
+           GroupedDigits(measured.bricks), " bricks\n");
+  text.Add("engine:      directional, ", exec::ChosenInstructionSet(), ", ", threads,
+           threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
+  text.Add(Table(measured), "\npeak memory: ", PeakText(measured),
+           "\nsha256:      ", measured.sha256, '\n');
+  return std::move(text).Take();
+}
+
+}  // namespace
+
+ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
+  if (!exec::ChooseInstructionSet(arguments.instruction_set)) return ExitCode::kUsage;
+  const absl::StatusOr<Volume> object = MakeBenchObject(arguments.shape, arguments.points);
+  if (!object.ok()) return FailWith(ExitCode::kUsage, object.status());
+  LocalTeam team(arguments.common.threads, stop);
+  const auto measured = MeasureCore(*object, arguments.repeat, team.context());
+  if (!measured.ok()) return Fail(measured.status());
+  const int threads = team.context().threads();
+  return Print(arguments.common.summary == SummaryStyle::kJson
+                   ? Json(arguments, threads, *measured)
+                   : Summary(arguments, threads, *measured));
+}
+
+}  // namespace bccskel::cli
