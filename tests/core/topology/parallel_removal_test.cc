@@ -186,6 +186,22 @@ TEST(ParallelRemoval, All157464TriplesAreSafe) {
   EXPECT_TRUE(std::ranges::all_of(triples, CanGoInAnyOrder));
 }
 
+// The reasons behind the counts, as the proof words them.
+TEST(ParallelRemoval, CommonNeighborsOfATripleAreASequelPointInAndABorderSideOut) {
+  for (const Clique& triple : CliquesOf(3, MasksThatMeet(Faithful))) {
+    const auto is_common = [&](LatticePoint q) {
+      return std::ranges::all_of(triple, [&](const Member& m) { return IsNeighbor(m.point, q); });
+    };
+    int inside = 0, outside = 0;
+    for (const Member& m : triple) {
+      inside += is_common(m.point + kD) && m.Sees(m.point + kD);
+      outside += is_common(m.point - kD) && !m.Sees(m.point - kD);
+    }
+    ASSERT_GE(inside, 1);
+    ASSERT_GE(outside, 1);
+  }
+}
+
 TEST(ParallelRemoval, NoFourMutuallyAdjacentPointsGoTogether) {
   EXPECT_TRUE(CliquesOf(4, MasksThatMeet(Faithful)).empty());
 }

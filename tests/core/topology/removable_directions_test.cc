@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <vector>
@@ -26,6 +27,24 @@ bool MeetsTheSixImplications(NeighborMask mask, DiagonalDirection d) {
     any_far = any_far || Has(mask, arc.far);
   }
   return any_far;
+}
+
+// Written out by hand for one direction; the others follow by the symmetries of the cube.
+TEST(RemovableDirections, RestOnTheseSixImplicationsForTheDirection111) {
+  struct Arc {
+    LatticePoint near, far;
+  };
+  const std::array<Arc, 6> arcs = {{{{-1, -1, 1}, {0, 0, 2}},
+                                    {{-1, 1, -1}, {0, 2, 0}},
+                                    {{1, -1, -1}, {2, 0, 0}},
+                                    {{-2, 0, 0}, {-1, 1, 1}},
+                                    {{0, -2, 0}, {1, -1, 1}},
+                                    {{0, 0, -2}, {1, 1, -1}}}};
+  const auto implications = ImplicationsOf(DiagonalDirection(7));
+  for (const Arc& arc : arcs) {
+    const Implication expected = {*FindDirection(arc.near), *FindDirection(arc.far)};
+    EXPECT_EQ(std::ranges::count(implications, expected), 1);
+  }
 }
 
 TEST(RemovableDirections, EqualConditions1To4ByFloodFill) {

@@ -57,6 +57,20 @@ TEST(Stubble, KeepsTheEndPointsOfACurve) {
   EXPECT_EQ(AfterOnePass(pair, test::ReferenceIsStubble), pair);
 }
 
+// Why stubble may go in any pass: p is an end point with neighbor q only if q sees none of the
+// neighbors that it shares with p. Then q is no simple point, so no rule takes it with p.
+TEST(Stubble, ANeighborThatHasMoreThanTheEndPointIsNeitherSimpleNorAnEndPoint) {
+  for (int n = 0; n < 1 << kNeighborCount; ++n) {
+    const auto q = static_cast<NeighborMask>(n);
+    for (int bit = 0; bit < kNeighborCount; ++bit) {
+      const Direction p(bit);
+      if ((q & p.mask()) == 0 || NeighborsIn(q) < 2) continue;
+      if ((q & NeighborsAmongN14(p)) != 0) continue;
+      ASSERT_FALSE(IsSimple(q) || IsEndPoint(q) || RemovableDirections(q) != 0) << n;
+    }
+  }
+}
+
 // Removes, in one pass on one snapshot, all stubble points and all points removable along d.
 TEST(StubbleLaw, GoesInTheSamePassAsConditions1To4WithoutChangingTheTopology) {
   for (uint64_t seed = 0; seed < 160; ++seed) {
