@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -40,34 +39,64 @@ void AddCommon(CLI::App& command, CommonArguments& common) {
       "Print the summary as one JSON object");
 }
 
-void AddThreads(CLI::App& command, CommonArguments& common) {
-  command.add_option("--threads", common.threads, "Threads to use; 0 means all (default)")
-      ->check(CLI::Range(0, 1024));
+void AddThreads(CLI::App& command, CommonArguments& common, const char* description) {
+  command.add_option("--threads", common.threads, description)
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+}
+
+constexpr const char* kThreadsHere = "Threads to use; 0 means all of this machine (default)";
+constexpr const char* kThreadsBoth =
+    "Threads to use, here and on the server; 0 means all of this machine and what the server "
+    "gives (default)";
+
+// An option with a few words as its values.
+template <typename Enum>
+void AddChoice(CLI::App& command, const char* name, Enum& value, const char* description,
+               const std::vector<std::pair<std::string, Enum>>& choices) {
+  std::string words;
+  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  command.add_option(name, value, description)
+      ->transform(CLI::CheckedTransformer(choices))
+      ->option_text(words);
+}
+
+void AddInput(CLI::App& command, const char* name, std::string& path, const char* description) {
+  command.add_option(name, path, description)->required()->option_text(" ");
+}
+
+void AddVolumeOutput(CLI::App& command, std::string& path) {
+  command.add_option("-o,--output", path, "Volume to write: .exr or .bccb")
+      ->required()
+      ->option_text("FILE (required)");
 }
 
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   CLI::Option* points =
-      command.add_option("--points", grid.points, "Lattice points the solid shall have");
+      command.add_option("--points", grid.points, "Lattice points the solid shall have")
+          ->option_text("N");
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
-      ->excludes(points);
-  const std::map<std::string, FillRule> rules = {
-      {"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}};
-  command.add_option("--fill", grid.fill, "What is inside a mesh: auto (default), parity, winding")
-      ->transform(CLI::CheckedTransformer(rules));
+      ->excludes(points)
+      ->option_text("LENGTH");
+  AddChoice<FillRule>(
+      command, "--fill", grid.fill, "What is inside a mesh (default auto)",
+      {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
-  const std::map<std::string, StubblePolicy> policies = {{"keep-two", StubblePolicy::kKeepTwo},
-                                                         {"literal", StubblePolicy::kLiteral},
-                                                         {"none", StubblePolicy::kNone}};
+  AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
+                           "Which stubble points to remove (default keep-two)",
+                           {{"keep-two", StubblePolicy::kKeepTwo},
+                            {"literal", StubblePolicy::kLiteral},
+                            {"none", StubblePolicy::kNone}});
   command
-      .add_option("--stubble", thinning.stubble,
-                  "Which stubble points to remove: keep-two (default), literal, none")
-      ->transform(CLI::CheckedTransformer(policies));
-  command.add_option("--shell-width", thinning.shell_width,
-                     "Thickness of a shell in lattice units, 0.75 to 64 (default 1)");
-  command.add_option("--last-shell", thinning.last_shell,
-                     "Stop after this shell; 0 thins to the end (default)");
+      .add_option("--shell-width", thinning.shell_width,
+                  "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")
+      ->option_text("X");
+  command
+      .add_option("--last-shell", thinning.last_shell,
+                  "Stop after this shell; 0 thins to the end (default)")
+      ->option_text("N");
   command.add_flag_callback(
       "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
       "Leave the simple points that parallel thinning leaves");
@@ -79,17 +108,16 @@ void AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {
                   "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
                       "; may be given several times")
       ->required()
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
 }
 
 void AddProgress(CLI::App& command, SkeletonizeArguments& arguments) {
-  const std::map<std::string, ProgressStyle> styles = {{"auto", ProgressStyle::kAuto},
-                                                       {"always", ProgressStyle::kAlways},
-                                                       {"never", ProgressStyle::kNever}};
-  command
-      .add_option("--progress", arguments.progress,
-                  "Show the shells: auto (on a terminal, default), always, never")
-      ->transform(CLI::CheckedTransformer(styles));
+  AddChoice<ProgressStyle>(command, "--progress", arguments.progress,
+                           "Show the shells on standard error; auto (default): on a terminal",
+                           {{"auto", ProgressStyle::kAuto},
+                            {"always", ProgressStyle::kAlways},
+                            {"never", ProgressStyle::kNever}});
   command
       .add_option_function<double>(
           "--timeout",
@@ -97,20 +125,23 @@ void AddProgress(CLI::App& command, SkeletonizeArguments& arguments) {
             arguments.timeout = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
           },
           "Give up after this many seconds (default 3600)")
-      ->check(CLI::Range(0.001, 1e7));
+      ->check(CLI::Range(0.001, 1e7))
+      ->option_text("SECONDS");
 }
 
 CLI::Option* AddServer(CLI::App& command, SkeletonizeArguments& arguments) {
-  return command.add_option("--server", arguments.server,
-                            "Server, HOST:PORT or unix:PATH (default " + arguments.server + ")");
+  return command
+      .add_option("--server", arguments.server,
+                  "Where the server is (default " + arguments.server + ")")
+      ->option_text("HOST:PORT|unix:PATH");
 }
 
 CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("voxelize", "Fill a mesh with bcc lattice points");
-  command.add_option("MESH", arguments.mesh, "OBJ, STL, PLY or OFF file, also .gz")->required();
-  command.add_option("-o,--output", arguments.output, "Volume to write: .exr or .bccb")->required();
+  AddInput(command, "MESH", arguments.mesh, "OBJ, STL, PLY or OFF file, also .gz");
+  AddVolumeOutput(command, arguments.output);
   AddGrid(command, arguments.grid);
-  AddThreads(command, arguments.common);
+  AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
   return command;
 }
@@ -118,11 +149,11 @@ CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
 CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("submit", "Send a volume to a server for its skeleton");
   arguments.accepted = AcceptedInput::kVolumeOnly;
-  command.add_option("VOLUME", arguments.input, "Volume file, .exr or .bccb")->required();
+  AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
   AddServer(command, arguments);
   AddThinning(command, arguments.skeletonize.thinning);
-  AddThreads(command, arguments.common);
+  AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
   return command;
@@ -131,7 +162,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
 CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("skeletonize", "Make the skeleton of a mesh or a volume in one go");
-  command.add_option("INPUT", arguments.input, "Mesh or volume file")->required();
+  AddInput(command, "INPUT", arguments.input, "Mesh or volume file");
   AddOutputs(command, arguments.outputs);
   AddGrid(command, arguments.grid);
   CLI::Option* server = AddServer(command, arguments);
@@ -141,7 +172,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
           "Compute on this machine, without a server")
       ->excludes(server);
   AddThinning(command, arguments.skeletonize.thinning);
-  AddThreads(command, arguments.common);
+  AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
   return command;
@@ -149,8 +180,8 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
 
 CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
   CLI::App& command = *app.add_subcommand("info", "Describe a mesh or a volume");
-  command.add_option("FILE", arguments.file, "Mesh or volume file")->required();
-  AddThreads(command, arguments.common);
+  AddInput(command, "FILE", arguments.file, "Mesh or volume file");
+  AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
   return command;
 }
@@ -166,13 +197,19 @@ CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
             arguments.shape = *shape;
           },
           "One of " + ShapeNames())
-      ->required();
-  command.add_option("-o,--output", arguments.output, "Volume to write: .exr or .bccb")->required();
-  command.add_option("--points", arguments.options.points,
-                     "Points the object shall have (default 850000)");
-  command.add_option("--seed", arguments.options.seed, "Chooses the random parts (default 0)");
-  command.add_option("--noise", arguments.options.noise,
-                     "Fraction of boundary points that change sides, 0 to 0.1 (default 0)");
+      ->required()
+      ->option_text(" ");
+  AddVolumeOutput(command, arguments.output);
+  command
+      .add_option("--points", arguments.options.points,
+                  "Points the object shall have (default 850000)")
+      ->option_text("N");
+  command.add_option("--seed", arguments.options.seed, "Chooses the random parts (default 0)")
+      ->option_text("N");
+  command
+      .add_option("--noise", arguments.options.noise,
+                  "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")
+      ->option_text("X");
   AddCommon(command, arguments.common);
   return command;
 }
@@ -194,12 +231,17 @@ struct CommandLine {
   CLI::App& bench = AddBench(app, bench_core_arguments);
 
   CommandLine() {
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return "bccskel: error: " + std::string(error.what()) +
+             "\nbccskel: hint: --help lists it all\n";
+    });
     for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
   }
 
+  // Needs: a command was given.
   Arguments Chosen() const {
     if (voxelize.parsed()) return voxelize_arguments;
     if (submit.parsed()) return submit_arguments;
@@ -263,6 +305,19 @@ Complaint ComplaintAbout(const GenerateArguments& arguments) {
 Complaint ComplaintAbout(const InfoArguments&) { return std::nullopt; }
 Complaint ComplaintAbout(const BenchCoreArguments&) { return std::nullopt; }
 
+std::string CommandRequired(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return "a command is required: " + names;
+}
+
+ExitCode Refuse(const std::string& complaint) {
+  std::fprintf(stderr, "bccskel: error: %s\n", complaint.c_str());
+  return ExitCode::kUsage;
+}
+
 }  // namespace
 
 std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* argv) {
@@ -272,12 +327,12 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
   } catch (const CLI::ParseError& error) {
     return line.app.exit(error) == 0 ? ExitCode::kOk : ExitCode::kUsage;
   }
+  if (line.app.get_subcommands().empty()) return Refuse(CommandRequired(line.app));
   Arguments arguments = line.Chosen();
   const Complaint complaint =
       std::visit([](const auto& chosen) { return ComplaintAbout(chosen); }, arguments);
-  if (!complaint.has_value()) return arguments;
-  std::fprintf(stderr, "bccskel: error: %s\n", complaint->c_str());
-  return ExitCode::kUsage;
+  if (complaint.has_value()) return Refuse(*complaint);
+  return arguments;
 }
 
 }  // namespace bccskel::cli

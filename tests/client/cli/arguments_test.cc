@@ -1,0 +1,177 @@
+#include "client/cli/arguments.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+
+namespace bccskel::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// What the parser made of a command line, and what it printed.
+struct Parsed {
+  std::variant<Arguments, ExitCode> arguments;
+  std::string out;
+  std::string err;
+
+  ExitCode code() const { return std::get<ExitCode>(arguments); }
+  template <typename Chosen>
+  const Chosen& as() const {
+    return std::get<Chosen>(std::get<Arguments>(arguments));
+  }
+};
+
+Parsed Parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "bccskel");
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Parsed parsed = {ParseArguments(static_cast<int>(words.size()), words.data()), "", ""};
+  parsed.out = testing::internal::GetCapturedStdout();
+  parsed.err = testing::internal::GetCapturedStderr();
+  return parsed;
+}
+
+TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
+  const Parsed parsed =
+      Parse({"skeletonize",  "a.off",     "-o",           "a.swc",         "--output",
+             "a.vtp",        "--spacing", "0.5",          "--fill",        "winding",
+             "--local",      "--stubble", "literal",      "--shell-width", "2",
+             "--last-shell", "9",         "--no-cleanup", "--threads",     "3",
+             "--progress",   "always",    "--timeout",    "1.5",           "--json"});
+  const auto& arguments = parsed.as<SkeletonizeArguments>();
+  EXPECT_EQ(arguments.input, "a.off");
+  EXPECT_THAT(arguments.outputs, ElementsAre("a.swc", "a.vtp"));
+  EXPECT_EQ(arguments.grid.spacing, 0.5);
+  EXPECT_EQ(arguments.grid.fill, FillRule::kWinding);
+  EXPECT_EQ(arguments.place, Place::kLocal);
+  EXPECT_EQ(arguments.skeletonize.thinning.stubble, StubblePolicy::kLiteral);
+  EXPECT_EQ(arguments.skeletonize.thinning.shell_width, 2);
+  EXPECT_EQ(arguments.skeletonize.thinning.last_shell, 9);
+  EXPECT_EQ(arguments.skeletonize.thinning.cleanup, ThinnessCleanup::kOff);
+  EXPECT_EQ(arguments.common.threads, 3);
+  EXPECT_EQ(arguments.progress, ProgressStyle::kAlways);
+  EXPECT_EQ(arguments.timeout, std::chrono::milliseconds(1500));
+  EXPECT_EQ(arguments.common.summary, SummaryStyle::kJson);
+}
+
+TEST(ArgumentsTest, DefaultsSuitAUserWithAServerOnThisMachine) {
+  const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc"});
+  const auto& arguments = parsed.as<SkeletonizeArguments>();
+  EXPECT_EQ(arguments.place, Place::kServer);
+  EXPECT_EQ(arguments.server, "127.0.0.1:50051");
+  EXPECT_EQ(arguments.timeout, std::chrono::hours(1));
+  EXPECT_EQ(arguments.common.threads, 0);
+  EXPECT_EQ(arguments.common.summary, SummaryStyle::kText);
+  EXPECT_EQ(arguments.progress, ProgressStyle::kAuto);
+  EXPECT_EQ(arguments.grid.points, std::nullopt);
+}
+
+TEST(ArgumentsTest, OtherCommandsTakeTheirs) {
+  EXPECT_EQ(Parse({"voxelize", "a.off", "-o", "a.exr", "--points", "9"})
+                .as<VoxelizeArguments>()
+                .grid.points,
+            9);
+  const Parsed submit = Parse({"submit", "a.exr", "-o", "a.swc", "--server", "unix:/s"});
+  EXPECT_EQ(submit.as<SkeletonizeArguments>().accepted, AcceptedInput::kVolumeOnly);
+  EXPECT_EQ(submit.as<SkeletonizeArguments>().server, "unix:/s");
+  EXPECT_EQ(Parse({"info", "a.off"}).as<InfoArguments>().file, "a.off");
+  const Parsed generate = Parse(
+      {"generate", "knot", "-o", "a.bccb", "--seed", "4", "--noise", "0.01", "--points", "10000"});
+  EXPECT_EQ(generate.as<GenerateArguments>().shape, Shape::kKnot);
+  EXPECT_EQ(generate.as<GenerateArguments>().options.seed, 4);
+}
+
+// A command line that is wrong, and a part of what the user reads.
+struct Wrong {
+  const char* name;
+  std::vector<const char*> words;
+  const char* message;
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
+
+class WrongCommandLineTest : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongCommandLineTest, IsExplainedOnStandardErrorWithExitCode2) {
+  const Parsed parsed = Parse(GetParam().words);
+  EXPECT_EQ(parsed.code(), ExitCode::kUsage);
+  EXPECT_THAT(parsed.err, HasSubstr("bccskel: error: "));
+  EXPECT_THAT(parsed.err, HasSubstr(GetParam().message));
+  EXPECT_EQ(parsed.out, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, WrongCommandLineTest,
+    testing::Values(
+        Wrong{"no_command",
+              {},
+              "a command is required: voxelize, submit, skeletonize, info, generate"},
+        Wrong{"unknown_command", {"dance"}, "dance"},
+        Wrong{"unknown_option", {"info", "a.off", "--loud"}, "--loud"},
+        Wrong{"no_input", {"skeletonize", "-o", "a.swc"}, "INPUT is required"},
+        Wrong{"no_output", {"skeletonize", "a.off"}, "--output is required"},
+        Wrong{"unknown_ending", {"skeletonize", "a.off", "-o", "a.docx"}, ".graphml"},
+        Wrong{"points_and_spacing",
+              {"skeletonize", "a.off", "-o", "a.swc", "--points", "9", "--spacing", "1"},
+              "--points"},
+        Wrong{"local_and_server",
+              {"skeletonize", "a.off", "-o", "a.swc", "--local", "--server", "x:1"},
+              "--server"},
+        Wrong{"unknown_fill", {"skeletonize", "a.off", "-o", "a.swc", "--fill", "sand"}, "sand"},
+        Wrong{"thin_shell", {"skeletonize", "a.off", "-o", "a.swc", "--shell-width", "0.1"}, "0.1"},
+        Wrong{"thick_shell", {"skeletonize", "a.off", "-o", "a.swc", "--shell-width", "65"}, "64"},
+        Wrong{
+            "negative_shell", {"skeletonize", "a.off", "-o", "a.swc", "--last-shell", "-1"}, "-1"},
+        Wrong{"no_number", {"skeletonize", "a.off", "-o", "a.swc", "--threads", "many"}, "many"},
+        Wrong{"too_many_threads",
+              {"skeletonize", "a.off", "-o", "a.swc", "--threads", "1025"},
+              "1025"},
+        Wrong{"no_time", {"skeletonize", "a.off", "-o", "a.swc", "--timeout", "0"}, "--timeout"},
+        Wrong{"grid_of_a_volume",
+              {"skeletonize", "a.exr", "-o", "a.swc", "--points", "9"},
+              "is a volume"},
+        Wrong{"voxelize_without_size", {"voxelize", "a.off", "-o", "a.exr"}, "--spacing"},
+        Wrong{"voxelize_to_a_skeleton",
+              {"voxelize", "a.off", "-o", "a.swc", "--points", "9"},
+              ".bccb"},
+        Wrong{"unknown_shape", {"generate", "teapot", "-o", "a.exr"}, "hollow-ball"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(ArgumentsTest, HelpAndVersionGoToStandardOutput) {
+  for (const char* command : {"voxelize", "submit", "skeletonize", "info", "generate"}) {
+    const Parsed parsed = Parse({command, "--help"});
+    EXPECT_EQ(parsed.code(), ExitCode::kOk);
+    EXPECT_THAT(parsed.out, HasSubstr("Exit codes: 0 success"));
+    EXPECT_EQ(parsed.err, "");
+  }
+  EXPECT_THAT(Parse({"--version"}).out, testing::MatchesRegex("bccskel [0-9]+\\.[0-9]+.*\n"));
+}
+
+TEST(ArgumentsTest, HelpNamesTheWordsAnOptionTakes) {
+  const std::string help = Parse({"skeletonize", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("--stubble keep-two|literal|none"));
+  EXPECT_THAT(help, HasSubstr("--fill auto|parity|winding"));
+  EXPECT_THAT(help, HasSubstr("--progress auto|always|never"));
+}
+
+TEST(ArgumentsTest, TheInputIsNotOverwritten) {
+  std::string folder = testing::TempDir() + "bccskel-XXXXXX";
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const std::string volume = folder + "/a.exr", other = folder + "/./a.exr";
+  std::ofstream(volume) << "bytes";
+  for (const char* command : {"submit", "skeletonize"}) {
+    const Parsed parsed = Parse({command, volume.c_str(), "-o", other.c_str()});
+    EXPECT_EQ(parsed.code(), ExitCode::kUsage);
+    EXPECT_THAT(parsed.err, HasSubstr("would be overwritten"));
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace bccskel::cli

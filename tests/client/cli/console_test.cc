@@ -1,0 +1,86 @@
+#include "client/cli/console.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/cli/exit_code.h"
+#include "client/cli/json_text.h"
+#include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
+
+namespace bccskel::cli {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ExitCodeTest, FollowsFromTheKindOfError) {
+  EXPECT_EQ(ExitCodeOf(absl::OkStatus()), ExitCode::kOk);
+  EXPECT_EQ(ExitCodeOf(absl::InvalidArgumentError("")), ExitCode::kBadInput);
+  EXPECT_EQ(ExitCodeOf(absl::NotFoundError("")), ExitCode::kBadInput);
+  EXPECT_EQ(ExitCodeOf(absl::FailedPreconditionError("")), ExitCode::kBadInput);
+  EXPECT_EQ(ExitCodeOf(absl::UnimplementedError("")), ExitCode::kBadInput);
+  EXPECT_EQ(ExitCodeOf(absl::UnavailableError("")), ExitCode::kUnavailable);
+  EXPECT_EQ(ExitCodeOf(absl::DeadlineExceededError("")), ExitCode::kStopped);
+  EXPECT_EQ(ExitCodeOf(absl::CancelledError("")), ExitCode::kStopped);
+  EXPECT_EQ(ExitCodeOf(absl::ResourceExhaustedError("")), ExitCode::kTooLarge);
+  EXPECT_EQ(ExitCodeOf(absl::DataLossError("")), ExitCode::kInternal);
+  EXPECT_EQ(ExitCodeOf(absl::InternalError("")), ExitCode::kInternal);
+}
+
+TEST(ConsoleTest, ErrorsAndHintsGoToStandardError) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Fail(absl::UnavailableError("nobody there"), "start it"), ExitCode::kUnavailable);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "bccskel: error: nobody there\nbccskel: hint: start it\n");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(JsonStringTest, EscapesQuotesAndControlCharactersAndKeepsUtf8) {
+  EXPECT_EQ(JsonString("a\"b\\c\n\x01"), "\"a\\\"b\\\\c\\u000a\\u0001\"");
+  EXPECT_EQ(JsonString("né\xF0\x9F\xA6\xB4"), "\"né\xF0\x9F\xA6\xB4\"");
+}
+
+TEST(JsonStringTest, BytesThatAreNotUtf8BecomeTheReplacementCharacter) {
+  EXPECT_EQ(JsonString("\xff"), "\"\\ufffd\"");
+  EXPECT_EQ(JsonString("\xc3"), "\"\\ufffd\"");                        // cut
+  EXPECT_EQ(JsonString("\xc0\xaf"), "\"\\ufffd\\ufffd\"");             // too long a form
+  EXPECT_EQ(JsonString("\xed\xa0\x80"), "\"\\ufffd\\ufffd\\ufffd\"");  // half of a pair
+}
+
+TEST(InputKindTest, FollowsFromTheNameInCapitalsOrNot) {
+  EXPECT_EQ(*InputKindOf("a.OBJ"), InputKind::kMesh);
+  EXPECT_EQ(*InputKindOf("a.stl.gz"), InputKind::kMesh);
+  EXPECT_EQ(*InputKindOf("a.exr"), InputKind::kVolume);
+  EXPECT_EQ(*InputKindOf("a.bccb"), InputKind::kVolume);
+  EXPECT_TRUE(absl::IsUnimplemented(InputKindOf("a.nii.gz").status()));
+  EXPECT_TRUE(absl::IsInvalidArgument(InputKindOf("a.docx").status()));
+}
+
+TEST(ProgressLineTest, ShowsHowFarTheShellsAre) {
+  const exec::ShellProgress progress = {
+      .shell = 7, .last_shell = 14, .points = 3, .removed = 1234567, .remaining = 89};
+  EXPECT_EQ(ProgressLine(progress, std::chrono::milliseconds(1250)),
+            "[##############--------------] shell 7/14  1,234,567 points removed, 89 left  1.2 s");
+}
+
+TEST(ProgressLineTest, StandsWithoutShells) {
+  EXPECT_THAT(ProgressLine({}, std::chrono::seconds(0)),
+              HasSubstr("[----------------------------] shell 0/0"));
+}
+
+TEST(ProgressBarTest, IsSilentInAPipeUnlessAskedFor) {
+  testing::internal::CaptureStderr();  // a file, not a terminal
+  EXPECT_FALSE(ProgressBar(ProgressStyle::kAuto).Callback());
+  EXPECT_FALSE(ProgressBar(ProgressStyle::kNever).Callback());
+  ProgressBar lines(ProgressStyle::kAlways);
+  lines.Callback()({.shell = 1, .last_shell = 2});
+  lines.Callback()({.shell = 2, .last_shell = 2});
+  const std::string printed = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(printed, HasSubstr("shell 1/2"));
+  EXPECT_THAT(printed, HasSubstr("shell 2/2"));
+  EXPECT_EQ(printed.find('\r'), printed.npos);
+}
+
+}  // namespace
+}  // namespace bccskel::cli

@@ -1,0 +1,98 @@
+#include "client/export/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace bccskel::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadBack(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Files may grow to no more than a size; a write beyond fails as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : before_signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = {bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, before_signal_);
+  }
+
+ private:
+  rlimit before_;
+  void (*before_signal_)(int);
+};
+
+class AtomicFileTest : public testing::Test {
+ protected:
+  AtomicFileTest() {
+    std::string folder = testing::TempDir() + "bccskel-XXXXXX";
+    EXPECT_NE(::mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+  }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+
+  size_t FilesThere() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), {}));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFileTest, WritesAllBytesAndLeavesNothingElse) {
+  const std::string bytes("a\0b\n", 4);
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "new", bytes).ok());
+  EXPECT_EQ(ReadBack(folder_ / "new"), bytes);
+  EXPECT_EQ(FilesThere(), 1);
+}
+
+TEST_F(AtomicFileTest, ReplacesAFile) {
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old and long").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "new").ok());
+  EXPECT_EQ(ReadBack(folder_ / "file"), "new");
+}
+
+TEST_F(AtomicFileTest, AFailureLeavesTheOldFileAndNoDraft) {
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
+  const FileSizeLimit limit(1000);
+  const absl::Status status = WriteFileAtomically(folder_ / "file", std::string(5000, 'x'));
+  EXPECT_FALSE(status.ok());
+  EXPECT_EQ(ReadBack(folder_ / "file"), "old");
+  EXPECT_EQ(FilesThere(), 1);
+}
+
+TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
+  const std::string path = folder_ / "no" / "such" / "folder";
+  const absl::Status status = WriteFileAtomically(path, "bytes");
+  EXPECT_TRUE(absl::IsNotFound(status)) << status;
+  EXPECT_NE(status.message().find(path), status.message().npos) << status;
+}
+
+TEST_F(AtomicFileTest, AFolderIsNotReplaced) {
+  EXPECT_FALSE(WriteFileAtomically(folder_, "bytes").ok());
+  EXPECT_TRUE(fs::is_directory(folder_));
+}
+
+TEST_F(AtomicFileTest, WritesToADeviceWithoutReplacingIt) {
+  EXPECT_TRUE(WriteFileAtomically("/dev/null", "bytes").ok());
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_FALSE(WriteFileAtomically("/dev/full", "bytes").ok());
+}
+
+}  // namespace
+}  // namespace bccskel::exporting

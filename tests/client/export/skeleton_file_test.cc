@@ -1,0 +1,85 @@
+#include "client/export/skeleton_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/io/volume_file.h"
+#include "tests/client/export/sample_skeletons.h"
+
+namespace bccskel::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class SkeletonFileTest : public testing::Test {
+ protected:
+  SkeletonFileTest() {
+    std::string folder = testing::TempDir() + "bccskel-XXXXXX";
+    EXPECT_NE(::mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+  }
+  ~SkeletonFileTest() override { fs::remove_all(folder_); }
+
+  std::string Written(const std::string& name, const Sample& sample) const {
+    const auto note = WriteSkeletonFile(folder_ / name, {sample.result, sample.object, "A title"});
+    EXPECT_TRUE(note.ok()) << note.status();
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SkeletonFileTest, TheEndingChoosesTheFormatInCapitalsOrNot) {
+  EXPECT_EQ(*SkeletonFormatOf("a.swc"), SkeletonFormat::kSwc);
+  EXPECT_EQ(*SkeletonFormatOf("/x.y/A.GraphML"), SkeletonFormat::kGraphMl);
+  EXPECT_EQ(*SkeletonFormatOf("a.exr"), SkeletonFormat::kVolume);
+  EXPECT_EQ(*SkeletonFormatOf("a.bccb"), SkeletonFormat::kVolume);
+  const auto unknown = SkeletonFormatOf("a.docx");
+  EXPECT_TRUE(absl::IsInvalidArgument(unknown.status()));
+  EXPECT_THAT(std::string(unknown.status().message()), HasSubstr(SkeletonFormatEndings()));
+}
+
+TEST_F(SkeletonFileTest, EqualSubjectsGiveEqualBytes) {
+  const Sample sample = SampleOf(Shape::kKnot);
+  for (const char* name :
+       {"a.swc", "a.vtp", "a.graphml", "a.obj", "a.json", "a.exr", "a.bccb", "a.svg", "a.html"}) {
+    const std::string first = Written(name, sample);
+    EXPECT_FALSE(first.empty()) << name;
+    EXPECT_TRUE(first == Written(name, sample)) << name;
+  }
+}
+
+TEST_F(SkeletonFileTest, VolumesReadBackToTheThinnedObject) {
+  const Sample sample = SampleOf(Shape::kTree);
+  for (const char* name : {"thin.exr", "thin.bccb"}) {
+    Written(name, sample);
+    const auto read = ReadVolumeFile(folder_ / name);
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(*read, sample.result.thin) << name;
+  }
+}
+
+TEST_F(SkeletonFileTest, TellsWhatTheFormatCouldNotHold) {
+  const Sample sample = SampleOf(Shape::kTorus);
+  const Subject subject = {sample.result, sample.object, ""};
+  EXPECT_THAT(*WriteSkeletonFile(folder_ / "a.swc", subject), HasSubstr("1 loop cut"));
+  EXPECT_EQ(*WriteSkeletonFile(folder_ / "a.vtp", subject), "");
+}
+
+TEST_F(SkeletonFileTest, CoordinatesThatOverflowAreRefusedAndNothingIsWritten) {
+  Sample sample = SampleOf(Shape::kTorus);
+  sample.result.graph.placement.spacing = {1e308, 1e308, 1e308};
+  const auto note = WriteSkeletonFile(folder_ / "a.json", {sample.result, sample.object, "title"});
+  EXPECT_TRUE(absl::IsInvalidArgument(note.status())) << note.status();
+  EXPECT_FALSE(fs::exists(folder_ / "a.json"));
+}
+
+}  // namespace
+}  // namespace bccskel::exporting

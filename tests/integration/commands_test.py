@@ -1,0 +1,151 @@
+"""What a user does, from start to end."""
+
+import json
+import os
+import pty
+import subprocess
+
+import harness
+
+# A tetrahedron with outward normals.
+TETRAHEDRON = """OFF
+4 4 0
+0 0 0
+10 0 0
+0 10 0
+0 0 10
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+
+
+class CommandsTest(harness.TestCase):
+    def tetrahedron(self):
+        with open(self.path("tetrahedron.off"), "w") as file:
+            file.write(TETRAHEDRON)
+        return self.path("tetrahedron.off")
+
+    def test_voxelize_submit_and_all_outputs(self):
+        mesh, volume = self.tetrahedron(), self.path("v.exr")
+        text = self.succeed("voxelize", mesh, "--points", 20000, "-o", volume)
+        self.assertIn("4 vertices, 4 triangles, watertight, genus 0", text)
+        self.assertIn("written:     " + volume, text)
+        endings = "swc vtp graphml obj json exr bccb svg html".split()
+        outputs = [word for e in endings for word in ("-o", self.path("s." + e))]
+        with harness.Server(self.folder) as server:
+            text = self.succeed("submit", volume, "--server", server.address, *outputs)
+        self.assertIn("topology kept", text)
+        for ending in endings:
+            self.assertIn("written:   " + self.path("s." + ending), text)
+            self.assertGreater(os.path.getsize(self.path("s." + ending)), 100)
+
+    def test_server_and_this_machine_give_the_same_over_any_transport_and_threads(self):
+        mesh = self.tetrahedron()
+        volumes = [self.generate(shape, 30000, shape + ".bccb") for shape in ("tree", "knot")]
+        with harness.Server(self.folder) as unix, \
+             harness.Server(self.folder, name="second", listen="127.0.0.1:0") as loopback:
+            for source in [mesh, *volumes]:
+                runs = [self.run_json(source, *place) for place in (
+                    ("--local", "--threads", 1), ("--local", "--threads", 3),
+                    ("--server", unix.address, "--threads", 2),
+                    ("--server", loopback.address))]
+                for other in runs[1:]:
+                    self.assertEqual(other, runs[0])
+
+    def run_json(self, source, *place):
+        """Summary, document and bytes of the other formats of one run."""
+        endings = ("json", "swc", "vtp", "graphml", "bccb", "svg", "html")
+        outputs = [word for e in endings for word in ("-o", self.path("run." + e))]
+        grid = ("--points", 20000) if source.endswith(".off") else ()
+        summary = json.loads(self.succeed("skeletonize", source, "--json", *grid, *place, *outputs))
+        texts = {e: (self.folder / ("run." + e)).read_bytes() for e in endings}
+        document = harness.without_times(json.loads(texts.pop("json")))
+        self.assertEqual(document["sha256"], summary["sha256"])
+        return harness.without_times(summary), document, texts
+
+    def test_submit_takes_what_skeletonize_takes_of_volumes(self):
+        volume = self.generate("torus")
+        with harness.Server(self.folder) as server:
+            command = ("--server", server.address, "-o", self.path("a.json"), "--json")
+            submitted = json.loads(self.succeed("submit", volume, *command))
+            skeletonized = json.loads(self.succeed("skeletonize", volume, *command))
+        self.assertEqual(harness.without_times(submitted), harness.without_times(skeletonized))
+        self.assertEqual(submitted["certificate"]["skeleton"],
+                         {"components": 1, "loops": 1, "cavities": 0})
+
+    def test_a_skeleton_written_as_a_volume_is_its_own_skeleton(self):
+        volume, thin = self.generate("tree"), self.path("thin.exr")
+        first = json.loads(self.succeed("skeletonize", volume, "--local", "--json", "-o", thin))
+        info = json.loads(self.succeed("info", thin, "--json"))
+        self.assertEqual(info["volume"]["points"], first["skeleton_points"])
+        self.assertEqual(info["volume"]["topology"], first["certificate"]["skeleton"])
+
+    def test_info_describes_meshes_and_volumes(self):
+        mesh = json.loads(self.succeed("info", self.tetrahedron(), "--json"))
+        self.assertEqual(mesh["kind"], "mesh")
+        self.assertEqual(mesh["mesh"]["genus"], 0)
+        self.assertTrue(mesh["mesh"]["watertight"])
+        volume = json.loads(self.succeed("info", self.generate("hollow-ball"), "--json"))
+        self.assertEqual(volume["volume"]["topology"],
+                         {"components": 1, "loops": 0, "cavities": 1})
+
+    def test_options_change_the_result_in_the_same_way_everywhere(self):
+        volume = self.generate("tree")
+        with harness.Server(self.folder) as server:
+            digests = set()
+            for options in ((), ("--stubble", "none"), ("--shell-width", 3), ("--last-shell", 2),
+                            ("--no-cleanup",)):
+                local, remote = (
+                    json.loads(self.succeed("skeletonize", volume, "--json", *options, *place,
+                                            "-o", self.path("a.swc")))
+                    for place in (("--local",), ("--server", server.address)))
+                self.assertEqual(harness.without_times(local), harness.without_times(remote))
+                digests.add(local["sha256"])
+        self.assertGreaterEqual(len(digests), 3)
+
+    def test_a_pipe_gets_no_progress_unless_it_is_asked_for(self):
+        command = ("skeletonize", self.generate("tree"), "--local", "-o", self.path("a.swc"))
+        self.succeed(*command)  # checks that standard error is empty
+        done = harness.bccskel(*command, "--progress", "always")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"shell 1/\d+ .* points removed, .* left")
+        self.assertNotIn("\r", done.stderr)
+
+    def test_a_terminal_gets_a_bar_that_ends_in_a_clean_line(self):
+        volume = self.generate("tree")
+        shown = self.on_terminal("skeletonize", volume, "--local", "-o", self.path("a.swc"))
+        self.assertIn("\r[", shown)
+        self.assertTrue(shown.endswith("\n"))
+        silent = self.on_terminal("skeletonize", volume, "--local", "-o", self.path("a.swc"),
+                                  "--progress", "never")
+        self.assertEqual(silent, "")
+
+    def on_terminal(self, *words):
+        """What a command shows on a terminal that is its standard error."""
+        ours, theirs = pty.openpty()
+        with open(ours, "rb", buffering=0) as screen:
+            subprocess.run([harness.CLIENT, *words], stderr=theirs, stdout=subprocess.PIPE,
+                           timeout=60, check=True)
+            os.close(theirs)
+            shown = b""
+            try:
+                while piece := screen.read(65536):
+                    shown += piece
+            except OSError:  # the way a terminal says that it ends
+                pass
+        return shown.decode()
+
+    def test_names_may_hold_blanks_quotes_and_bytes_that_are_not_utf8(self):
+        volume = self.generate("ball", name="a \"b\" é.bccb")
+        output = os.fsencode(self.path("s ")) + b"\xff.json"
+        done = subprocess.run([harness.CLIENT, "skeletonize", volume, "--local", "--json", "-o",
+                               output], capture_output=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["input"], volume)
+        self.assertTrue(os.path.exists(output))
+
+
+if __name__ == "__main__":
+    harness.main()

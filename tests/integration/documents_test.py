@@ -1,0 +1,113 @@
+"""Help, man page, completions and README say the same as the program does."""
+
+import json
+import re
+import shutil
+import subprocess
+import unittest
+
+import harness
+
+CLI = harness.SOURCES / "client/cli"
+COMMANDS = ("voxelize", "submit", "skeletonize", "info", "generate", "bench core")
+
+
+def options_of(command):
+    """The options that --help lists, by their long names."""
+    text = harness.bccskel(*command.split(), "--help").stdout
+    return set(re.findall(r"^\s+(?:-\w,)?(--[a-z-]+)", text, re.M))
+
+
+def shapes():
+    text = " ".join(harness.bccskel("generate", "--help").stdout.split())
+    return re.search(r"One of ([a-z, -]+?) Options", text)[1].split(", ")
+
+
+class DocumentsTest(harness.TestCase):
+    def test_the_man_page_has_a_section_per_command_with_every_option(self):
+        page = (CLI / "bccskel.1").read_text().replace("\\-", "-")
+        sections = dict(re.findall(r'^\.SS "bccskel ([a-z ]+)\b.*?\n(.*?)(?=^\.S[SH])', page, re.M | re.S))
+        common = page[page.index(".SH COMMON OPTIONS"):]
+        sections = {name.strip(): text for name, text in sections.items()}
+        self.assertEqual(set(sections), set(COMMANDS))
+        for command in COMMANDS:
+            for option in options_of(command):
+                with self.subTest(command=command, option=option):
+                    self.assertRegex(sections[command] + common, rf"{option}\b")
+            for option in set(re.findall(r"--[a-z][a-z-]+", sections[command])):
+                with self.subTest(command=command, unknown=option):
+                    self.assertIn(option, options_of(command))
+
+    def test_the_man_page_names_formats_shapes_and_exit_codes(self):
+        page = (CLI / "bccskel.1").read_text().replace("\\-", "-")
+        help_text = harness.bccskel("skeletonize", "--help").stdout
+        for word in re.findall(r"\.(?:swc|vtp|graphml|obj|json|exr|bccb|svg|html)\b", help_text):
+            self.assertIn(word, page)
+        for shape in shapes():
+            self.assertIn(shape, page)
+        for code in re.findall(r"\b(\d+) [a-z]", help_text[help_text.index("Exit codes"):]):
+            self.assertRegex(page, rf"\.B {code}\n")
+
+    @unittest.skipIf(shutil.which("groff") is None, "groff is not installed")
+    def test_groff_formats_the_man_page_without_a_warning(self):
+        done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", CLI / "bccskel.1"],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_completions_know_every_command_option_and_shape(self):
+        for name in ("bccskel", "_bccskel", "bccskel.fish"):
+            text = (CLI / "completions" / name).read_text()
+            words = set(re.findall(r"[a-z][a-z-]*", text))
+            for command in COMMANDS:
+                expected = {option[2:] for option in options_of(command)} | set(command.split())
+                with self.subTest(file=name, command=command):
+                    self.assertLessEqual(expected - {"help", "version"}, words)
+            self.assertLessEqual(set(shapes()), words, name)
+
+    def test_bash_completes_commands_options_and_values(self):
+        def complete(*words):
+            script = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
+                      '_bccskel "$1" "${@: -1}"; printf "%s\\n" "${COMPREPLY[@]}"')
+            done = subprocess.run(["bash", "-c", script, "bash", CLI / "completions/bccskel",
+                                   "bccskel", *words], capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return set(done.stdout.split())
+
+        self.assertEqual(complete("s"), {"submit", "skeletonize"})
+        self.assertEqual(complete("skeletonize", "--stu"), {"--stubble"})
+        self.assertEqual(complete("skeletonize", "--stubble", ""), {"keep-two", "literal", "none"})
+        self.assertEqual(complete("generate", "h"), {"horse", "hollow-ball"})
+        for command in COMMANDS:
+            self.assertEqual(complete(*command.split(), "--"), options_of(command))
+
+    def test_the_readme_names_every_key_of_the_summaries(self):
+        readme = (harness.SOURCES / "client/README.md").read_text()
+        with open(self.path("a.off"), "w") as file:
+            file.write("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                       "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        grid = ("--points", 9999)
+        commands = [("voxelize", self.path("a.off"), *grid, "-o", self.path("a.exr")),
+                    ("skeletonize", self.path("a.off"), *grid, "--local", "-o", self.path("a.swc")),
+                    ("info", self.path("a.off")), ("info", self.path("a.exr")),
+                    ("generate", "ball", "-o", self.path("b.exr"))]
+        for command in commands:
+            for key in self.keys(json.loads(self.succeed(*command, "--json"))):
+                with self.subTest(command=command[0], key=key):
+                    self.assertIn(f"`{key}`", readme)
+
+    def keys(self, value):
+        if isinstance(value, dict):
+            return set(value) | {k for inner in value.values() for k in self.keys(inner)}
+        if isinstance(value, list):
+            return {k for inner in value for k in self.keys(inner)}
+        return set()
+
+    def test_the_readme_names_every_exit_code(self):
+        readme = (harness.SOURCES / "client/README.md").read_text()
+        help_text = harness.bccskel("--help").stdout
+        for code in re.findall(r"\b(\d+) [a-z]", help_text[help_text.index("Exit codes"):]):
+            self.assertRegex(readme, rf"(?m)^\| {code} \|")
+
+
+if __name__ == "__main__":
+    harness.main()

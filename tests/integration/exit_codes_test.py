@@ -1,0 +1,146 @@
+"""Every exit code that --help and the man page promise, reached in the way a user reaches it."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+from concurrent import futures
+
+import grpc
+
+import harness
+
+
+class ExitCodesTest(harness.TestCase):
+    def skeletonize(self, source, *words):
+        return ("skeletonize", source, "-o", self.path("out.swc"), *words)
+
+    def start(self, *words):
+        return subprocess.Popen([harness.CLIENT, *map(str, words)], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def long_job(self):
+        """A volume that takes seconds to thin on one thread."""
+        return self.generate("blob", 4_000_000)
+
+    def test_2_for_a_wrong_command_line(self):
+        self.fail_with(2, "--output is required", "skeletonize", "a.off")
+
+    def test_3_for_an_input_that_cannot_be_read_or_is_something_else(self):
+        self.fail_with(3, "No such file", *self.skeletonize(self.path("none.off"), "--local"))
+        self.fail_with(3, "No such file", *self.skeletonize(self.path("none.exr"), "--local"))
+        for name in ("a.off", "a.exr", "a.bccb", "a.stl.gz"):
+            pathlib.Path(self.path(name)).write_text("nonsense " * 20)
+            self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
+            self.fail_with(3, name, "info", self.path(name))
+        self.fail_with(3, "format not supported", *self.skeletonize("a.docx", "--local"))
+        self.fail_with(3, "not read yet", *self.skeletonize("a.nrrd", "--local"))
+        self.fail_with(3, "submit takes volumes", "submit", "a.off", "-o", self.path("a.swc"))
+        self.fail_with(3, "is a volume already", "voxelize", "a.exr", "--points", 9, "-o", "b.exr")
+
+    def test_4_for_no_server(self):
+        done = self.fail_with(4, "server unix:/nowhere", *self.skeletonize(
+            self.generate("ball"), "--server", "unix:/nowhere"))
+        self.assertIn("bccskel: hint: start bccskel-server", done.stderr)
+
+    def test_5_when_the_deadline_passes(self):
+        volume = self.long_job()
+        self.fail_with(5, "deadline", *self.skeletonize(volume, "--local", "--timeout", 0.05))
+        with harness.Server(self.folder) as server:
+            self.fail_with(5, "eadline", *self.skeletonize(
+                volume, "--server", server.address, "--timeout", 0.1))
+        self.assert_no_output()
+
+    def test_6_for_a_server_that_ends_without_a_result(self):
+        class Liar(grpc.GenericRpcHandler):
+            def service(self, _):
+                return grpc.stream_stream_rpc_method_handler(lambda requests, context: iter(()))
+
+        liar = grpc.server(futures.ThreadPoolExecutor(2), handlers=[Liar()])
+        liar.add_insecure_port("unix:" + self.path("liar"))
+        liar.start()
+        self.fail_with(6, "without a summary", *self.skeletonize(
+            self.generate("ball"), "--server", "unix:" + self.path("liar")))
+        liar.stop(None).wait()
+
+    def test_7_over_a_limit_of_the_server_or_of_this_machine(self):
+        volume = self.generate("tree", 100_000)
+        with harness.Server(self.folder, "--max-bricks", "10") as server:
+            self.fail_with(7, "10", *self.skeletonize(volume, "--server", server.address))
+        mesh = pathlib.Path(self.path("far.off"))
+        mesh.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1e9\n"
+                        "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        self.fail_with(7, "the limit is", *self.skeletonize(mesh, "--local", "--spacing", 0.01))
+
+    def test_8_when_output_cannot_be_written(self):
+        volume = self.generate("ball")
+        for ending in ("swc", "exr", "bccb", "svg"):
+            output = self.path("no/such/folder/a." + ending)
+            self.fail_with(8, output, "skeletonize", volume, "--local", "-o", output)
+        self.fail_with(8, "a.exr", "voxelize", self.triangle_block(), "--points", 9999, "-o",
+                       self.path("no/a.exr"))
+        self.fail_with(8, "a.exr", "generate", "ball", "-o", self.path("no/a.exr"))
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([harness.CLIENT, "info", volume], stdout=full, timeout=60,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr),
+                         (8, "bccskel: error: cannot write to standard output\n"))
+
+    def triangle_block(self):
+        pathlib.Path(self.path("a.off")).write_text(
+            "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        return self.path("a.off")
+
+    def test_130_and_143_cancel_the_job_on_the_server(self):
+        volume = self.long_job()
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with harness.Server(self.folder, name=f"server{code}") as server:
+                client = self.start(*self.skeletonize(volume, "--server", server.address,
+                                                      "--threads", 1))
+                job = server.wait_for_log("event", "job accepted")["job"]
+                client.send_signal(number)
+                _, error = client.communicate(timeout=60)
+                self.assertEqual(client.returncode, code, error)
+                ended = server.wait_for_log("event", "call ended")
+                self.assertEqual((ended["job"], ended["code"]), (job, "CANCELLED"))
+        self.assert_no_output()
+
+    def test_130_on_this_machine(self):
+        client = self.start(*self.skeletonize(self.long_job(), "--local", "--threads", 1,
+                                              "--progress", "always"))
+        client.stderr.readline()  # the first shell: it computes
+        client.send_signal(signal.SIGINT)
+        _, error = client.communicate(timeout=60)
+        self.assertEqual(client.returncode, 130, error)
+        self.assert_no_output()
+
+    def test_130_while_it_waits_for_a_server(self):
+        client = self.start(*self.skeletonize(self.generate("ball"), "--server", "unix:/nowhere"))
+        time.sleep(0.3)
+        client.send_signal(signal.SIGINT)
+        client.communicate(timeout=60)
+        self.assertEqual(client.returncode, 130)
+
+    def test_a_closed_pipe_does_not_kill(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([harness.CLIENT, "info", self.generate("ball")], stdout=writer,
+                              stderr=subprocess.PIPE, text=True, timeout=60)
+        os.close(writer)
+        self.assertEqual(done.returncode, 8, done.stderr)
+
+    def test_0_leaves_no_draft_behind(self):
+        volume = self.generate("ball")
+        self.succeed(*self.skeletonize(volume, "--local"))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["object.bccb", "out.swc"])
+        json.loads(self.succeed(*self.skeletonize(volume, "--local", "--json")))
+
+    def assert_no_output(self):
+        left = [n for n in os.listdir(self.folder) if n.startswith("out.swc")]
+        self.assertEqual(left, [])
+
+
+if __name__ == "__main__":
+    harness.main()

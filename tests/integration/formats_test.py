@@ -1,0 +1,236 @@
+"""Every output format, read by a program that we did not write."""
+
+import base64
+import html.parser
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import harness
+
+try:
+    import networkx
+except ImportError:
+    networkx = None
+try:
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+except ImportError:
+    vtkXMLPolyDataReader = None
+
+SHAPES = ("ball", "torus", "tree", "knot", "hollow-ball")
+ENDINGS = ("json", "swc", "vtp", "graphml", "obj", "svg", "html", "exr")
+
+
+class FormatsTest(harness.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """Makes s.* of each shape in a folder of its own; pictures cost time, so once for all."""
+        cls.folders = pathlib.Path(tempfile.mkdtemp(prefix="bccskel-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folders)
+        cls.summaries = {}
+        for shape in SHAPES:
+            folder = cls.folders / shape
+            folder.mkdir()
+            harness.bccskel("generate", shape, "--points", 10000, "-o", folder / "v.bccb")
+            outputs = [word for e in ENDINGS for word in ("-o", folder / f"s.{e}")]
+            done = harness.bccskel("skeletonize", folder / "v.bccb", "--local", "--json", *outputs)
+            cls.summaries[shape] = json.loads(done.stdout)
+
+    def each_skeleton(self):
+        """Summary and document of one shape after the other; path() leads to its files."""
+        for shape, summary in self.summaries.items():
+            self.folder = self.folders / shape
+            with self.subTest(shape=shape), open(self.path("s.json")) as file:
+                yield summary, json.load(file)
+
+    def test_json_agrees_with_the_summary_and_with_itself(self):
+        for summary, document in self.each_skeleton():
+            self.assertEqual(document["sha256"], summary["sha256"])
+            self.assertEqual(document["certificate"], summary["certificate"])
+            self.assertEqual(len(document["nodes"]), summary["nodes"])
+            self.assertEqual(len(document["edges"]), summary["edges"])
+            for number, node in enumerate(document["nodes"]):
+                self.assertEqual(node["id"], number)
+            for edge in document["edges"]:
+                self.check_edge(document["nodes"], edge)
+
+    def check_edge(self, nodes, edge):
+        self.assertEqual(edge["points"][0], nodes[edge["source"]]["position"])
+        self.assertEqual(edge["points"][-1], nodes[edge["target"]]["position"])
+        self.assertEqual(len(edge["points"]), len(edge["radii"]))
+        length = sum(map(math.dist, edge["points"], edge["points"][1:]))
+        self.assertAlmostEqual(edge["length"], length)
+
+    def test_json_follows_its_schema(self):
+        schema = json.loads((harness.SOURCES / "client/export/skeleton.schema.json").read_text())
+        for _, document in self.each_skeleton():
+            self.check_schema(document, schema, schema, "$")
+
+    def check_schema(self, value, schema, root, where):
+        """The part of JSON Schema that our schema uses; an unknown keyword is an error."""
+        if "$ref" in schema:
+            schema = root["$defs"][schema["$ref"].removeprefix("#/$defs/")]
+        known = {"type", "properties", "required", "additionalProperties", "items", "enum",
+                 "minimum", "minItems", "maxItems", "pattern", "description", "title", "$schema",
+                 "$id", "$defs"}
+        self.assertLessEqual(set(schema), known, where)
+        types = {"object": dict, "array": list, "string": str, "number": (int, float),
+                 "integer": int}
+        self.assertIsInstance(value, types[schema["type"]], where)
+        if "enum" in schema:
+            self.assertIn(value, schema["enum"], where)
+        if "minimum" in schema:
+            self.assertGreaterEqual(value, schema["minimum"], where)
+        if "pattern" in schema:
+            self.assertRegex(value, schema["pattern"], where)
+        if schema["type"] == "object":
+            self.assertLessEqual(set(value), set(schema["properties"]), where)
+            self.assertLessEqual(set(schema["required"]), set(value), where)
+            for key, inner in value.items():
+                self.check_schema(inner, schema["properties"][key], root, f"{where}.{key}")
+        if schema["type"] == "array":
+            self.assertGreaterEqual(len(value), schema.get("minItems", 0), where)
+            self.assertLessEqual(len(value), schema.get("maxItems", math.inf), where)
+            for item in value:
+                self.check_schema(item, schema["items"], root, where + "[]")
+
+    def test_swc_is_a_forest_of_the_same_components(self):
+        for summary, document in self.each_skeleton():
+            positions = {tuple(p) for e in document["edges"] for p in e["points"]}
+            positions |= {tuple(n["position"]) for n in document["nodes"]}
+            rows = self.swc_rows()
+            self.assertEqual({tuple(row[2:5]) for row in rows}, positions)
+            self.assertEqual(len(rows), len(positions))
+            roots = sum(row[6] == -1 for row in rows)
+            self.assertEqual(roots, summary["certificate"]["skeleton"]["components"])
+
+    def swc_rows(self):
+        """Rows as numbers; strict about what the format demands."""
+        rows = []
+        with open(self.path("s.swc"), newline="") as file:
+            for line in file.read().split("\n")[:-1]:
+                if line.startswith("#"):
+                    continue
+                words = line.split(" ")
+                self.assertEqual(len(words), 7, line)
+                row = [int(words[0]), int(words[1]), *map(float, words[2:6]), int(words[6])]
+                self.assertEqual(row[0], len(rows) + 1, "ids count from 1 without a gap")
+                self.assertIn(row[1], (0, 5, 6))
+                self.assertTrue(all(math.isfinite(v) for v in row[2:6]))
+                self.assertGreater(row[5], 0, "radius")
+                self.assertTrue(row[6] == -1 or 1 <= row[6] < row[0], "parent before child")
+                rows.append(row)
+        return rows
+
+    def test_swc_says_which_loops_it_cut(self):
+        note = "SWC holds trees only: 1 loop cut"
+        self.assertIn(note, self.summaries["torus"]["outputs"][ENDINGS.index("swc")]["note"])
+        self.assertIn("# " + note, (self.folders / "torus/s.swc").read_text())
+
+    @unittest.skipIf(networkx is None, "python3-networkx is not installed")
+    def test_networkx_reads_graphml_and_finds_the_loops_of_the_certificate(self):
+        for summary, document in self.each_skeleton():
+            graph = networkx.read_graphml(self.path("s.graphml"), force_multigraph=True)
+            betti = summary["certificate"]["skeleton"]
+            components = networkx.number_connected_components(graph)
+            stated = sum(data.get("loops", 0) for _, data in graph.nodes(data=True))
+            cavities = sum(data.get("cavities", 0) for _, data in graph.nodes(data=True))
+            loops = graph.number_of_edges() - graph.number_of_nodes() + components + stated
+            self.assertEqual((components, loops, cavities),
+                             (betti["components"], betti["loops"], betti["cavities"]))
+            for node in document["nodes"]:
+                data = graph.nodes[f"n{node['id']}"]
+                self.assertEqual([data["x"], data["y"], data["z"]], node["position"])
+                self.assertEqual(data["kind"], node["kind"])
+
+    @unittest.skipIf(vtkXMLPolyDataReader is None, "python3-vtk9 is not installed")
+    def test_vtk_reads_vtp_with_every_point_and_array(self):
+        for _, document in self.each_skeleton():
+            reader = vtkXMLPolyDataReader()
+            reader.SetFileName(self.path("s.vtp"))
+            reader.Update()
+            self.assertEqual(reader.GetErrorCode(), 0)
+            data = reader.GetOutput()
+            self.assertEqual(data.GetNumberOfLines(), len(document["edges"]))
+            self.check_vtk_lines(data, document)
+            for name in ("radius", "distance", "node_kind"):
+                array = data.GetPointData().GetArray(name)
+                self.assertEqual(array.GetNumberOfTuples(), data.GetNumberOfPoints())
+            for name in ("edge_id", "length"):
+                array = data.GetCellData().GetArray(name)
+                self.assertEqual(array.GetNumberOfTuples(), data.GetNumberOfCells())
+
+    def check_vtk_lines(self, data, document):
+        lines = data.GetNumberOfVerts()  # cells: vertices first
+        for number, edge in enumerate(document["edges"]):
+            cell = data.GetCell(lines + number)
+            points = [list(cell.GetPoints().GetPoint(n)) for n in range(cell.GetNumberOfPoints())]
+            self.assertEqual(points, edge["points"])
+            self.assertAlmostEqual(data.GetCellData().GetArray("length").GetValue(lines + number),
+                                   edge["length"])
+
+    def test_obj_lines_run_over_points_that_exist(self):
+        for _, document in self.each_skeleton():
+            with open(self.path("s.obj")) as file:
+                words = [line.split() for line in file if not line.startswith("#")]
+            vertices = [list(map(float, w[1:])) for w in words if w[0] == "v"]
+            lines = [list(map(int, w[1:])) for w in words if w[0] == "l"]
+            self.assertEqual([[vertices[n - 1] for n in line] for line in lines],
+                             [edge["points"] for edge in document["edges"]])
+            self.assertLessEqual({w[0] for w in words}, {"v", "l", "p"})
+
+    def test_svg_is_xml_with_pictures_inside(self):
+        for _, document in self.each_skeleton():
+            root = xml.etree.ElementTree.parse(self.path("s.svg")).getroot()
+            images = root.findall(".//{http://www.w3.org/2000/svg}image")
+            self.assertEqual(len(images), 3)
+            for image in images:
+                head, data = image.attrib["href"].split(",")
+                self.assertEqual(head, "data:image/png;base64")
+                self.assertTrue(base64.b64decode(data).startswith(b"\x89PNG"))
+
+    @unittest.skipIf(shutil.which("rsvg-convert") is None, "rsvg-convert is not installed")
+    def test_librsvg_draws_the_svg(self):
+        for _ in self.each_skeleton():
+            subprocess.run(["rsvg-convert", "-o", self.path("s.png"), self.path("s.svg")],
+                           check=True, timeout=60)
+
+    def test_html_stands_alone_and_its_data_is_json(self):
+        for _, document in self.each_skeleton():
+            with open(self.path("s.html")) as file:
+                text = file.read()
+            html.parser.HTMLParser().feed(text)
+            self.assertNotRegex(text, r"https?://")
+            data = json.loads(re.search(r"const data = (\{.*?\n?\});\n", text, re.S)[1])
+            self.assertEqual(len(data["curves"]), len(document["edges"]))
+            self.assertEqual([n["kind"] for n in data["nodes"]],
+                             [n["kind"] for n in document["nodes"]])
+            points = len(base64.b64decode(data["surface"])) // 6
+            self.assertEqual(len(base64.b64decode(data["normals"])), 3 * points)
+
+    @unittest.skipIf(shutil.which("exrheader") is None, "openexr is not installed")
+    def test_openexr_reads_the_header_of_volumes(self):
+        for summary, _ in self.each_skeleton():
+            done = subprocess.run(["exrheader", self.path("s.exr")], capture_output=True, text=True,
+                                  timeout=60, check=True)
+            nx, ny, nz = summary["volume"]["extent"]
+            self.assertEqual(done.stdout.count(f"(0 0) - ({nx - 1} {ny - 1})"), 4)
+            self.assertEqual(done.stdout.count("32-bit unsigned integer"), 2 * math.ceil(nz / 32))
+
+    @unittest.skipIf(shutil.which("oiiotool") is None, "openimageio-tools is not installed")
+    def test_openimageio_reads_the_pixels_of_volumes(self):
+        for summary, _ in self.each_skeleton():
+            done = subprocess.run(["oiiotool", "--stats", "-a", self.path("s.exr")],
+                                  capture_output=True, text=True, timeout=60, check=True)
+            nx, ny, nz = summary["volume"]["extent"]
+            self.assertRegex(done.stdout, rf"{nx} x\s+{ny}, {math.ceil(nz / 32)} channel, uint")
+
+
+if __name__ == "__main__":
+    harness.main()

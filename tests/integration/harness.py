@@ -1,0 +1,118 @@
+"""Runs the command line and the server for the tests of this folder."""
+
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+CLIENT = os.environ["BCCSKEL"]
+SERVER = os.environ["BCCSKEL_SERVER"]
+DATA = pathlib.Path(os.environ.get("BCCSKEL_TEST_DATA", ""))
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
+SANITIZED = bool(os.environ.get("BCCSKEL_SANITIZE"))
+
+
+def limit_memory(gib):
+    """For a child process. Sanitizers reserve terabytes, so they go without."""
+    def apply():
+        if not SANITIZED:
+            resource.setrlimit(resource.RLIMIT_AS, (gib << 30, gib << 30))
+    return apply
+
+
+def bccskel(*words, timeout=120, **options):
+    """Runs the command line to its end, with pipes for its output."""
+    return subprocess.run([CLIENT, *map(str, words)], capture_output=True, text=True,
+                          timeout=timeout, **options)
+
+
+class Server:
+    """A running server, its log in a file; for a `with` statement."""
+
+    def __init__(self, folder, *options, name="server", listen=None):
+        self.listen = listen or f"unix:{folder}/{name}"
+        self.log_path = pathlib.Path(folder) / f"{name}.log"
+        self.options = options
+
+    def __enter__(self):
+        with open(self.log_path, "w") as log:
+            self.process = subprocess.Popen(
+                [SERVER, "--listen", self.listen, "--lame-duck-ms", "0", *self.options],
+                stdout=subprocess.DEVNULL, stderr=log)
+        self.address = self.wait_for_log("address")["address"]
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(timeout=60)
+
+    def log(self):
+        lines = self.log_path.read_text().splitlines(keepends=True)
+        return [json.loads(line) for line in lines if line.endswith("\n")]
+
+    def wait_for_log(self, key, value=None):
+        """The first entry with the key, and the value where one is given."""
+        for _ in range(6000):
+            for entry in self.log():
+                if key in entry and value in (None, entry[key]):
+                    return entry
+            if self.process.poll() is not None:
+                raise AssertionError("the server ended: " + self.log_path.read_text())
+            time.sleep(0.01)
+        raise AssertionError(f"no {key} in the log: " + self.log_path.read_text())
+
+
+class TestCase(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    maxDiff = 2000
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="bccskel-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return str(self.folder / name)
+
+    def succeed(self, *words):
+        """The output of a command that must succeed, quietly."""
+        done = bccskel(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.args)
+        return done.stdout
+
+    def fail_with(self, code, message, *words, **options):
+        """Checks that a command ends with an exit code and a message."""
+        done = bccskel(*words, **options)
+        self.assertEqual(done.returncode, code, f"{done.args}: {done.stderr}")
+        self.assertIn(message, done.stderr)
+        self.assertTrue(done.stderr.startswith("bccskel: error: "), done.stderr)
+        return done
+
+    def generate(self, shape, points=20000, name="object.bccb"):
+        self.succeed("generate", shape, "--points", points, "-o", self.path(name))
+        return self.path(name)
+
+
+def without_times(summary):
+    """A JSON summary or document without what differs from run to run."""
+    return {k: v for k, v in summary.items() if k not in ("timings", "seconds", "outputs")}
+
+
+def needs_data(folder):
+    path = DATA / folder
+    return unittest.skipUnless(path.is_dir(), f"no {path}: set BCCSKEL_TEST_DATA")
+
+
+def main():
+    program = unittest.main(exit=False, verbosity=2)
+    result = program.result
+    if not result.wasSuccessful():
+        sys.exit(1)
+    sys.exit(77 if len(result.skipped) == result.testsRun else 0)
