@@ -107,6 +107,8 @@ int Sense(const SurfaceComponent& component) { return component.volume < 0 ? -1 
 }  // namespace
 
 void FindNesting(Surface& surface) {
+  surface.report.nesting_known = surface.report.components.size() == 1;
+  if (surface.report.nesting_known) return;  // as it was made: outermost, its own root
   const std::vector<Query> queries = PlaceQueries(surface);
   if (CountComparisons(surface, queries) > kMaxComparisons) return;
   std::vector<SurfaceComponent>& components = surface.report.components;
