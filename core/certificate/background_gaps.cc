@@ -58,28 +58,28 @@ size_t BackgroundGaps::NodeAt(BrickCoordinates missing, size_t& place) const {
   return NodeBefore(missing.sublattice, place, RowOf(wanted));
 }
 
-// Walks the row from brick `first` to `last_x`, skipping stored bricks.
-int64_t BackgroundGaps::LinkToRow(size_t node, BrickCoordinates first, int32_t last_x,
-                                  UnionFind& sets) const {
+// The missing bricks of a row from brick `first` to `last_x`.
+template <typename Visit>
+void BackgroundGaps::ForEachNodeOfRow(BrickCoordinates first, int32_t last_x, size_t& place,
+                                      Visit visit) const {
   const Places& places = rows_[static_cast<size_t>(first.sublattice)];
   uint64_t at = PlaceOf(first);
   const uint64_t row = RowOf(at), last = at + static_cast<uint64_t>(last_x - first.bx);
-  auto n = static_cast<size_t>(std::ranges::lower_bound(places, at) - places.begin());
-  int64_t joined = 0;
-  while (at <= last) {
+  place = LowerBoundFrom(places, place, at);
+  for (size_t n = place; at <= last;) {
     if (n < places.size() && places[n] == at) {
       ++n;
       ++at;
       continue;
     }
-    joined += sets.Unite(node, NodeBefore(first.sublattice, n, row)) ? 1 : 0;
+    visit(NodeBefore(first.sublattice, n, row));
     if (n == places.size()) break;
     at = places[n];
   }
-  return joined;
 }
 
-int64_t BackgroundGaps::LinkGap(size_t place, UnionFind& sets) const {
+int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hints,
+                                UnionFind& sets) const {
   const bool odd = place >= rows_[0].size();
   const Sublattice sublattice = odd ? Sublattice::kOdd : Sublattice::kEven;
   const Places& places = rows_[odd ? 1 : 0];
@@ -89,17 +89,22 @@ int64_t BackgroundGaps::LinkGap(size_t place, UnionFind& sets) const {
   const BrickCoordinates brick = BrickAtPlace(places[n - 1] + 1, sublattice);
   const int32_t last_x = BrickAtPlace(places[n], sublattice).bx - 1;
   int64_t joined = 0;
+  int row = 0;
+  const auto link = [&](BrickCoordinates first, int32_t last) {
+    ForEachNodeOfRow(first, last, hints.of(brick, row++), [&](size_t other) {
+      joined += sets.Unite(first_member + node, first_member + other) ? 1 : 0;
+    });
+  };
   for (const auto& [dy, dz] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    joined += LinkToRow(node, {brick.bx, brick.by + dy, brick.bz + dz, sublattice}, last_x, sets);
+    link({brick.bx, brick.by + dy, brick.bz + dz, sublattice}, last_x);
   }
   // An even brick touches the odd bricks at its own coordinates and one step back, an odd brick the
   // even ones at its own coordinates and one step forth.
   const int32_t step = odd ? 1 : -1;
-  const int32_t first_x = std::min(brick.bx, brick.bx + step);
   const Sublattice other = odd ? Sublattice::kEven : Sublattice::kOdd;
   for (const auto& [dy, dz] : {std::pair{0, 0}, {step, 0}, {0, step}, {step, step}}) {
-    joined += LinkToRow(node, {first_x, brick.by + dy, brick.bz + dz, other},
-                        std::max(last_x, last_x + step), sets);
+    link({std::min(brick.bx, brick.bx + step), brick.by + dy, brick.bz + dz, other},
+         std::max(last_x, last_x + step));
   }
   return joined;
 }

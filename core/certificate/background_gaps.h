@@ -12,6 +12,18 @@
 
 namespace bccskel {
 
+// Where the bricks before the last ones looked up are, one number for each kind of neighbor, since
+// each kind is asked for in increasing order. One per thread.
+class GapPlaces {
+ public:
+  size_t& of(BrickCoordinates brick, int position) {
+    return places_[static_cast<size_t>(brick.sublattice)][static_cast<size_t>(position)];
+  }
+
+ private:
+  alignas(64) std::array<std::array<size_t, 14>, 2> places_ = {};
+};
+
 // The background where no bricks are stored, as few pieces instead of many empty bricks. A row is
 // all bricks of one sublattice with the same by and bz. The bricks missing between two stored
 // bricks of a row are one piece, a gap. All other missing bricks are the outside: they lie at the
@@ -33,10 +45,11 @@ class BackgroundGaps {
   size_t NodeAt(BrickCoordinates missing, size_t& place) const;
 
   // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
-  // touch it in the eight neighboring rows. Returns how many sets it joined.
+  // touch it in the eight neighboring rows. Node g is member first_member + g of the sets. Returns
+  // how many sets it joined.
   // Needs: place < place_count().
   size_t place_count() const { return rows_[0].size() + rows_[1].size(); }
-  int64_t LinkGap(size_t place, UnionFind& sets) const;
+  int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places, UnionFind& sets) const;
 
  private:
   // Stored bricks of one sublattice as keys without the sublattice bit, increasing.
@@ -44,22 +57,11 @@ class BackgroundGaps {
 
   bool IsGapBefore(const Places& places, size_t n) const;
   size_t NodeBefore(Sublattice sublattice, size_t n, uint64_t row) const;
-  int64_t LinkToRow(size_t node, BrickCoordinates first, int32_t last_x, UnionFind& sets) const;
+  template <typename Visit>
+  void ForEachNodeOfRow(BrickCoordinates first, int32_t last_x, size_t& place, Visit visit) const;
 
   std::array<Places, 2> rows_;
   int64_t gap_count_ = 0;
-};
-
-// Where the bricks before the last ones looked up are, one number for each kind of neighbor, since
-// each kind is asked for in increasing order. One per thread.
-class GapPlaces {
- public:
-  size_t& of(BrickCoordinates brick, int position) {
-    return places_[static_cast<size_t>(brick.sublattice)][static_cast<size_t>(position)];
-  }
-
- private:
-  alignas(64) std::array<std::array<size_t, 14>, 2> places_ = {};
 };
 
 }  // namespace bccskel

@@ -3,45 +3,100 @@
 #include <bit>
 #include <vector>
 
-#include "core/certificate/neighbor_planes.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/certificate/brick_components.cc"
+// Compiles the rest of this file once per instruction set, so it comes before other Highway
+// headers.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/volume/brick_planes-inl.h"
+#include "hwy/highway.h"
+// clang-format on
 
+HWY_BEFORE_NAMESPACE();
 namespace bccskel {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE Plane Repeat(uint64_t word) {
+  Plane plane;
+  for (size_t n = 0; n < kVectors; ++n) plane.v[n] = hn::Set(BrickTag(), word);
+  return plane;
+}
+
+HWY_INLINE bool HasOnePoint(const Plane& points) {
+  const BrickTag tag;
+  const BrickLane one = hn::Set(tag, 1);
+  BrickLane more = hn::Zero(tag);
+  size_t words = 0;
+  for (size_t n = 0; n < kVectors; ++n) {
+    more = hn::Or(more, hn::And(points.v[n], hn::Sub(points.v[n], one)));
+    words += hn::CountTrue(tag, hn::Ne(points.v[n], hn::Zero(tag)));
+  }
+  return words == 1 && hn::AllTrue(tag, hn::Eq(more, hn::Zero(tag)));
+}
+
+// From every point walk down against the signs sx, sy, sz as long as there is a neighbor: all walks
+// end at points without a neighbor that way. If there is only one such point, all are connected to
+// it. The part of a smooth object in a brick passes for the signs of its surface's normal.
+HWY_INLINE bool IsPlainlyConnected(const Plane& points) {
+  const Plane beyond = Repeat(0);
+  const Plane x[2] = {StepX<Step::kDown>(points, beyond), StepX<Step::kUp>(points, beyond)};
+  const Plane y[2] = {StepY<Step::kDown>(points, beyond), StepY<Step::kUp>(points, beyond)};
+  const Plane z[2] = {StepZ<Step::kDown>(points, beyond), StepZ<Step::kUp>(points, beyond)};
+  for (size_t signs = 0; signs < 8; ++signs) {
+    const Plane near = Or(x[signs & 1], Or(y[(signs >> 1) & 1], z[signs >> 2]));
+    if (HasOnePoint(AndNot(near, points))) return true;
+  }
+  return false;
+}
+
+void TestConnectivityTarget(std::span<const BrickBits> bricks, Phase phase,
+                            std::span<BrickBits> points, std::span<Connectivity> found) {
+  const Plane flip = Repeat(phase == Phase::kObject ? 0 : ~uint64_t{0});
+  for (size_t n = 0; n < bricks.size(); ++n) {
+    const Plane some = Xor(LoadPlane(bricks[n]), flip);
+    StorePlane(some, points[n]);
+    found[n] = IsEmpty(some)              ? Connectivity::kEmpty
+               : IsPlainlyConnected(some) ? Connectivity::kConnected
+                                          : Connectivity::kUnclear;
+  }
+}
+
+void FloodTarget(BrickBits& seed, const BrickBits& open) {
+  const Plane among = LoadPlane(open), beyond = Repeat(0);
+  Plane reached = LoadPlane(seed);
+  for (;;) {
+    const Plane x = Or(StepX<Step::kDown>(reached, beyond), StepX<Step::kUp>(reached, beyond));
+    const Plane y = Or(StepY<Step::kDown>(reached, beyond), StepY<Step::kUp>(reached, beyond));
+    const Plane z = Or(StepZ<Step::kDown>(reached, beyond), StepZ<Step::kUp>(reached, beyond));
+    const Plane fresh = AndNot(reached, And(Or(x, Or(y, z)), among));
+    if (IsEmpty(fresh)) break;
+    reached = Or(reached, fresh);
+  }
+  StorePlane(reached, seed);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bccskel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bccskel {
+
+HWY_EXPORT(TestConnectivityTarget);
+HWY_EXPORT(FloodTarget);
+
 namespace {
 
-constexpr BrickBits kNothing;
-
-// In which of the six D6 directions each point has a neighbor inside the brick.
-struct InnerNeighbors {
-  std::array<BrickBits, 2> x, y, z;
-};
-
-InnerNeighbors FindInnerNeighbors(const BrickBits& points) {
-  return {{TakePrevious<Axis::kX>(points, kNothing), TakeNext<Axis::kX>(points, kNothing)},
-          {TakePrevious<Axis::kY>(points, kNothing), TakeNext<Axis::kY>(points, kNothing)},
-          {TakePrevious<Axis::kZ>(points, kNothing), TakeNext<Axis::kZ>(points, kNothing)}};
+// The component of `seed` in `open`.
+BrickBits Flood(BrickBits seed, const BrickBits& open) {
+  HWY_DYNAMIC_DISPATCH(FloodTarget)(seed, open);
+  return seed;
 }
 
-BrickBits Without(const BrickBits& points, const BrickBits& a, const BrickBits& b,
-                  const BrickBits& c) {
-  BrickBits left;
-  for (size_t k = 0; k < 8; ++k) {
-    left.words[k] = points.words[k] & ~(a.words[k] | b.words[k] | c.words[k]);
-  }
-  return left;
-}
-
-BrickBits Without(const BrickBits& points, const BrickBits& a) {
-  return Without(points, a, kNothing, kNothing);
-}
-
-bool HasOnePoint(const BrickBits& points) {
-  uint64_t more = 0;
-  int words = 0;
-  for (uint64_t word : points.words) {
-    more |= word & (word - 1);
-    words += word != 0 ? 1 : 0;
-  }
-  return more == 0 && words == 1;
+BrickBits Without(BrickBits points, const BrickBits& some) {
+  for (size_t k = 0; k < 8; ++k) points.words[k] &= ~some.words[k];
+  return points;
 }
 
 BrickBits FirstPoint(const BrickBits& points) {
@@ -54,51 +109,12 @@ BrickBits FirstPoint(const BrickBits& points) {
   return first;
 }
 
-// Spreads `seed` within runs of `open` along x and y, by doubling steps.
-uint64_t SpreadInWord(uint64_t seed, uint64_t open) {
-  uint64_t up = open & ~planes_internal::kFirstOfLane;
-  uint64_t down = open & ~planes_internal::kLastOfLane;
-  for (int step = 1; step < 16; step *= 2) {
-    seed |= (up & (seed << step)) | (down & (seed >> step));
-    up &= up << step;
-    down &= down >> step;
-  }
-  uint64_t left = open, right = open;
-  for (int step = 16; step < 64; step *= 2) {
-    seed |= (left & (seed << step)) | (right & (seed >> step));
-    left &= left << step;
-    right &= right >> step;
-  }
-  return seed;
-}
-
-// The component of `seed` in `open`.
-BrickBits Flood(BrickBits seed, const BrickBits& open) {
-  for (;;) {
-    const BrickBits before = seed;
-    for (size_t k = 0; k < 8; ++k) {
-      const uint64_t below = k > 0 ? seed.words[k - 1] : 0;
-      seed.words[k] = SpreadInWord(seed.words[k] | (below & open.words[k]), open.words[k]);
-    }
-    for (size_t k = 7; k-- > 0;) {
-      seed.words[k] =
-          SpreadInWord(seed.words[k] | (seed.words[k + 1] & open.words[k]), open.words[k]);
-    }
-    if (seed == before) return seed;
-  }
-}
-
-// All components with more than one point, then one for each point without a neighbor.
 std::vector<BrickBits> FindComponents(const BrickBits& points) {
-  const InnerNeighbors near = FindInnerNeighbors(points);
-  BrickBits lonely = Without(points, near.x[0], near.y[0], near.z[0]);
-  lonely = Without(lonely, near.x[1], near.y[1], near.z[1]);
   std::vector<BrickBits> components;
-  for (BrickBits rest = Without(points, lonely); !rest.Empty();) {
+  for (BrickBits rest = points; !rest.Empty();) {
     components.push_back(Flood(FirstPoint(rest), rest));
     rest = Without(rest, components.back());
   }
-  lonely.ForEachSetBit([&](int bit) { components.emplace_back().Set(bit); });
   return components;
 }
 
@@ -117,19 +133,12 @@ size_t LargestOf(const std::vector<BrickBits>& components) {
 
 }  // namespace
 
-// From every point walk down against the signs sx, sy, sz as long as there is a neighbor: all walks
-// end at points without a neighbor that way. If there is only one such point, all are connected to
-// it. The part of a smooth object in a brick passes for the signs of its surface's normal.
-bool IsPlainlyConnected(const BrickBits& points) {
-  const InnerNeighbors near = FindInnerNeighbors(points);
-  for (size_t signs = 0; signs < 8; ++signs) {
-    if (HasOnePoint(
-            Without(points, near.x[signs & 1], near.y[(signs >> 1) & 1], near.z[signs >> 2]))) {
-      return true;
-    }
-  }
-  return false;
+void TestConnectivity(std::span<const BrickBits> bricks, Phase phase, std::span<BrickBits> points,
+                      std::span<Connectivity> found) {
+  HWY_DYNAMIC_DISPATCH(TestConnectivityTarget)(bricks, phase, points, found);
 }
+
+bool IsConnected(const BrickBits& points) { return Flood(FirstPoint(points), points) == points; }
 
 BrickFragments SplitBrick(const BrickBits& points) {
   const std::vector<BrickBits> components = FindComponents(points);
@@ -147,3 +156,4 @@ BrickFragments SplitBrick(const BrickBits& points) {
 }
 
 }  // namespace bccskel
+#endif  // HWY_ONCE

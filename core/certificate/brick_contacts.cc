@@ -1,7 +1,5 @@
 #include "core/certificate/brick_contacts.h"
 
-#include <algorithm>
-
 #include "core/volume/brick_neighbors.h"
 
 namespace bccskel {
@@ -22,6 +20,19 @@ BrickBits PointsTouching(Sublattice sublattice, Direction d, BrickCoordinates ot
   return points;
 }
 
+PositionMask PositionsBeside(Sublattice sublattice, int position) {
+  const BrickCoordinates brick = NeighborBrick(SomeBrick(sublattice), position);
+  PositionMask beside = 0;
+  for (int other = 0; other < kNeighborCount; ++other) {
+    for (int step = 0; step < kNeighborCount; ++step) {
+      const bool touches =
+          NeighborBrick(brick, step) == NeighborBrick(SomeBrick(sublattice), other);
+      beside |= (touches ? 1u : 0u) << other;
+    }
+  }
+  return beside;
+}
+
 BrickContacts ComputeContacts(Sublattice sublattice) {
   BrickContacts contacts;
   for (int position = 0; position < kNeighborCount; ++position) {
@@ -30,12 +41,10 @@ BrickContacts ComputeContacts(Sublattice sublattice) {
     for (int d = 0; d < kNeighborCount; ++d) {
       const BrickBits points = PointsTouching(sublattice, Direction(d), other);
       if (points.Empty()) continue;
-      contacts.at[p].push_back({position, Direction(d), points});
-      contacts.along[static_cast<size_t>(d)].push_back(contacts.at[p].back());
+      contacts.along[static_cast<size_t>(d)].push_back({position, points});
       for (size_t k = 0; k < 8; ++k) contacts.points_at[p].words[k] |= points.words[k];
     }
-    std::ranges::stable_sort(contacts.at[p], std::greater<>(),
-                             [](const BrickContact& contact) { return contact.points.Count(); });
+    contacts.beside[p] = PositionsBeside(sublattice, position);
   }
   return contacts;
 }

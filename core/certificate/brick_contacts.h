@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/certificate/neighbor_planes.h"
 #include "core/lattice/directions.h"
 #include "core/volume/brick.h"
 
@@ -12,7 +13,6 @@ namespace bccskel {
 // The points of a brick whose neighbor in one direction lies in one other brick.
 struct BrickContact {
   int position;  // which brick, as in BrickNeighborhood
-  Direction direction;
   BrickBits points;
 };
 
@@ -20,10 +20,10 @@ struct BrickContact {
 struct BrickContacts {
   // By direction: eight contacts at most for D8, one for D6.
   std::array<std::vector<BrickContact>, kNeighborCount> along;
-  // By position, those with the most points first.
-  std::array<std::vector<BrickContact>, kNeighborCount> at;
   // By position: all points with any neighbor in the brick there.
   std::array<BrickBits, kNeighborCount> points_at;
+  // By position: the other positions around the brick at which bricks touch the one there.
+  std::array<PositionMask, kNeighborCount> beside;
 };
 
 // Threads: safe; the tables are filled on first use.

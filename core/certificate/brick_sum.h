@@ -11,23 +11,24 @@
 
 namespace bccskel {
 
-// The sum of term(worker, n) for n = 0..count-1, each worker of the context taking one contiguous
-// share. When the context says stop, the rest is left out and the sum means nothing.
+// The sum of term(worker, batch) over batches that make up 0..count-1, each worker taking one
+// contiguous share. When the context says stop, the rest is left out and the sum means nothing.
 template <typename Term>
 int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   // A noisy brick costs up to 20 us, so a batch ends well within 20 ms.
   constexpr size_t kBatch = 512;
-  std::vector<int64_t> sums(static_cast<size_t>(context.threads()), 0);
-  context.Run([&](int worker) {
-    const exec::Share share = exec::ShareOf(count, worker, context.threads());
+  const int workers = context.WorkersFor(count);
+  std::vector<int64_t> sums(static_cast<size_t>(workers), 0);
+  const auto work = [&](int worker) {
+    if (worker >= workers) return;
+    const exec::Share share = exec::ShareOf(count, worker, workers);
     int64_t sum = 0;
-    for (size_t n = share.begin; n < share.end && !context.ShouldStop();) {
-      for (const size_t batch_end = std::min(share.end, n + kBatch); n < batch_end; ++n) {
-        sum += term(worker, n);
-      }
+    for (size_t n = share.begin; n < share.end && !context.ShouldStop(); n += kBatch) {
+      sum += term(worker, exec::Share{n, std::min(share.end, n + kBatch)});
     }
     sums[static_cast<size_t>(worker)] = sum;
-  });
+  };
+  workers == 1 ? work(0) : context.Run(work);
   return std::accumulate(sums.begin(), sums.end(), int64_t{0});
 }
 

@@ -1,27 +1,24 @@
 #include "core/certificate/component_links.h"
 
-#include <algorithm>
+#include <bit>
 
 #include "core/certificate/brick_contacts.h"
-#include "core/certificate/neighbor_planes.h"
 
 namespace bccskel {
 namespace {
 
-constexpr BrickBits kNothing;
-
 constexpr bool IsDownward(Direction d) { return d.offset().x + d.offset().y + d.offset().z < 0; }
 
 // Each pair of neighboring bricks is looked at from one side: even from odd, + from -.
-constexpr bool IsLinkedFrom(Sublattice sublattice, int position) {
-  return position < 8 ? sublattice == Sublattice::kEven : IsDownward(Direction(position));
+constexpr PositionMask ComputeLinkedFrom(Sublattice sublattice) {
+  PositionMask linked = sublattice == Sublattice::kEven ? 0xff : 0;
+  for (int position = 8; position < kNeighborCount; ++position) {
+    linked |= (IsDownward(Direction(position)) ? 1u : 0u) << position;
+  }
+  return linked;
 }
-
-bool Intersect(const BrickBits& a, const BrickBits& b) {
-  uint64_t both = 0;
-  for (size_t k = 0; k < 8; ++k) both |= a.words[k] & b.words[k];
-  return both != 0;
-}
+constexpr std::array<PositionMask, 2> kLinkedFrom = {ComputeLinkedFrom(Sublattice::kEven),
+                                                     ComputeLinkedFrom(Sublattice::kOdd)};
 
 BrickBits Intersection(const BrickBits& a, const BrickBits& b) {
   BrickBits both;
@@ -29,84 +26,141 @@ BrickBits Intersection(const BrickBits& a, const BrickBits& b) {
   return both;
 }
 
+// The points of a set without a point before them along x, y or z: at least one of each connected
+// part.
+BrickBits FirstOfParts(const BrickBits& points) {
+  constexpr uint64_t kFirstOfRows = 0x0001000100010001;
+  BrickBits first;
+  for (size_t k = 0; k < 8; ++k) {
+    const uint64_t word = points.words[k], below = k > 0 ? points.words[k - 1] : 0;
+    first.words[k] = word & ~((word << 1 & ~kFirstOfRows) | word << 16 | below);
+  }
+  return first;
+}
+
+template <typename Visit>
+void ForEachPosition(PositionMask positions, Visit visit) {
+  for (; positions != 0; positions &= positions - 1) visit(std::countr_zero(positions));
+}
+
+// The positions of `among` that hang together with `position`, itself included.
+PositionMask GroupOf(int position, PositionMask among, Sublattice sublattice) {
+  const BrickContacts& contacts = ContactsOf(sublattice);
+  PositionMask group = 0;
+  for (PositionMask fresh = 1u << position; fresh != 0;) {
+    group |= fresh;
+    PositionMask reached = 0;
+    ForEachPosition(fresh, [&](int at) { reached |= contacts.beside[static_cast<size_t>(at)]; });
+    fresh = reached & among & ~group;
+  }
+  return group;
+}
+
 }  // namespace
 
 int64_t ComponentLinks::LinkBrick(BrickIndex n, GapPlaces& places) {
   if (!components_.HasPoints(n)) return 0;
+  const BricksAround around = LookAround(n);
+  const PositionMask missing = gaps_ == nullptr ? 0 : around.missing;
+  const PositionMask open = missing | around.in_other_sets;
   int64_t joined = 0;
-  for (int position = 0; position < kNeighborCount; ++position) {
-    if (IsStored(NeighborAt(n, position))) {
-      if (IsLinkedFrom(SublatticeAt(n), position)) joined += LinkMains(n, position);
-    } else if (gaps_ != nullptr) {
-      joined += LinkToGap(n, position, places);
-    }
+  if (open != 0) {
+    const PositionMask touched =
+        open & FindTouchedBricks(SublatticeAt(n), components_.mains(), n, neighbors_[n]);
+    joined += LinkMains(n, touched & around.in_other_sets);
+    joined += LinkMainToGaps(n, touched & missing, missing, places);
   }
-  if (!HasFragmentsAround(n)) return joined;
-  for (int d = 0; d < kNeighborCount; ++d) {
-    if (IsDownward(Direction(d))) joined += LinkFragments(n, Direction(d));
+  if (components_.fragments(n) == nullptr) return joined;
+  joined += LinkFragments(n);
+  ForEachPosition(missing,
+                  [&](int position) { joined += LinkFragmentsToGap(n, position, places); });
+  return joined;
+}
+
+// Most bricks around are in the same set already, by way of bricks linked before, and most of those
+// right below the set's root.
+ComponentLinks::BricksAround ComponentLinks::LookAround(BrickIndex n) {
+  const size_t root = sets_.Find(n);
+  BricksAround around = {0, 0};
+  for (int position = 0; position < kNeighborCount; ++position) {
+    const BrickIndex other = NeighborAt(n, position);
+    around.missing |= (IsStored(other) ? 0u : 1u) << position;
+    around.in_other_sets |= (sets_.IsRightBelow(other, root) ? 0u : 1u) << position;
+  }
+  around.in_other_sets &= kLinkedFrom[static_cast<size_t>(SublatticeAt(n))] & ~around.missing;
+  ForEachPosition(around.in_other_sets, [&](int position) {
+    const BrickIndex other = NeighborAt(n, position);
+    if (components_.HasPoints(other) && sets_.Find(other) != root) return;
+    around.in_other_sets &= ~(1u << position);
+  });
+  return around;
+}
+
+int64_t ComponentLinks::LinkMains(BrickIndex n, PositionMask touched) {
+  int64_t joined = 0;
+  ForEachPosition(touched, [&](int position) { joined += Unite(n, NeighborAt(n, position)); });
+  return joined;
+}
+
+// Bricks that are not stored are background all over, and gaps that touch each other are linked:
+// one of each group is enough.
+int64_t ComponentLinks::LinkMainToGaps(BrickIndex n, PositionMask touched, PositionMask missing,
+                                       GapPlaces& places) {
+  int64_t joined = 0;
+  while (touched != 0) {
+    const int position = std::countr_zero(touched);
+    joined += Unite(n, GapAt(n, position, places));
+    touched &= ~GroupOf(position, missing, SublatticeAt(n));
   }
   return joined;
 }
 
-// Most pairs of bricks are in one set already, by way of bricks linked before; of the rest most
-// touch along the first direction tried.
-int64_t ComponentLinks::LinkMains(BrickIndex n, int position) {
-  const BrickIndex other = NeighborAt(n, position);
-  if (!components_.HasPoints(other)) return 0;
-  if (sets_.Find(MainMember(n)) == sets_.Find(MainMember(other))) return 0;
-  const Sublattice sublattice = SublatticeAt(n);
-  const BrickBits own = components_.MainPointsOf(n), beyond = components_.MainPointsOf(other);
-  for (const BrickContact& contact : ContactsOf(sublattice).at[static_cast<size_t>(position)]) {
-    const BrickBits plane = NeighborPlane(
-        contact.direction, sublattice, kNothing,
-        [&](int at) -> const BrickBits& { return at == position ? beyond : kNothing; });
-    if (Intersect(own, plane)) return Unite(MainMember(n), MainMember(other));
-  }
-  return 0;
+size_t ComponentLinks::GapAt(BrickIndex n, int position, GapPlaces& places) const {
+  const BrickCoordinates brick = object_.keys()[n].coordinates();
+  return components_.number_limit() +
+         gaps_->NodeAt(NeighborBrick(brick, position), places.of(brick, position));
 }
 
-bool ComponentLinks::HasFragmentsAround(BrickIndex n) const {
-  if (components_.fragments(n) != nullptr) return true;
-  return std::ranges::any_of(
-      neighbors_[n], [this](BrickIndex other) { return components_.fragments(other) != nullptr; });
+// To all that they touch in other bricks.
+int64_t ComponentLinks::LinkFragments(BrickIndex n) {
+  BrickSurroundings bricks{components_.PointsOf(n), {}};
+  for (size_t position = 0; position < kNeighborCount; ++position) {
+    const BrickIndex other = neighbors_[n][position];
+    if (IsStored(other)) bricks.around[position] = components_.PointsOf(other);
+  }
+  const NeighborPlanes planes = FindNeighborPlanes(SublatticeAt(n), bricks);
+  int64_t joined = 0;
+  for (int d = 0; d < kNeighborCount; ++d) {
+    joined += LinkFragmentsAlong(n, Direction(d), planes[static_cast<size_t>(d)]);
+  }
+  return joined;
 }
 
-// Pairs of neighboring points of which at least one is outside its brick's main component.
-int64_t ComponentLinks::LinkFragments(BrickIndex n, Direction d) {
+// Points side by side whose neighbors are in one other brick link the same two components.
+int64_t ComponentLinks::LinkFragmentsAlong(BrickIndex n, Direction d,
+                                           const BrickBits& having_neighbor) {
   const Sublattice sublattice = SublatticeAt(n);
-  const BrickBits own = components_.FragmentPointsOf(n), all = components_.PointsOf(n);
-  const BrickBits plane = NeighborPlane(d, sublattice, own, [&](int position) {
-    return components_.FragmentPointsOf(NeighborAt(n, position));
-  });
-  const BrickBits all_plane = NeighborPlane(d, sublattice, all, [&](int position) {
-    return components_.PointsOf(NeighborAt(n, position));
-  });
-  BrickBits pairs;
-  for (size_t k = 0; k < 8; ++k) {
-    pairs.words[k] = (own.words[k] & all_plane.words[k]) | (all.words[k] & plane.words[k]);
-  }
-  if (pairs.Empty()) return 0;
+  const BrickBits points = Intersection(components_.fragments(n)->fragments, having_neighbor);
+  if (points.Empty()) return 0;
   int64_t joined = 0;
   for (const BrickContact& contact : ContactsOf(sublattice).along[static_cast<size_t>(d.bit())]) {
     const BrickIndex other = NeighborAt(n, contact.position);
-    Intersection(pairs, contact.points).ForEachSetBit([&](int bit) {
-      joined += Unite(MemberOf(n, bit), MemberOf(other, NeighborBit(sublattice, d, bit)));
+    FirstOfParts(Intersection(points, contact.points)).ForEachSetBit([&](int bit) {
+      joined += Unite(components_.NumberOf(n, bit),
+                      components_.NumberOf(other, NeighborBit(sublattice, d, bit)));
     });
   }
   return joined;
 }
 
-// A brick that is not stored is background all over.
-int64_t ComponentLinks::LinkToGap(BrickIndex n, int position, GapPlaces& places) {
-  const BrickCoordinates brick = object_.keys()[n].coordinates();
-  const BrickBits& contact = ContactsOf(brick.sublattice).points_at[static_cast<size_t>(position)];
-  const size_t gap = gaps_->NodeAt(NeighborBrick(brick, position), places.of(brick, position));
+int64_t ComponentLinks::LinkFragmentsToGap(BrickIndex n, int position, GapPlaces& places) {
+  const BrickBits& contact = ContactsOf(SublatticeAt(n)).points_at[static_cast<size_t>(position)];
+  const BrickBits touching = Intersection(components_.fragments(n)->fragments, contact);
+  if (touching.Empty()) return 0;
+  const size_t gap = GapAt(n, position, places);
   int64_t joined = 0;
-  if (Intersect(components_.MainPointsOf(n), contact)) joined += Unite(MainMember(n), gap);
-  if (components_.fragments(n) == nullptr) return joined;
-  Intersection(components_.FragmentPointsOf(n), contact).ForEachSetBit([&](int bit) {
-    joined += Unite(MemberOf(n, bit), gap);
-  });
+  FirstOfParts(touching).ForEachSetBit(
+      [&](int bit) { joined += Unite(components_.NumberOf(n, bit), gap); });
   return joined;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/certificate/background_gaps.h"
+#include "core/certificate/neighbor_planes.h"
 #include "core/certificate/phase_components.h"
 #include "core/certificate/union_find.h"
 #include "core/lattice/directions.h"
@@ -18,33 +19,37 @@ namespace bccskel {
 // Threads: any number may link different bricks at the same time.
 class ComponentLinks {
  public:
-  // Component c of `components` is member first_member + c of `sets`. `gaps` (null for the object)
-  // are members 0..gaps->node_limit()-1.
-  ComponentLinks(const Volume& object, std::span<const BrickNeighborhood> neighbors,
-                 const PhaseComponents& components, const BackgroundGaps* gaps, UnionFind& sets)
+  // Component c of `components` is member c of `sets`; node g of `gaps`, which is null for the
+  // object, is member components.number_limit() + g.
+  ComponentLinks(const Volume& object, const PhaseComponents& components,
+                 const BackgroundGaps* gaps, UnionFind& sets)
       : object_(object),
-        neighbors_(neighbors),
+        neighbors_(object.neighbors()),
         components_(components),
         gaps_(gaps),
-        first_member_(gaps == nullptr ? 0 : gaps->node_limit()),
         sets_(sets) {}
 
   // Links brick n to every stored brick that touches it, each pair of bricks from one side only,
-  // and to all gaps. `places` belongs to the calling thread. Returns how many sets it
-  // joined.
+  // and to all gaps. `places` belongs to the calling thread. Returns how many sets it joined.
   int64_t LinkBrick(BrickIndex n, GapPlaces& places);
 
  private:
-  int64_t LinkMains(BrickIndex n, int position);
-  bool HasFragmentsAround(BrickIndex n) const;
-  int64_t LinkFragments(BrickIndex n, Direction d);
-  int64_t LinkToGap(BrickIndex n, int position, GapPlaces& places);
+  struct BricksAround {
+    PositionMask missing;
+    PositionMask in_other_sets;  // stored, to be linked from here, main component in another set
+  };
+  BricksAround LookAround(BrickIndex n);
+  int64_t LinkMains(BrickIndex n, PositionMask touched);
+  int64_t LinkMainToGaps(BrickIndex n, PositionMask touched, PositionMask missing,
+                         GapPlaces& places);
+  int64_t LinkFragments(BrickIndex n);
+  int64_t LinkFragmentsAlong(BrickIndex n, Direction d, const BrickBits& having_neighbor);
+  int64_t LinkFragmentsToGap(BrickIndex n, int position, GapPlaces& places);
+  size_t GapAt(BrickIndex n, int position, GapPlaces& places) const;
   int64_t Unite(size_t a, size_t b) { return sets_.Unite(a, b) ? 1 : 0; }
-  size_t MemberOf(BrickIndex n, int bit) const {
-    return first_member_ + components_.ComponentOf(n, bit);
+  Sublattice SublatticeAt(BrickIndex n) const {
+    return static_cast<Sublattice>(object_.keys()[n].value() & 1);
   }
-  size_t MainMember(BrickIndex n) const { return first_member_ + components_.MainComponent(n); }
-  Sublattice SublatticeAt(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
   BrickIndex NeighborAt(BrickIndex n, int position) const {
     return neighbors_[n][static_cast<size_t>(position)];
   }
@@ -54,7 +59,6 @@ class ComponentLinks {
   const std::span<const BrickNeighborhood> neighbors_;
   const PhaseComponents& components_;
   const BackgroundGaps* const gaps_;
-  const size_t first_member_;
   UnionFind& sets_;
 };
 

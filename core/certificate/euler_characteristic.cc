@@ -17,17 +17,26 @@
 //     chi = sum over points p with p + h in the background of (1 - arcs of the rim in the object),
 // and only points at one side of the object's border count.
 //
-// Cost: seven neighbor planes per brick, about 25 logic operations and 3 bit counts per word.
-#include "core/certificate/euler_characteristic.h"
-
+// Cost: seven neighbor planes per brick, about 25 logic operations and 3 bit counts per register;
+//       a brick whose points all have their hub costs one plane.
 #include <array>
-#include <bit>
 
 #include "core/certificate/brick_sum.h"
 #include "core/certificate/certificate.h"
-#include "core/certificate/neighbor_planes.h"
-#include "core/volume/brick_neighbors.h"
+#include "core/lattice/directions.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/certificate/euler_characteristic.cc"
+// Compiles the rest of this file once per instruction set, so it comes before other Highway
+// headers.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/volume/brick_planes-inl.h"
+#include "hwy/highway.h"
+// clang-format on
+
+#ifndef BCCSKEL_CORE_CERTIFICATE_EULER_CHARACTERISTIC_WHEEL
+#define BCCSKEL_CORE_CERTIFICATE_EULER_CHARACTERISTIC_WHEEL
 namespace bccskel {
 namespace {
 
@@ -47,65 +56,76 @@ constexpr bool IsWheel() {
 }
 static_assert(IsWheel());
 
-// Points that count, and the number of arcs at each as two binary digits.
-struct WheelWord {
-  uint64_t counted;
-  uint64_t ones;
-  uint64_t twos;
-};
+constexpr int BitOf(LatticePoint offset) { return FindDirection(offset)->bit(); }
 
-// An arc ends where a rim point is in the object and the next one is not. There are at most three,
-// so the carries of the two full adders and of their sum exclude each other.
-WheelWord CountArcs(uint64_t points, uint64_t hub, const std::array<uint64_t, 6>& rim) {
-  const uint64_t a = rim[0] & ~rim[1], b = rim[1] & ~rim[2], c = rim[2] & ~rim[3];
-  const uint64_t d = rim[3] & ~rim[4], e = rim[4] & ~rim[5], f = rim[5] & ~rim[0];
-  const uint64_t abc = a ^ b ^ c, def = d ^ e ^ f;
-  const uint64_t twos = (a & b) | (c & (a ^ b)) | (d & e) | (f & (d ^ e)) | (abc & def);
-  const uint64_t counted = points & ~hub;
-  return {counted, counted & (abc ^ def), counted & twos};
-}
+}  // namespace
+}  // namespace bccskel
+#endif  // wheel
 
-int64_t WheelSum(const BrickBits& points, const BrickBits& hub,
-                 const std::array<BrickBits, 6>& rim) {
-  int64_t sum = 0;
-  for (size_t k = 0; k < 8; ++k) {
-    if ((points.words[k] & ~hub.words[k]) == 0) continue;
-    const WheelWord word = CountArcs(points.words[k], hub.words[k],
-                                     {rim[0].words[k], rim[1].words[k], rim[2].words[k],
-                                      rim[3].words[k], rim[4].words[k], rim[5].words[k]});
-    sum += std::popcount(word.counted) - std::popcount(word.ones) - 2 * std::popcount(word.twos);
+HWY_BEFORE_NAMESPACE();
+namespace bccskel {
+namespace HWY_NAMESPACE {
+
+using Counts = hn::Vec<BrickTag>;  // 64-bit numbers, modulo 2^64
+
+HWY_INLINE Counts AddTerms(const Plane& counted, const Plane (&rim)[6], Counts sum) {
+  // An arc ends where a rim point is in the object and the next one is not. There are at most
+  // three, so the carries of the two full adders and of their sum exclude each other.
+  const Plane a = AndNot(rim[1], rim[0]), b = AndNot(rim[2], rim[1]), c = AndNot(rim[3], rim[2]);
+  const Plane d = AndNot(rim[4], rim[3]), e = AndNot(rim[5], rim[4]), f = AndNot(rim[0], rim[5]);
+  const Plane ab = Xor(a, b), de = Xor(d, e), abc = Xor(ab, c), def = Xor(de, f);
+  const Plane carries = Or(Or(And(a, b), And(c, ab)), Or(And(d, e), And(f, de)));
+  const Plane ones = And(counted, Xor(abc, def));
+  const Plane twos = And(counted, Or(carries, And(abc, def)));
+  for (size_t n = 0; n < kVectors; ++n) {
+    const Counts two = hn::PopulationCount(twos.v[n]);
+    sum = hn::Add(sum, hn::PopulationCount(counted.v[n]));
+    sum = hn::Sub(sum, hn::Add(hn::PopulationCount(ones.v[n]), hn::Add(two, two)));
   }
   return sum;
 }
 
-bool AllCovered(const BrickBits& points, const BrickBits& cover) {
-  uint64_t left = 0;
-  for (size_t k = 0; k < 8; ++k) left |= points.words[k] & ~cover.words[k];
-  return left == 0;
+template <Sublattice kSublattice>
+HWY_INLINE Counts AddBrick(const BrickBits* bricks, const BrickNeighborhood& neighbors,
+                           const Plane& own, Counts sum) {
+  constexpr Step kStep = kSublattice == Sublattice::kEven ? Step::kDown : Step::kUp;
+  const PlaneReader<kStep> read{bricks, neighbors};
+  const Plane counted = AndNot(read.template Diagonal<AxesOf(kSublattice, BitOf(kHub))>(), own);
+  if (IsEmpty(counted)) return sum;
+  Plane planes[kNeighborCount];
+  AllPlanes<kSublattice>(bricks, neighbors, own, planes);
+  const Plane rim[6] = {planes[BitOf(kRim[0])], planes[BitOf(kRim[1])], planes[BitOf(kRim[2])],
+                        planes[BitOf(kRim[3])], planes[BitOf(kRim[4])], planes[BitOf(kRim[5])]};
+  return AddTerms(counted, rim, sum);
 }
 
-}  // namespace
+int64_t SumBricksTarget(const Volume& object, exec::Share share) {
+  const BrickBits* bricks = object.padded_bricks().data();
+  const BrickNeighborhood* neighbors = object.neighbors().data();
+  Counts sum = hn::Zero(BrickTag());
+  for (size_t n = share.begin; n < share.end; ++n) {
+    const Plane own = LoadPlane(bricks[n]);
+    sum = (object.keys()[n].value() & 1) == 0
+              ? AddBrick<Sublattice::kEven>(bricks, neighbors[n], own, sum)
+              : AddBrick<Sublattice::kOdd>(bricks, neighbors[n], own, sum);
+  }
+  return static_cast<int64_t>(hn::GetLane(hn::SumOfLanes(BrickTag(), sum)));
+}
 
-int64_t CountEulerCharacteristic(const Volume& object, std::span<const BrickNeighborhood> neighbors,
-                                 const exec::Context& context) {
-  const std::span<const BrickBits> bricks = object.padded_bricks();
-  return SumOverBricks(context, object.brick_count(), [&](int, size_t n) -> int64_t {
-    const auto plane = [&](LatticePoint offset) {
-      return NeighborPlane(*FindDirection(offset), object.keys()[n].coordinates().sublattice,
-                           bricks[n], [&](int position) -> const BrickBits& {
-                             return bricks[neighbors[n][static_cast<size_t>(position)]];
-                           });
-    };
-    const BrickBits hub = plane(kHub);
-    if (AllCovered(bricks[n], hub)) return 0;
-    return WheelSum(bricks[n], hub,
-                    {plane(kRim[0]), plane(kRim[1]), plane(kRim[2]), plane(kRim[3]), plane(kRim[4]),
-                     plane(kRim[5])});
+}  // namespace HWY_NAMESPACE
+}  // namespace bccskel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bccskel {
+
+HWY_EXPORT(SumBricksTarget);
+
+int64_t CountEulerCharacteristic(const Volume& object, const exec::Context& context) {
+  return SumOverBricks(context, object.brick_count(), [&](int, exec::Share batch) {
+    return HWY_DYNAMIC_DISPATCH(SumBricksTarget)(object, batch);
   });
 }
 
-int64_t CountEulerCharacteristic(const Volume& object, const exec::Context& context) {
-  return CountEulerCharacteristic(object, FindBrickNeighbors(object.keys()), context);
-}
-
 }  // namespace bccskel
+#endif  // HWY_ONCE

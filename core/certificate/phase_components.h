@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "core/certificate/brick_components.h"
@@ -12,39 +13,45 @@
 
 namespace bccskel {
 
-enum class Phase : uint8_t { kObject, kBackground };
-
-// The components of each stored brick of an object, or of the background within each stored brick,
-// numbered through: the pieces that component labeling puts together. Nearly all bricks have one or
-// none; only the others keep labels.
+// The components of each stored brick of an object, or of the background within each stored brick:
+// the pieces that component labeling puts together. Nearly all bricks have one or none; only the
+// others keep labels.
 class PhaseComponents {
  public:
   PhaseComponents(const Volume& object, Phase phase, const exec::Context& context);
 
-  size_t count() const { return first_.back(); }
-  bool HasPoints(BrickIndex n) const { return first_[n] != first_[n + 1]; }
+  int64_t count() const { return count_; }
+  bool HasPoints(BrickIndex n) const { return connectivity_[n] != Connectivity::kEmpty; }
   const BrickFragments* fragments(BrickIndex n) const { return fragments_[n]; }  // may be null
 
-  // Needs: HasPoints(n).
-  size_t MainComponent(BrickIndex n) const { return first_[n]; }
+  // Components have numbers below number_limit(), though not all numbers have a component. That of
+  // a brick's main component is the brick's own.
+  size_t number_limit() const { return number_limit_; }
   // Needs: `bit` is a point of this phase.
-  size_t ComponentOf(BrickIndex n, int bit) const {
-    return first_[n] +
-           (fragments_[n] == nullptr ? 0 : fragments_[n]->labels[static_cast<size_t>(bit)]);
+  size_t NumberOf(BrickIndex n, int bit) const {
+    const BrickFragments* split = fragments_[n];
+    const size_t label = split == nullptr ? 0 : split->labels[static_cast<size_t>(bit)];
+    return label == 0 ? n : split->first_number + label - 1;
   }
 
-  // The points of the brick, those of its main component, those outside of it. The padding brick
-  // has no points: bricks that are not stored are not this class's business.
-  BrickBits PointsOf(BrickIndex n) const;
-  BrickBits MainPointsOf(BrickIndex n) const;
-  BrickBits FragmentPointsOf(BrickIndex n) const;
+  // The points of each brick's main component. One longer than the bricks: the last one, for bricks
+  // that are not stored, is background all over.
+  std::span<const BrickBits> mains() const { return mains_; }
+  BrickBits PointsOf(BrickIndex n) const {
+    BrickBits points = mains_[n];
+    if (fragments_[n] == nullptr) return points;
+    for (size_t k = 0; k < 8; ++k) points.words[k] |= fragments_[n]->fragments.words[k];
+    return points;
+  }
 
  private:
-  int64_t SplitIntoComponents(int worker, BrickIndex n);
+  int64_t CountComponents(int worker, BrickIndex n);
+  void NumberFragments();
 
-  const Volume& object_;
-  const uint64_t flip_;  // all ones for the background
-  std::vector<size_t> first_;
+  int64_t count_ = 0;
+  size_t number_limit_ = 0;
+  std::vector<Connectivity> connectivity_;
+  std::vector<BrickBits> mains_;
   std::vector<const BrickFragments*> fragments_;   // one more, for the padding brick
   std::vector<std::deque<BrickFragments>> store_;  // one per worker
 };

@@ -3,65 +3,83 @@
 
 #include "core/certificate/brick_sum.h"
 #include "core/certificate/certificate.h"
-#include "core/certificate/neighbor_planes.h"
 #include "core/topology/neighborhood.h"
-#include "core/volume/brick_neighbors.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/certificate/simple_points.cc"
+// Compiles the rest of this file once per instruction set, so it comes before other Highway
+// headers.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/volume/brick_planes-inl.h"
+#include "hwy/highway.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
 namespace bccskel {
-namespace {
-
-using NeighborPlanes = std::array<BrickBits, kNeighborCount>;
+namespace HWY_NAMESPACE {
 
 // Points that may satisfy Conditions 1 and 2. More than one neighbor in one component means that
 // two neighbors are adjacent to each other; one background component, that one is missing.
-uint64_t CandidatesInWord(const BrickBits& points, const NeighborPlanes& planes, size_t k) {
-  uint64_t adjacent_pair = 0, all = ~uint64_t{0};
+HWY_INLINE Plane PossiblySimple(const Plane& own, const Plane (&planes)[kNeighborCount]) {
+  Plane adjacent_pair = AndNot(own, own), all = own;
   for (size_t a = 0; a < kNeighborCount; ++a) {
-    uint64_t adjacent = 0;
     for (size_t b = 0; b < a; ++b) {
-      if (((kSharedNeighbors[a] >> b) & 1) != 0) adjacent |= planes[b].words[k];
+      if (((kSharedNeighbors[a] >> b) & 1) == 0) continue;
+      adjacent_pair = Or(adjacent_pair, And(planes[a], planes[b]));
     }
-    adjacent_pair |= adjacent & planes[a].words[k];
-    all &= planes[a].words[k];
+    all = And(all, planes[a]);
   }
-  return points.words[k] & adjacent_pair & ~all;
+  return AndNot(all, And(own, adjacent_pair));
 }
 
-NeighborMask MaskOf(const NeighborPlanes& planes, size_t k, int bit) {
-  unsigned mask = 0;
-  for (size_t d = 0; d < kNeighborCount; ++d) {
-    mask |= static_cast<unsigned>((planes[d].words[k] >> bit) & 1) << d;
-  }
-  return static_cast<NeighborMask>(mask);
-}
-
-int64_t CountInBrick(const BrickBits& points, const NeighborPlanes& planes) {
+HWY_INLINE int64_t CountAmong(const Plane& candidates, const Plane (&planes)[kNeighborCount]) {
+  if (IsEmpty(candidates)) return 0;
+  BrickBits rest;
+  StorePlane(candidates, rest);
+  std::array<BrickBits, kNeighborCount> neighbors;
+  for (size_t d = 0; d < kNeighborCount; ++d) StorePlane(planes[d], neighbors[d]);
   int64_t count = 0;
-  for (size_t k = 0; k < 8; ++k) {
-    for (uint64_t rest = CandidatesInWord(points, planes, k); rest != 0; rest &= rest - 1) {
-      count += IsSimpleNonEnd(MaskOf(planes, k, std::countr_zero(rest))) ? 1 : 0;
+  rest.ForEachSetBit([&](int bit) {
+    unsigned mask = 0;
+    for (size_t d = 0; d < kNeighborCount; ++d) mask |= (neighbors[d].Test(bit) ? 1u : 0u) << d;
+    count += IsSimpleNonEnd(static_cast<NeighborMask>(mask)) ? 1 : 0;
+  });
+  return count;
+}
+
+int64_t CountInBricksTarget(const Volume& object, exec::Share share) {
+  const BrickBits* bricks = object.padded_bricks().data();
+  const BrickNeighborhood* neighbors = object.neighbors().data();
+  int64_t count = 0;
+  for (size_t n = share.begin; n < share.end; ++n) {
+    const Plane own = LoadPlane(bricks[n]);
+    Plane planes[kNeighborCount];
+    if ((object.keys()[n].value() & 1) == 0) {
+      AllPlanes<Sublattice::kEven>(bricks, neighbors[n], own, planes);
+    } else {
+      AllPlanes<Sublattice::kOdd>(bricks, neighbors[n], own, planes);
     }
+    count += CountAmong(PossiblySimple(own, planes), planes);
   }
   return count;
 }
 
-}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace bccskel
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bccskel {
+
+HWY_EXPORT(CountInBricksTarget);
 
 uint64_t CountSimpleNonEndPoints(const Volume& object, const exec::Context& context) {
-  const std::vector<BrickNeighborhood> neighbors = FindBrickNeighbors(object.keys());
-  const std::span<const BrickBits> bricks = object.padded_bricks();
   return static_cast<uint64_t>(
-      SumOverBricks(context, object.brick_count(), [&](int, size_t n) -> int64_t {
-        NeighborPlanes planes;
-        for (int d = 0; d < kNeighborCount; ++d) {
-          planes[static_cast<size_t>(d)] =
-              NeighborPlane(Direction(d), object.keys()[n].coordinates().sublattice, bricks[n],
-                            [&](int position) -> const BrickBits& {
-                              return bricks[neighbors[n][static_cast<size_t>(position)]];
-                            });
-        }
-        return CountInBrick(bricks[n], planes);
+      SumOverBricks(context, object.brick_count(), [&](int, exec::Share batch) {
+        return HWY_DYNAMIC_DISPATCH(CountInBricksTarget)(object, batch);
       }));
 }
 
 }  // namespace bccskel
+#endif  // HWY_ONCE

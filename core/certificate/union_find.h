@@ -29,6 +29,9 @@ class UnionFind {
     }
   }
 
+  // False when n is not in the root's set; true when that takes no search to see.
+  bool IsRightBelow(size_t n, size_t root) const { return Parent(n) == root; }
+
   // True when a and b were in different sets until now.
   bool Unite(size_t a, size_t b) {
     for (;;) {

@@ -34,10 +34,12 @@ size_t NodeAt(const BackgroundGaps& gaps, BrickCoordinates missing) {
 
 int64_t ComponentsOf(const std::vector<BrickKey>& keys) {
   const BackgroundGaps gaps(keys);
-  UnionFind sets(gaps.node_limit());
+  constexpr size_t kFirstMember = 3;
+  UnionFind sets(kFirstMember + gaps.node_limit());
+  GapPlaces places;
   int64_t components = gaps.node_count();
   for (size_t place = 0; place < gaps.place_count(); ++place) {
-    components -= gaps.LinkGap(place, sets);
+    components -= gaps.LinkGap(place, kFirstMember, places, sets);
   }
   return components;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/certificate/certificate.h"
+#include "core/exec/instruction_sets.h"
 #include "core/exec/worker_team.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
@@ -29,6 +30,7 @@ BettiNumbers Betti(const Volume& object, int threads = 1) {
   exec::WorkerTeam team(threads);
   exec::Context context;
   context.team = &team;
+  context.min_bricks_per_worker = 1;
   return CountBettiNumbers(object, context).value();
 }
 BettiNumbers Betti(const std::vector<LatticePoint>& points) {
@@ -168,6 +170,23 @@ TEST(BettiNumbersLaw, AreTheSameForAnyNumberOfThreads) {
   for (const Volume& object : objects) {
     const BettiNumbers expected = Betti(object, 1);
     for (int threads : {2, 3, 8}) EXPECT_EQ(Betti(object, threads), expected);
+  }
+}
+
+TEST(BettiNumbersLaw, AreTheSameOnAnyInstructionSet) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const auto blob = RandomBlob(seed, {40, 20, 20}, 6, 14);
+    const Volume noisy = VolumeOfPoints(test::WithNoisyBoundary(seed, blob, 0.3));
+    const Volume cloud =
+        VolumeOfPoints(RandomCloud(seed, {40, 20, 20}, 0.1 + 0.1 * static_cast<double>(seed)));
+    for (const Volume* object : {&noisy, &cloud}) {
+      const BettiNumbers expected = ReferenceBetti(ReferencePointSet(*object));
+      for (const std::string& name : exec::SupportedInstructionSets()) {
+        ASSERT_TRUE(exec::ChooseInstructionSet(name));
+        EXPECT_EQ(Betti(*object), expected) << name << ", seed " << seed;
+      }
+      exec::ChooseInstructionSet("");
+    }
   }
 }
 

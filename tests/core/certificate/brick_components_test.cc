@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "core/exec/instruction_sets.h"
 #include "core/lattice/directions.h"
 
 namespace bccskel {
@@ -47,7 +48,26 @@ BrickBits RandomBrick(std::mt19937_64& random, double density) {
   return points;
 }
 
-TEST(BrickComponents, AgreeWithFloodFillOnRandomBricksOfAllDensities) {
+Connectivity ConnectivityOf(const BrickBits& points) {
+  Connectivity found = Connectivity::kUnclear;
+  BrickBits copy;
+  TestConnectivity({&points, 1}, Phase::kObject, {&copy, 1}, {&found, 1});
+  EXPECT_EQ(copy, points);
+  return found;
+}
+
+BrickBits Complement(BrickBits points) {
+  for (uint64_t& word : points.words) word = ~word;
+  return points;
+}
+
+class BrickComponents : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { ASSERT_TRUE(exec::ChooseInstructionSet(GetParam())); }
+  void TearDown() override { exec::ChooseInstructionSet(""); }
+};
+
+TEST_P(BrickComponents, AgreeWithFloodFillOnRandomBricksOfAllDensities) {
   std::mt19937_64 random(1);
   for (int round = 0; round < 600; ++round) {
     const BrickBits points = RandomBrick(random, (round % 100) / 100.0);
@@ -62,13 +82,14 @@ TEST(BrickComponents, AgreeWithFloodFillOnRandomBricksOfAllDensities) {
       EXPECT_EQ(split.fragments.Test(bit), split.labels[n] != 0);
     });
     EXPECT_EQ(pairs.size(), static_cast<size_t>(components)) << "labels are not one to one";
-    if (IsPlainlyConnected(points)) {
+    EXPECT_EQ(IsConnected(points), components == 1);
+    if (ConnectivityOf(points) == Connectivity::kConnected) {
       EXPECT_EQ(components, 1);
     }
   }
 }
 
-TEST(BrickComponents, FollowASnakeThroughTheBrick) {
+TEST_P(BrickComponents, FollowASnakeThroughTheBrick) {
   BrickBits points;
   for (int k = 0; k < 8; k += 2) {
     for (int cell = 0; cell < 64; ++cell) {
@@ -83,17 +104,30 @@ TEST(BrickComponents, FollowASnakeThroughTheBrick) {
   EXPECT_EQ(SplitBrick(points).components, components);
 }
 
-TEST(BrickComponents, ACheckerboardHas256) {
+TEST_P(BrickComponents, ACheckerboardHas256) {
   BrickBits points;
   for (int bit = 0; bit < kBrickPoints; ++bit) {
     if ((((bit & 15) + ((bit >> 4) & 3) + (bit >> 6)) & 1) == 0) points.Set(bit);
   }
   EXPECT_EQ(SplitBrick(points).components, 256);
-  EXPECT_FALSE(IsPlainlyConnected(points));
+  EXPECT_EQ(ConnectivityOf(points), Connectivity::kUnclear);
+}
+
+TEST_P(BrickComponents, OfTheBackgroundAreThoseOfTheComplement) {
+  std::mt19937_64 random(3);
+  for (int round = 0; round < 100; ++round) {
+    const BrickBits points = RandomBrick(random, 1 - 0.0005 * round);
+    const BrickBits complement = Complement(points);
+    Connectivity found = Connectivity::kUnclear;
+    BrickBits background;
+    TestConnectivity({&points, 1}, Phase::kBackground, {&background, 1}, {&found, 1});
+    EXPECT_EQ(background, complement);
+    EXPECT_EQ(found, complement.Empty() ? Connectivity::kEmpty : ConnectivityOf(complement));
+  }
 }
 
 // The part of a half space in a brick, whatever its normal: the case that must be cheap.
-TEST(BrickComponents, PartsOfHalfSpacesAreSeenToBeConnectedAtOnce) {
+TEST_P(BrickComponents, PartsOfHalfSpacesAreSeenToBeConnectedAtOnce) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 300; ++round) {
     int normal[3];
@@ -105,10 +139,14 @@ TEST(BrickComponents, PartsOfHalfSpacesAreSeenToBeConnectedAtOnce) {
       if (f <= 50) points.Set(bit);
     }
     if (!points.Empty()) {
-      EXPECT_TRUE(IsPlainlyConnected(points));
+      EXPECT_EQ(ConnectivityOf(points), Connectivity::kConnected);
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(AllInstructionSets, BrickComponents,
+                         testing::ValuesIn(exec::SupportedInstructionSets()),
+                         [](const auto& info) { return info.param; });
 
 }  // namespace
 }  // namespace bccskel

@@ -31,7 +31,6 @@ TEST(BrickContacts, HoldEachPointOnceForEachDirectionThatLeavesTheBrick) {
           if (!contact.points.Test(bit)) continue;
           EXPECT_EQ(contact.position, position);
           EXPECT_TRUE(PointsAt(sublattice, position).Test(bit));
-          EXPECT_EQ(contact.direction, Direction(d));
           ++found;
         }
         EXPECT_EQ(found, position < 0 ? 0 : 1);
@@ -47,6 +46,25 @@ TEST(BrickContacts, CountThePointsThatTouchEachNeighboringBrick) {
     EXPECT_EQ(PointsAt(sublattice, 7).Count(), 1u);         // across the corner
     EXPECT_EQ(PointsAt(sublattice, 1).Count(), 4u * 8u);    // across the x face
     EXPECT_EQ(PointsAt(sublattice, 13).Count(), 16u * 4u);  // along -z
+  }
+}
+
+TEST(BrickContacts, NameThePositionsWhoseBricksTouchEachOther) {
+  for (Sublattice sublattice : kSublattices) {
+    const BrickCoordinates brick = {3, 5, 2, sublattice};
+    for (int a = 0; a < kNeighborCount; ++a) {
+      for (int b = 0; b < kNeighborCount; ++b) {
+        bool touch = false;
+        for (int bit = 0; bit < kBrickPoints && !touch; ++bit) {
+          for (LatticePoint offset : kDirections14) {
+            const LatticePoint p = PointOf(NeighborBrick(brick, a), bit) + offset;
+            touch = touch || AddressOf(p).brick == NeighborBrick(brick, b);
+          }
+        }
+        const PositionMask beside = ContactsOf(sublattice).beside[static_cast<size_t>(a)];
+        EXPECT_EQ((beside >> b & 1) != 0, touch && a != b) << a << " and " << b;
+      }
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/certificate/certificate.h"
+#include "core/exec/instruction_sets.h"
 #include "core/exec/worker_team.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
@@ -23,7 +24,11 @@ TEST(SimpleNonEndPointsLaw, AgreeWithFloodFillOfNeighborhoods) {
   for (uint64_t seed = 0; seed < 40; ++seed) {
     const auto points = test::RandomCloud(seed, {19, 6, 11}, static_cast<double>(seed % 20) / 19.0);
     const uint64_t expected = test::ReferenceSimpleNonEndPoints(test::ReferencePointSet(points));
-    ASSERT_EQ(Count(points), expected) << "seed " << seed;
+    for (const std::string& name : exec::SupportedInstructionSets()) {
+      ASSERT_TRUE(exec::ChooseInstructionSet(name));
+      ASSERT_EQ(Count(points), expected) << "seed " << seed << " on " << name;
+    }
+    exec::ChooseInstructionSet("");
   }
 }
 
@@ -34,6 +39,7 @@ TEST(SimpleNonEndPoints, AreAsManyForAnyNumberOfThreads) {
     exec::WorkerTeam team(threads);
     exec::Context context;
     context.team = &team;
+    context.min_bricks_per_worker = 1;
     EXPECT_EQ(CountSimpleNonEndPoints(object, context), expected);
   }
 }
