@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <variant>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -15,7 +16,8 @@ using Depth = std::function<uint16_t(LatticePoint)>;
 
 inline ChamferField FieldOf(
     const Volume& object, const Depth& depth = [](LatticePoint) -> uint16_t { return 1; }) {
-  std::vector<uint16_t> values(object.brick_count() * kBrickPoints);
+  std::variant_alternative_t<0, ChamferField::Values> values;
+  values.assign(object.brick_count() * kBrickPoints, 0);
   for (size_t n = 0; n < object.brick_count(); ++n) {
     object.bricks()[n].ForEachSetBit([&](int bit) {
       values[n * kBrickPoints + static_cast<size_t>(bit)] =
