@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdlib>
 #include <limits>
 
@@ -37,24 +36,20 @@ class DistanceScan {
   }
 
   absl::Status Run(const exec::Context& context) {
-    const int workers = context.WorkersFor(bricks_);
-    exec::Barrier barrier(workers);
-    std::atomic<bool> stopped = false;
     context.Run([&](int worker) {
-      if (worker >= workers) return;
-      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, workers);
+      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context.threads());
       for (size_t s = mine.begin; s < mine.end && !context.ShouldStop(); ++s) {
         SweepWithinLayers(view_, slabs_[s].first, slabs_[s].last);
       }
-      barrier.Wait();
-      const Team team = {worker, workers, barrier, stopped, context};
-      for (size_t s = 0; s < slabs_.size(); ++s) {
-        if (!Raise(slabs_[s], team)) return;
-      }
-      for (size_t s = slabs_.size(); s-- > 0;) {
-        if (!Lower(slabs_[s], team)) return;
-      }
     });
+    Team team(WorkersFor(context), context);
+    if (team.size() == 1) {
+      JoinAll(0, team);
+    } else {
+      context.Run([&](int worker) {
+        if (worker < team.size()) JoinAll(worker, team);
+      });
+    }
     return context.StopStatus();
   }
 
@@ -66,45 +61,84 @@ class DistanceScan {
     std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
   };
 
-  struct Team {
-    int worker;
-    int workers;
-    exec::Barrier& barrier;
-    std::atomic<bool>& stopped;
-    const exec::Context& context;
+  // Workers that go from layer to layer together.
+  class Team {
+   public:
+    Team(int size, const exec::Context& context) : size_(size), context_(context), barrier_(size) {}
 
-    // All workers leave together, or the ones left would wait for the others for ever.
-    bool GoesOn() const {
-      if (worker == 0 && context.ShouldStop()) stopped.store(true, std::memory_order_relaxed);
-      barrier.Wait();
-      return !stopped.load(std::memory_order_relaxed);
+    int size() const { return size_; }
+    // How many are still at it.
+    int present() const { return alone_ ? 1 : size_; }
+
+    void Meet(int worker) {
+      if (present() == 1) return;
+      const exec::Barrier::Duration blocked = barrier_.Wait();
+      if (worker == 0) patience_.Blocked(blocked);
     }
+
+    // Whether this worker goes on to the next slab. All decide the same, or some would wait for
+    // others for ever.
+    bool GoOn(int worker) {
+      if (worker == 0) {
+        stopped_ = context_.ShouldStop();
+        leave_ = patience_.Lost();
+      }
+      Meet(worker);
+      if (stopped_ || (leave_ && worker != 0)) return false;
+      if (leave_) alone_ = true;
+      return true;
+    }
+
+   private:
+    const int size_;
+    const exec::Context& context_;
+    exec::Barrier barrier_;
+    exec::Patience patience_;  // worker 0's
+    // Written by worker 0 before a meeting that all others reach after they have read the last
+    // value.
+    bool stopped_ = false;
+    bool leave_ = false;
+    bool alone_ = false;  // written when the others have left
   };
 
-  bool Raise(const Slab& slab, const Team& team) const {
-    for (int k = 0; k < kBrickZ; ++k) {
-      Join(slab, Sublattice::kEven, k, ScanDirection::kUpward, team);
-      Join(slab, Sublattice::kOdd, k, ScanDirection::kUpward, team);
-    }
-    return team.GoesOn();
+  // A layer of bricks is little work between two meetings.
+  int WorkersFor(const exec::Context& context) const {
+    return slabs_.empty() ? 1 : context.WorkersFor(bricks_ / slabs_.size());
   }
 
-  bool Lower(const Slab& slab, const Team& team) const {
-    for (int k = kBrickZ - 1; k >= 0; --k) {
-      Join(slab, Sublattice::kOdd, k, ScanDirection::kDownward, team);
-      Join(slab, Sublattice::kEven, k, ScanDirection::kDownward, team);
+  void JoinAll(int worker, Team& team) const {
+    for (const Slab& slab : slabs_) {
+      Raise(slab, worker, team);
+      if (!team.GoOn(worker)) return;
     }
-    return team.GoesOn();
+    for (size_t s = slabs_.size(); s-- > 0;) {
+      Lower(slabs_[s], worker, team);
+      if (!team.GoOn(worker)) return;
+    }
+  }
+
+  void Raise(const Slab& slab, int worker, Team& team) const {
+    for (int k = 0; k < kBrickZ; ++k) {
+      Join(slab, Sublattice::kEven, k, ScanDirection::kUpward, worker, team);
+      Join(slab, Sublattice::kOdd, k, ScanDirection::kUpward, worker, team);
+    }
+  }
+
+  void Lower(const Slab& slab, int worker, Team& team) const {
+    for (int k = kBrickZ - 1; k >= 0; --k) {
+      Join(slab, Sublattice::kOdd, k, ScanDirection::kDownward, worker, team);
+      Join(slab, Sublattice::kEven, k, ScanDirection::kDownward, worker, team);
+    }
   }
 
   // Layers follow each other, so the workers meet after each.
-  void Join(const Slab& slab, Sublattice sublattice, int k, ScanDirection direction,
-            const Team& team) const {
+  void Join(const Slab& slab, Sublattice sublattice, int k, ScanDirection direction, int worker,
+            Team& team) const {
     const std::span<const BrickIndex> bricks = slab.bricks[static_cast<size_t>(sublattice)];
-    const exec::Share share = exec::ShareOf(bricks.size(), team.worker, team.workers);
+    const exec::Share share = exec::ShareOf(bricks.size(), worker, team.present());
     JoinLayers(view_, sublattice, bricks.subspan(share.begin, share.end - share.begin), k,
                direction);
-    team.barrier.Wait();
+    team.Meet(worker);
   }
 
   const size_t bricks_;

@@ -7,8 +7,12 @@
 namespace bccskel::exec {
 namespace {
 
-// About 20 us on current machines: longer than a healthy pass, far shorter than a time slice.
-constexpr int kSpinsBeforeBlocking = 2000;
+using Clock = std::chrono::steady_clock;
+
+// Longer than a healthy pass over a small object, far shorter than a time slice. Pauses last 40 to
+// 140 cycles, depending on the processor, so the clock decides.
+constexpr auto kSpinTime = std::chrono::microseconds(20);
+constexpr int kPausesPerLook = 16;
 
 void Pause() {
 #if defined(__x86_64__)
@@ -61,26 +65,34 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   }
 }
 
-Barrier::Barrier(int size)
-    : size_(size),
-      spins_(static_cast<unsigned>(size) <= std::thread::hardware_concurrency()
-                 ? kSpinsBeforeBlocking
-                 : 0) {}
+// Returns false when the time was not enough.
+bool Barrier::SpinUntilPast(uint32_t phase) const {
+  // With more workers than processors the others cannot come while this one spins.
+  static const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  if (size_ > processors) return false;
+  const Clock::time_point end = Clock::now() + kSpinTime;
+  do {
+    for (int pause = 0; pause < kPausesPerLook; ++pause) {
+      if (phase_.load(std::memory_order_acquire) != phase) return true;
+      Pause();
+    }
+  } while (Clock::now() < end);
+  return false;
+}
 
-void Barrier::Wait() {
-  if (size_ == 1) return;
+Barrier::Duration Barrier::Wait() {
+  if (size_ == 1) return {};
   const uint32_t phase = phase_.load(std::memory_order_acquire);
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
     arrived_.store(0, std::memory_order_relaxed);
     phase_.fetch_add(1, std::memory_order_acq_rel);
     phase_.notify_all();
-    return;
+    return {};
   }
-  for (int spin = 0; spin < spins_; ++spin) {
-    if (phase_.load(std::memory_order_acquire) != phase) return;
-    Pause();
-  }
+  if (SpinUntilPast(phase)) return {};
+  const Clock::time_point start = Clock::now();
   phase_.wait(phase, std::memory_order_acquire);
+  return Clock::now() - start;
 }
 
 }  // namespace bccskel::exec

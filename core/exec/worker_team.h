@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_EXEC_WORKER_TEAM_H_
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -41,18 +42,39 @@ class WorkerTeam {
   std::vector<std::jthread> threads_;               // last: joined before the rest is destroyed
 };
 
-// A reusable meeting point of `size` workers. Spins for a bounded time, then blocks, so that a
-// machine with fewer free cores than workers stays responsive.
+// A reusable meeting point of `size` workers. Spins for some microseconds, then blocks, so that a
+// machine with fewer free processors than workers stays responsive.
 class Barrier {
  public:
-  explicit Barrier(int size);
-  void Wait();
+  using Duration = std::chrono::steady_clock::duration;
+
+  explicit Barrier(int size) : size_(size) {}
+  // Returns: for how long the caller was blocked; zero when the others came while it was spinning.
+  Duration Wait();
 
  private:
+  bool SpinUntilPast(uint32_t phase) const;
+
   const int size_;
-  const int spins_;  // none when there are more workers than processors
   std::atomic<int> arrived_{0};
   std::atomic<uint32_t> phase_{0};
+};
+
+// Tells when a team is slower than one worker: where the machine does not let its members run at
+// the same time, each meeting may cost a time slice of milliseconds for microseconds of work. Kept
+// by worker 0, which then goes on alone.
+class Patience {
+ public:
+  void Blocked(Barrier::Duration time) { blocked_ += time; }
+  // More than half the time, and not just a hiccup, went into waiting.
+  bool Lost() const {
+    return blocked_ > std::chrono::milliseconds(1) && blocked_ > (Clock::now() - start_) / 2;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Barrier::Duration blocked_ = {};
 };
 
 // The half-open range of items that `worker` of `workers` owns when `count` items are split evenly.

@@ -17,6 +17,7 @@ template <typename T>
 Shells::Range SliceExactly(const ShellRule& rule, const BrickBits& object, const T* distances,
                            ShellPlanes& planes) {
   Shells::Range range = {INT32_MAX, 0};
+  planes = {};
   object.ForEachSetBit([&](int bit) {
     const int32_t shell = rule(distances[bit]);
     range.first = std::min(range.first, shell);

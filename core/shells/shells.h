@@ -8,6 +8,7 @@
 
 #include "core/distance/chamfer_distance.h"
 #include "core/exec/context.h"
+#include "core/exec/uninitialized.h"
 #include "core/shells/slice_bricks.h"
 #include "core/volume/brick.h"
 #include "core/volume/volume.h"
@@ -39,7 +40,7 @@ class Shells {
 
  private:
   friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);
-  std::vector<ShellPlanes> planes_;
+  exec::UninitializedVector<ShellPlanes> planes_;
   std::vector<Range> ranges_;
   int32_t last_ = 0;
 };

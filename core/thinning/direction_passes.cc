@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/thinning/stubble.h"
@@ -67,6 +68,7 @@ class DirectionPasses {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
     for (int32_t shell = 1; shell <= last_; ++shell) {
+      if (alone_ && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
       do {
@@ -87,12 +89,45 @@ class DirectionPasses {
     worker.by_first_shell.resize(count);
     std::iota(worker.by_first_shell.begin(), worker.by_first_shell.end(),
               static_cast<BrickIndex>(worker.bricks.begin));
+    SortByFirstShell(worker);
+    if (workers_.size() > 1) MarkBorder(worker);
+    Reserve(worker, count);
+  }
+
+  void SortByFirstShell(Worker& worker) const {
     std::ranges::stable_sort(worker.by_first_shell, {},
                              [this](BrickIndex n) { return shells_.RangeOf(n).first; });
-    if (workers_.size() > 1) MarkBorder(worker);
-    worker.directions_to_do.Reserve(count);
-    worker.end_points_to_do.Reserve(count);
-    worker.thin.resize(count);
+  }
+
+  static void Reserve(Worker& worker, size_t bricks) {
+    worker.directions_to_do.Reserve(bricks);
+    worker.end_points_to_do.Reserve(bricks);
+    worker.thin.resize(bricks);
+  }
+
+  // Returns whether this worker goes on; worker 0 takes over from the others, once.
+  bool JoinedInOne(int index, Worker& first) {
+    if (index != 0) return false;
+    if (joined_) return true;
+    joined_ = true;
+    for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
+    first.bricks.end = state_.brick_count();
+    SortByFirstShell(first);
+    Reserve(first, state_.brick_count());
+    for (Unsettled& brick : unsettled_) brick &= static_cast<Unsettled>(~kBorderBrick);
+    return true;
+  }
+
+  void TakeOver(Worker& other, Worker& first) {
+    for (std::vector<BrickIndex>& seen : other.seen_elsewhere) {
+      for (BrickIndex n : seen) unsettled_[n] |= enabled_[n];
+    }
+    const auto not_reached = std::span(other.by_first_shell).subspan(other.reached);
+    first.by_first_shell.insert(first.by_first_shell.end(), not_reached.begin(), not_reached.end());
+    first.opening.insert(first.opening.end(), other.opening.begin(), other.opening.end());
+    Worker nothing_to_do;
+    nothing_to_do.removed = other.removed;
+    other = std::move(nothing_to_do);
   }
 
   void MarkBorder(const Worker& worker) {
@@ -124,7 +159,8 @@ class DirectionPasses {
     std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last == shell; });
   }
 
-  size_t groups() const { return (state_.brick_count() + kUnsettledGroup - 1) / kUnsettledGroup; }
+  // One more than full groups, so that there is room for the padding brick.
+  size_t groups() const { return state_.brick_count() / kUnsettledGroup + 1; }
 
   // One pass along d. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, DiagonalDirection d) {
@@ -138,12 +174,19 @@ class DirectionPasses {
                   worker.end_points_to_do);
     MarkDirection(worker, d);
     MarkStubble(worker);
-    barrier_.Wait();  // nobody reads the old object any more
+    Meet(index);  // nobody reads the old object any more
     if (stopped_) return false;
+    if (index == 0) alone_ = alone_ || patience_.Lost();
     Remove(worker);
-    barrier_.Wait();  // the new object is complete
+    Meet(index);  // the new object is complete
     worker.parity ^= 1;
     return true;
+  }
+
+  void Meet(int index) {
+    if (workers_.size() == 1 || (index == 0 && joined_)) return;
+    const exec::Barrier::Duration blocked = barrier_.Wait();
+    if (index == 0) patience_.Blocked(blocked);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.
@@ -244,6 +287,11 @@ class DirectionPasses {
   uint64_t points_at_start_ = 0;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass
+  bool alone_ = false;    // written by worker 0 between the meetings of a pass
+
+  // Worker 0's own.
+  exec::Patience patience_;
+  bool joined_ = false;  // it has taken over from the others
 };
 
 }  // namespace

@@ -190,11 +190,16 @@ HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
       (view.unsettled[m.brick] & (kOddBrick | kBorderBrick | stays)) | enabled);
 }
 
+// Whether other workers remove points at the same time.
+enum class Company : uint8_t { kAlone, kOthers };
+
+template <Company kCompany>
 HWY_INLINE void UnsettleAround(const RemovalView& view, BrickIndex brick, const WakeRow& wakes) {
   const BrickNeighborhood& neighbors = view.neighbors[brick];
   for (size_t position = 0; position < wakes.size(); ++position) {
-    // The padding brick belongs to nobody, so nobody may write to it.
-    const BrickIndex n = neighbors[position] == view.none ? brick : neighbors[position];
+    BrickIndex n = neighbors[position];
+    // The padding brick belongs to nobody, so several workers must not write to it.
+    if (kCompany == Company::kOthers && n == view.none) n = brick;
     view.unsettled[n] =
         static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & wakes[position]));
   }
@@ -215,8 +220,9 @@ HWY_NOINLINE void UnsettleAcrossBorder(const RemovalView& view, BrickIndex brick
   }
 }
 
-uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick> marked,
-                            std::vector<BrickIndex>& elsewhere) {
+template <Company kCompany>
+uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
+                   std::vector<BrickIndex>& elsewhere) {
   uint64_t removed = 0;
   for (const MarkedBrick& m : marked) {
     removed += CountBits(LoadPlane(m.marks));
@@ -224,12 +230,19 @@ uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick
     RemoveFromBrick(view, m);
     const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
     if ((kind & kBorderBrick) == 0) {
-      UnsettleAround(view, m.brick, wakes);
+      UnsettleAround<kCompany>(view, m.brick, wakes);
     } else {
       UnsettleAcrossBorder(view, m.brick, wakes, elsewhere);
     }
   }
   return removed;
+}
+
+uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick> marked,
+                            std::vector<BrickIndex>& elsewhere) {
+  return view.first == 0 && view.last == view.none
+             ? RemoveAll<Company::kAlone>(view, marked, elsewhere)
+             : RemoveAll<Company::kOthers>(view, marked, elsewhere);
 }
 
 // Makes the points of one shell candidates. Returns how many there are.
