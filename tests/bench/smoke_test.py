@@ -1,0 +1,84 @@
+"""Runs every benchmark once at the smallest size and checks what the report relies on.
+
+Usage: smoke_test.py ENGINE_BENCHMARK REFERENCE_DIGEST CUBIC_OBJECT BCCSKEL
+"""
+
+import json
+import subprocess
+import sys
+import unittest
+
+OBJECTS = ["ball", "torus", "horse", "blob", "tubes", "tree", "thin-tubes"]
+POINTS = 10000
+COUNTERS = {"points", "bricks", "ns_per_point", "whole_ns_per_point",
+            "distance_ms", "thinning_ms", "certificate_ms", "graph_ms"}
+SPREAD = {"min", "median", "max"}
+
+
+def output_of(*command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
+
+
+def reference_digest(name):
+    return output_of(REFERENCE, name, str(POINTS)).decode().strip()
+
+
+class SmokeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.reference = {name: reference_digest(name) for name in OBJECTS}
+
+    def test_every_row_has_its_counters_and_the_references_skeleton(self):
+        text = output_of(ENGINE, f"--benchmark_filter=/{POINTS}/", "--benchmark_format=json")
+        rows = json.loads(text)["benchmarks"]
+        seen = set()
+        for row in rows:
+            name, points, threads = row["name"].split("/")[:3]
+            with self.subTest(row["name"]):
+                self.assertNotIn("error_occurred", row)
+                self.assertLessEqual(COUNTERS, row.keys())
+                self.assertEqual(row["label"], self.reference[name])
+                self.assertAlmostEqual(row["points"] / int(points), 1, delta=0.03)
+                self.assertLess(row["ns_per_point"], row["whole_ns_per_point"])
+            seen.add((name, threads))
+        self.assertEqual(seen, {(o, f"threads:{t}") for o in OBJECTS for t in (1, 2)})
+
+    def test_the_command_prints_the_promised_keys_and_the_references_skeleton(self):
+        for name in OBJECTS:
+            with self.subTest(name):
+                result = json.loads(output_of(
+                    COMMAND, "bench", "core", "--shape", name, "--points", str(POINTS),
+                    "--threads", "2", "--repeat", "2", "--json"))
+                self.assertLessEqual(
+                    {"method", "isa", "threads", "points", "ns_per_point", "whole_ns_per_point",
+                     "stages", "peak_bytes", "sha256"}, result.keys())
+                for spread in (result["ns_per_point"], result["whole_ns_per_point"],
+                               *result["stages"].values()):
+                    self.assertEqual(spread.keys(), SPREAD)
+                    self.assertLessEqual(spread["min"], spread["median"])
+                    self.assertLessEqual(spread["median"], spread["max"])
+                self.assertEqual(result["method"], "directional")
+                self.assertEqual(result["threads"], 2)
+                self.assertEqual(result["sha256"], self.reference[name])
+
+    def test_the_command_refuses_what_does_not_exist(self):
+        for option, value in (("--method", "symmetric"), ("--isa", "abacus"),
+                              ("--shape", "teapot"), ("--points", "3"), ("--repeat", "0")):
+            with self.subTest(option):
+                ended = subprocess.run([COMMAND, "bench", "core", option, value],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+                self.assertEqual(ended.returncode, 2)
+                self.assertIn(value, ended.stderr.decode())
+                self.assertEqual(ended.stdout, b"")
+
+    def test_a_cubic_object_has_the_wanted_number_of_voxels(self):
+        header, bits = output_of(CUBIC, "tubes", str(POINTS)).split(b"\n", 1)
+        nx, ny, nz, voxels = (int(word) for word in header.split())
+        self.assertEqual(len(bits), (nx * ny * nz + 7) // 8)
+        self.assertEqual(sum(bin(byte).count("1") for byte in bits), voxels)
+        self.assertAlmostEqual(voxels / POINTS, 1, delta=0.05)
+
+
+if __name__ == "__main__":
+    ENGINE, REFERENCE, CUBIC, COMMAND = sys.argv[1:5]
+    unittest.main(argv=sys.argv[:1])
