@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <thread>
 
@@ -43,18 +44,37 @@ void AddLimits(CLI::App& app, JobPool::Limits& limits) {
       ->capture_default_str();
   app.add_option("--max-bricks", limits.volume.max_bricks,
                  "Occupied bricks (512 points each) of one volume")
+      ->check(CLI::Range(uint64_t{1}, std::numeric_limits<uint64_t>::max()))
       ->capture_default_str();
 }
 
+// An error message, or nothing: gRPC would take any port modulo 65536.
+std::string CheckAddress(const std::string& address) {
+  if (address.rfind("unix:", 0) == 0) return address == "unix:" ? "unix: names no path" : "";
+  const size_t colon = address.rfind(':');
+  constexpr int kMaxPort = 65535;
+  int port = -1;
+  if (colon == std::string::npos || colon == 0 ||
+      !CLI::detail::lexical_cast(address.substr(colon + 1), port) || port < 0 || port > kMaxPort) {
+    return address + " is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH";
+  }
+  return "";
+}
+
 void AddOptions(CLI::App& app, ServerConfig& config) {
+  constexpr int kDayMs = 86'400'000;
+  const auto time = CLI::Range(0, kDayMs);
   app.set_version_flag("--version", "bccskel-server " + std::string(Version()));
   app.add_option("--listen", config.listen, "HOST:PORT (port 0: any free one) or unix:PATH")
+      ->check(CheckAddress, "ADDRESS")
       ->capture_default_str();
   AddLimits(app, config.limits);
   app.add_option("--lame-duck-ms", config.lame_duck,
-                 "On SIGTERM: time for health checks to notice before the listener closes")
+                 "On SIGTERM: time for a balancer's health checks to notice")
+      ->check(time)
       ->capture_default_str();
   app.add_option("--drain-ms", config.drain, "On SIGTERM: time for running calls to finish")
+      ->check(time)
       ->capture_default_str();
   app.add_option("--log-level", config.log_level, "What goes to standard error, as JSON lines")
       ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))

@@ -13,9 +13,9 @@ namespace bccskel::server {
 struct ServerConfig {
   std::string listen = "127.0.0.1:50051";  // HOST:PORT, port 0 for any free one, or unix:PATH
   JobPool::Limits limits;
-  std::chrono::milliseconds lame_duck{500};  // between "not serving" and the listener's end
-  std::chrono::milliseconds drain{25'000};   // for running calls after that
-  std::string log_level = "info";            // trace, debug, info, warning, error, off
+  std::chrono::milliseconds lame_duck{0};   // at least so long "not serving" before the end
+  std::chrono::milliseconds drain{25'000};  // for running calls after that
+  std::string log_level = "info";           // trace, debug, info, warning, error, off
 };
 
 // Everything from what this machine has: its threads, three quarters of its memory.

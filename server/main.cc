@@ -38,7 +38,7 @@ int Print(const ExitRequest& exit) {
 int Serve(const ServerConfig& config) {
   const sigset_t signals = StopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  StartLogging(config.log_level);
+  const Logging logging(config.log_level);
   const auto server = Server::Start(config);
   if (!server.ok()) {
     std::fprintf(stderr, "bccskel-server: %s\n", std::string(server.status().message()).c_str());

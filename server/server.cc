@@ -5,7 +5,9 @@
 #include <grpcpp/health_check_service_interface.h>
 
 #include <chrono>
+#include <cstring>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -21,6 +23,8 @@ namespace {
 constexpr char kUnixPrefix[] = "unix:";
 // Clients may ping every 10 s, also between calls; more often than that is abuse.
 constexpr int kMinPingIntervalMs = 10'000;
+// For calls that hold no job, such as a watched health status, to end by themselves.
+constexpr std::chrono::milliseconds kLastReplies(100);
 
 void EnableHealthAndReflection() {
   static std::once_flag once;
@@ -38,8 +42,15 @@ void Configure(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
 }
 
+// Nothing where it is no Unix socket.
+std::optional<std::string> SocketPathOf(const std::string& listen) {
+  if (listen.rfind(kUnixPrefix, 0) != 0) return std::nullopt;
+  const std::string path = listen.substr(std::strlen(kUnixPrefix));
+  return path.rfind("//", 0) == 0 ? path.substr(2) : path;  // unix:/path or unix:///path
+}
+
 std::string AddressOf(const std::string& listen, int port) {
-  if (listen.rfind(kUnixPrefix, 0) == 0) return listen;
+  if (SocketPathOf(listen).has_value()) return listen;
   return absl::StrCat(listen.substr(0, listen.rfind(':')), ":", port);
 }
 
@@ -97,6 +108,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
 }
 
 absl::Status Server::Listen() {
+  BCCSKEL_RETURN_IF_ERROR(LockSocket());
   listener_ = std::make_unique<Listener>(jobs_, config_.limits);
   const int port = listener_->Listen(config_.listen);
   if (port == 0) {
@@ -107,12 +119,21 @@ absl::Status Server::Listen() {
   return absl::OkStatus();
 }
 
+absl::Status Server::LockSocket() {
+  const std::optional<std::string> path = SocketPathOf(config_.listen);
+  if (!path.has_value()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(SocketLock lock, SocketLock::Take(*path));
+  socket_lock_.emplace(std::move(lock));
+  return absl::OkStatus();
+}
+
 void Server::Drain() {
   Log(LogLevel::kInfo, "draining", {{"jobs", int64_t{jobs_.admission_usage().places}}});
   listener_->SetServing(Listener::Serving::kNo);
   jobs_.StopAdmitting();
   std::this_thread::sleep_for(config_.lame_duck);
-  listener_->Shutdown(config_.drain);
+  jobs_.WaitUntilEmpty(config_.drain);
+  listener_->Shutdown(kLastReplies);
   Log(LogLevel::kInfo, "drained");
 }
 

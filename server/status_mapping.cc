@@ -12,14 +12,9 @@ namespace {
 // A job frees its place within seconds at most times; clients add jitter and back off.
 const absl::Duration kRetryDelay = absl::Seconds(1);
 
-// The reason of an error that has none of its own. Handlers name theirs; what is left comes from a
-// job, where a wrong argument is a wrong volume.
+// The reason of an error that has none of its own.
 const char* DefaultReason(absl::StatusCode code) {
   switch (code) {
-    case absl::StatusCode::kInvalidArgument:
-      return "VOLUME_INVALID";
-    case absl::StatusCode::kResourceExhausted:
-      return "LIMIT_EXCEEDED";
     case absl::StatusCode::kUnavailable:
       return "UNAVAILABLE";
     case absl::StatusCode::kCancelled:
@@ -50,6 +45,12 @@ absl::Status WithRefusal(absl::Status status, Refusal refusal) {
   return status;
 }
 
+// Handlers name their reasons; a wrong argument that has none was found by a job, in the volume's
+// bytes.
+absl::Status WithVolumeFault(absl::Status status) {
+  return wire::WithField(wire::WithReason(std::move(status), "VOLUME_INVALID"), "chunk.data");
+}
+
 // What a job found too large only while decoding: the number of bricks.
 absl::Status WithJobLimit(absl::Status status) {
   return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
@@ -63,6 +64,7 @@ absl::Status WithAllDetails(const absl::Status& status) {
   }
   if (wire::ErrorInfoOf(detailed).has_value()) return detailed;
   if (absl::IsResourceExhausted(status)) return WithJobLimit(std::move(detailed));
+  if (absl::IsInvalidArgument(status)) return WithVolumeFault(std::move(detailed));
   return wire::WithReason(std::move(detailed), DefaultReason(status.code()));
 }
 

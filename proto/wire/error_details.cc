@@ -1,12 +1,14 @@
 #include "proto/wire/error_details.h"
 
 #include "absl/strings/cord.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 
 namespace bccskel::wire {
 namespace {
 
 constexpr char kDomain[] = "bccskel";
+constexpr char kTypeUrlPrefix[] = "type.googleapis.com/";
 constexpr char kErrorInfo[] = "type.googleapis.com/google.rpc.ErrorInfo";
 constexpr char kBadRequest[] = "type.googleapis.com/google.rpc.BadRequest";
 constexpr char kQuotaFailure[] = "type.googleapis.com/google.rpc.QuotaFailure";
@@ -99,6 +101,7 @@ v1::Status ToRpcStatus(const absl::Status& status) {
   message.set_code(static_cast<int32_t>(status.code()));
   message.set_message(CutMessage(std::string(status.message())));
   status.ForEachPayload([&message](absl::string_view type_url, const absl::Cord& payload) {
+    if (!absl::StartsWith(type_url, kTypeUrlPrefix)) return;
     google::protobuf::Any& detail = *message.add_details();
     detail.set_type_url(std::string(type_url));
     detail.set_value(std::string(payload));

@@ -37,7 +37,7 @@ std::optional<v1::QuotaFailure> QuotaFailureOf(const absl::Status& status);
 std::optional<absl::Duration> RetryDelayOf(const absl::Status& status);
 
 // The form of an error in the trailer `grpc-status-details-bin`. Code and message are those of the
-// status, the message cut to kMaxErrorMessageBytes.
+// status, the message cut to kMaxErrorMessageBytes. Payloads that are no messages stay behind.
 v1::Status ToRpcStatus(const absl::Status& status);
 absl::Status FromRpcStatus(const v1::Status& status);
 

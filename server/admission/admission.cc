@@ -62,6 +62,11 @@ void Admission::StopAdmitting() {
   admitting_ = false;
 }
 
+void Admission::WaitUntilEmpty(std::chrono::milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  empty_.wait_for(lock, timeout, [this] { return usage_ == Usage(); });
+}
+
 Admission::Usage Admission::usage() const {
   std::lock_guard lock(mutex_);
   return usage_;
@@ -71,6 +76,7 @@ void Admission::GiveBack(const Usage& part) {
   std::lock_guard lock(mutex_);
   usage_.bytes -= part.bytes;
   usage_.places -= part.places;
+  if (usage_ == Usage()) empty_.notify_all();
 }
 
 }  // namespace bccskel::server

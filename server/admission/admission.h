@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
 #define BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <utility>
@@ -55,12 +57,14 @@ class Admission {
   explicit Admission(const Limits& limits) : limits_(limits) {}
 
   // Errors: a Refusal: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
-  // or
-  //         kDraining.
+  //         or kDraining.
   absl::StatusOr<Ticket> Admit(uint64_t bytes);
 
   // From now on every job is refused as kDraining.
   void StopAdmitting();
+
+  // Returns when no ticket holds anything, or when the time is over.
+  void WaitUntilEmpty(std::chrono::milliseconds timeout) const;
 
   Usage usage() const;
 
@@ -70,6 +74,7 @@ class Admission {
 
   const Limits limits_;
   mutable std::mutex mutex_;
+  mutable std::condition_variable empty_;
   Usage usage_;            // guarded by mutex_
   bool admitting_ = true;  // guarded by mutex_
 };

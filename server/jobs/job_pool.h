@@ -2,6 +2,7 @@
 #define BCCSKEL_SERVER_JOBS_JOB_POOL_H_
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -32,6 +33,10 @@ class JobPool : public JobRunner {
 
   // New jobs are refused; those that were let in go on.
   void StopAdmitting() { admission_.StopAdmitting(); }
+  // Returns when no job is left and every result is let go of, or when the time is over.
+  void WaitUntilEmpty(std::chrono::milliseconds timeout) const {
+    admission_.WaitUntilEmpty(timeout);
+  }
 
   ComputeQueue::Usage compute_usage() const { return compute_.usage(); }
   Admission::Usage admission_usage() const { return admission_.usage(); }

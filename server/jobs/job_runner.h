@@ -60,7 +60,9 @@ class Job {
   // No more bytes come. `expected` is the digest that the sender found, if it found one.
   // Needs: as Append(); called once, after the last Append().
   virtual void FinishVolume(std::optional<Sha256Digest> expected) = 0;
-  // The job ends with CANCELLED, unless it has ended already.
+  // Whatever the job is doing, it soon ends, with CANCELLED unless it has failed already, and gives
+  // back its memory, threads and place. Changes nothing once the job has ended; when both happen at
+  // the same moment, one of them comes first and OnEnd() says which.
   virtual void Cancel() = 0;
 };
 

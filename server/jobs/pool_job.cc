@@ -137,11 +137,14 @@ void PoolJob::Run(int threads) {
 
 void PoolJob::End(absl::StatusOr<JobResult> result) {
   std::shared_ptr<JobListener> listener;
+  bool cancelled = false;
   {
     std::lock_guard lock(mutex_);
     phase_ = Phase::kEnded;
     listener = std::move(listener_);
+    cancelled = stop_.stop_requested();
   }
+  if (cancelled && result.ok()) result = StopStatus();  // the last stage did not see it in time
   volume_.reset();
   intake_.reset();
   if (result.ok()) {

@@ -1,12 +1,19 @@
 #include "server/logging/json_log.h"
 
+#include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace bccskel::server {
 namespace {
+
+constexpr size_t kQueuedLines = 8192;
+
+// Of the Logging that lives now.
+std::atomic<spdlog::logger*> current_logger = nullptr;
 
 spdlog::level::level_enum SpdlogLevel(LogLevel level) {
   switch (level) {
@@ -46,23 +53,40 @@ std::string JsonValue(const LogField& field) {
 
 }  // namespace
 
-void StartLogging(const std::string& level) {
-  auto logger = spdlog::stderr_logger_mt("bccskel-server");
-  logger->set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l",%v})",
-                      spdlog::pattern_time_type::utc);
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::info);
-  spdlog::set_default_logger(std::move(logger));
+class Logging::Writer {
+ public:
+  explicit Writer(const std::string& level)
+      : thread_(std::make_shared<spdlog::details::thread_pool>(kQueuedLines, 1)),
+        logger_(std::make_shared<spdlog::async_logger>(
+            "bccskel-server", std::make_shared<spdlog::sinks::stderr_sink_mt>(), thread_,
+            spdlog::async_overflow_policy::overrun_oldest)) {
+    logger_->set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l",%v})",
+                         spdlog::pattern_time_type::utc);
+    logger_->set_level(spdlog::level::from_str(level));
+  }
+
+  spdlog::logger& logger() { return *logger_; }
+
+ private:
+  std::shared_ptr<spdlog::details::thread_pool> thread_;  // its end writes what is queued
+  std::shared_ptr<spdlog::async_logger> logger_;
+};
+
+Logging::Logging(const std::string& level) : writer_(std::make_unique<Writer>(level)) {
+  current_logger = &writer_->logger();
 }
 
+Logging::~Logging() { current_logger = nullptr; }
+
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
+  spdlog::logger* const logger = current_logger;
   const spdlog::level::level_enum spdlog_level = SpdlogLevel(level);
-  if (!spdlog::should_log(spdlog_level)) return;
+  if (logger == nullptr || !logger->should_log(spdlog_level)) return;
   std::string line = fmt::format("\"event\":{}", JsonString(event));
   for (const LogField& field : fields) {
     line += fmt::format(",{}:{}", JsonString(field.name), JsonValue(field));
   }
-  spdlog::log(spdlog_level, "{}", line);
+  logger->log(spdlog_level, "{}", line);
 }
 
 std::string JsonString(std::string_view text) {

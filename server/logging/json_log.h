@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,8 +20,21 @@ struct LogField {
   std::variant<int64_t, double, std::string> value;
 };
 
-// `level` as on the command line: trace, debug, info, warning, error, off.
-void StartLogging(const std::string& level);
+// While it lives, lines are written, by a thread of its own: nobody who logs ever waits for a slow
+// reader of standard error. Of lines that come faster than they are read, the oldest are dropped.
+// There is one at a time; without it nothing is logged. Its end writes what is left.
+class Logging {
+ public:
+  // `level` as on the command line: trace, debug, info, warning, error, off.
+  explicit Logging(const std::string& level);
+  ~Logging();
+  Logging(const Logging&) = delete;
+  Logging& operator=(const Logging&) = delete;
+
+ private:
+  class Writer;  // keeps spdlog out of this header
+  std::unique_ptr<Writer> writer_;
+};
 
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 

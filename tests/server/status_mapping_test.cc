@@ -1,0 +1,90 @@
+#include "server/status_mapping.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "proto/wire/error_details.h"
+#include "server/admission/refusal.h"
+
+namespace bccskel::server {
+namespace {
+
+// As a client reads it back.
+absl::Status Back(const grpc::Status& status) {
+  v1::Status details;
+  EXPECT_TRUE(details.ParseFromString(status.error_details()));
+  EXPECT_EQ(details.code(), static_cast<int>(status.error_code()));
+  EXPECT_EQ(details.message(), status.error_message());
+  return wire::FromRpcStatus(details);
+}
+
+TEST(StatusMapping, OkStaysOk) { EXPECT_TRUE(ToGrpcStatus(absl::OkStatus()).ok()); }
+
+TEST(StatusMapping, EveryCodeKeepsItsNumberAndGetsAReason) {
+  for (int code = 1; code <= 16; ++code) {
+    const absl::Status status(static_cast<absl::StatusCode>(code), "why");
+    const grpc::Status mapped = ToGrpcStatus(status);
+    EXPECT_EQ(static_cast<int>(mapped.error_code()), code);
+    EXPECT_EQ(mapped.error_message(), "why");
+    const auto info = wire::ErrorInfoOf(Back(mapped));
+    ASSERT_TRUE(info.has_value()) << code;
+    EXPECT_FALSE(info->reason().empty());
+    EXPECT_EQ(info->domain(), "bccskel");
+  }
+}
+
+TEST(StatusMapping, AHandlersDetailsStayAsTheyAre) {
+  const absl::Status back = Back(ToGrpcStatus(wire::InvalidField("config.threads", "is -1")));
+  EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "FIELD_INVALID");
+  EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "config.threads");
+}
+
+TEST(StatusMapping, AJobsWrongArgumentIsAWrongVolume) {
+  const absl::Status back = Back(ToGrpcStatus(absl::InvalidArgumentError("no magic number")));
+  EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "VOLUME_INVALID");
+  EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "chunk.data");
+  EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).description(), "no magic number");
+}
+
+TEST(StatusMapping, WhatIsOverALimitNamesTheLimit) {
+  const struct {
+    Refusal refusal;
+    const char* limit;
+  } cases[] = {{Refusal::kVolumeTooLarge, "max_volume_bytes"},
+               {Refusal::kTooManyBricks, "max_bricks"},
+               {Refusal::kTooMuchMemory, "max_admitted_bytes"}};
+  for (const auto& [refusal, limit] : cases) {
+    const grpc::Status mapped = ToGrpcStatus(Refuse(refusal, "9 of 8"));
+    EXPECT_EQ(mapped.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+    EXPECT_EQ(wire::QuotaFailureOf(Back(mapped))->violations(0).subject(), limit);
+    EXPECT_FALSE(wire::RetryDelayOf(Back(mapped)).has_value()) << "trying again is of no use";
+  }
+}
+
+TEST(StatusMapping, WhatIsFullNowSaysWhenToTryAgain) {
+  const struct {
+    Refusal refusal;
+    const char* reason;
+  } cases[] = {{Refusal::kQueueFull, "QUEUE_FULL"},
+               {Refusal::kMemoryBusy, "MEMORY_BUSY"},
+               {Refusal::kDraining, "DRAINING"}};
+  for (const auto& [refusal, reason] : cases) {
+    const grpc::Status mapped = ToGrpcStatus(Refuse(refusal, "later"));
+    EXPECT_EQ(mapped.error_code(), grpc::StatusCode::UNAVAILABLE);
+    EXPECT_EQ(wire::ErrorInfoOf(Back(mapped))->reason(), reason);
+    EXPECT_GT(wire::RetryDelayOf(Back(mapped)).value_or(absl::ZeroDuration()),
+              absl::ZeroDuration());
+  }
+}
+
+TEST(StatusMapping, LongMessagesAreCutAndPayloadsOfOurOwnStayHere) {
+  absl::Status status = absl::InternalError(std::string(100'000, 'x'));
+  status.SetPayload("bccskel.server/secret", absl::Cord("inner"));
+  const grpc::Status mapped = ToGrpcStatus(status);
+  EXPECT_EQ(mapped.error_message().size(), wire::kMaxErrorMessageBytes);
+  EXPECT_EQ(mapped.error_details().find("secret"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bccskel::server

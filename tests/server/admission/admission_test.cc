@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -81,6 +83,19 @@ TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
 TEST(Refusal, IsNotFoundInOtherErrors) {
   EXPECT_EQ(RefusalOf(absl::UnavailableError("queue full")), std::nullopt);
   EXPECT_EQ(RefusalOf(absl::OkStatus()), std::nullopt);
+}
+
+TEST(Admission, WaitsUntilTheLastTicketIsGone) {
+  Admission admission({.bytes = 100, .places = 2});
+  admission.WaitUntilEmpty(std::chrono::hours(1));
+  auto ticket = admission.Admit(7);
+  ASSERT_TRUE(ticket.ok());
+  admission.WaitUntilEmpty(std::chrono::milliseconds(1));
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 7, .places = 1}));
+  ticket->LeavePlace();
+  const std::jthread releaser([&ticket] { *ticket = Ticket(); });
+  admission.WaitUntilEmpty(std::chrono::hours(1));
+  EXPECT_EQ(admission.usage(), Usage());
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -27,8 +29,15 @@ class Listener : public JobListener {
  public:
   // Runs on the job's thread with every shell; a test that blocks in it holds the job at work.
   std::function<void()> on_shell = [] {};
+  // The same with every piece of the volume that is decoded.
+  std::function<void()> on_bytes_consumed = [] {};
 
-  void OnBytesConsumed() override { consumed_.release(); }
+  void OnBytesConsumed() override {
+    on_bytes_consumed();
+    std::lock_guard lock(mutex_);
+    ++pieces_consumed_;
+    changed_.notify_all();
+  }
   void OnShell(const exec::ShellProgress&, std::chrono::nanoseconds) override { on_shell(); }
   void OnEnd(absl::StatusOr<JobResult> result) override {
     std::lock_guard lock(mutex_);
@@ -37,7 +46,11 @@ class Listener : public JobListener {
     changed_.notify_all();
   }
 
-  void WaitForRoom() { consumed_.acquire(); }
+  // Until so many pieces are decoded, or the job has ended.
+  void WaitForRoom(int pieces) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return pieces_consumed_ >= pieces || result_.has_value(); });
+  }
   absl::StatusOr<JobResult>& WaitForEnd() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return result_.has_value(); });
@@ -45,9 +58,9 @@ class Listener : public JobListener {
   }
 
  private:
-  std::counting_semaphore<1000> consumed_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
+  int pieces_consumed_ = 0;
   std::optional<absl::StatusOr<JobResult>> result_;
 };
 
@@ -86,10 +99,17 @@ void WaitForIdle(const JobPool& pool) {
   while (pool.compute_usage() != kIdle) std::this_thread::yield();
 }
 
+// A job's last thread lets go of the listener, and with it of the result, after it told the end.
+void WaitUntilAllIsGivenBack(const JobPool& pool) {
+  WaitForIdle(pool);
+  while (pool.admission_usage() != Admission::Usage()) std::this_thread::yield();
+}
+
 void Upload(Job& job, Listener& listener, const std::string& bytes) {
+  int pieces = 0;
   for (size_t offset = 0; offset < bytes.size(); offset += 10'000) {
     job.Append(bytes.substr(offset, 10'000));
-    listener.WaitForRoom();
+    listener.WaitForRoom(++pieces);
   }
   job.FinishVolume(Sha256Of(bytes));
 }
@@ -174,14 +194,14 @@ TEST(JobPool, AResultKeepsItsMemoryAdmittedButNoPlace) {
     EXPECT_GT(pool.admission_usage().bytes, 0u);
     EXPECT_LT(pool.admission_usage().bytes, uint64_t{1} << 20);
   }
-  EXPECT_EQ(pool.admission_usage(), Admission::Usage());
+  WaitUntilAllIsGivenBack(pool);
 }
 
 TEST(JobPool, CancelWhileReceivingFreesThePlace) {
   JobPool pool(RoomyLimits());
   const Started started = Start(pool, SmallTorus());
   started.job->Append(SmallTorus().bytes.substr(0, 100));
-  started.listener->WaitForRoom();
+  started.listener->WaitForRoom(1);
   started.job->Cancel();
   EXPECT_EQ(started.listener->WaitForEnd().status().code(), absl::StatusCode::kCancelled);
   EXPECT_EQ(pool.admission_usage(), Admission::Usage());
@@ -245,21 +265,68 @@ TEST(JobPool, CancelAfterTheEndChangesNothing) {
   EXPECT_TRUE(started.listener->WaitForEnd().ok());
 }
 
+// Cancels its job with the `moment`-th piece of news about it.
+class CancellingListener : public Listener {
+ public:
+  explicit CancellingListener(int moment) {
+    on_shell = on_bytes_consumed = [this, moment] {
+      if (news_++ == moment) job->Cancel();
+    };
+  }
+  int news() const { return news_; }
+
+  std::shared_ptr<Job> job;  // set before there are news
+
+ private:
+  std::atomic<int> news_ = 0;
+};
+
+absl::Status EndWhenCancelledAt(JobPool& pool, int moment) {
+  const auto listener = std::make_shared<CancellingListener>(moment);
+  listener->job = *pool.Start(SmallTorus().request, listener);
+  Upload(*listener->job, *listener, SmallTorus().bytes);
+  const absl::Status end = listener->WaitForEnd().status();
+  EXPECT_EQ(end.ok(), listener->news() <= moment) << "moment " << moment;
+  return end;
+}
+
+TEST(JobPool, CancelWithAnyPieceOfNewsEndsAJobAsCancelled) {
+  JobPool pool(RoomyLimits());
+  int moment = 0;
+  absl::Status end = EndWhenCancelledAt(pool, moment);
+  for (; !end.ok(); end = EndWhenCancelledAt(pool, ++moment)) {
+    EXPECT_EQ(end.code(), absl::StatusCode::kCancelled) << "moment " << moment;
+  }
+  EXPECT_GT(moment, 10);
+  WaitUntilAllIsGivenBack(pool);
+}
+
+std::chrono::nanoseconds WholeTime(JobPool& pool) {
+  const auto start = std::chrono::steady_clock::now();
+  const Started started = Start(pool, SmallTorus());
+  Upload(*started.job, *started.listener, SmallTorus().bytes);
+  EXPECT_TRUE(started.listener->WaitForEnd().ok());
+  return std::chrono::steady_clock::now() - start;
+}
+
+absl::Status EndWhenCancelledAfter(JobPool& pool, std::chrono::nanoseconds delay) {
+  const Started started = Start(pool, SmallTorus());
+  const std::jthread canceller([job = started.job, delay] {
+    std::this_thread::sleep_for(delay);
+    job->Cancel();
+  });
+  Upload(*started.job, *started.listener, SmallTorus().bytes);
+  return started.listener->WaitForEnd().status();
+}
+
 TEST(JobPool, CancelAtAnyMomentEndsAJobExactlyOnce) {
   JobPool pool(RoomyLimits());
-  for (int delay_us = 0; delay_us < 4000; delay_us += 100) {
-    const Started started = Start(pool, SmallTorus());
-    std::jthread canceller([job = started.job, delay_us] {
-      std::this_thread::sleep_for(std::chrono::microseconds(delay_us));
-      job->Cancel();
-    });
-    started.job->Append(SmallTorus().bytes);
-    started.job->FinishVolume(std::nullopt);  // ignored while the bytes are being decoded
-    const auto& result = started.listener->WaitForEnd();
-    EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
+  const std::chrono::nanoseconds whole = WholeTime(pool);
+  for (int n = 0; n < 60; ++n) {
+    const absl::Status end = EndWhenCancelledAfter(pool, whole * n / 40);
+    EXPECT_TRUE(end.ok() || absl::IsCancelled(end)) << end;
   }
-  WaitForIdle(pool);
-  EXPECT_EQ(pool.admission_usage(), Admission::Usage());
+  WaitUntilAllIsGivenBack(pool);
 }
 
 TEST(JobPool, APassedDeadlineIsDeadlineExceeded) {

@@ -1,0 +1,202 @@
+"""The server as a process: flags, signals, sockets, what it prints, what memory it takes."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import grpc
+
+import server_process
+from server_process import ServerProcess, run_to_end
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+# The example's imports, which the stubs made possible.
+service, service_grpc, volume_pb2 = example.service, example.service_grpc, example.volume_pb2
+
+
+def torus_loops(address):
+    with grpc.insecure_channel(address) as channel:
+        grpc.channel_ready_future(channel).result(server_process.TIMEOUT_S)
+        return example.skeletonize(channel, example.torus()).summary.certificate.skeleton.loops
+
+
+class OpenCall:
+    """A call that was accepted and sends nothing before it is told to."""
+
+    def __init__(self, address):
+        self.channel = grpc.insecure_channel(address)
+        self.go_on = threading.Event()
+        stub = service_grpc.SkeletonizationServiceStub(self.channel)
+        self.replies = stub.Skeletonize(self.requests(), timeout=server_process.TIMEOUT_S)
+        assert next(self.replies).HasField("accepted")
+
+    def requests(self):
+        messages = example.requests(example.torus(), 1.0)
+        yield next(messages)
+        self.go_on.wait(server_process.TIMEOUT_S)
+        yield from messages
+
+    def finish(self):
+        self.go_on.set()
+        return list(self.replies)[-1]
+
+    def close(self):
+        self.go_on.set()
+        self.channel.close()
+
+
+class FlagsTest(unittest.TestCase):
+    def test_a_bad_flag_gives_code_2_and_a_message(self):
+        for flags in (["--no-such-flag"], ["--threads", "0"], ["--listen", "127.0.0.1:99999"],
+                      ["--log-level", "loud"], ["surplus"]):
+            ended = run_to_end(*flags)
+            self.assertEqual(ended.returncode, 2, flags)
+            self.assertIn(flags[0], ended.stderr)
+            self.assertEqual(ended.stdout, "")
+
+    def test_help_and_version_are_no_errors(self):
+        for flag in ("--help", "--version"):
+            ended = run_to_end(flag)
+            self.assertEqual(ended.returncode, 0)
+            self.assertIn("bccskel-server", ended.stdout)
+
+    def test_an_address_that_cannot_be_listened_on_gives_code_1(self):
+        for address in ("203.0.113.1:1", "unix:/no/such/folder/socket"):
+            ended = run_to_end("--listen", address)
+            self.assertEqual(ended.returncode, 1, address)
+            self.assertIn("bccskel-server: cannot", ended.stderr)
+
+    def test_the_log_is_json_lines_and_standard_output_the_address(self):
+        with ServerProcess() as server:
+            self.assertRegex(server.greeting, r"^listening on 127\.0\.0\.1:[1-9][0-9]*\n$")
+            self.assertEqual(torus_loops(server.address), 1)
+            self.assertEqual(server.stop(), 0)
+            self.assertEqual(server.process.stdout.read(), "")
+            events = [json.loads(line)["event"] for line in server.log_text().splitlines()]
+        self.assertEqual(events, ["listening", "job accepted", "call ended", "draining", "drained"])
+
+    def test_the_log_level_silences(self):
+        with ServerProcess("--log-level", "error") as server:
+            self.assertEqual(torus_loops(server.address), 1)
+            self.assertEqual(server.stop(), 0)
+            self.assertEqual(server.log_text(), "")
+
+
+class SignalTest(unittest.TestCase):
+    def test_sigterm_and_sigint_end_an_idle_server_well(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            with ServerProcess() as server:
+                self.assertEqual(server.stop(number), 0)
+
+    def test_a_running_job_is_finished_after_sigterm(self):
+        with ServerProcess() as server:
+            call = OpenCall(server.address)
+            server.process.send_signal(signal.SIGTERM)
+            time.sleep(0.2)  # only makes the wrong order likelier to show
+            self.assertTrue(call.finish().HasField("summary"))
+            self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
+            call.close()
+
+    def test_a_job_that_does_not_end_is_cut_off_after_the_drain_time(self):
+        with ServerProcess("--drain-ms", "100") as server:
+            call = OpenCall(server.address)
+            self.assertEqual(server.stop(), 0)
+            with self.assertRaises(grpc.RpcError) as raised:
+                list(call.replies)
+            self.assertEqual(raised.exception.code(), grpc.StatusCode.UNAVAILABLE)
+            call.close()
+
+
+class UnixSocketTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name) / "server.sock"
+        self.listen = f"unix:{self.path}"
+
+    def test_a_clean_end_leaves_no_file(self):
+        with ServerProcess(listen=self.listen) as server:
+            self.assertEqual(server.address, self.listen)
+            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(server.stop(), 0)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+    def test_after_a_kill_the_next_server_takes_the_same_path(self):
+        for _ in range(3):
+            with ServerProcess(listen=self.listen) as server:
+                self.assertEqual(torus_loops(self.listen), 1)
+                self.assertEqual(server.stop(signal.SIGKILL), -signal.SIGKILL)
+            self.assertTrue(self.path.exists())
+        with ServerProcess(listen=self.listen) as server:
+            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(server.stop(), 0)
+
+    def test_two_servers_do_not_share_a_path(self):
+        with ServerProcess(listen=self.listen) as first:
+            second = run_to_end("--listen", self.listen)
+            self.assertEqual(second.returncode, 1)
+            self.assertIn("another server listens", second.stderr)
+            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(first.stop(), 0)
+
+
+VANISHING_CALLER = """
+import os, signal, sys
+import grpc
+sys.path[:0] = [sys.argv[2], sys.argv[3]]
+import skeletonize
+def half():
+    for number, message in enumerate(skeletonize.requests(skeletonize.torus(90.0, 30.0), 1.0)):
+        if number == 2:
+            os.kill(os.getpid(), signal.SIGKILL)
+        yield message
+stub = skeletonize.service_grpc.SkeletonizationServiceStub(grpc.insecure_channel(sys.argv[1]))
+list(stub.Skeletonize(half()))
+"""
+
+
+class LoadTest(unittest.TestCase):
+    def test_the_place_of_a_caller_who_is_killed_is_free_again(self):
+        with ServerProcess("--max-jobs", "1", "--max-queue", "0") as server:
+            caller = subprocess.run(
+                [sys.executable, "-c", VANISHING_CALLER, server.address, STUBS.name,
+                 server_process.SOURCE / "client/examples"], check=False,
+                timeout=server_process.TIMEOUT_S)
+            self.assertEqual(caller.returncode, -signal.SIGKILL)
+            while True:  # the test's time limit ends it
+                try:
+                    self.assertEqual(torus_loops(server.address), 1)
+                    break
+                except grpc.RpcError as error:
+                    self.assertEqual(example.error_reason(error), "QUEUE_FULL")
+
+    def test_a_declared_giant_is_refused_before_memory_is_taken(self):
+        with ServerProcess("--max-memory-bytes", "1GB") as server:
+            self.assertEqual(torus_loops(server.address), 1)
+            before = server.peak_bytes()
+            with grpc.insecure_channel(server.address) as channel:
+                for cells, bricks in ((4_000_000, 0), (4_000, 0), (4_000_000, 1 << 23)):
+                    words = (cells + 31) // 32
+                    declaration = volume_pb2.VolumeDeclaration(
+                        encoding=volume_pb2.VOLUME_ENCODING_RAW_PLANES,
+                        extent=volume_pb2.LatticeExtent(nx=cells, ny=cells, nz=cells),
+                        size_bytes=8 * cells * cells * words, max_bricks=bricks)
+                    with self.assertRaises(grpc.RpcError) as raised:
+                        list(service_grpc.SkeletonizationServiceStub(channel).Skeletonize(iter(
+                            [service.SkeletonizeRequest(
+                                config=service.SkeletonizeConfig(volume=declaration))])))
+                    self.assertEqual(raised.exception.code(), grpc.StatusCode.RESOURCE_EXHAUSTED)
+            self.assertLess(server.peak_bytes() - before, 16 << 20)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,121 @@
+"""The documented Python client against a server: the interface from the .proto files alone."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import grpc
+import numpy as np
+
+import server_process
+from server_process import ServerProcess
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+
+
+class ExampleTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = ServerProcess()
+        cls.channel = grpc.insecure_channel(cls.server.address)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.channel.close()
+        cls.server.__exit__()
+
+    def skeletonize(self, cells, **kwargs):
+        return example.skeletonize(self.channel, cells, **kwargs)
+
+    def check_graph(self, skeleton, cells):
+        """What the interface promises about any graph."""
+        betti = skeleton.summary.certificate.skeleton
+        self.assertEqual(skeleton.summary.certificate.input, betti)
+        self.assertEqual(skeleton.summary.object_points, int(cells.sum()))
+        # Only closed surfaces hold loops of their own, and these objects have none.
+        self.assertEqual(betti.loops,
+                         len(skeleton.ends) - len(skeleton.node) + betti.components)
+        self.assertEqual(len(skeleton.summary.sha256), 32)
+        for (source, target), path, radii in zip(skeleton.ends, skeleton.paths, skeleton.radii):
+            self.assertTrue((path[0] == skeleton.node[source]).all())
+            self.assertTrue((path[-1] == skeleton.node[target]).all())
+            steps = np.abs(np.diff(path, axis=0)).sum(axis=1)
+            self.assertTrue(np.isin(steps, (2, 3)).all())
+            self.assertTrue((radii > 0).all())
+            i, j, k = (path // 2).T
+            self.assertTrue(cells[path[:, 0] % 2, i, j, k].all(), "a point is not in the object")
+
+    def test_a_torus_has_one_loop(self):
+        cells = example.torus()
+        skeleton = self.skeletonize(cells)
+        self.check_graph(skeleton, cells)
+        self.assertEqual(skeleton.summary.certificate.skeleton.loops, 1)
+        # The tube's radius is 8 lattice units, 4 cells.
+        self.assertAlmostEqual(float(np.median(np.concatenate(skeleton.radii))), 4.0, delta=0.6)
+
+    def test_axes_are_not_mixed_up(self):
+        cells = np.zeros((2, 40, 12, 70), dtype=bool)
+        cells[:, 3:37, 4:8, 30:34] = True  # a bar along x
+        cells[:, 3:7, 4:8, 5:66] = True    # a bar along z
+        skeleton = self.skeletonize(cells)
+        self.check_graph(skeleton, cells)
+        points = np.concatenate(skeleton.paths)
+        extent = points.max(axis=0) - points.min(axis=0)
+        self.assertGreater(extent[2], 90)
+        self.assertTrue(50 < extent[0] < 80 and extent[1] < 12, extent)
+
+    def test_noise_of_many_parts(self):
+        cells = np.random.default_rng(3).random((2, 9, 14, 45)) < 0.06
+        skeleton = self.skeletonize(cells)
+        self.assertEqual(skeleton.summary.certificate.input,
+                         skeleton.summary.certificate.skeleton)
+        self.assertGreater(skeleton.summary.certificate.skeleton.components, 50)
+
+    def test_an_empty_volume_gives_an_empty_graph(self):
+        skeleton = self.skeletonize(np.zeros((2, 3, 3, 3), dtype=bool))
+        self.assertEqual((len(skeleton.node), len(skeleton.ends), skeleton.paths), (0, 0, []))
+
+    def test_progress_comes_and_spacing_scales_radii(self):
+        shells = []
+        fine = self.skeletonize(example.torus(), spacing=0.5,
+                                on_progress=lambda progress: shells.append(progress.shell))
+        coarse = self.skeletonize(example.torus(), spacing=1.0)
+        self.assertEqual(shells, sorted(set(shells)))
+        self.assertEqual(shells[-1], fine.summary.last_shell)
+        self.assertEqual(fine.summary.sha256, coarse.summary.sha256)
+        np.testing.assert_allclose(np.concatenate(coarse.radii), 2 * np.concatenate(fine.radii))
+
+    def test_the_reason_of_an_error_can_be_read(self):
+        with self.assertRaises(grpc.RpcError) as raised:
+            self.skeletonize(example.torus(), spacing=-1.0)
+        self.assertEqual(raised.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
+        self.assertEqual(example.error_reason(raised.exception), "FIELD_INVALID")
+        self.assertIn("spacing", raised.exception.details())
+
+    def run_script(self, *arguments):
+        return subprocess.run(
+            [sys.executable, server_process.SOURCE / "client/examples/skeletonize.py", *arguments],
+            env={**os.environ, "PYTHONPATH": STUBS.name}, capture_output=True, text=True,
+            check=False, timeout=server_process.TIMEOUT_S)
+
+    def test_the_script_runs_as_documented(self):
+        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
+            np.save(file, example.torus(30.0, 9.0))
+            file.flush()
+            ended = self.run_script(file.name, "--server", self.server.address)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn("1 components, 1 loops, 0 cavities", ended.stdout)
+        self.assertIn("edge 0 - 0:", ended.stdout)
+
+    def test_the_script_says_why_it_failed(self):
+        ended = self.run_script("--server", self.server.address, "--spacing", "-1")
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("INVALID_ARGUMENT (FIELD_INVALID)", ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

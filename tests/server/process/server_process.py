@@ -1,0 +1,74 @@
+"""bccskel-server as a process, and the Python code of the interface, for the tests beside this."""
+
+import importlib.util
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+
+BINARY = os.environ["BCCSKEL_SERVER"]
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+TIMEOUT_S = 120
+
+
+class ServerProcess:
+    """Listens when constructed. The `with` block kills what is left of it."""
+
+    def __init__(self, *flags, listen="127.0.0.1:0"):
+        self.log = tempfile.TemporaryFile("w+")
+        self.process = subprocess.Popen([BINARY, "--listen", listen, *flags],
+                                        stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.greeting = self.process.stdout.readline()
+        self.address = self.greeting.removeprefix("listening on ").strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+        self.log.close()
+
+    def stop(self, number=signal.SIGTERM):
+        """The exit code after the signal."""
+        self.process.send_signal(number)
+        return self.process.wait(TIMEOUT_S)
+
+    def log_text(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def peak_bytes(self):
+        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) * 1024
+        raise RuntimeError("no VmHWM")
+
+
+def run_to_end(*flags):
+    """For flags with which the server does not start."""
+    return subprocess.run([BINARY, *flags], capture_output=True, text=True, timeout=TIMEOUT_S,
+                          check=False)
+
+
+def generate_stubs(folder):
+    """As the example says, with Debian's protoc."""
+    protos = sorted(str(path) for path in (SOURCE / "proto/bccskel/v1").glob("*.proto"))
+    subprocess.run([os.environ["PROTOC"], "-I", SOURCE / "proto", f"--python_out={folder}",
+                    f"--grpc_python_out={folder}",
+                    f"--plugin=protoc-gen-grpc_python={os.environ['GRPC_PYTHON_PLUGIN']}",
+                    *protos], check=True)
+    sys.path.insert(0, str(folder))
+
+
+def example():
+    """client/examples/skeletonize.py as a module. Needs the stubs."""
+    spec = importlib.util.spec_from_file_location("skeletonize",
+                                                  SOURCE / "client/examples/skeletonize.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["skeletonize"] = module
+    spec.loader.exec_module(module)
+    return module

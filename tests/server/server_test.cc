@@ -1,0 +1,209 @@
+#include "server/server.h"
+
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "bccskel/v1/server_service.grpc.pb.h"
+#include "core/shapes/shapes.h"
+#include "proto/wire/error_details.h"
+#include "tests/server/support/declared_volume.h"
+#include "tests/server/support/raw_call.h"
+#include "tests/server/support/running_server.h"
+
+namespace bccskel::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Sends one message to a method whose definition is not at hand, and gives the first reply's bytes.
+absl::StatusOr<std::string> CallWithBytes(const std::shared_ptr<grpc::Channel>& channel,
+                                          const std::string& method, const std::string& request) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(1));
+  grpc::CompletionQueue queue;
+  grpc::GenericStub stub(channel);
+  const auto call = stub.PrepareCall(&context, method, &queue);
+  const auto wait = [&queue] {
+    void* tag = nullptr;
+    bool ok = false;
+    return queue.Next(&tag, &ok) && ok;
+  };
+  const grpc::Slice slice(request);
+  grpc::ByteBuffer reply;
+  call->StartCall(nullptr);
+  bool ok = wait();
+  call->Write(grpc::ByteBuffer(&slice, 1), nullptr);
+  ok = wait() && ok;
+  call->WritesDone(nullptr);
+  ok = wait() && ok;
+  call->Read(&reply, nullptr);
+  ok = wait() && ok;
+  grpc::Status status;
+  context.TryCancel();  // one reply is enough
+  call->Finish(&status, nullptr);
+  wait();
+  if (!ok) return test::FromGrpcStatus(status);
+  grpc::Slice bytes;
+  if (!reply.DumpToSingleSlice(&bytes).ok()) return absl::DataLossError("no bytes");
+  return std::string(reinterpret_cast<const char*>(bytes.begin()), bytes.size());
+}
+
+// grpc.health.v1.HealthCheckRequest{service} and HealthCheckResponse{status}.
+absl::StatusOr<std::string> Health(const std::shared_ptr<grpc::Channel>& channel,
+                                   const std::string& service) {
+  return CallWithBytes(channel, "/grpc.health.v1.Health/Check",
+                       '\x0a' + std::string(1, static_cast<char>(service.size())) + service);
+}
+const std::string kServing = "\x08\x01", kNotServing = "\x08\x02";
+
+TEST(Server, ReportsHealthAsAWholeAndPerService) {
+  const auto server = test::StartServer();
+  const auto channel = test::ConnectTo(server->address());
+  for (const char* service :
+       {"", "bccskel.v1.SkeletonizationService", "bccskel.v1.ServerService"}) {
+    const auto health = Health(channel, service);
+    ASSERT_TRUE(health.ok()) << health.status();
+    EXPECT_EQ(*health, kServing) << service;
+  }
+  EXPECT_FALSE(Health(channel, "no.such.Service").ok());
+}
+
+TEST(Server, ReflectionListsItsServices) {
+  const auto server = test::StartServer();
+  const auto reply = CallWithBytes(  // ServerReflectionRequest{list_services = "*"}
+      test::ConnectTo(server->address()),
+      "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", "\x3a\x01*");
+  ASSERT_TRUE(reply.ok()) << reply.status();
+  EXPECT_THAT(*reply, testing::AllOf(testing::HasSubstr("bccskel.v1.SkeletonizationService"),
+                                     testing::HasSubstr("bccskel.v1.ServerService"),
+                                     testing::HasSubstr("grpc.health.v1.Health")));
+}
+
+TEST(Server, StatesItsLimits) {
+  ServerConfig config = test::SmallServer();
+  config.limits.max_queue = 5;
+  config.limits.max_volume_bytes = 123'456;
+  config.limits.volume.max_bricks = 789;
+  const auto server = test::StartServer(config);
+  const auto stub = v1::ServerService::NewStub(test::ConnectTo(server->address()));
+  grpc::ClientContext context;
+  v1::GetCapabilitiesResponse response;
+  ASSERT_TRUE(stub->GetCapabilities(&context, {}, &response).ok());
+  EXPECT_EQ(response.limits().max_queue(), 5u);
+  EXPECT_EQ(response.limits().max_volume_bytes(), 123'456u);
+  EXPECT_EQ(response.limits().max_bricks(), 789u);
+  EXPECT_EQ(response.limits().max_jobs(), 2u);
+  EXPECT_EQ(response.limits().threads(), 2u);
+  EXPECT_EQ(response.limits().max_chunk_bytes(), 1u << 20);
+  EXPECT_EQ(response.limits().max_message_bytes(), 4u << 20);
+  EXPECT_EQ(response.encodings_size(), 3);
+  EXPECT_THAT(response.api_versions(), testing::ElementsAre("v1"));
+  EXPECT_FALSE(response.server_version().empty());
+}
+
+TEST(Server, AnAddressInUseIsRefused) {
+  const auto first = test::StartServer();
+  ServerConfig config = test::SmallServer();
+  config.listen = first->address();
+  EXPECT_EQ(Server::Start(config).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
+  const test::TemporaryFolder folder;
+  ServerConfig config = test::SmallServer();
+  config.listen = "unix:" + folder.File("server.sock");
+  const auto first = test::StartServer(config);
+  const auto second = Server::Start(config);
+  EXPECT_EQ(second.status().code(), absl::StatusCode::kAlreadyExists) << second.status();
+  const auto replies =
+      test::Converse(test::ConnectTo(config.listen), RequestsFor(test::SmallTorusPlanes()));
+  EXPECT_TRUE(replies.status.ok()) << replies.status;
+}
+
+TEST(Server, RemovesItsSocketAtTheEnd) {
+  const test::TemporaryFolder folder;
+  ServerConfig config = test::SmallServer();
+  config.listen = "unix:" + folder.File("server.sock");
+  auto server = test::StartServer(config);
+  EXPECT_TRUE(std::filesystem::exists(folder.File("server.sock")));
+  server->Drain();
+  server.reset();
+  EXPECT_FALSE(std::filesystem::exists(folder.File("server.sock")));
+  EXPECT_TRUE(Server::Start(config).ok()) << "the path is free again";
+}
+
+TEST(ServerDrain, WaitsForTheJobsThatWereLetInAndRefusesOthers) {
+  const auto server = test::StartServer();
+  const auto channel = test::ConnectTo(server->address());
+  test::RawCall call(channel);
+  ASSERT_TRUE(call.Send(ConfigRequest(test::SmallTorusPlanes())));
+  ASSERT_TRUE(call.Receive()->has_accepted());
+  std::jthread drain([&server] { server->Drain(); });
+  while (Health(channel, "").value_or("") != kNotServing) std::this_thread::yield();
+  absl::Status refused;  // health changes first
+  do {
+    test::RawCall late(channel);
+    late.Send(ConfigRequest(test::SmallTorusPlanes()));
+    if (late.Receive().has_value()) late.Cancel();
+    refused = late.Finish();
+  } while (absl::IsCancelled(refused));
+  EXPECT_EQ(refused.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(wire::ErrorInfoOf(refused)->reason(), "DRAINING");
+  for (auto& request : RequestsFor(test::SmallTorusPlanes())) {
+    if (request.has_config()) continue;
+    EXPECT_TRUE(call.Send(request));
+  }
+  EXPECT_TRUE(call.Finish().ok()) << "a job that was let in ends well";
+}
+
+TEST(ServerDrain, CutsOffWhatTakesTooLong) {
+  ServerConfig config = test::SmallServer();
+  config.drain = milliseconds(50);
+  const auto server = test::StartServer(config);
+  test::RawCall call(test::ConnectTo(server->address()));
+  ASSERT_TRUE(call.Send(ConfigRequest(test::SmallTorusPlanes())));
+  ASSERT_TRUE(call.Receive()->has_accepted());
+  server->Drain();
+  EXPECT_EQ(call.Finish().code(), absl::StatusCode::kUnavailable);
+  test::WaitUntilIdle(*server);
+}
+
+TEST(ServerDrain, AWatchedHealthStatusDoesNotHoldItUp) {
+  ServerConfig config = test::SmallServer();
+  config.drain = std::chrono::hours(1);
+  const auto server = test::StartServer(config);
+  const auto channel = test::ConnectTo(server->address());
+  grpc::ClientContext context;
+  grpc::CompletionQueue queue;
+  grpc::GenericStub stub(channel);
+  const auto watch = stub.PrepareCall(&context, "/grpc.health.v1.Health/Watch", &queue);
+  void* tag = nullptr;
+  bool ok = false;
+  watch->StartCall(nullptr);
+  ASSERT_TRUE(queue.Next(&tag, &ok) && ok);
+  const grpc::Slice empty;
+  watch->WriteLast(grpc::ByteBuffer(&empty, 1), grpc::WriteOptions(), nullptr);
+  ASSERT_TRUE(queue.Next(&tag, &ok) && ok);
+  grpc::ByteBuffer reply;
+  watch->Read(&reply, nullptr);
+  ASSERT_TRUE(queue.Next(&tag, &ok) && ok);
+  server->Drain();  // an hour, if the watch held it up
+  while (ok) {      // the status comes after the last change
+    watch->Read(&reply, nullptr);
+    ASSERT_TRUE(queue.Next(&tag, &ok));
+  }
+  grpc::Status status;
+  watch->Finish(&status, nullptr);
+  queue.Next(&tag, &ok);
+}
+
+}  // namespace
+}  // namespace bccskel::server
