@@ -1,8 +1,8 @@
 #include "core/skeleton/branches.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
-#include <span>
 #include <utility>
 
 namespace bccskel {
@@ -35,7 +35,7 @@ class ArcWalk {
     std::vector<PointPath> curves;
     for (PointIndex p = 0; p < points_.size() && !poll_.Stopped(); ++p) {
       if (!clusters_.IsPlainCurvePoint(p) || visited_[p] != 0) continue;
-      curves.push_back(WalkFrom(p, points_.neighbors(p)[0]));
+      curves.push_back(WalkFrom(p, points_.BothNeighbors(p)[0]));
     }
     return curves;
   }
@@ -46,7 +46,7 @@ class ArcWalk {
     PointPath path = {start, next};
     while (clusters_.IsPlainCurvePoint(path.back()) && path.back() != start && !poll_.Stopped()) {
       visited_[path.back()] = 1;
-      const std::span<const PointIndex> ways = points_.neighbors(path.back());
+      const std::array<PointIndex, 2> ways = points_.BothNeighbors(path.back());
       path.push_back(ways[0] == path[path.size() - 2] ? ways[1] : ways[0]);
     }
     visited_[path.back()] = 1;

@@ -4,6 +4,20 @@
 #include <optional>
 
 namespace bccskel {
+namespace {
+
+// Sorts like the point. Fields have room for a step beyond either end of the largest extent, so
+// that adding a step never carries from one into the next.
+absl::uint128 KeyOf(LatticePoint p) {
+  constexpr int32_t kRoom = 2;
+  const auto field = [](int32_t v) { return static_cast<uint64_t>(v + kRoom); };
+  return absl::MakeUint128(field(p.z), field(p.y) << 32 | field(p.x));
+}
+
+// One of each pair of opposite directions: the one to larger points.
+bool IsForward(Direction d) { return LatticePoint{} < d.offset(); }
+
+}  // namespace
 
 ThinPoints::ThinPoints(const Volume& thin, const Volume& object, const ChamferField& distance,
                        StopPoll& poll) {
@@ -40,29 +54,31 @@ void ThinPoints::Gather(const Volume& thin, const Volume& object, const ChamferF
   sort_layer();
 }
 
-// For each direction the wanted neighbors come in the order of the points, so one walk through the
-// list finds them all.
 void ThinPoints::FindNeighbors(StopPoll& poll) {
   masks_.assign(size(), 0);
-  first_.assign(size() + 1, 0);
-  std::vector<std::array<PointIndex, kNeighborCount>> found(size());
+  neighbors_.resize(size());
+  std::vector<absl::uint128> keys;
+  keys.reserve(size() + 1);
+  for (const SkeletonPoint& p : points_) keys.push_back(KeyOf(p.point));
+  keys.push_back(absl::Uint128Max());
   for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit);
-    PointIndex at = 0;
-    for (PointIndex p = 0; p < size() && !poll.Stopped(); ++p) {
-      const LatticePoint wanted = points_[p].point + d.offset();
-      while (at < size() && points_[at].point < wanted) ++at;
-      if (at == size()) break;
-      if (points_[at].point != wanted) continue;
-      masks_[p] = static_cast<NeighborMask>(masks_[p] | d.mask());
-      found[p][static_cast<size_t>(bit)] = at;
-    }
+    if (IsForward(Direction(bit))) LinkAlong(Direction(bit), keys, poll);
   }
-  for (PointIndex p = 0; p < size(); ++p) {
-    ForEachDirection(masks_[p], [&](Direction d) {
-      neighbors_.push_back(found[p][static_cast<size_t>(d.bit())]);
-    });
-    first_[p + 1] = neighbors_.size();
+}
+
+// The wanted neighbors come in the order of the points, so one walk through the list finds them
+// all, and with them the neighbors the other way.
+void ThinPoints::LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll) {
+  const absl::uint128 step = KeyOf(d.offset()) - KeyOf({});
+  PointIndex at = 0;
+  for (PointIndex p = 0; p < size() && !poll.Stopped(); ++p) {
+    const absl::uint128 wanted = keys[p] + step;
+    while (keys[at] < wanted) ++at;
+    if (keys[at] != wanted) continue;
+    masks_[p] = static_cast<NeighborMask>(masks_[p] | d.mask());
+    masks_[at] = static_cast<NeighborMask>(masks_[at] | d.Opposite().mask());
+    neighbors_[p][static_cast<size_t>(d.bit())] = at;
+    neighbors_[at][static_cast<size_t>(d.Opposite().bit())] = p;
   }
 }
 

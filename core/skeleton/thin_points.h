@@ -1,11 +1,13 @@
 #ifndef BCCSKEL_CORE_SKELETON_THIN_POINTS_H_
 #define BCCSKEL_CORE_SKELETON_THIN_POINTS_H_
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "absl/numeric/int128.h"
 #include "core/distance/chamfer_distance.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
@@ -30,25 +32,26 @@ class ThinPoints {
   // The point with the largest distance, on ties the smallest. Needs: some points.
   PointIndex DeepestOf(std::span<const PointIndex> some) const;
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
-  // In the order of kDirections14.
-  std::span<const PointIndex> neighbors(PointIndex p) const {
-    return std::span(neighbors_).subspan(first_[p], first_[p + 1] - first_[p]);
-  }
   // Needs: mask(p) has d.
   PointIndex Neighbor(PointIndex p, Direction d) const {
-    const auto before = static_cast<unsigned>(masks_[p] & (d.mask() - 1));
-    return neighbors_[first_[p] + static_cast<size_t>(std::popcount(before))];
+    return neighbors_[p][static_cast<size_t>(d.bit())];
+  }
+  // Needs: two neighbors.
+  std::array<PointIndex, 2> BothNeighbors(PointIndex p) const {
+    const auto mask = static_cast<unsigned>(masks_[p]);
+    return {neighbors_[p][static_cast<size_t>(std::countr_zero(mask))],
+            neighbors_[p][static_cast<size_t>(std::bit_width(mask) - 1)]};
   }
 
  private:
   void Gather(const Volume& thin, const Volume& object, const ChamferField& distance,
               StopPoll& poll);
   void FindNeighbors(StopPoll& poll);
+  void LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll);
 
   std::vector<SkeletonPoint> points_;
   std::vector<NeighborMask> masks_;
-  std::vector<size_t> first_;
-  std::vector<PointIndex> neighbors_;
+  std::vector<std::array<PointIndex, kNeighborCount>> neighbors_;  // by direction
 };
 
 // Calls visit(Direction) for the directions in `mask`, in order.
