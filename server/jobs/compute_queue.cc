@@ -55,7 +55,7 @@ void ComputeQueue::Serve(std::stop_token stop) {
     lock.lock();
     --running_;
     free_threads_ += threads;
-    wake_.notify_all();
+    if (!waiting_.empty()) wake_.notify_all();
   }
 }
 

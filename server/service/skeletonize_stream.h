@@ -68,12 +68,13 @@ class SkeletonizeStream final
   RequestSequence sequence_;
 
   std::mutex mutex_;
-  std::shared_ptr<Job> job_;           // guarded by mutex_
-  ResponseOutbox outbox_;              // guarded by mutex_
-  v1::SkeletonizeResponse response_;   // of the write in flight
-  bool writing_ = false;               // guarded by mutex_
-  std::optional<absl::Status> error_;  // guarded by mutex_
-  bool finished_ = false;              // guarded by mutex_: Finish() was called
+  std::shared_ptr<Job> job_;                   // guarded by mutex_
+  ResponseOutbox outbox_;                      // guarded by mutex_
+  v1::SkeletonizeResponse response_;           // of the write in flight
+  bool writing_ = false;                       // guarded by mutex_
+  std::chrono::nanoseconds next_progress_{0};  // guarded by mutex_; since the computation began
+  std::optional<absl::Status> error_;          // guarded by mutex_
+  bool finished_ = false;                      // guarded by mutex_: Finish() was called
 };
 
 }  // namespace bccskel::server

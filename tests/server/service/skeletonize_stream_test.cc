@@ -105,7 +105,8 @@ TEST_F(SkeletonizeStreamTest, ASlowReaderHoldsUpNobodyAndHearsTheNewest) {
   const auto job = runner_.WaitForJob();
   constexpr int kShells = 300'000;
   for (int shell = 1; shell <= kShells; ++shell) {  // nothing is read meanwhile, nothing blocks
-    job->listener().OnShell({.shell = shell, .last_shell = kShells}, std::chrono::nanoseconds(1));
+    job->listener().OnShell({.shell = shell, .last_shell = kShells},
+                            std::chrono::milliseconds(shell));
   }
   job->listener().OnEnd(AResult());
   int heard = 0, newest = 0;
