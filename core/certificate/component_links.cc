@@ -80,11 +80,11 @@ int64_t ComponentLinks::LinkBrick(BrickIndex n, GapPlaces& places) {
 // Most bricks around are in the same set already, by way of bricks linked before, and most of those
 // right below the set's root.
 ComponentLinks::BricksAround ComponentLinks::LookAround(BrickIndex n) {
-  const size_t root = sets_.Find(n);
+  const size_t root = sets_.Find(n), stored = object_.brick_count();
   BricksAround around = {0, 0};
   for (int position = 0; position < kNeighborCount; ++position) {
     const BrickIndex other = NeighborAt(n, position);
-    around.missing |= (IsStored(other) ? 0u : 1u) << position;
+    around.missing |= (other < stored ? 0u : 1u) << position;
     around.in_other_sets |= (sets_.IsRightBelow(other, root) ? 0u : 1u) << position;
   }
   around.in_other_sets &= kLinkedFrom[static_cast<size_t>(SublatticeAt(n))] & ~around.missing;
@@ -144,8 +144,10 @@ int64_t ComponentLinks::LinkFragmentsAlong(BrickIndex n, Direction d,
   if (points.Empty()) return 0;
   int64_t joined = 0;
   for (const BrickContact& contact : ContactsOf(sublattice).along[static_cast<size_t>(d.bit())]) {
+    const BrickBits leaving = Intersection(points, contact.points);
+    if (leaving.Empty()) continue;
     const BrickIndex other = NeighborAt(n, contact.position);
-    FirstOfParts(Intersection(points, contact.points)).ForEachSetBit([&](int bit) {
+    FirstOfParts(leaving).ForEachSetBit([&](int bit) {
       joined += Unite(components_.NumberOf(n, bit),
                       components_.NumberOf(other, NeighborBit(sublattice, d, bit)));
     });
