@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "core/certificate/certificate.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 
@@ -40,11 +41,13 @@ BettiNumbers DocumentedBetti(Shape shape) {
 class EveryShape : public testing::TestWithParam<Shape> {};
 
 TEST_P(EveryShape, HasTheDocumentedTopologyWhateverTheSizeAndTheSeed) {
-  for (uint64_t points : {kMinShapePoints, uint64_t{20'000}}) {
-    for (uint64_t seed = 0; seed < 4; ++seed) {
-      const test::ReferencePointSet object(Generate(GetParam(), Options(points, seed)));
-      EXPECT_EQ(test::ReferenceBetti(object), DocumentedBetti(GetParam())) << points << " " << seed;
-    }
+  const BettiNumbers expected = DocumentedBetti(GetParam());
+  for (uint64_t seed = 0; seed < 4; ++seed) {
+    const Volume small = Generate(GetParam(), Options(kMinShapePoints, seed));
+    EXPECT_EQ(test::ReferenceBetti(test::ReferencePointSet(small)), expected) << seed;
+    // Flood fills of a tree's box would take seconds here.
+    const Volume large = Generate(GetParam(), Options(20'000, seed));
+    EXPECT_EQ(*CountBettiNumbers(large, {}), expected) << seed;
   }
 }
 

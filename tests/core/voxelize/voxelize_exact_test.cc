@@ -52,6 +52,7 @@ TEST(VoxelizeExact, ABoxWithLatticePointsOnItsWallsIsHalfOpen) {
     const auto even = static_cast<uint64_t>(w), odd = even + 1;
     EXPECT_EQ(result.volume.PointCount(), even * even * even + odd * odd * odd);
     const auto points = result.volume.SortedPoints();
+    ASSERT_FALSE(points.empty());
     EXPECT_EQ(points.front(), (LatticePoint{1, 1, 1}));
     const int32_t last = 2 * static_cast<int32_t>(even) + 1;
     EXPECT_EQ(points.back(), (LatticePoint{last, last, last}));
