@@ -188,12 +188,13 @@ RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius
   const double radius = std::max(point_radius, 0.8);
   for (const PanelPoint& p : surface) depth.AddSphere(p, radius);
   // Averaging over about three point radii hides the lattice. Wide strides leave steps beside
-  // outlines, so the narrow ones come last.
+  // outlines, so narrow ones come last, and often.
   const auto largest_step = static_cast<float>(4 * radius);
-  const auto widest = std::bit_floor(static_cast<unsigned>(std::clamp(2 * radius, 2.0, 32.0)));
-  for (unsigned stride = widest; stride > 0; stride /= 2) {
-    for (int turn = 0; turn < 2; ++turn) depth.Smooth(static_cast<int>(stride), largest_step);
+  const auto widest = std::bit_floor(static_cast<unsigned>(std::clamp(radius, 2.0, 16.0)));
+  for (unsigned stride = widest; stride > 1; stride /= 2) {
+    depth.Smooth(static_cast<int>(stride), largest_step);
   }
+  for (int turn = 0; turn < 8; ++turn) depth.Smooth(1, largest_step);
   const int reach = static_cast<int>(std::clamp(radius, 1.0, 12.0));
   return Shade(depth, Coverage(depth, reach), largest_step);
 }
