@@ -64,7 +64,8 @@ class DistanceScan {
   // Workers that go from layer to layer together.
   class Team {
    public:
-    Team(int size, const exec::Context& context) : size_(size), context_(context), barrier_(size) {}
+    Team(int size, const exec::Context& context)
+        : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
 
     int size() const { return size_; }
     // How many are still at it.
@@ -79,6 +80,7 @@ class DistanceScan {
     // Whether this worker goes on to the next slab. All decide the same, or some would wait for
     // others for ever.
     bool GoOn(int worker) {
+      if (alone_) return !context_.ShouldStop();
       if (worker == 0) {
         stopped_ = context_.ShouldStop();
         leave_ = patience_.Lost();
@@ -98,7 +100,7 @@ class DistanceScan {
     // value.
     bool stopped_ = false;
     bool leave_ = false;
-    bool alone_ = false;  // written when the others have left
+    bool alone_ = false;  // read by worker 0 only once the others leave
   };
 
   // A layer of bricks is little work between two meetings.

@@ -37,6 +37,10 @@ class Context {
   // more time waiting for each other than thinning.
   size_t min_bricks_per_worker = 512;
 
+  // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
+  // more than this share of the time.
+  double patience = 0.5;
+
   int threads() const { return team == nullptr ? 1 : team->size(); }
   // How many workers share `bricks` bricks; at least 1, at most threads().
   int WorkersFor(size_t bricks) const {

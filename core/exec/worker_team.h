@@ -65,14 +65,18 @@ class Barrier {
 // by worker 0, which then goes on alone.
 class Patience {
  public:
+  explicit Patience(double share) : share_(share) {}
+
   void Blocked(Barrier::Duration time) { blocked_ += time; }
-  // More than half the time, and not just a hiccup, went into waiting.
+  // More than its share of the time, and not just a hiccup, went into waiting.
   bool Lost() const {
-    return blocked_ > std::chrono::milliseconds(1) && blocked_ > (Clock::now() - start_) / 2;
+    constexpr auto kHiccup = std::chrono::milliseconds(1);
+    return blocked_ - kHiccup > share_ * (Clock::now() - start_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  double share_;
   Clock::time_point start_ = Clock::now();
   Barrier::Duration blocked_ = {};
 };

@@ -48,7 +48,8 @@ class DirectionPasses {
         unsettled_(groups() * kUnsettledGroup),
         enabled_(unsettled_.size()),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
-        barrier_(static_cast<int>(workers_.size())) {
+        barrier_(static_cast<int>(workers_.size())),
+        patience_(context.patience) {
     for (const BrickBits& brick : state.object) points_at_start_ += brick.Count();
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
@@ -107,6 +108,7 @@ class DirectionPasses {
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
   bool JoinedInOne(int index, Worker& first) {
+    Meet(index);  // the others have left their bricks
     if (index != 0) return false;
     if (joined_) return true;
     joined_ = true;

@@ -85,11 +85,14 @@ TEST_P(ChamferDistanceLaw, AgreesWithTheReferenceOnRandomObjects) {
   for (const std::vector<LatticePoint>& points : objects) {
     const Volume object = VolumeOfPoints(points);
     for (int threads : {1, 3}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
-      context.min_bricks_per_worker = 1;
-      ExpectReferenceDistances(object, context);
+      for (double patience : {1e9, -1e9}) {  // never and at once on with one worker
+        exec::WorkerTeam team(threads);
+        exec::Context context;
+        context.team = &team;
+        context.min_bricks_per_worker = 1;
+        context.patience = patience;
+        ExpectReferenceDistances(object, context);
+      }
     }
   }
 }

@@ -38,6 +38,25 @@ TEST(Thinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
   exec::ChooseInstructionSet("");
 }
 
+TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
+  const Volume object = Blob(12);
+  constexpr double kNever = 1e9, kAtOnce = -1e9;
+  for (const double patience : {kNever, kAtOnce}) {
+    for (int threads : {2, 3, 8}) {
+      exec::WorkerTeam team(threads);
+      exec::Context context;
+      context.team = &team;
+      context.min_bricks_per_worker = 1;
+      context.patience = patience;
+      for (int32_t last_shell : {1, 2, 0}) {
+        const Volume alone = Thin(object, {.last_shell = last_shell}).thin;
+        EXPECT_TRUE(Thin(object, {.last_shell = last_shell}, context).thin == alone)
+            << threads << " threads, patience " << patience << ", last shell " << last_shell;
+      }
+    }
+  }
+}
+
 TEST(Thinning, ReportsEveryShellOnce) {
   const Volume object = Blob(3);
   std::vector<exec::ShellProgress> reports;
