@@ -69,12 +69,13 @@ namespace HWY_NAMESPACE {
 using Counts = hn::Vec<BrickTag>;  // 64-bit numbers, modulo 2^64
 
 HWY_INLINE Counts AddTerms(const Plane& counted, const Plane (&rim)[6], Counts sum) {
-  // An arc ends where a rim point is in the object and the next one is not. There are at most
-  // three, so the carries of the two full adders and of their sum exclude each other.
+  // An arc ends where a rim point is in the object and the next one is not. No two arcs end side by
+  // side, so of three ends in a row only the outer two can come together; and there are at most
+  // three in all, so the carries of the three sums exclude each other.
   const Plane a = AndNot(rim[1], rim[0]), b = AndNot(rim[2], rim[1]), c = AndNot(rim[3], rim[2]);
   const Plane d = AndNot(rim[4], rim[3]), e = AndNot(rim[5], rim[4]), f = AndNot(rim[0], rim[5]);
-  const Plane ab = Xor(a, b), de = Xor(d, e), abc = Xor(ab, c), def = Xor(de, f);
-  const Plane carries = Or(Or(And(a, b), And(c, ab)), Or(And(d, e), And(f, de)));
+  const Plane abc = Xor(Xor(a, b), c), def = Xor(Xor(d, e), f);
+  const Plane carries = Or(And(a, c), And(d, f));
   const Plane ones = And(counted, Xor(abc, def));
   const Plane twos = And(counted, Or(carries, And(abc, def)));
   for (size_t n = 0; n < kVectors; ++n) {

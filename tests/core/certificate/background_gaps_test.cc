@@ -97,6 +97,19 @@ TEST(BackgroundGaps, OneMissingBrickOfTheWallOpensIt) {
   }
 }
 
+// The hole's bricks touch the one that is missing at the end of a row only across one step.
+TEST(BackgroundGaps, AHoleIsOpenToTheOutsideOneStepAlongTheRow) {
+  const auto walls_without = [](BrickCoordinates hole, BrickCoordinates opening) {
+    return BoxWith([&](const auto& b) { return b != hole && b != opening; });
+  };
+  const auto odd = [](int32_t bx) { return BrickCoordinates{bx, 2, 2, Sublattice::kOdd}; };
+  const auto even = [](int32_t bx) { return BrickCoordinates{bx, 2, 2, Sublattice::kEven}; };
+  EXPECT_EQ(ComponentsOf(walls_without(odd(3), even(4))), 1);
+  EXPECT_EQ(ComponentsOf(walls_without(even(1), odd(0))), 1);
+  EXPECT_EQ(ComponentsOf(walls_without(odd(1), even(0))), 2);
+  EXPECT_EQ(ComponentsOf(walls_without(even(3), odd(4))), 2);
+}
+
 TEST(BackgroundGaps, AnEvenAndAnOddBrickTouchAcrossACornerOneWayOnly) {
   const BrickCoordinates center = {2, 2, 2, Sublattice::kEven};
   const auto two_holes = [&](BrickCoordinates other) {
