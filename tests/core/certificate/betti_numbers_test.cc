@@ -117,6 +117,24 @@ TEST(BettiNumbers, OfAPiercedHollowBallHaveNoCavity) {
   EXPECT_EQ(Betti(*std::move(builder).Build()), (BettiNumbers{1, 0, 0}));
 }
 
+// A hollow box of full bricks, with or without one column of points bored through a single brick:
+// that brick alone links the missing bricks inside to those outside.
+TEST(BettiNumbers, OfAHollowBoxOpenedByOneColumnOfOneBrickHaveNoCavity) {
+  for (Sublattice sublattice : kSublattices) {
+    VolumeBuilder builder({5 * kBrickX, 5 * kBrickY, 5 * kBrickZ});
+    for (int n = 0; n < 250; ++n) {
+      const BrickCoordinates brick = {n % 5, n / 5 % 5, n / 25 % 5, kSublattices[n / 125]};
+      const bool inside = brick.bx % 4 != 0 && brick.by % 4 != 0 && brick.bz % 4 != 0;
+      if (!inside) builder.Brick(BrickKey(brick)).words.fill(~uint64_t{0});
+    }
+    EXPECT_EQ(Betti(VolumeBuilder(builder).Build().value()), (BettiNumbers{1, 0, 1}));
+    for (int k = 0; k < kBrickZ; ++k) {
+      builder.Remove(PointOf({2, 2, 0, sublattice}, 64 * k + 16 + 5));
+    }
+    EXPECT_EQ(Betti(std::move(builder).Build().value()), (BettiNumbers{1, 0, 0}));
+  }
+}
+
 TEST(BettiNumbers, OfAMatryoshkaCountEachDollAndEachCavity) {
   EXPECT_EQ(Betti(Matryoshka(120, {118, 90, 60, 30}, 6)), (BettiNumbers{4, 0, 4}));
   EXPECT_EQ(Betti(Matryoshka(120, {118, 90, 60, 30, 5}, 6)), (BettiNumbers{5, 0, 4}));
