@@ -26,7 +26,8 @@ def shapes():
 class DocumentsTest(harness.TestCase):
     def test_the_man_page_has_a_section_per_command_with_every_option(self):
         page = (CLI / "bccskel.1").read_text().replace("\\-", "-")
-        sections = dict(re.findall(r'^\.SS "bccskel ([a-z ]+)\b.*?\n(.*?)(?=^\.S[SH])', page, re.M | re.S))
+        sections = dict(re.findall(r'^\.SS "bccskel ([a-z ]+)\b.*?\n(.*?)(?=^\.S[SH])', page,
+                                   re.M | re.S))
         common = page[page.index(".SH COMMON OPTIONS"):]
         sections = {name.strip(): text for name, text in sections.items()}
         self.assertEqual(set(sections), set(COMMANDS))

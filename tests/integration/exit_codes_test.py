@@ -23,7 +23,7 @@ class ExitCodesTest(harness.TestCase):
 
     def long_job(self):
         """A volume that takes seconds to thin on one thread."""
-        return self.generate("ball", 8_000_000)
+        return self.generate("tree", 16_000_000)
 
     def test_2_for_a_wrong_command_line(self):
         self.fail_with(2, "--output is required", "skeletonize", "a.off")
