@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 
 #include "core/distance/chamfer_rows.h"
 #include "core/exec/status_macros.h"
@@ -158,27 +157,6 @@ absl::StatusOr<ChamferField> Compute(const Volume& object, ChamferWeights weight
   return ChamferField(weights, std::move(values), largest);
 }
 
-// An upper bound of any distance, in lattice units: no point is farther from the outside of the
-// object's bounding box than half its smallest side.
-int64_t DistanceBound(const Volume& object) {
-  std::array<int64_t, 3> low, high;
-  low.fill(std::numeric_limits<int64_t>::max());
-  high.fill(std::numeric_limits<int64_t>::min());
-  for (const BrickKey key : object.keys()) {
-    const BrickCoordinates c = key.coordinates();
-    const std::array<int64_t, 3> corner = {c.bx * int64_t{kBrickX}, c.by * int64_t{kBrickY},
-                                           c.bz * int64_t{kBrickZ}};
-    const std::array<int64_t, 3> size = {kBrickX, kBrickY, kBrickZ};
-    for (size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], corner[a]);
-      high[a] = std::max(high[a], corner[a] + size[a]);
-    }
-  }
-  int64_t cells = std::numeric_limits<int64_t>::max();
-  for (size_t a = 0; a < 3; ++a) cells = std::min(cells, high[a] - low[a]);
-  return cells + 2;  // a cell is two lattice units, halved
-}
-
 }  // namespace
 
 uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& weights) {
@@ -191,10 +169,11 @@ uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& we
 
 absl::StatusOr<ChamferField> ComputeChamferDistance(const Volume& object,
                                                     const exec::Context& context) {
-  constexpr int64_t kShortLimit = 620;  // 65535 counts are 627 units, less one step
-  if (object.empty() || DistanceBound(object) <= kShortLimit) {
-    return Compute<uint16_t>(object, kShortChamfer, context);
-  }
+  BCCSKEL_ASSIGN_OR_RETURN(ChamferField field, Compute<uint16_t>(object, kShortChamfer, context));
+  if (field.largest() < kShortChamferLimit) return field;
+  // Hardly any object is this thick, and a bound from the box would send thin trees in large boxes
+  // the slow way.
+  field = ChamferField(kShortChamfer, ChamferField::Values(), 0);
   return Compute<uint32_t>(object, kLongChamfer, context);
 }
 

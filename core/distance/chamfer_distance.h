@@ -37,8 +37,8 @@ uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& we
 // Shapes: values(brick) has kBrickPoints entries in bit order.
 class ChamferField {
  public:
-  // 16-bit values for kShortChamfer, 32-bit ones for kLongChamfer; which one is used follows from
-  // the object's bounding box alone.
+  // 16-bit values for kShortChamfer, 32-bit ones for kLongChamfer, which are used only if some
+  // distance is 620 lattice units or more.
   using Values =
       std::variant<exec::UninitializedVector<uint16_t>, exec::UninitializedVector<uint32_t>>;
 

@@ -14,6 +14,11 @@
 
 namespace bccskel {
 
+// Runs along x are followed for this many steps in 16 bits.
+inline constexpr uint32_t kLongestRun = 311;
+// In 16 bits, distances below this one are exact; larger ones may be anything from here up.
+inline constexpr uint32_t kShortChamferLimit = kLongestRun * kShortChamfer.axial;
+
 // What the loops work on. Shapes: values holds kBrickPoints per brick of the object and as many
 // zeros for the padding brick, in bit order.
 template <typename T>

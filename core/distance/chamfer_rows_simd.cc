@@ -64,7 +64,6 @@ constexpr Ramps kRamps = [] {
 // How many points of each of a brick's 32 rows can be walked from one side without meeting the
 // background, in this brick and the ones before it. Row 4k + j.
 using RowRuns = std::array<uint16_t, 4 * kBrickZ>;
-constexpr uint32_t kLongestRun = 311;  // 620 lattice units: no final distance needs more
 
 struct SideRuns {
   std::vector<RowRuns> left;   // at the brick's left side
