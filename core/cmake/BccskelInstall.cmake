@@ -31,7 +31,8 @@ install(DIRECTORY core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/core
         COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN cmake EXCLUDE)
 if(BCCSKEL_BUILD_CLIENT)
   install(DIRECTORY client/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/client
-          COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE)
+          COMPONENT development
+          FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN examples EXCLUDE)
   install(DIRECTORY proto/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/proto
           COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "*.proto")
   install(DIRECTORY ${PROJECT_BINARY_DIR}/proto/generated/
@@ -54,6 +55,11 @@ install(FILES ${PROJECT_BINARY_DIR}/bccskelConfig.cmake
         DESTINATION ${BCCSKEL_CMAKE_DIR} COMPONENT development)
 
 install(FILES LICENSE NOTICE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+# Where Debian's tools look for the license of a package.
+install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/bccskel RENAME copyright
+        COMPONENT runtime)
+install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libbccskel-dev RENAME copyright
+        COMPONENT development)
 if(BCCSKEL_BUILD_SERVER)
   install(FILES docker/bccskel-server.service DESTINATION lib/systemd/system COMPONENT runtime)
 endif()
