@@ -89,14 +89,16 @@ HWY_EXPORT(FloodTarget);
 namespace {
 
 // The component of `seed` in `open`.
-BrickBits Flood(BrickBits seed, const BrickBits& open) {
-  HWY_DYNAMIC_DISPATCH(FloodTarget)(seed, open);
-  return seed;
+BrickBits Flood(const BrickBits& seed, const BrickBits& open) {
+  BrickBits component = seed;
+  HWY_DYNAMIC_DISPATCH(FloodTarget)(component, open);
+  return component;
 }
 
-BrickBits Without(BrickBits points, const BrickBits& some) {
-  for (size_t k = 0; k < 8; ++k) points.words[k] &= ~some.words[k];
-  return points;
+BrickBits Without(const BrickBits& points, const BrickBits& some) {
+  BrickBits rest;
+  for (size_t k = 0; k < 8; ++k) rest.words[k] = points.words[k] & ~some.words[k];
+  return rest;
 }
 
 BrickBits FirstPoint(const BrickBits& points) {

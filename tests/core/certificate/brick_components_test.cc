@@ -56,9 +56,10 @@ Connectivity ConnectivityOf(const BrickBits& points) {
   return found;
 }
 
-BrickBits Complement(BrickBits points) {
-  for (uint64_t& word : points.words) word = ~word;
-  return points;
+BrickBits Complement(const BrickBits& points) {
+  BrickBits others;
+  for (size_t k = 0; k < others.words.size(); ++k) others.words[k] = ~points.words[k];
+  return others;
 }
 
 class BrickComponents : public testing::TestWithParam<std::string> {
