@@ -9,6 +9,7 @@
 
 #include "core/thinning/stubble.h"
 #include "core/thinning/unsettled.h"
+#include "core/volume/count_points.h"
 
 namespace bccskel {
 namespace {
@@ -49,8 +50,8 @@ class DirectionPasses {
         enabled_(unsettled_.size()),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
         barrier_(static_cast<int>(workers_.size())),
+        points_at_start_(CountPoints(state.object)),
         patience_(context.patience) {
-    for (const BrickBits& brick : state.object) points_at_start_ += brick.Count();
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
     }
@@ -286,7 +287,7 @@ class DirectionPasses {
   std::vector<Unsettled> enabled_;  // watched_ once the brick has candidates, before that 0
   std::vector<Worker> workers_;
   exec::Barrier barrier_;
-  uint64_t points_at_start_ = 0;
+  const uint64_t points_at_start_;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass
   bool alone_ = false;    // written by worker 0 between the meetings of a pass

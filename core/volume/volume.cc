@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/volume/count_points.h"
 
 namespace bccskel {
 namespace {
@@ -135,11 +136,7 @@ bool Volume::Contains(LatticePoint p) const {
   return index && bricks_[*index].Test(address.bit);
 }
 
-uint64_t Volume::PointCount() const {
-  uint64_t count = 0;
-  for (const BrickBits& brick : bricks()) count += brick.Count();
-  return count;
-}
+uint64_t Volume::PointCount() const { return CountPoints(bricks()); }
 
 std::vector<LatticePoint> Volume::SortedPoints() const {
   std::vector<LatticePoint> points;
