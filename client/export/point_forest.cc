@@ -18,12 +18,16 @@ class StepGraph {
     for (const SkeletonNode& node : graph.nodes) points_.push_back(node.at);
     points_.insert(points_.end(), graph.points.begin(), graph.points.end());
     std::ranges::sort(points_);
-    points_.erase(std::ranges::unique(points_, {}, &SkeletonPoint::point).begin(), points_.end());
+    // std::ranges::unique does not compile with clang 14 and this standard library.
+    const auto same_point = [](const SkeletonPoint& a, const SkeletonPoint& b) {
+      return a.point == b.point;
+    };
+    points_.erase(std::unique(points_.begin(), points_.end(), same_point), points_.end());
     neighbors_.resize(points_.size());
     for (const SkeletonEdge& edge : graph.edges) AddSteps(graph.PointsOf(edge));
     for (std::vector<size_t>& list : neighbors_) {
       std::ranges::sort(list);
-      list.erase(std::ranges::unique(list).begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
     }
   }
 

@@ -88,7 +88,7 @@ class GraphBuilder {
 
   void AddClosedCurve(const PointPath& curve) {
     PointPath turned(curve.begin(), curve.end() - 1);
-    std::ranges::rotate(turned, std::ranges::find(turned, points_.DeepestOf(turned)));
+    std::rotate(turned.begin(), std::ranges::find(turned, points_.DeepestOf(turned)), turned.end());
     turned.push_back(turned.front());
     const auto node = static_cast<NodeIndex>(nodes_.size());
     nodes_.push_back({NodeKind::kLoop, points_[turned.front()], 0, 0});
