@@ -102,9 +102,10 @@ class DistanceScan {
     bool alone_ = false;  // read by worker 0 only once the others leave
   };
 
-  // A layer of bricks is little work between two meetings.
+  // What counts is the work between two meetings: a layer of a slab, not all bricks. A layer of a
+  // quarter of the bricks that a worker needs elsewhere is enough.
   int WorkersFor(const exec::Context& context) const {
-    return slabs_.empty() ? 1 : context.WorkersFor(bricks_ / slabs_.size());
+    return slabs_.empty() ? 1 : context.WorkersFor(4 * bricks_ / slabs_.size());
   }
 
   void JoinAll(int worker, Team& team) const {

@@ -35,7 +35,7 @@ class Context {
 
   // A stage gives a worker at least this many bricks: on smaller shares the workers would spend
   // more time waiting for each other than thinning.
-  size_t min_bricks_per_worker = 512;
+  size_t min_bricks_per_worker = 2048;
 
   // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
   // more than this share of the time.
