@@ -36,7 +36,7 @@ std::optional<Sha256Digest> DigestOf(const std::string& bytes) {
 
 // Every reply costs about 30 us on either side; a small object has dozens of shells in a
 // millisecond. The newest shell is always sent.
-constexpr std::chrono::milliseconds kProgressInterval(10);
+constexpr std::chrono::milliseconds kProgressInterval(1);
 
 // More follows a piece of the result at once, so gRPC may send them together.
 grpc::WriteOptions WriteOptionsFor(const v1::SkeletonizeResponse& response) {
