@@ -19,20 +19,9 @@ namespace bccskel::cli {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-struct BenchStage {
-  const char* name;
-  StageTimings::Duration StageTimings::*time;
-};
-inline constexpr std::array<BenchStage, 4> kBenchStages = {{
-    {"distance", &StageTimings::distance},
-    {"thinning", &StageTimings::thinning},  // shells, directions and clean-up
-    {"certificate", &StageTimings::certificate},
-    {"graph", &StageTimings::trace},
-}};
-
 // From the solid to thin points; the whole has certificate and graph besides.
 inline Milliseconds CoreTime(const StageTimings& timings) {
-  return timings.distance + timings.thinning;
+  return timings.distance + timings.shells + timings.thinning + timings.cleanup;
 }
 inline Milliseconds WholeTime(const StageTimings& timings) { return timings.total; }
 

@@ -33,7 +33,7 @@ Spread WarmSpread(const CoreMeasurement& measured, Of of, double factor) {
   return SpreadOf(std::move(values));
 }
 
-double StageTime(const BenchStage& stage, const StageTimings& timings) {
+double StageTime(const Stage& stage, const StageTimings& timings) {
   return Milliseconds(timings.*stage.time).count();
 }
 
@@ -48,7 +48,7 @@ std::string SpreadJson(const Spread& spread) {
 
 std::string StagesJson(const CoreMeasurement& measured) {
   std::string json;
-  for (const BenchStage& stage : kBenchStages) {
+  for (const Stage& stage : kStages) {
     const auto time = [&stage](const StageTimings& timings) { return StageTime(stage, timings); };
     absl::StrAppendFormat(&json, R"(%s"%s":%s)", json.empty() ? "" : ",", stage.name,
                           SpreadJson(WarmSpread(measured, time, 1)));
@@ -91,7 +91,7 @@ std::string Table(const CoreMeasurement& measured) {
     table += TableRow(figure.name, WarmSpread(measured, figure.of, ns),
                       ns * figure.of(measured.cold), "ns per point");
   }
-  for (const BenchStage& stage : kBenchStages) {
+  for (const Stage& stage : kStages) {
     const auto time = [&stage](const StageTimings& timings) { return StageTime(stage, timings); };
     table += TableRow(stage.name, WarmSpread(measured, time, 1), time(measured.cold), "ms");
   }

@@ -40,18 +40,20 @@ std::string CheckPhrase(const Certificate& certificate) {
 void AddTimes(Text& text, const SkeletonSummary& summary) {
   const StageTimings& timings = summary.result.timings;
   text.Add("time:      ", Decimals(summary.seconds), " s, of which skeleton ",
-           Decimals(Seconds(timings.total)), " (distance ", Decimals(Seconds(timings.distance)),
-           ", thinning ", Decimals(Seconds(timings.thinning)), ", certificate ",
-           Decimals(Seconds(timings.certificate)), ", graph ", Decimals(Seconds(timings.trace)),
-           ")\n");
+           Decimals(Seconds(timings.total)));
+  for (const Stage& stage : kStages) {
+    text.Add(&stage == kStages.data() ? " (" : ", ", stage.name, ' ',
+             Decimals(Seconds(timings.*stage.time)));
+  }
+  text.Add(")\n");
 }
 
 void AddTimingsJson(Text& text, const StageTimings& timings) {
-  text.Add("{\"distance_ms\":", 1e3 * Seconds(timings.distance),
-           ",\"thinning_ms\":", 1e3 * Seconds(timings.thinning),
-           ",\"certificate_ms\":", 1e3 * Seconds(timings.certificate),
-           ",\"trace_ms\":", 1e3 * Seconds(timings.trace),
-           ",\"total_ms\":", 1e3 * Seconds(timings.total), '}');
+  text.Add('{');
+  for (const Stage& stage : kStages) {
+    text.Add('"', stage.name, "_ms\":", 1e3 * Seconds(timings.*stage.time), ',');
+  }
+  text.Add("\"total_ms\":", 1e3 * Seconds(timings.total), '}');
 }
 
 void AddMeshJson(Text& text, const MeshStage& stage) {

@@ -66,11 +66,11 @@ double Milliseconds(StageTimings::Duration duration) {
 }
 
 void AddTimings(Text& text, const StageTimings& timings) {
-  text.Add("{\"distance_ms\":", Milliseconds(timings.distance),
-           ",\"thinning_ms\":", Milliseconds(timings.thinning),
-           ",\"certificate_ms\":", Milliseconds(timings.certificate),
-           ",\"trace_ms\":", Milliseconds(timings.trace),
-           ",\"total_ms\":", Milliseconds(timings.total), '}');
+  text.Add('{');
+  for (const Stage& stage : kStages) {
+    text.Add('"', stage.name, "_ms\":", Milliseconds(timings.*stage.time), ',');
+  }
+  text.Add("\"total_ms\":", Milliseconds(timings.total), '}');
 }
 
 }  // namespace

@@ -2,27 +2,11 @@
 
 #include "absl/strings/str_format.h"
 #include "core/distance/chamfer_distance.h"
+#include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel {
 namespace {
-
-// Measures one stage after the other.
-class StageClock {
- public:
-  StageTimings::Duration Lap() {
-    const Clock::time_point now = Clock::now();
-    const auto lap = now - last_;
-    last_ = now;
-    return lap;
-  }
-  StageTimings::Duration Total() const { return last_ - start_; }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
-};
 
 absl::StatusOr<Certificate> Certify(const Volume& object, const Volume& thin,
                                     const exec::Context& context) {
@@ -44,7 +28,7 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const exec::Context& context) {
   SkeletonizeResult result;
   result.object_points = object.PointCount();
-  StageClock clock;
+  exec::StageClock clock;
   BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, context));
   result.timings.distance = clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
@@ -52,12 +36,15 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
   result.thin = std::move(thinned.thin);
   result.last_shell = thinned.last_shell;
   result.skeleton_points = result.thin.PointCount();
-  result.timings.thinning = clock.Lap();
+  result.timings.shells = thinned.times.shells;
+  result.timings.thinning = thinned.times.passes;
+  result.timings.cleanup = thinned.times.cleanup;
+  clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(result.certificate, Certify(object, result.thin, context));
   result.timings.certificate = clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(result.graph, TraceSkeleton(result.thin, object, distance, context));
   result.sha256 = SkeletonDigest(result.graph);
-  result.timings.trace = clock.Lap();
+  result.timings.graph = clock.Lap();
   result.timings.total = clock.Total();
   return result;
 }

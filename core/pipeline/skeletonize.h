@@ -1,13 +1,13 @@
 #ifndef BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
 #define BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
 #include "core/exec/context.h"
+#include "core/pipeline/stage_timings.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/thinning/thinning.h"
 #include "core/volume/volume.h"
@@ -16,16 +16,6 @@ namespace bccskel {
 
 struct SkeletonizeOptions {
   ThinningOptions thinning = {};
-};
-
-// Wall time of each stage.
-struct StageTimings {
-  using Duration = std::chrono::nanoseconds;
-  Duration distance{0};
-  Duration thinning{0};  // shells, directions and clean-up
-  Duration certificate{0};
-  Duration trace{0};
-  Duration total{0};
 };
 
 struct SkeletonizeResult {

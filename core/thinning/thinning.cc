@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_format.h"
+#include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/thinning/cleanup.h"
 #include "core/thinning/direction_passes.h"
@@ -26,10 +27,12 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferFi
                                            const ThinningOptions& options,
                                            const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
+  ThinningResult result;
+  exec::StageClock clock;
   const Shells shells = BuildShells(object, distance, options.shell_width, context);
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  result.times.shells = clock.Lap();
   ThinningState state(object, options.keep);
-  ThinningResult result;
   result.last_shell = shells.last();
   const int32_t last =
       options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
@@ -37,10 +40,13 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferFi
                            RunDirectionPasses(shells, last, options.stubble, context, state));
   result.removed = totals.removed;
   result.direction_passes = totals.passes;
+  result.times.passes = clock.Lap();
   if (options.cleanup == ThinnessCleanup::kOn) {
     BCCSKEL_ASSIGN_OR_RETURN(result.removed_by_cleanup, CleanUpThinness(context, state));
   }
+  result.times.cleanup = clock.Lap();
   result.thin = std::move(state).ToVolume(object);
+  result.times.passes += clock.Lap();
   return result;
 }
 

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_THINNING_THINNING_H_
 #define BCCSKEL_CORE_THINNING_THINNING_H_
 
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -43,12 +44,19 @@ struct ThinningOptions {
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckThinningOptions(const ThinningOptions& options);
 
+struct ThinningTimes {
+  std::chrono::nanoseconds shells{0};
+  std::chrono::nanoseconds passes{0};  // the volume that they leave included
+  std::chrono::nanoseconds cleanup{0};
+};
+
 struct ThinningResult {
   Volume thin;
   int32_t last_shell = 0;  // the deepest shell of the object
   uint64_t removed = 0;    // by directions and stubble removal
   uint64_t removed_by_cleanup = 0;
   uint32_t direction_passes = 0;
+  ThinningTimes times;
 };
 
 // Parallel directional thinning with shells: Conditions 1-6, section 5.

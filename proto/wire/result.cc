@@ -36,17 +36,21 @@ void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts&
   Set(message->mutable_queue(), facts.queued);
   Set(message->mutable_decode(), facts.decoded);
   Set(message->mutable_distance(), timings.distance);
+  Set(message->mutable_shells(), timings.shells);
   Set(message->mutable_thinning(), timings.thinning);
+  Set(message->mutable_cleanup(), timings.cleanup);
   Set(message->mutable_certificate(), timings.certificate);
-  Set(message->mutable_trace(), timings.trace);
+  Set(message->mutable_graph(), timings.graph);
   Set(message->mutable_total(), timings.total);
 }
 
 StageTimings FromMessage(const v1::StageTimings& message) {
   return {.distance = DurationOf(message.distance()),
+          .shells = DurationOf(message.shells()),
           .thinning = DurationOf(message.thinning()),
+          .cleanup = DurationOf(message.cleanup()),
           .certificate = DurationOf(message.certificate()),
-          .trace = DurationOf(message.trace()),
+          .graph = DurationOf(message.graph()),
           .total = DurationOf(message.total())};
 }
 

@@ -72,7 +72,7 @@ TEST(MeasureCore, HasOneTimingForEachWarmRunAndStagesThatAddUpToNoMoreThanTheWho
   ASSERT_EQ(measured->warm.size(), 3u);
   for (const StageTimings& run : measured->warm) {
     StageTimings::Duration sum{0};
-    for (const BenchStage& stage : kBenchStages) {
+    for (const Stage& stage : kStages) {
       EXPECT_GT((run.*stage.time).count(), 0) << stage.name;
       sum += run.*stage.time;
     }

@@ -47,7 +47,7 @@ void AddCounters(const Volume& object, const SkeletonizeResult& result, benchmar
   state.counters["bricks"] = static_cast<double>(object.brick_count());
   state.counters["ns_per_point"] = 1e6 / points * cli::CoreTime(result.timings).count();
   state.counters["whole_ns_per_point"] = 1e6 / points * cli::WholeTime(result.timings).count();
-  for (const cli::BenchStage& stage : cli::kBenchStages) {
+  for (const Stage& stage : kStages) {
     const cli::Milliseconds time = result.timings.*stage.time;
     state.counters[std::string(stage.name) + "_ms"] = time.count();
   }

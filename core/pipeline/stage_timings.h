@@ -1,0 +1,40 @@
+#ifndef BCCSKEL_CORE_PIPELINE_STAGE_TIMINGS_H_
+#define BCCSKEL_CORE_PIPELINE_STAGE_TIMINGS_H_
+
+#include <array>
+#include <chrono>
+
+namespace bccskel {
+
+// Wall time of each stage of the pipeline.
+struct StageTimings {
+  using Duration = std::chrono::nanoseconds;
+  Duration distance{0};
+  Duration shells{0};
+  Duration thinning{0};  // until stable
+  Duration cleanup{0};
+  Duration certificate{0};
+  Duration graph{0};
+  Duration total{0};
+
+  friend bool operator==(const StageTimings&, const StageTimings&) = default;
+};
+
+struct Stage {
+  const char* name;
+  StageTimings::Duration StageTimings::*time;
+};
+
+// In the order in which they run. Everything that shows or sends times goes by this list.
+inline constexpr std::array<Stage, 6> kStages = {{
+    {"distance", &StageTimings::distance},
+    {"shells", &StageTimings::shells},
+    {"thinning", &StageTimings::thinning},
+    {"cleanup", &StageTimings::cleanup},
+    {"certificate", &StageTimings::certificate},
+    {"graph", &StageTimings::graph},
+}};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_STAGE_TIMINGS_H_
