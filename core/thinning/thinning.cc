@@ -39,7 +39,7 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferFi
   BCCSKEL_ASSIGN_OR_RETURN(const DirectionPassTotals totals,
                            RunDirectionPasses(shells, last, options.stubble, context, state));
   result.removed = totals.removed;
-  result.direction_passes = totals.passes;
+  result.passes = totals.passes;
   result.times.passes = clock.Lap();
   if (options.cleanup == ThinnessCleanup::kOn) {
     BCCSKEL_ASSIGN_OR_RETURN(result.removed_by_cleanup, CleanUpThinness(context, state));

@@ -30,7 +30,36 @@ enum class StubblePolicy : uint8_t {
 
 enum class ThinnessCleanup : uint8_t { kOn, kOff };
 
+// How points are chosen for removal.
+enum class ThinningMethod : uint8_t {
+  // The paper's: eight passes a shell, one along each direction of D8.
+  kDirectional,
+  // The same with the order of the directions reversed on every second cycle, so that no side comes
+  // first each time.
+  kDirectionalAlternating,
+  // One pass a shell for all sides at once, the paper's future work. Does not depend on an order of
+  // directions, so curves lie closer to the center.
+  kSymmetric,
+};
+
+// What is kept besides the topology, and so what a thin result is. All but kCurve need kSymmetric.
+enum class SkeletonKind : uint8_t {
+  // End points (Condition 2). Thin: no simple point is left but end points.
+  kCurve,
+  // End points, and points once they separate the background around them (2-isthmuses). Thin: no
+  // simple point is left but end points and those.
+  kSurface,
+  // Nothing: a ball becomes a point, a torus a ring. Thin: no simple point is left.
+  kKernel,
+  // Points once they separate the object around them (1-isthmuses), instead of end points. Thin: no
+  // simple point is left but those.
+  kIsthmusCurve,
+};
+
 struct ThinningOptions {
+  ThinningMethod method = ThinningMethod::kDirectional;
+  SkeletonKind kind = SkeletonKind::kCurve;
+  // Goes with end points: kinds that keep none have no stubble.
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
   ThinnessCleanup cleanup = ThinnessCleanup::kOn;
   // Thickness of a shell in lattice units (a D6 step is 2), kMinShellWidth to kMaxShellWidth.
@@ -53,9 +82,9 @@ struct ThinningTimes {
 struct ThinningResult {
   Volume thin;
   int32_t last_shell = 0;  // the deepest shell of the object
-  uint64_t removed = 0;    // by directions and stubble removal
+  uint64_t removed = 0;    // by passes, which includes stubble
   uint64_t removed_by_cleanup = 0;
-  uint32_t direction_passes = 0;
+  uint32_t passes = 0;
   ThinningTimes times;
 };
 

@@ -17,6 +17,11 @@ std::vector<LatticePoint> OffsetsIn(NeighborMask mask) {
   return offsets;
 }
 
+int ObjectComponents(NeighborMask mask) { return CountComponents(OffsetsIn(mask)); }
+int BackgroundComponents(NeighborMask mask) {
+  return ObjectComponents(static_cast<NeighborMask>(~mask & kAllNeighbors));
+}
+
 LatticePoint Times(int factor, LatticePoint p) {
   return {factor * p.x, factor * p.y, factor * p.z};
 }
@@ -73,8 +78,15 @@ int CountComponents(std::span<const LatticePoint> points) {
 }
 
 bool ReferenceCondition1(NeighborMask mask) {
-  const auto background = static_cast<NeighborMask>(~mask & kAllNeighbors);
-  return CountComponents(OffsetsIn(mask)) == 1 && CountComponents(OffsetsIn(background)) == 1;
+  return ObjectComponents(mask) == 1 && BackgroundComponents(mask) == 1;
+}
+
+bool ReferenceIsOneIsthmus(NeighborMask mask) {
+  return ObjectComponents(mask) >= 2 && BackgroundComponents(mask) == 1;
+}
+
+bool ReferenceIsTwoIsthmus(NeighborMask mask) {
+  return ObjectComponents(mask) == 1 && BackgroundComponents(mask) >= 2;
 }
 
 bool ReferenceCondition2(NeighborMask mask) { return std::popcount(mask) > 1; }

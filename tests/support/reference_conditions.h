@@ -28,6 +28,12 @@ bool ReferenceIsBorderPoint(NeighborMask mask, DiagonalDirection d);
 // The border point and Conditions 1 to 4 together.
 bool ReferenceIsRemovable(NeighborMask mask, DiagonalDirection d);
 
+// What p is to its surroundings, by components of object and background among its neighbors: a
+// 1-isthmus has at least two of the object and one of the background, a 2-isthmus one of the object
+// and at least two of the background.
+bool ReferenceIsOneIsthmus(NeighborMask mask);
+bool ReferenceIsTwoIsthmus(NeighborMask mask);
+
 // R(p, axial, diagonal) for p = 0, as neighbors: every p + lambda * d1 + mu * d2 that is in N14(p).
 NeighborMask ReferenceCheckingRing(LatticePoint axial, LatticePoint diagonal);
 

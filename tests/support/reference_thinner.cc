@@ -1,9 +1,11 @@
 #include "tests/support/reference_thinner.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "tests/support/reference_cliques.h"
 #include "tests/support/reference_conditions.h"
 #include "tests/support/reference_distance.h"
 #include "tests/support/reference_point_set.h"
@@ -20,6 +22,7 @@ class Thinner {
       const int32_t shell = ReferenceShell(counts[object_.Index(p)], options_.shell_width);
       result_.last_shell = std::max(result_.last_shell, shell);
       shells_.emplace_back(p, shell);
+      shell_of_[p] = shell;
     }
   }
 
@@ -48,7 +51,12 @@ class Thinner {
     }
   }
 
+  bool KeepsEndPoints() const {
+    return options_.kind == SkeletonKind::kCurve || options_.kind == SkeletonKind::kSurface;
+  }
+
   bool IsStubble(LatticePoint p) const {
+    if (!KeepsEndPoints()) return false;
     switch (options_.stubble) {
       case StubblePolicy::kKeepTwo:
         return ReferenceIsStubbleKeepTwo(object_, p);
@@ -71,15 +79,59 @@ class Thinner {
   }
 
   uint64_t ThinOneCycle() {
-    uint64_t removed = 0;
-    for (int d = 0; d < 8; ++d) {
-      removed += RemoveAllThat([&](LatticePoint p) {
-        return IsStubble(p) || ReferenceIsRemovable(object_.NeighborsOf(p), DiagonalDirection(d));
-      });
-      ++result_.direction_passes;
-    }
+    const uint64_t removed =
+        options_.method == ThinningMethod::kSymmetric ? SymmetricPass() : DirectionalCycle();
+    ++cycle_;
     result_.removed += removed;
     return removed;
+  }
+
+  uint64_t DirectionalCycle() {
+    const bool reversed =
+        options_.method == ThinningMethod::kDirectionalAlternating && cycle_ % 2 == 1;
+    uint64_t removed = 0;
+    for (int n = 0; n < 8; ++n) {
+      const DiagonalDirection d(reversed ? 7 - n : n);
+      removed += RemoveAllThat([&](LatticePoint p) {
+        return IsStubble(p) || ReferenceIsRemovable(object_.NeighborsOf(p), d);
+      });
+      ++result_.passes;
+    }
+    return removed;
+  }
+
+  uint64_t SymmetricPass() {
+    std::erase_if(candidates_, [&](LatticePoint p) {
+      if (!IsIsthmusToKeep(object_.NeighborsOf(p))) return false;
+      return keep_.insert(p).second;
+    });
+    std::set<LatticePoint> simple;
+    for (LatticePoint p : candidates_) {
+      if (MayGo(object_.NeighborsOf(p))) simple.insert(p);
+    }
+    simple = ReferenceRuleB(object_, std::move(simple), [this](LatticePoint p) {
+      return 4 * int64_t{shell_of_[p]} + (p.x + p.y + p.z + cycle_) % 4;
+    });
+    ++result_.passes;
+    return RemoveAllThat([&](LatticePoint p) { return simple.contains(p) || IsStubble(p); });
+  }
+
+  bool IsIsthmusToKeep(NeighborMask mask) const {
+    switch (options_.kind) {
+      case SkeletonKind::kCurve:
+      case SkeletonKind::kKernel:
+        return false;
+      case SkeletonKind::kSurface:
+        return ReferenceIsTwoIsthmus(mask);
+      case SkeletonKind::kIsthmusCurve:
+        return ReferenceIsOneIsthmus(mask);
+    }
+    return false;
+  }
+
+  // Condition 1, and Condition 2 where end points are kept.
+  bool MayGo(NeighborMask mask) const {
+    return (!KeepsEndPoints() || ReferenceCondition2(mask)) && ReferenceCondition1(mask);
   }
 
   void CleanUp() {
@@ -95,8 +147,7 @@ class Thinner {
     return RemoveAllThat([&](LatticePoint p) {
       const int sum = (p.x + p.y + p.z) % 4;
       if ((sum + 4) % 4 != color) return false;
-      const NeighborMask mask = object_.NeighborsOf(p);
-      return ReferenceCondition2(mask) && ReferenceCondition1(mask);
+      return MayGo(object_.NeighborsOf(p));
     });
   }
 
@@ -104,7 +155,9 @@ class Thinner {
   ReferencePointSet object_;
   std::set<LatticePoint> keep_;
   std::vector<std::pair<LatticePoint, int32_t>> shells_;
+  std::map<LatticePoint, int32_t> shell_of_;
   std::vector<LatticePoint> candidates_;
+  int32_t cycle_ = 0;
   ReferenceThinning result_;
 };
 

@@ -60,7 +60,7 @@ void ExpectAgreement(const Volume& object, const ThinningOptions& options, size_
         << result.thin.PointCount() << " points instead of " << expected.thin.size();
     ASSERT_EQ(result.removed, expected.removed);
     ASSERT_EQ(result.removed_by_cleanup, expected.removed_by_cleanup);
-    ASSERT_EQ(result.direction_passes, expected.direction_passes);
+    ASSERT_EQ(result.passes, expected.passes);
     ASSERT_EQ(result.thin.extent(), object.extent());
   }
 }

@@ -48,7 +48,7 @@ TEST_P(ShapesAgreement, EngineAndReferenceGiveTheSamePoints) {
       EXPECT_EQ(result.removed, expected.removed);
       EXPECT_EQ(result.removed_by_cleanup, expected.removed_by_cleanup);
       EXPECT_EQ(result.last_shell, expected.last_shell);
-      EXPECT_EQ(result.direction_passes, expected.direction_passes);
+      EXPECT_EQ(result.passes, expected.passes);
     }
   }
 }
