@@ -1,0 +1,118 @@
+#include "core/mask/mask_converter.h"
+
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel {
+namespace {
+
+// The volume's invariants rest on it: a stray bit would be a point outside the extent.
+absl::Status CheckUnusedBits(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
+  if (grid.nx % 64 == 0) return absl::OkStatus();
+  const uint64_t unused = ~uint64_t{0} << grid.nx % 64;
+  for (int32_t y = 0; y < grid.ny; ++y) {
+    const size_t last = (static_cast<size_t>(y) + 1) * grid.WordsPerRow() - 1;
+    if ((words[last] & unused) != 0) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "slice %d, row %d: a bit is set past the last of %d voxels", z, y, grid.nx));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckSlice(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
+  if (z >= grid.nz) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the mask has more than the %d slices of its grid", grid.nz));
+  }
+  if (words.size() != grid.WordsPerSlice()) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("slice %d has %d words of 64 voxels: %d x %d voxels take %d", z,
+                        words.size(), grid.nx, grid.ny, grid.WordsPerSlice()));
+  }
+  return CheckUnusedBits(grid, words, z);
+}
+
+}  // namespace
+
+absl::StatusOr<MaskConverter> MaskConverter::Create(const MaskGrid& grid,
+                                                    const MaskOptions& options) {
+  BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(grid));
+  MaskConverter converter(grid, options);
+  if (options.sampling) {
+    BCCSKEL_ASSIGN_OR_RETURN(const MaskLattice lattice, LatticeFor(grid, *options.sampling));
+    converter.sampler_.emplace(grid, options.sampling->weights, lattice);
+  }
+  return converter;
+}
+
+MaskConverter::MaskConverter(const MaskGrid& grid, const MaskOptions& options)
+    : grid_(grid),
+      options_(options),
+      topology_(grid, options.adjacency),
+      bricks_(options.adjacency) {}
+
+absl::Status MaskConverter::AddSlice(std::span<const uint64_t> words,
+                                     const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSlice(grid_, words, next_z_));
+  rows_.SetDense(grid_, words);
+  return AddRows(next_z_++, rows_, context);
+}
+
+absl::Status MaskConverter::AddRows(int32_t z, SliceRows& rows, const exec::Context& context) {
+  topology_.AddSlice(z, rows);
+  if (sampler_) sampler_->AddSlice(z, rows);
+  tubes_.AddSlice(z, rows, [this](const RowTube& tube) { AddTube(tube); });
+  BCCSKEL_RETURN_IF_ERROR(CheckBricks());
+  return context.StopStatus();
+}
+
+void MaskConverter::AddTube(const RowTube& tube) {
+  topology_.AddTube(tube);
+  if (!sampler_) bricks_.Add(tube);
+}
+
+absl::Status MaskConverter::CheckBricks() const {
+  const uint64_t bricks = sampler_ ? sampler_->brick_count() : bricks_.brick_count();
+  if (bricks <= options_.max_bricks) return absl::OkStatus();
+  return absl::ResourceExhaustedError(absl::StrFormat(
+      "the mask has more bricks of 512 points than the limit of %d", options_.max_bricks));
+}
+
+absl::StatusOr<ConvertedMask> MaskConverter::Finish() && {
+  if (next_z_ != grid_.nz) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the mask ends after %d of %d slices", next_z_, grid_.nz));
+  }
+  return std::move(*this).FinishRows();
+}
+
+absl::StatusOr<ConvertedMask> MaskConverter::FinishRows() && {
+  tubes_.Finish([this](const RowTube& tube) { AddTube(tube); });
+  BCCSKEL_RETURN_IF_ERROR(CheckBricks());
+  ConvertedMask converted;
+  converted.voxels = topology_.voxels();
+  converted.mask = std::move(topology_).Finish();
+  if (sampler_) {
+    BCCSKEL_ASSIGN_OR_RETURN(converted.volume, std::move(*sampler_).Finish());
+  } else {
+    converted.volume = std::move(bricks_).Finish(ExactExtent(grid_), ExactPlacement(grid_));
+  }
+  return converted;
+}
+
+std::string DescribeChanges(const BettiNumbers& mask, const BettiNumbers& object) {
+  std::string changes;
+  const auto add = [&](const char* name, int64_t before, int64_t after) {
+    if (before == after) return;
+    changes += absl::StrFormat("%s%s %d -> %d", changes.empty() ? "" : ", ", name, before, after);
+  };
+  add("components", mask.components, object.components);
+  add("loops", mask.loops, object.loops);
+  add("cavities", mask.cavities, object.cavities);
+  return changes;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,51 @@
+#ifndef BCCSKEL_CORE_MASK_MASK_GRID_H_
+#define BCCSKEL_CORE_MASK_MASK_GRID_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "core/lattice/lattice_point.h"
+
+namespace bccskel {
+
+// Which voxels of a cubic mask touch each other, object first: the two readings that keep the
+// object's and the background's topology in step.
+enum class MaskAdjacency : uint8_t {
+  k26,  // (26, 6): object voxels that share a corner are connected
+  k6,   // (6, 26): only those that share a face
+};
+
+// Largest number of voxels along an axis: the exact conversion makes 2 n + 1 cells of n voxels.
+inline constexpr int32_t kMaxMaskVoxels = (kMaxExtentCells - 1) / 2;
+
+// A grid of voxels. Here `placement` places voxel centers: `spacing` is the size of a voxel,
+// `origin` the world position of the center of voxel (0, 0, 0). Everything outside is background.
+struct MaskGrid {
+  int32_t nx = 0;
+  int32_t ny = 0;
+  int32_t nz = 0;
+  Placement placement;
+
+  // A slice of a mask is all voxels of one z: row y begins at word y * WordsPerRow(), voxel x of it
+  // is bit x % 64 of word x / 64, and bits from nx on are zero.
+  size_t WordsPerRow() const { return (static_cast<size_t>(nx) + 63) / 64; }
+  size_t WordsPerSlice() const { return WordsPerRow() * static_cast<size_t>(ny); }
+  // A slice of labels holds one value a voxel, x fastest.
+  size_t VoxelsPerSlice() const { return static_cast<size_t>(nx) * static_cast<size_t>(ny); }
+
+  friend bool operator==(const MaskGrid&, const MaskGrid&) = default;
+};
+
+// OK when each axis has 1..kMaxMaskVoxels voxels and the placement is finite with a positive
+// spacing.
+absl::Status CheckMaskGrid(const MaskGrid& grid);
+
+// The lattice of the exact conversion: its even points are the corners of the refined voxels, its
+// odd points their centers. World positions are those of the voxels.
+LatticeExtent ExactExtent(const MaskGrid& grid);
+Placement ExactPlacement(const MaskGrid& grid);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_MASK_MASK_GRID_H_

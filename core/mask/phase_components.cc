@@ -1,0 +1,107 @@
+#include "core/mask/phase_components.h"
+
+#include <limits>
+#include <utility>
+
+namespace bccskel {
+namespace {
+
+constexpr uint32_t kOutside = 0;
+// Half the range, so that ends can be compared with a step added.
+constexpr int32_t kFar = std::numeric_limits<int32_t>::max() / 2;
+
+}  // namespace
+
+void PhaseComponents::AddRow(int32_t y) {
+  runs_.AddRow(y);
+  last_end_ = -kFar;
+}
+
+void PhaseComponents::AddNewSet(int32_t begin, int32_t end) {
+  runs_.AddRun({begin, end, static_cast<uint32_t>(parents_.size())});
+  parents_.push_back(static_cast<uint32_t>(parents_.size()));
+  ++count_;
+}
+
+void PhaseComponents::AddObjectRun(int32_t begin, int32_t end) {
+  if (phase_ == MaskPhase::kObject) {
+    AddNewSet(begin, end);
+  } else if (last_end_ == -kFar) {
+    runs_.AddRun({-kFar, begin, kOutside});
+  } else {
+    AddNewSet(last_end_, begin);
+  }
+  last_end_ = end;
+}
+
+void PhaseComponents::EndRow() {
+  if (phase_ == MaskPhase::kBackground) runs_.AddRun({last_end_, kFar, kOutside});
+}
+
+void PhaseComponents::EndSlice() {
+  for (int32_t y : runs_.rows()) LinkRow(y);
+  if (phase_ == MaskPhase::kBackground) {
+    for (int32_t y : runs_.rows()) LinkToOutside(y, runs_, before_);
+    for (int32_t y : before_.rows()) LinkToOutside(y, before_, runs_);
+  }
+  Renumber();
+  std::swap(before_, runs_);
+  runs_.Clear();
+}
+
+void PhaseComponents::LinkRow(int32_t y) {
+  const std::span<PhaseRun> row = runs_.Row(y);
+  if (runs_.Has(y - 1)) LinkRows(row, runs_.Row(y - 1));
+  for (int32_t other = y - reach(); other <= y + reach(); ++other) {
+    if (before_.Has(other)) LinkRows(row, before_.Row(other));
+  }
+}
+
+// A row without object voxels next to this one, in its own or the other slice, is outside and
+// touches every run.
+void PhaseComponents::LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other) {
+  bool open = !slice.Has(y - 1) || !slice.Has(y + 1);
+  for (int32_t near = y - reach(); near <= y + reach(); ++near) open |= !other.Has(near);
+  if (!open) return;
+  for (const PhaseRun& run : slice.Row(y)) Join(run.set, kOutside);
+}
+
+void PhaseComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
+  const int32_t step = reach();
+  for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (a[i].begin < b[j].end + step && b[j].begin < a[i].end + step) Join(a[i].set, b[j].set);
+    // Runs of a row leave a gap, so the next one behind the nearer end is out of the other's reach.
+    a[i].end < b[j].end ? ++i : ++j;
+  }
+}
+
+uint32_t PhaseComponents::Find(uint32_t set) {
+  while (parents_[set] != set) set = parents_[set] = parents_[parents_[set]];
+  return set;
+}
+
+// The smaller number stays, so the outside keeps its own.
+void PhaseComponents::Join(uint32_t a, uint32_t b) {
+  a = Find(a);
+  b = Find(b);
+  if (a == b) return;
+  if (a > b) std::swap(a, b);
+  parents_[b] = a;
+  --count_;
+}
+
+void PhaseComponents::Renumber() {
+  constexpr uint32_t kNone = ~uint32_t{0};
+  std::vector<uint32_t> number(parents_.size(), kNone);
+  number[kOutside] = kOutside;
+  uint32_t next = kOutside + 1;
+  for (PhaseRun& run : runs_.runs()) {
+    uint32_t& fresh = number[Find(run.set)];
+    if (fresh == kNone) fresh = next++;
+    run.set = fresh;
+  }
+  parents_.resize(next);
+  for (uint32_t set = 0; set < next; ++set) parents_[set] = set;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,54 @@
+#ifndef BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_
+#define BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mask/phase_runs.h"
+
+namespace bccskel {
+
+// Counts the components of one phase of a mask, slice after slice: every run is a set of its own,
+// runs that touch are joined, and each successful join leaves one component less. Runs of the
+// background that reach the border belong to the outside, set 0, which is not counted.
+// Memory: the runs of two slices; sets are renumbered after each.
+class PhaseComponents {
+ public:
+  PhaseComponents(MaskPhase phase, Contact contact, int32_t ny)
+      : phase_(phase), contact_(contact), before_(ny), runs_(ny), parents_(1) {}
+
+  // The next slice: rows in order of y, of each its runs in order. Rows that are left out hold no
+  // object voxel.
+  void AddRow(int32_t y);
+  void AddObjectRun(int32_t begin, int32_t end);
+  void EndRow();
+  void EndSlice();
+
+  // Needs: as many empty slices at the end as there are (one is enough).
+  int64_t count() const { return count_; }
+
+ private:
+  void AddNewSet(int32_t begin, int32_t end);
+  void LinkRow(int32_t y);
+  void LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other);
+  void LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b);
+  void JoinOutside(std::span<PhaseRun> row);
+  void Join(uint32_t a, uint32_t b);
+  uint32_t Find(uint32_t set);
+  void Renumber();
+
+  // How far in y a row of the slice before may lie.
+  int32_t reach() const { return contact_ == Contact::kCorner ? 1 : 0; }
+
+  const MaskPhase phase_;
+  const Contact contact_;
+  PhaseRuns before_;  // the slice before
+  PhaseRuns runs_;    // this slice
+  int32_t last_end_ = 0;
+  std::vector<uint32_t> parents_;
+  int64_t count_ = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_

@@ -1,0 +1,76 @@
+#ifndef BCCSKEL_CORE_MASK_ROW_TUBES_H_
+#define BCCSKEL_CORE_MASK_ROW_TUBES_H_
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/mask/slice_rows.h"
+
+namespace bccskel {
+
+// All voxels that decide about one line of bricks along x. A brick of the exact conversion spans
+// 8 x 2 x 4 voxels, so line (by, bz) holds rows 2 by and 2 by + 1 of slices 4 bz to 4 bz + 3; the
+// row and the slice before them decide about the corners in between.
+struct RowTube {
+  static constexpr int kSlices = 5;
+  static constexpr int kRows = 3;
+
+  int32_t by = 0;
+  int32_t bz = 0;
+  int32_t first_word = 0;  // of all rows
+  int32_t word_count = 0;
+  const uint64_t* words = nullptr;  // of row (0, 0)
+  size_t stride = 0;
+
+  // Row 2 by - 1 + row of slice 4 bz - 1 + slice. Word n is word first_word + n of the mask,
+  // -1 <= n <= word_count; the first and the last of these are zero.
+  const uint64_t* Row(int slice, int row) const {
+    return words + static_cast<size_t>(slice * kRows + row) * stride;
+  }
+};
+
+// Cuts a mask, slice after slice, into its occupied tubes.
+// Memory: the occupied rows of five slices. Cost: each row is copied into at most four tubes.
+class RowTubes {
+ public:
+  // Takes the rows of slice z out of `rows` and calls visit(const RowTube&) for the tubes that are
+  // complete, in order of (bz, by).
+  // Needs: z grows from call to call; slices that are left out are empty.
+  template <typename Visit>
+  void AddSlice(int32_t z, SliceRows& rows, Visit visit) {
+    while (bz_ < z / 4) VisitLayer(z / 4, visit);
+    std::swap(slices_[static_cast<size_t>(z % 4 + 1)], rows);
+  }
+
+  template <typename Visit>
+  void Finish(Visit visit) {
+    VisitLayer(bz_ + 1, visit);
+    VisitLayer(bz_ + 1, visit);
+  }
+
+ private:
+  // Goes on to the next layer of bricks that may be occupied, at most `limit`.
+  template <typename Visit>
+  void VisitLayer(int32_t limit, Visit visit) {
+    cursors_ = {};
+    for (int32_t by = NextTube(0); by >= 0; by = NextTube(by + 1)) visit(Fill(by));
+    NextLayer(limit);
+  }
+
+  // The first line of bricks from `by` on that has an occupied row, or -1.
+  int32_t NextTube(int32_t by);
+  const RowTube& Fill(int32_t by);
+  void NextLayer(int32_t limit);
+
+  std::array<SliceRows, RowTube::kSlices> slices_;  // 4 bz_ - 1 to 4 bz_ + 3
+  std::array<size_t, RowTube::kSlices> cursors_ = {};
+  int32_t bz_ = 0;
+  RowTube tube_;
+  std::vector<uint64_t> words_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_MASK_ROW_TUBES_H_
