@@ -186,6 +186,26 @@ CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
   return command;
 }
 
+void AddResult(CLI::App& command, ResultArguments& source) {
+  AddInput(command, "RESULT", source.result, "JSON file of skeletonize or submit");
+  command.add_option("--object", source.object, "Mesh or volume that the result was made from")
+      ->required()
+      ->option_text("FILE (required)");
+  AddGrid(command, source.grid);
+}
+
+CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
+  CLI::App& command = *app.add_subcommand(
+      "view", "Make a page to look at a result in a browser, without a network");
+  AddResult(command, arguments.source);
+  command.add_option("-o,--output", arguments.output, "Page to write: .html")
+      ->required()
+      ->option_text("FILE (required)");
+  AddThreads(command, arguments.common, kThreadsHere);
+  AddCommon(command, arguments.common);
+  return command;
+}
+
 CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
   CLI::App& command = *app.add_subcommand("generate", "Make a test object");
   command
@@ -221,12 +241,14 @@ struct CommandLine {
   SkeletonizeArguments submit_arguments;
   SkeletonizeArguments skeletonize_arguments;
   InfoArguments info_arguments;
+  ViewArguments view_arguments;
   GenerateArguments generate_arguments;
   BenchCoreArguments bench_core_arguments;
   CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
   CLI::App& submit = AddSubmit(app, submit_arguments);
   CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
   CLI::App& info = AddInfo(app, info_arguments);
+  CLI::App& view = AddView(app, view_arguments);
   CLI::App& generate = AddGenerate(app, generate_arguments);
   CLI::App& bench = AddBench(app, bench_core_arguments);
 
@@ -247,6 +269,7 @@ struct CommandLine {
     if (submit.parsed()) return submit_arguments;
     if (skeletonize.parsed()) return skeletonize_arguments;
     if (info.parsed()) return info_arguments;
+    if (view.parsed()) return view_arguments;
     if (generate.parsed()) return generate_arguments;
     return bench_core_arguments;
   }
@@ -272,13 +295,12 @@ Complaint OverwriteComplaint(const std::string& input, const std::string& output
   return output + ": is the input, too, and would be overwritten";
 }
 
-Complaint GridComplaint(const SkeletonizeArguments& arguments) {
-  const VoxelizeOptions& grid = arguments.grid;
+Complaint GridComplaint(const std::string& input, const VoxelizeOptions& grid) {
   const bool given =
       grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto;
-  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input);
+  const absl::StatusOr<InputKind> kind = InputKindOf(input);
   if (!given || !kind.ok() || *kind == InputKind::kMesh) return std::nullopt;
-  return "--points, --spacing and --fill are for meshes; " + arguments.input + " is a volume";
+  return "--points, --spacing and --fill are for meshes; " + input + " is a volume";
 }
 
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
@@ -287,7 +309,7 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
       return c;
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
-  if (Complaint c = GridComplaint(arguments); c.has_value()) return c;
+  if (Complaint c = GridComplaint(arguments.input, arguments.grid); c.has_value()) return c;
   return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
 }
 
@@ -300,6 +322,20 @@ Complaint ComplaintAbout(const VoxelizeArguments& arguments) {
 
 Complaint ComplaintAbout(const GenerateArguments& arguments) {
   return VolumeOutputComplaint(arguments.output);
+}
+
+Complaint EndingComplaint(const std::string& path, std::string_view ending) {
+  if (path.ends_with(ending)) return std::nullopt;
+  return path + ": does not end in " + std::string(ending);
+}
+
+Complaint ComplaintAbout(const ViewArguments& arguments) {
+  const ResultArguments& source = arguments.source;
+  if (Complaint c = EndingComplaint(arguments.output, ".html"); c.has_value()) return c;
+  for (const std::string& input : {source.result, source.object}) {
+    if (Complaint c = OverwriteComplaint(input, arguments.output); c.has_value()) return c;
+  }
+  return GridComplaint(source.object, source.grid);
 }
 
 Complaint ComplaintAbout(const InfoArguments&) { return std::nullopt; }

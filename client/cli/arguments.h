@@ -57,6 +57,19 @@ struct InfoArguments {
   std::string file;
 };
 
+// A JSON result and the mesh or volume that it was made from.
+struct ResultArguments {
+  std::string result;
+  std::string object;
+  VoxelizeOptions grid;  // of a mesh
+};
+
+struct ViewArguments {
+  CommonArguments common;
+  ResultArguments source;
+  std::string output;
+};
+
 struct GenerateArguments {
   CommonArguments common;
   std::string output;
@@ -73,7 +86,7 @@ struct BenchCoreArguments {
 };
 
 using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments,
-                               GenerateArguments, BenchCoreArguments>;
+                               ViewArguments, GenerateArguments, BenchCoreArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

@@ -4,7 +4,7 @@
 # What a program needs that links our core; bccskelConfig.cmake repeats this list.
 set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB zstd OpenEXR hwy)
 # What a program needs besides that links our client.
-set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC)
+set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC meshoptimizer nlohmann_json)
 
 set(bccskel_packages ${BCCSKEL_CORE_PACKAGES})
 if(BCCSKEL_BUILD_SERVER OR BCCSKEL_BUILD_CLIENT)

@@ -10,8 +10,8 @@ namespace bccskel {
 struct SurfaceSmoothing {
   int steps = 24;
   // No coordinate moves farther from where it was, lattice units. Layers of points are 1 apart, so
-  // one unit is what it takes to lay a plane over the stairs.
-  float reach = 1;
+  // half of it lays a plane through the stairs. Less than 1 leaves something of a single point.
+  float reach = 0.7f;
 };
 
 // Takes the steps of the lattice off a surface: each vertex goes to the mean of its neighbors, step

@@ -9,7 +9,7 @@ import unittest
 import harness
 
 CLI = harness.SOURCES / "client/cli"
-COMMANDS = ("voxelize", "submit", "skeletonize", "info", "generate", "bench core")
+COMMANDS = ("voxelize", "submit", "skeletonize", "info", "view", "generate", "bench core")
 
 
 def options_of(command):
@@ -90,7 +90,10 @@ class DocumentsTest(harness.TestCase):
         commands = [("voxelize", self.path("a.off"), *grid, "-o", self.path("a.exr")),
                     ("skeletonize", self.path("a.off"), *grid, "--local", "-o", self.path("a.swc")),
                     ("info", self.path("a.off")), ("info", self.path("a.exr")),
-                    ("generate", "ball", "-o", self.path("b.exr"))]
+                    ("generate", "ball", "-o", self.path("b.exr")),
+                    ("skeletonize", self.path("b.exr"), "--local", "-o", self.path("b.json")),
+                    ("view", self.path("b.json"), "--object", self.path("b.exr"),
+                     "-o", self.path("b.html"))]
         for command in commands:
             for key in self.keys(json.loads(self.succeed(*command, "--json"))):
                 with self.subTest(command=command[0], key=key):

@@ -1,0 +1,102 @@
+#include "client/view/display_surface.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/distance/chamfer_distance.h"
+#include "core/exec/status_macros.h"
+#include "core/shells/shells.h"
+#include "core/surface/smooth_surface.h"
+
+namespace bccskel::view {
+namespace {
+
+constexpr double kShellWidth = 1;
+
+// Fewer triangles, ordered so that neighbors in space are neighbors in memory.
+void Simplify(SurfaceMesh& mesh, size_t most_triangles) {
+  static_assert(sizeof(SurfaceVertex) == 3 * sizeof(float));
+  static_assert(sizeof(SurfaceTriangle) == 3 * sizeof(uint32_t));
+  if (mesh.triangles.empty()) return;
+  const uint32_t* all = mesh.triangles.front().data();
+  std::vector<SurfaceTriangle> triangles(mesh.triangles.size());
+  uint32_t* indices = triangles.front().data();
+  const float* positions = mesh.vertices.front().data();
+  const size_t most = 3 * std::min(most_triangles, mesh.triangles.size());
+  constexpr float kAnyError = 1e9f;
+  const size_t left =
+      meshopt_simplify(indices, all, 3 * mesh.triangles.size(), positions, mesh.vertices.size(),
+                       sizeof(SurfaceVertex), most, kAnyError);
+  triangles.resize(left / 3);
+  mesh.triangles = std::move(triangles);
+  meshopt_optimizeVertexCache(indices, indices, left, mesh.vertices.size());
+  mesh.vertices.resize(meshopt_optimizeVertexFetch(mesh.vertices.data(), indices, left,
+                                                   mesh.vertices.data(), mesh.vertices.size(),
+                                                   sizeof(SurfaceVertex)));
+}
+
+double Determinant(const std::array<double, 9>& m) {
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+         m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+DisplaySurface InWorld(const SurfaceMesh& mesh, const Placement& placement) {
+  DisplaySurface surface;
+  surface.vertices.reserve(mesh.vertices.size());
+  for (const auto& [x, y, z] : mesh.vertices) {
+    surface.vertices.push_back(placement.ToWorld(x, y, z));
+  }
+  surface.triangles = mesh.triangles;
+  if (Determinant(placement.direction) < 0) {  // a mirror turns triangles inside out
+    for (SurfaceTriangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return surface;
+}
+
+// The points of an object that are deeper than a shell.
+Volume DeeperThan(int32_t shell, const Volume& object, const ChamferField& distance) {
+  std::vector<BrickKey> keys(object.keys().begin(), object.keys().end());
+  std::vector<BrickBits> bricks(object.bricks().begin(), object.bricks().end());
+  for (BrickIndex n = 0; n < bricks.size(); ++n) {
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      if (ShellOf(distance.At(n, bit), distance.weights(), kShellWidth) <= shell) {
+        bricks[n].Clear(bit);
+      }
+    });
+  }
+  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                  std::move(bricks));
+}
+
+}  // namespace
+
+absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
+                                                  const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractSurface(object, context));
+  SmoothSurface(mesh, {});
+  Simplify(mesh, most_triangles);
+  return InWorld(mesh, object.placement());
+}
+
+absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,
+                                       const exec::Context& context) {
+  Peeling peeling;
+  BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
+                           MakeDisplaySurface(object, limits.object_triangles, context));
+  peeling.layers.push_back({0, std::move(whole)});
+  BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, context));
+  peeling.last_shell = ShellOf(distance.largest(), distance.weights(), kShellWidth);
+  const int32_t layers = std::min(limits.layers, peeling.last_shell - 1);
+  for (int32_t n = 1; n <= layers; ++n) {
+    const int32_t shell = n * (peeling.last_shell - 1) / layers;
+    BCCSKEL_ASSIGN_OR_RETURN(
+        DisplaySurface surface,
+        MakeDisplaySurface(DeeperThan(shell, object, distance), limits.layer_triangles, context));
+    peeling.layers.push_back({shell, std::move(surface)});
+  }
+  return peeling;
+}
+
+}  // namespace bccskel::view

@@ -1,0 +1,50 @@
+#ifndef BCCSKEL_CLIENT_VIEW_DISPLAY_SURFACE_H_
+#define BCCSKEL_CLIENT_VIEW_DISPLAY_SURFACE_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/lattice/lattice_point.h"
+#include "core/surface/surface_mesh.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::view {
+
+// A surface for the eye: in the world, smoothed, and with no more triangles than it takes.
+struct DisplaySurface {
+  std::vector<WorldPoint> vertices;
+  std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
+};
+
+// Simplification keeps to the budget unless topology forbids it; then it comes close.
+// Errors: those of ExtractSurface().
+absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
+                                                  const exec::Context& context);
+
+// What is left of an object when its outer shells are peeled off.
+struct Peeled {
+  int32_t shells = 0;  // how many are gone; 0 for the object itself
+  DisplaySurface surface;
+};
+
+struct PeelingLimits {
+  size_t object_triangles = 150'000;
+  size_t layer_triangles = 20'000;
+  int32_t layers = 20;
+};
+
+struct Peeling {
+  std::vector<Peeled> layers;  // first the object itself, then with more and more shells gone
+  int32_t last_shell = 0;
+};
+
+// The object and a choice of its layers, evenly spread. Shells are one lattice unit thick.
+// Errors: those of ExtractSurface().
+absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,
+                                       const exec::Context& context);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_DISPLAY_SURFACE_H_

@@ -1,0 +1,114 @@
+#include "client/view/page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "client/view/packed_numbers.h"
+#include "client/view/page_parts.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The cube that all surfaces lie in, and its 65,535 steps.
+struct Quantizer {
+  WorldPoint low;
+  double step;
+
+  uint32_t operator()(double value, size_t axis) const {
+    return static_cast<uint32_t>(std::lround((value - low[axis]) / step));
+  }
+};
+
+Quantizer QuantizerFor(const DisplaySurface& outermost) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  WorldPoint low = {kInfinity, kInfinity, kInfinity}, high = {-kInfinity, -kInfinity, -kInfinity};
+  for (const WorldPoint& v : outermost.vertices) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], v[axis]);
+      high[axis] = std::max(high[axis], v[axis]);
+    }
+  }
+  if (outermost.vertices.empty()) return {{0, 0, 0}, 1};
+  double edge = 0;
+  for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, high[axis] - low[axis]);
+  // A margin, since smoothed inner layers of thin objects may poke out of the outermost.
+  const double margin = edge / 64;
+  for (double& coordinate : low) coordinate -= margin;
+  return {low, edge > 0 ? (edge + 2 * margin) / 65535 : 1};
+}
+
+absl::StatusOr<Json> SurfaceJson(const Peeled& layer, const Quantizer& quantize) {
+  std::vector<uint32_t> coordinates, corners;
+  for (size_t axis = 0; axis < 3; ++axis) {  // one axis after the other: differences stay small
+    for (const WorldPoint& v : layer.surface.vertices) {
+      coordinates.push_back(quantize(v[axis], axis));
+    }
+  }
+  for (const SurfaceTriangle& triangle : layer.surface.triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(std::string packed_coordinates, PackNumbers(coordinates));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string packed_corners, PackNumbers(corners));
+  return Json{{"shells", layer.shells},
+              {"vertices", layer.surface.vertices.size()},
+              {"triangles", layer.surface.triangles.size()},
+              {"coordinates", std::move(packed_coordinates)},
+              {"corners", std::move(packed_corners)}};
+}
+
+absl::StatusOr<Json> DataOf(const PageContent& content) {
+  const Quantizer quantize = QuantizerFor(content.peeling.layers.front().surface);
+  Json data = {{"title", content.title},
+               {"low", quantize.low},
+               {"step", quantize.step},
+               {"last_shell", content.peeling.last_shell},
+               {"layers", Json::array()}};
+  for (const Peeled& layer : content.peeling.layers) {
+    BCCSKEL_ASSIGN_OR_RETURN(Json surface, SurfaceJson(layer, quantize));
+    data["layers"].push_back(std::move(surface));
+  }
+  return data;
+}
+
+// JSON inside of a script element: no text in it may end the element.
+std::string InScript(std::string_view json) {
+  std::string text;
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text.push_back(c);
+    }
+  }
+  return text;
+}
+
+void Replace(std::string& page, std::string_view mark, std::string_view by) {
+  page.replace(page.find(mark), mark.size(), by);
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> PageOf(const PageContent& content) {
+  BCCSKEL_ASSIGN_OR_RETURN(const Json data, DataOf(content));
+  std::string page(kPageFrame);
+  // From the end to the start, so that no mark is looked for in what was put in.
+  Replace(page, "{{viewer}}", kViewerScript);
+  Replace(page, "{{result}}", InScript(content.result.text));
+  Replace(page, "{{data}}",
+          InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace)));
+  Replace(page, "{{controls}}", kOrbitControls);
+  Replace(page, "{{three}}", kThree);
+  Replace(page, "{{license}}", kThreeLicense);
+  Replace(page, "{{style}}", kPageStyle);
+  return page;
+}
+
+}  // namespace bccskel::view

@@ -1,0 +1,26 @@
+#ifndef BCCSKEL_CLIENT_VIEW_PAGE_H_
+#define BCCSKEL_CLIENT_VIEW_PAGE_H_
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/view/display_surface.h"
+#include "client/view/result_document.h"
+
+namespace bccskel::view {
+
+struct PageContent {
+  std::string title;  // plain text, UTF-8 or not
+  const ResultDocument& result;
+  const Peeling& peeling;
+};
+
+// A self-contained page that a browser opens without a network: the object as tinted glass, its
+// skeleton, and a slider that peels it. Equal contents give equal bytes. Surfaces are quantized to
+// 16 bits across the object; the skeleton is the document itself.
+// Errors: RESOURCE_EXHAUSTED.
+absl::StatusOr<std::string> PageOf(const PageContent& content);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_PAGE_H_

@@ -1,0 +1,20 @@
+#ifndef BCCSKEL_CLIENT_VIEW_PAGE_PARTS_H_
+#define BCCSKEL_CLIENT_VIEW_PAGE_PARTS_H_
+
+#include <string_view>
+
+namespace bccskel::view {
+
+// The files of the folder `page`.
+extern const std::string_view kPageFrame;  // with {{style}}, {{license}}, {{three}}, ... to fill in
+extern const std::string_view kPageStyle;
+extern const std::string_view kViewerScript;
+extern const std::string_view kThreeLicense;
+
+// three.js, as Debian packages it, and its controls.
+extern const std::string_view kThree;
+extern const std::string_view kOrbitControls;
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_PAGE_PARTS_H_

@@ -1,0 +1,131 @@
+#include "client/view/result_document.h"
+
+#include <cmath>
+#include <concepts>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "core/mesh/file_bytes.h"
+
+namespace bccskel::view {
+namespace {
+
+using Json = nlohmann::json;
+
+// Reads members of a document. After the first error all that is read is empty.
+class Reader {
+ public:
+  const absl::Status& status() const { return status_; }
+
+  void Read(const Json& from, const std::string& place, double& to) {
+    if (!from.is_number() || !std::isfinite(from.get<double>())) {
+      return Complain(place, "a finite number");
+    }
+    to = from.get<double>();
+  }
+  template <std::integral Integer>
+  void Read(const Json& from, const std::string& place, Integer& to) {
+    const bool negative = from.is_number_integer() && !from.is_number_unsigned();
+    if (!from.is_number_integer() || (negative && std::unsigned_integral<Integer>)) {
+      return Complain(place, "an integer in range");
+    }
+    to = from.get<Integer>();
+  }
+  void Read(const Json& from, const std::string& place, std::string& to) {
+    if (!from.is_string()) return Complain(place, "a string");
+    to = from.get<std::string>();
+  }
+  void Read(const Json& from, const std::string& place, WorldPoint& to) {
+    if (!from.is_array() || from.size() != 3) return Complain(place, "three numbers");
+    for (size_t axis = 0; axis < 3; ++axis) Read(from[axis], place, to[axis]);
+  }
+  template <typename Item>
+  void Read(const Json& from, const std::string& place, std::vector<Item>& to) {
+    if (!from.is_array()) return Complain(place, "a list");
+    to.resize(from.size());
+    for (size_t n = 0; n < to.size() && status_.ok(); ++n) {
+      Read(from[n], absl::StrCat(place, "[", n, "]"), to[n]);
+    }
+  }
+  void Read(const Json& from, const std::string& place, ResultDocument::Node& to) {
+    ReadMember(from, place, "kind", to.kind);
+    ReadMember(from, place, "position", to.position);
+    ReadMember(from, place, "radius", to.radius);
+  }
+  void Read(const Json& from, const std::string& place, ResultDocument::Edge& to) {
+    ReadMember(from, place, "source", to.source);
+    ReadMember(from, place, "target", to.target);
+    ReadMember(from, place, "points", to.points);
+    ReadMember(from, place, "radii", to.radii);
+    ReadMember(from, place, "length", to.length);
+    if (to.points.empty() || to.radii.size() != to.points.size()) {
+      Complain(place, "an edge with points and as many radii");
+    }
+  }
+  void Read(const Json& from, const std::string& place, BettiNumbers& to) {
+    ReadMember(from, place, "components", to.components);
+    ReadMember(from, place, "loops", to.loops);
+    ReadMember(from, place, "cavities", to.cavities);
+  }
+  void Read(const Json& from, const std::string& place, Certificate& to) {
+    ReadMember(from, place, "input", to.input);
+    ReadMember(from, place, "skeleton", to.skeleton);
+    ReadMember(from, place, "simple_points_left", to.simple_points_left);
+  }
+  template <typename T>
+  void ReadMember(const Json& from, const std::string& place, const char* name, T& to) {
+    const std::string here = place.empty() ? name : absl::StrCat(place, ".", name);
+    const auto member = from.is_object() ? from.find(name) : from.end();
+    if (member == from.end()) return Complain(here, "there");
+    Read(*member, here, to);
+  }
+
+  void Complain(const std::string& place, const char* expected) {
+    if (!status_.ok()) return;
+    status_ = absl::InvalidArgumentError(
+        absl::StrCat("no JSON result of bccskel: ", place, " is not ", expected));
+  }
+
+ private:
+  absl::Status status_;
+};
+
+absl::Status CheckEdges(const ResultDocument& document) {
+  for (const ResultDocument::Edge& edge : document.edges) {
+    const uint64_t last = std::max(edge.source, edge.target);
+    if (last < document.nodes.size()) continue;
+    return absl::InvalidArgumentError(
+        absl::StrCat("an edge names node ", last, "; there are ", document.nodes.size(), " nodes"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (json.is_discarded()) return absl::InvalidArgumentError("this is not JSON");
+  ResultDocument document;
+  Reader reader;
+  reader.ReadMember(json, "", "nodes", document.nodes);
+  reader.ReadMember(json, "", "edges", document.edges);
+  reader.ReadMember(json, "", "certificate", document.certificate);
+  reader.ReadMember(json, "", "object_points", document.object_points);
+  BCCSKEL_RETURN_IF_ERROR(reader.status());
+  BCCSKEL_RETURN_IF_ERROR(CheckEdges(document));
+  document.text = std::move(text);
+  return document;
+}
+
+absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path) {
+  constexpr uint64_t kMostBytes = uint64_t{1} << 31;
+  BCCSKEL_ASSIGN_OR_RETURN(std::string text, ReadFileBytes(path, kMostBytes));
+  absl::StatusOr<ResultDocument> document = ParseResultDocument(std::move(text));
+  if (document.ok()) return document;
+  return absl::Status(document.status().code(),
+                      absl::StrCat(path, ": ", document.status().message()));
+}
+
+}  // namespace bccskel::view

@@ -1,0 +1,45 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
+#define BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/lattice/lattice_point.h"
+
+namespace bccskel::view {
+
+// What pictures show of a JSON result (client/export/skeleton.schema.json). World coordinates.
+struct ResultDocument {
+  struct Node {
+    std::string kind;
+    WorldPoint position;
+    double radius;
+  };
+  struct Edge {
+    uint64_t source;  // index into nodes
+    uint64_t target;
+    std::vector<WorldPoint> points;
+    std::vector<double> radii;  // one per point
+    double length;
+  };
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+  Certificate certificate;
+  uint64_t object_points = 0;
+  std::string text;  // the document itself
+};
+
+// Errors: INVALID_ARGUMENT with the place of the first thing that is not as the schema says.
+// Members that the schema may gain are ignored.
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
+
+// Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED
+//         for a file above 2 GiB.
+absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_

@@ -1,0 +1,65 @@
+#include "client/view/display_surface.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "core/shapes/shapes.h"
+
+namespace bccskel::view {
+namespace {
+
+Volume Ball(const Placement& placement = {}) {
+  const Volume ball = *GenerateShape(Shape::kBall, {.points = 30000});
+  return Volume::FromSortedBricks(ball.extent(), placement,
+                                  {ball.keys().begin(), ball.keys().end()},
+                                  {ball.bricks().begin(), ball.bricks().end()});
+}
+
+double EnclosedBy(const DisplaySurface& surface) {
+  double sum = 0;
+  for (const auto& [i, j, k] : surface.triangles) {
+    const WorldPoint &a = surface.vertices[i], &b = surface.vertices[j], &c = surface.vertices[k];
+    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return sum / 6;
+}
+
+TEST(DisplaySurfaceTest, KeepsToItsBudgetAndItsVolume) {
+  // Two points to a cubic cell.
+  const Volume ball = Ball({.spacing = {3, 3, 3}, .origin = {100, 0, -7}});
+  const double volume = 27.0 / 2 * static_cast<double>(ball.PointCount());
+  for (const size_t budget : {size_t{1} << 30, size_t{5000}, size_t{500}}) {
+    const DisplaySurface surface = *MakeDisplaySurface(ball, budget, {});
+    EXPECT_LE(surface.triangles.size(), budget);
+    EXPECT_NEAR(EnclosedBy(surface) / volume, 1, 0.05) << budget;
+  }
+}
+
+TEST(DisplaySurfaceTest, AMirroringPlacementKeepsTheOutsideOutside) {
+  const Placement mirror = {.direction = {1, 0, 0, 0, -1, 0, 0, 0, 1}};
+  EXPECT_GT(EnclosedBy(*MakeDisplaySurface(Ball(mirror), 1000, {})), 0);
+}
+
+TEST(PeelForDisplayTest, LayersShrinkFromTheWholeToTheLastShell) {
+  const Peeling peeling = *PeelForDisplay(Ball(), {.layers = 6}, {});
+  ASSERT_EQ(peeling.layers.size(), 7u);
+  EXPECT_EQ(peeling.layers.front().shells, 0);
+  EXPECT_EQ(peeling.layers.back().shells, peeling.last_shell - 1);
+  for (size_t n = 1; n < peeling.layers.size(); ++n) {
+    EXPECT_GT(peeling.layers[n].shells, peeling.layers[n - 1].shells);
+    EXPECT_LT(EnclosedBy(peeling.layers[n].surface), EnclosedBy(peeling.layers[n - 1].surface));
+    EXPECT_GT(EnclosedBy(peeling.layers[n].surface), 0);
+  }
+}
+
+TEST(PeelForDisplayTest, NothingHasOneEmptyLayer) {
+  const Peeling nothing = *PeelForDisplay(VolumeOfPoints({}), {}, {});
+  ASSERT_EQ(nothing.layers.size(), 1u);
+  EXPECT_TRUE(nothing.layers.front().surface.triangles.empty());
+}
+
+}  // namespace
+}  // namespace bccskel::view

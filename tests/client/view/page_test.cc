@@ -1,0 +1,55 @@
+#include "client/view/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/export/json.h"
+#include "tests/client/export/sample_skeletons.h"
+
+namespace bccskel::view {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string PageFor(const exporting::Sample& sample, const std::string& title) {
+  const auto result = ParseResultDocument(exporting::JsonText(sample.result));
+  const auto peeling = PeelForDisplay(sample.object, {}, {});
+  return *PageOf({title, *result, *peeling});
+}
+
+TEST(PageTest, IsWholeAndAsksForNothingElse) {
+  for (const exporting::Sample& sample : exporting::Samples()) {
+    const std::string page = PageFor(sample, "a title");
+    EXPECT_THAT(page, HasSubstr("</html>"));
+    for (const char* request : {"{{", "src=", "href=\"http", "@import", "url(", "fetch("}) {
+      // three.js has loaders of its own; what is ours stands before it and after it.
+      const std::string ours =
+          page.substr(0, page.find("(function(global")) + page.substr(page.rfind("<script>"));
+      EXPECT_THAT(ours, Not(HasSubstr(request)));
+    }
+  }
+}
+
+TEST(PageTest, CarriesTheLicenseOfThreeJs) {
+  const std::string page = PageFor(exporting::SampleOf(Shape::kTorus), "");
+  EXPECT_THAT(page, HasSubstr("The MIT License"));
+  EXPECT_THAT(page, HasSubstr("three.js authors"));
+  EXPECT_THAT(page, HasSubstr("THE SOFTWARE IS PROVIDED \"AS IS\""));
+}
+
+TEST(PageTest, NoTitleAndNoResultEndsItsScript) {
+  exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  sample.result.sha256 = "</script><b>";
+  const std::string page = PageFor(sample, "</script>\xff{{viewer}}");
+  EXPECT_THAT(page, Not(HasSubstr("</script><b>")));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script>\xef\xbf\xbd{{viewer}}"));
+}
+
+TEST(PageTest, IsTheSameForTheSameContent) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTree);
+  EXPECT_EQ(PageFor(sample, "x"), PageFor(sample, "x"));
+}
+
+}  // namespace
+}  // namespace bccskel::view

@@ -1,0 +1,88 @@
+#include "client/view/result_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "client/export/json.h"
+#include "tests/client/export/sample_skeletons.h"
+
+namespace bccskel::view {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kSmall = R"({
+"nodes":[{"kind":"end","position":[0,0,0],"radius":1},
+         {"kind":"end","position":[1,1,1.5],"radius":0.5}],
+"edges":[{"source":0,"target":1,"points":[[0,0,0],[1,1,1.5]],"radii":[1,0.5],"length":2}],
+"certificate":{"input":{"components":1,"loops":0,"cavities":0},
+               "skeleton":{"components":1,"loops":0,"cavities":0},"simple_points_left":0},
+"object_points":9,"something_new":[null]})";
+
+std::string SmallWith(const std::string& was, const std::string& is) {
+  std::string text = kSmall;
+  const size_t at = text.find(was);
+  return at == text.npos ? "the sample has no " + was : text.replace(at, was.size(), is);
+}
+
+TEST(ResultDocumentTest, HoldsWhatTheJsonExportWrote) {
+  for (const exporting::Sample& sample : exporting::Samples()) {
+    const SkeletonGraph& graph = sample.result.graph;
+    const auto document = ParseResultDocument(exporting::JsonText(sample.result));
+    ASSERT_TRUE(document.ok()) << document.status();
+    ASSERT_EQ(document->nodes.size(), graph.nodes.size());
+    ASSERT_EQ(document->edges.size(), graph.edges.size());
+    EXPECT_EQ(document->certificate, sample.result.certificate);
+    EXPECT_EQ(document->object_points, sample.result.object_points);
+    for (size_t n = 0; n < graph.nodes.size(); ++n) {
+      EXPECT_EQ(document->nodes[n].position, graph.PositionOf(graph.nodes[n].at));
+      EXPECT_EQ(document->nodes[n].radius, graph.RadiusOf(graph.nodes[n].at));
+    }
+    for (size_t n = 0; n < graph.edges.size(); ++n) {
+      EXPECT_EQ(document->edges[n].points.size(), graph.PointsOf(graph.edges[n]).size());
+      EXPECT_EQ(document->edges[n].source, graph.edges[n].source);
+    }
+  }
+}
+
+TEST(ResultDocumentTest, IgnoresWhatItDoesNotKnow) {
+  const auto document = ParseResultDocument(kSmall);
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_EQ(document->edges[0].points[1], (WorldPoint{1, 1, 1.5}));
+  EXPECT_EQ(document->text, kSmall);
+}
+
+TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
+  const struct {
+    std::string text;
+    std::string message;
+  } cases[] = {
+      {"", "not JSON"},
+      {"[]", "nodes is not there"},
+      {"{}", "nodes is not there"},
+      {SmallWith("[1,1,1.5],\"radius\"", "[1,1],\"radius\""), "nodes[1].position is not three"},
+      {SmallWith("\"radius\":0.5", "\"radius\":\"big\""), "nodes[1].radius is not a finite"},
+      {SmallWith("[1,0.5]", "[1]"), "edges[0] is not an edge with points and as many radii"},
+      {SmallWith("\"target\":1", "\"target\":2"), "names node 2; there are 2"},
+      {SmallWith("\"target\":1", "\"target\":-1"), "edges[0].target is not an integer in range"},
+      {SmallWith("\"loops\":0", "\"loops\":0.5"), "certificate.input.loops is not an integer"},
+      {SmallWith("\"object_points\":9", "\"points\":9"), "object_points is not there"},
+  };
+  for (const auto& [text, message] : cases) {
+    const absl::Status status = ParseResultDocument(text).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << text;
+    EXPECT_THAT(std::string(status.message()), HasSubstr(message)) << text;
+  }
+}
+
+TEST(ResultDocumentTest, ErrorsOfAFileNameIt) {
+  const std::string path = testing::TempDir() + "bccskel_broken.json";
+  std::ofstream(path) << "{";
+  EXPECT_THAT(std::string(ReadResultDocument(path).status().message()), HasSubstr(path));
+  EXPECT_EQ(ReadResultDocument(path + ".none").status().code(), absl::StatusCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace bccskel::view
