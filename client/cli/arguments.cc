@@ -83,6 +83,14 @@ void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
       {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
 }
 
+void AddDistance(CLI::App& command, DistanceKind& distance) {
+  AddChoice<DistanceKind>(command, "--distance", distance,
+                          "How the distances that make the shells are measured (default chamfer)",
+                          {{"chamfer", DistanceKind::kChamfer},
+                           {"chamfer-optimal", DistanceKind::kChamferOptimal},
+                           {"euclidean", DistanceKind::kEuclidean}});
+}
+
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
                            "Which stubble points to remove (default keep-two)",
@@ -152,6 +160,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
   AddServer(command, arguments);
+  AddDistance(command, arguments.skeletonize.distance);
   AddThinning(command, arguments.skeletonize.thinning);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
@@ -171,6 +180,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
           "--local", [&arguments] { arguments.place = Place::kLocal; },
           "Compute on this machine, without a server")
       ->excludes(server);
+  AddDistance(command, arguments.skeletonize.distance);
   AddThinning(command, arguments.skeletonize.thinning);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);

@@ -44,7 +44,7 @@ void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<si
 }
 
 double LatticeUnits(const ChamferWeights& weights, uint32_t counts) {
-  return 2.0 * counts / weights.half_units;
+  return counts / weights.counts_per_unit;
 }
 
 void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {

@@ -1,23 +1,41 @@
 #ifndef BCCSKEL_CORE_DISTANCE_CHAMFER_ROWS_H_
 #define BCCSKEL_CORE_DISTANCE_CHAMFER_ROWS_H_
 
+#include <array>
 #include <cstdint>
 #include <span>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/chamfer_weights.h"
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 
 // The inner loops of the chamfer distance, for rows of 16 points. The 16-bit versions are compiled
 // for every instruction set and picked at run time; the 32-bit ones, for objects deeper than 620
-// lattice units, are plain loops.
+// lattice units and for steps longer than FitShortRows() allows, are plain loops.
 
 namespace bccskel {
 
-// Runs along x are followed for this many steps in 16 bits.
-inline constexpr uint32_t kLongestRun = 311;
-// In 16 bits, distances below this one are exact; larger ones may be anything from here up.
-inline constexpr uint32_t kShortChamferLimit = kLongestRun * kShortChamfer.axial;
+// Distances along x within eight points of a row, in 16-bit counts.
+struct RunTables {
+  static constexpr int kPoints = 8;
+  // Stands for "more than any final distance".
+  static constexpr uint32_t kFar = 0xffff;
+
+  // By the bits of the points: to the nearest background point among them.
+  alignas(16) std::array<std::array<uint16_t, kPoints>, 256> inside = {};
+  // From the point before the first, and from the point after the last.
+  alignas(16) std::array<uint16_t, kPoints> up = {};
+  alignas(16) std::array<uint16_t, kPoints> down = {};
+  uint32_t axial = 0;        // counts of a step along x
+  uint32_t longest_run = 0;  // runs along x are followed for this many steps
+
+  // Distances below this one are exact; larger ones may be anything from here up.
+  uint32_t limit() const { return longest_run * axial; }
+};
+RunTables RunTablesFor(const ChamferWeights& weights);
+
+// Whether steps are short enough for 16 bits to be of use.
+bool FitShortRows(const ChamferWeights& weights);
 
 // What the loops work on. Shapes: values holds kBrickPoints per brick of the object and as many
 // zeros for the padding brick, in bit order.
@@ -27,6 +45,7 @@ struct DistanceView {
   const BrickNeighborhood* neighbors = nullptr;
   T* values = nullptr;
   ChamferWeights weights;
+  const RunTables* runs = nullptr;  // 16 bits only
 };
 
 // Which adjacent layers a scan takes distances from.

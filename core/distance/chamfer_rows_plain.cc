@@ -27,8 +27,9 @@ void SweepRowForward(const View& view, BrickIndex brick, int k, int j) {
   uint32_t* row = Row(view, brick, k, j);
   uint32_t previous = Row(view, near[9], k, j)[kBrickX - 1];
   for (int i = 0; i < kBrickX; ++i) {
-    const uint32_t nearer = std::min(previous, below[i]);
-    previous = (bits >> i & 1) != 0 ? SaturatedSum(nearer, view.weights.axial) : 0;
+    const uint32_t nearer = std::min(SaturatedSum(previous, view.weights.axial[0]),
+                                     SaturatedSum(below[i], view.weights.axial[1]));
+    previous = (bits >> i & 1) != 0 ? nearer : 0;
     row[i] = previous;
   }
 }
@@ -39,8 +40,8 @@ void SweepRowBackward(const View& view, BrickIndex brick, int k, int j) {
   uint32_t* row = Row(view, brick, k, j);
   uint32_t previous = Row(view, near[8], k, j)[0];
   for (int i = kBrickX - 1; i >= 0; --i) {
-    const uint32_t nearer = std::min(previous, above[i]);
-    previous = std::min(row[i], SaturatedSum(nearer, view.weights.axial));
+    previous = std::min({row[i], SaturatedSum(previous, view.weights.axial[0]),
+                         SaturatedSum(above[i], view.weights.axial[1])});
     row[i] = previous;
   }
 }
@@ -65,7 +66,7 @@ void JoinRow(const View& view, BrickIndex brick, Sublattice sublattice, int k, i
   for (size_t i = 0; i < kBrickX; ++i) {
     const uint32_t by_diagonal =
         SaturatedSum(std::min(nearest[i], nearest[i + 1]), view.weights.diagonal);
-    row[i] = std::min({row[i], by_diagonal, SaturatedSum(straight[i], view.weights.axial)});
+    row[i] = std::min({row[i], by_diagonal, SaturatedSum(straight[i], view.weights.axial[2])});
   }
 }
 

@@ -1,9 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <vector>
 
 #include "core/distance/chamfer_rows.h"
+#include "core/distance/side_runs.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/distance/chamfer_rows_simd.cc"
@@ -12,114 +13,13 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#ifndef BCCSKEL_CORE_DISTANCE_RUN_TABLES_
-#define BCCSKEL_CORE_DISTANCE_RUN_TABLES_
-namespace bccskel {
-namespace {
-
-constexpr int kHalf = kBrickX / 2;
-
-// Within a wide flat layer the first pass can exceed 16 bits; the far value then stands for "more
-// than any final distance".
-constexpr uint32_t kFar = 0xffff;
-constexpr uint16_t CappedSteps(uint32_t steps) {
-  const uint32_t counts = steps * kShortChamfer.axial;
-  return static_cast<uint16_t>(counts < kFar ? counts : kFar);
-}
-
-// For eight points of a row, as bits: distance along x to the nearest background point among them.
-struct RunTables {
-  alignas(16) std::array<std::array<uint16_t, kHalf>, 256> inside;
-};
-constexpr RunTables MakeRunTables() {
-  RunTables tables = {};
-  for (uint32_t bits = 0; bits < 256; ++bits) {
-    for (int i = 0; i < kHalf; ++i) {
-      uint32_t nearest = kFar;
-      for (int at = 0; at < kHalf; ++at) {
-        const auto steps = static_cast<uint32_t>(at < i ? i - at : at - i);
-        if ((bits >> at & 1) == 0 && steps < nearest) nearest = steps;
-      }
-      tables.inside[bits][static_cast<size_t>(i)] = CappedSteps(nearest);
-    }
-  }
-  return tables;
-}
-constexpr RunTables kRunTables = MakeRunTables();
-
-// Distances along x from the point before the first, and from the point after the last, of eight.
-struct Ramps {
-  alignas(16) std::array<uint16_t, kHalf> up;
-  alignas(16) std::array<uint16_t, kHalf> down;
-};
-constexpr Ramps kRamps = [] {
-  Ramps ramps = {};
-  for (uint32_t i = 0; i < kHalf; ++i) {
-    ramps.up[i] = CappedSteps(i + 1);
-    ramps.down[i] = CappedSteps(kHalf - i);
-  }
-  return ramps;
-}();
-
-// How many points of each of a brick's 32 rows can be walked from one side without meeting the
-// background, in this brick and the ones before it. Row 4k + j.
-using RowRuns = std::array<uint16_t, 4 * kBrickZ>;
-
-struct SideRuns {
-  std::vector<RowRuns> left;   // at the brick's left side
-  std::vector<RowRuns> right;  // at its right side
-};
-
-uint16_t RowBits(const BrickBits& brick, size_t row) {
-  return static_cast<uint16_t>(brick.words[row >> 2] >> (16 * (row & 3)));
-}
-
-uint16_t Longer(uint32_t run) {
-  return static_cast<uint16_t>(run < kLongestRun ? run : kLongestRun);
-}
-
-// The run lengths at the far side of a brick, given those at its near side.
-template <typename RunInRow>
-void Continue(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side,
-              RunInRow run_in_row) {
-  for (size_t row = 0; row < far_side.size(); ++row) {
-    const uint16_t bits = RowBits(brick, row);
-    far_side[row] = bits == 0xffff ? Longer(near_side[row] + uint32_t{kBrickX})
-                                   : static_cast<uint16_t>(run_in_row(bits));
-  }
-}
-void ContinueLeft(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side) {
-  Continue(brick, near_side, far_side, [](uint16_t bits) { return std::countl_one(bits); });
-}
-void ContinueRight(const BrickBits& brick, const RowRuns& near_side, RowRuns& far_side) {
-  Continue(brick, near_side, far_side, [](uint16_t bits) { return std::countr_one(bits); });
-}
-
-SideRuns FindSideRuns(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last) {
-  SideRuns runs{std::vector<RowRuns>(last - first), std::vector<RowRuns>(last - first)};
-  for (BrickIndex brick = first; brick < last; ++brick) {
-    const BrickIndex left = view.neighbors[brick][9];
-    if (left >= first && left < brick) {
-      ContinueLeft(view.object[left], runs.left[left - first], runs.left[brick - first]);
-    }
-  }
-  for (BrickIndex brick = last; brick-- > first;) {
-    const BrickIndex right = view.neighbors[brick][8];
-    if (right > brick && right < last) {
-      ContinueRight(view.object[right], runs.right[right - first], runs.right[brick - first]);
-    }
-  }
-  return runs;
-}
-
-}  // namespace
-}  // namespace bccskel
-#endif  // tables
-
 HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr int kHalf = RunTables::kPoints;
+static_assert(kHalf == kBrickX / 2);
 
 using RowTag = hn::CappedTag<uint16_t, kBrickX>;
 using HalfTag = hn::CappedTag<uint16_t, kHalf>;
@@ -148,9 +48,11 @@ HWY_INLINE Row Min(const Row& a, const Row& b) {
   for (size_t n = 0; n < kRowVectors; ++n) out.v[n] = hn::Min(a.v[n], b.v[n]);
   return out;
 }
-HWY_INLINE Row Plus(const Row& a, uint32_t counts) {
+HWY_INLINE hn::Vec<RowTag> StepOf(uint32_t counts) {
+  return hn::Set(RowTag(), static_cast<uint16_t>(counts));
+}
+HWY_INLINE Row Plus(const Row& a, hn::Vec<RowTag> step) {
   Row out;
-  const auto step = hn::Set(RowTag(), static_cast<uint16_t>(counts));
   for (size_t n = 0; n < kRowVectors; ++n) out.v[n] = hn::SaturatedAdd(a.v[n], step);
   return out;
 }
@@ -193,57 +95,61 @@ HWY_INLINE Row FromUpperColumn(const Row& own, const Row& beside) {
 
 // Distances along x of half a row whose points are `bits`, eight at a time or as many as a register
 // holds; `left` and `right` are the runs beside it.
-HWY_INLINE hn::Vec<HalfTag> HalfRow(uint32_t bits, uint32_t left, uint32_t right, size_t i) {
+HWY_INLINE hn::Vec<HalfTag> HalfRow(const RunTables& runs, uint32_t bits, uint32_t left,
+                                    uint32_t right, size_t i) {
   const HalfTag tag;
-  const auto from_left = hn::Set(tag, static_cast<uint16_t>(left * kShortChamfer.axial));
-  const auto from_right = hn::Set(tag, static_cast<uint16_t>(right * kShortChamfer.axial));
-  const auto up = hn::SaturatedAdd(from_left, hn::Load(tag, kRamps.up.data() + i));
-  const auto down = hn::SaturatedAdd(from_right, hn::Load(tag, kRamps.down.data() + i));
-  return hn::Min(hn::Load(tag, kRunTables.inside[bits].data() + i), hn::Min(up, down));
+  const auto from_left = hn::Set(tag, static_cast<uint16_t>(left * runs.axial));
+  const auto from_right = hn::Set(tag, static_cast<uint16_t>(right * runs.axial));
+  const auto up = hn::SaturatedAdd(from_left, hn::Load(tag, runs.up.data() + i));
+  const auto down = hn::SaturatedAdd(from_right, hn::Load(tag, runs.down.data() + i));
+  return hn::Min(hn::Load(tag, runs.inside[bits].data() + i), hn::Min(up, down));
 }
 
 // Distances along x of a whole row. It stays in registers: reading back what was just written in
 // halves would wait for the stores.
-HWY_INLINE Row RowOfRuns(uint32_t bits, uint32_t left, uint32_t right) {
+HWY_INLINE Row RowOfRuns(const RunTables& runs, uint32_t bits, uint32_t left, uint32_t right) {
   const uint32_t low = bits & 0xff, high = bits >> 8;
   const auto from_low = static_cast<uint32_t>(std::countl_one(static_cast<uint8_t>(low)));
   const auto from_high = static_cast<uint32_t>(std::countr_one(static_cast<uint8_t>(high)));
-  const uint32_t past_low = Longer(low == 0xff ? left + kHalf : from_low);
-  const uint32_t past_high = Longer(high == 0xff ? right + kHalf : from_high);
+  const uint32_t past_low = Shorter(low == 0xff ? left + kHalf : from_low, runs.longest_run);
+  const uint32_t past_high = Shorter(high == 0xff ? right + kHalf : from_high, runs.longest_run);
   Row row;
 #if HWY_TARGET <= HWY_AVX2
-  row.v[0] =
-      hn::Combine(RowTag(), HalfRow(high, past_low, right, 0), HalfRow(low, left, past_high, 0));
+  row.v[0] = hn::Combine(RowTag(), HalfRow(runs, high, past_low, right, 0),
+                         HalfRow(runs, low, left, past_high, 0));
 #else
   const size_t lanes = hn::Lanes(HalfTag());
   for (size_t n = 0; n < kRowVectors / 2; ++n) {
-    row.v[n] = HalfRow(low, left, past_high, n * lanes);
-    row.v[n + kRowVectors / 2] = HalfRow(high, past_low, right, n * lanes);
+    row.v[n] = HalfRow(runs, low, left, past_high, n * lanes);
+    row.v[n + kRowVectors / 2] = HalfRow(runs, high, past_low, right, n * lanes);
   }
 #endif
   return row;
 }
 
 HWY_INLINE void SweepBrickForward(const DistanceView<uint16_t>& view, BrickIndex brick,
-                                  const RowRuns& left, const RowRuns& right) {
+                                  const RowRuns<uint16_t>& left, const RowRuns<uint16_t>& right) {
+  const auto step = StepOf(view.weights.axial[1]);
   for (int k = 0; k < kBrickZ; ++k) {
     Row below = LoadRow(RowOf(view, view.neighbors[brick][11], k, kBrickY - 1));
     for (int j = 0; j < kBrickY; ++j) {
       const auto row = static_cast<size_t>(4 * k + j);
       uint16_t* values = RowOf(view, brick, k, j);
-      const Row by_x = RowOfRuns(RowBits(view.object[brick], row), left[row], right[row]);
-      below = Min(by_x, Plus(below, kShortChamfer.axial));
+      const Row by_x =
+          RowOfRuns(*view.runs, RowBits(view.object[brick], row), left[row], right[row]);
+      below = Min(by_x, Plus(below, step));
       StoreRow(below, values);
     }
   }
 }
 
 HWY_INLINE void SweepBrickBackward(const DistanceView<uint16_t>& view, BrickIndex brick) {
+  const auto step = StepOf(view.weights.axial[1]);
   for (int k = 0; k < kBrickZ; ++k) {
     Row above = LoadRow(RowOf(view, view.neighbors[brick][10], k, 0));
     for (int j = kBrickY - 1; j >= 0; --j) {
       uint16_t* values = RowOf(view, brick, k, j);
-      above = Min(LoadRow(values), Plus(above, kShortChamfer.axial));
+      above = Min(LoadRow(values), Plus(above, step));
       StoreRow(above, values);
     }
   }
@@ -251,7 +157,8 @@ HWY_INLINE void SweepBrickBackward(const DistanceView<uint16_t>& view, BrickInde
 
 void SweepWithinLayersTarget(const DistanceView<uint16_t>& view, BrickIndex first,
                              BrickIndex last) {
-  const SideRuns runs = FindSideRuns(view, first, last);
+  const auto runs =
+      FindSideRuns<uint16_t>(view.object, view.neighbors, first, last, view.runs->longest_run);
   for (BrickIndex brick = first; brick < last; ++brick) {
     SweepBrickForward(view, brick, runs.left[brick - first], runs.right[brick - first]);
   }
@@ -265,6 +172,8 @@ HWY_INLINE void JoinLayer(const DistanceView<uint16_t>& view, BrickIndex brick, 
                           const AdjacentLayers& layers) {
   constexpr bool kEven = kSublattice == Sublattice::kEven;
   const BrickIndex* diagonal = layers.diagonal;
+  const auto diagonal_step = StepOf(view.weights.diagonal);
+  const auto axial_step = StepOf(view.weights.axial[2]);
   const auto row_at = [&](size_t side, int j) HWY_ATTR {
     return LoadRow(RowOf(view, diagonal[side], layers.diagonal_k, j));
   };
@@ -277,9 +186,8 @@ HWY_INLINE void JoinLayer(const DistanceView<uint16_t>& view, BrickIndex brick, 
     const Row nearest = Min(own, last), nearest_beside = Min(own_beside, last_beside);
     const Row moved =
         kEven ? FromLowerColumn(nearest, nearest_beside) : FromUpperColumn(nearest, nearest_beside);
-    const Row by_diagonal = Plus(Min(nearest, moved), kShortChamfer.diagonal);
-    const Row by_axis =
-        Plus(LoadRow(RowOf(view, layers.axial, layers.axial_k, j)), kShortChamfer.axial);
+    const Row by_diagonal = Plus(Min(nearest, moved), diagonal_step);
+    const Row by_axis = Plus(LoadRow(RowOf(view, layers.axial, layers.axial_k, j)), axial_step);
     uint16_t* values = RowOf(view, brick, k, j);
     StoreRow(Min(LoadRow(values), Min(by_diagonal, by_axis)), values);
     last = own;
@@ -329,6 +237,41 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace bccskel {
+
+namespace {
+
+constexpr uint32_t kPoints = RunTables::kPoints;
+
+uint16_t CappedSteps(uint32_t steps, uint32_t axial) {
+  return static_cast<uint16_t>(std::min(steps * axial, RunTables::kFar));
+}
+
+}  // namespace
+
+bool FitShortRows(const ChamferWeights& weights) {
+  return std::max(weights.diagonal, std::ranges::max(weights.axial)) < 0x4000;
+}
+
+RunTables RunTablesFor(const ChamferWeights& weights) {
+  RunTables tables;
+  tables.axial = weights.axial[0];
+  tables.longest_run = RunTables::kFar / tables.axial - 2;
+  for (uint32_t i = 0; i < kPoints; ++i) {
+    tables.up[i] = CappedSteps(i + 1, tables.axial);
+    tables.down[i] = CappedSteps(kPoints - i, tables.axial);
+  }
+  for (uint32_t bits = 0; bits < 256; ++bits) {
+    for (uint32_t i = 0; i < kPoints; ++i) {
+      uint32_t nearest = kPoints;
+      for (uint32_t at = 0; at < kPoints; ++at) {
+        if ((bits >> at & 1) == 0) nearest = std::min(nearest, at < i ? i - at : at - i);
+      }
+      tables.inside[bits][i] =
+          nearest == kPoints ? uint16_t{RunTables::kFar} : CappedSteps(nearest, tables.axial);
+    }
+  }
+  return tables;
+}
 
 HWY_EXPORT(SweepWithinLayersTarget);
 HWY_EXPORT(JoinLayersTarget);

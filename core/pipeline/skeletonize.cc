@@ -1,7 +1,7 @@
 #include "core/pipeline/skeletonize.h"
 
 #include "absl/strings/str_format.h"
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 
@@ -29,7 +29,8 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
   SkeletonizeResult result;
   result.object_points = object.PointCount();
   exec::StageClock clock;
-  BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
+                           ComputeDistance(object, options.distance, context));
   result.timings.distance = clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
                            ThinToCurve(object, distance, options.thinning, context));

@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/pipeline/stage_timings.h"
 #include "core/skeleton/skeleton_graph.h"
@@ -16,6 +17,7 @@ namespace bccskel {
 
 struct SkeletonizeOptions {
   ThinningOptions thinning = {};
+  DistanceKind distance = DistanceKind::kChamfer;  // that makes the shells
 };
 
 struct SkeletonizeResult {

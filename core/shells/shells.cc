@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <variant>
 
 namespace bccskel {
 namespace {
 
 ShellRule RuleFor(const ChamferWeights& weights, double shell_width) {
-  return ShellRule(static_cast<uint64_t>(std::llround(weights.half_units * shell_width * 64)));
+  return ShellRule(
+      static_cast<uint64_t>(std::llround(weights.counts_per_unit * shell_width * 128)));
 }
 
 // For objects deeper than 16 bits and for the rare width whose borders single precision misses.
@@ -32,32 +32,43 @@ Shells::Range SliceExactly(const ShellRule& rule, const BrickBits& object, const
 // Slices one brick after the other by the fastest exact way.
 class Slicer {
  public:
-  Slicer(const Volume& object, const ChamferField& distance, const ShellRule& rule)
+  Slicer(const Volume& object, const DistanceField& distance, double width)
       : object_(object),
         distance_(distance),
-        rule_(rule),
-        fast_(MakeFloatRule(rule, distance.largest())) {}
+        euclidean_(width),
+        chamfer_(RuleFor(distance.weights(), width)) {
+    if (distance.kind() != DistanceKind::kEuclidean) {
+      fast_ = MakeFloatRule(chamfer_, distance.largest());
+    }
+  }
 
   Shells::Range operator()(size_t brick, ShellPlanes& planes) const {
     return std::visit(
         [&](const auto& values) {
-          const auto* distances = values.data() + brick * kBrickPoints;
-          if constexpr (std::is_same_v<decltype(distances), const uint16_t*>) {
-            if (fast_.exact) {
-              const DistanceRange range = SliceBrick(fast_.rule, distances, planes);
-              return Shells::Range{rule_(range.smallest), rule_(range.largest)};
-            }
-          }
-          return SliceExactly(rule_, object_.bricks()[brick], distances, planes);
+          return Slice(brick, values.data() + brick * kBrickPoints, planes);
         },
         distance_.values());
   }
 
  private:
+  Shells::Range Slice(size_t brick, const uint16_t* distances, ShellPlanes& planes) const {
+    if (!fast_.exact) return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
+    const DistanceRange range = SliceBrick(fast_.rule, distances, planes);
+    return {chamfer_(range.smallest), chamfer_(range.largest)};
+  }
+  Shells::Range Slice(size_t brick, const uint32_t* distances, ShellPlanes& planes) const {
+    return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
+  }
+  Shells::Range Slice(size_t, const float* squared, ShellPlanes& planes) const {
+    const SquaredRange range = SliceBrick(euclidean_, squared, planes);
+    return {euclidean_(range.smallest), euclidean_(range.largest)};
+  }
+
   const Volume& object_;
-  const ChamferField& distance_;
-  const ShellRule rule_;
-  const CheckedFloatRule fast_;
+  const DistanceField& distance_;
+  const EuclideanShellRule euclidean_;
+  const ShellRule chamfer_;
+  CheckedFloatRule fast_ = {};
 };
 
 }  // namespace
@@ -66,9 +77,19 @@ int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_w
   return RuleFor(weights, shell_width)(distance);
 }
 
-Shells BuildShells(const Volume& object, const ChamferField& distance, double shell_width,
+// Distances of two points of a brick differ by no more than the distance between them, which for
+// chamfer distances is a bit longer than the straight one.
+double EffectiveShellWidth(double wanted, const AxisScale& scale) {
+  const double x = 2 * (kBrickX - 1) * scale[0], y = 2 * (kBrickY - 1) * scale[1],
+               z = 2 * (kBrickZ - 1) * scale[2];
+  const double across = LargestOverestimate(scale) * std::sqrt(x * x + y * y + z * z);
+  return std::max(wanted, across / 62);
+}
+
+Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context) {
-  const Slicer slice(object, distance, RuleFor(distance.weights(), shell_width));
+  const Slicer slice(object, distance,
+                     EffectiveShellWidth(shell_width, AxisScaleOf(object.placement())));
   Shells shells;
   shells.planes_.resize(object.brick_count());
   shells.ranges_.resize(object.brick_count());

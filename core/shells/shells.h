@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/exec/uninitialized.h"
 #include "core/shells/slice_bricks.h"
@@ -17,13 +17,16 @@ namespace bccskel {
 
 // The shell of a distance: floor(distance / shell_width + 1/2), at least 1 (section 4, S_i, for
 // object points). `distance` in counts of `weights`; `shell_width` in lattice units, rounded to a
-// 64th of a count so that the rule is one of integers.
+// 128th of a count so that the rule is one of integers.
 int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
+
+// The thickness that shells really have: the wanted one, or more where the spacing differs so much
+// between the axes that a brick could hold more than 63 shells of that thickness.
+double EffectiveShellWidth(double wanted, const AxisScale& scale);
 
 // The shells of an object's points, sliced into bit planes: plane b of a brick holds bit b of
 // (shell modulo 64) for its 512 points, so that "shell equals c" is six logic operations for all of
-// them. Modulo 64 is enough because distances within a brick differ by at most 41 lattice units and
-// shells are at least kMinShellWidth wide.
+// them. Modulo 64 is enough because EffectiveShellWidth() keeps a brick's shells apart.
 class Shells {
  public:
   struct Range {
@@ -39,14 +42,15 @@ class Shells {
   std::span<const ShellPlanes> planes() const { return planes_; }
 
  private:
-  friend Shells BuildShells(const Volume&, const ChamferField&, double, const exec::Context&);
+  friend Shells BuildShells(const Volume&, const DistanceField&, double, const exec::Context&);
   exec::UninitializedVector<ShellPlanes> planes_;
   std::vector<Range> ranges_;
   int32_t last_ = 0;
 };
 
+// `shell_width` is the wanted thickness in lattice units.
 // Needs: kMinShellWidth <= shell_width <= kMaxShellWidth; `distance` belongs to `object`.
-Shells BuildShells(const Volume& object, const ChamferField& distance, double shell_width,
+Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context);
 
 inline constexpr double kMinShellWidth = 0.75;

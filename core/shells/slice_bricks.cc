@@ -1,5 +1,7 @@
 #include "core/shells/slice_bricks.h"
 
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/shells/slice_bricks.cc"
 // Compiles the rest of this file once per instruction set, so it comes before other Highway
@@ -77,6 +79,49 @@ DistanceRange SliceBrickTarget(const FloatShellRule& rule, const uint16_t* dista
   return RangeOf(distances);
 }
 
+// The same for squared distances.
+HWY_INLINE void WriteShellBytes(const EuclideanShellRule& rule, const float* squared,
+                                uint8_t* shells) {
+  const hn::CappedTag<float, 16> f32;
+  const hn::RebindToSigned<decltype(f32)> i32;
+  const hn::Rebind<uint8_t, decltype(f32)> u8;
+  const auto width = hn::Set(f32, rule.width()), half = hn::Set(f32, 0.5f);
+  const auto one = hn::Set(i32, 1), modulo = hn::Set(i32, 63);
+  for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
+    const auto distance = hn::Sqrt(hn::LoadU(f32, squared + n));
+    const auto shell = hn::ConvertTo(i32, hn::Add(hn::Div(distance, width), half));
+    hn::Store(hn::DemoteTo(u8, hn::And(hn::Max(shell, one), modulo)), u8, shells + n);
+  }
+}
+
+HWY_INLINE SquaredRange RangeOf(const float* squared) {
+  const hn::CappedTag<float, 16> f32;
+  const auto far = hn::Set(f32, std::numeric_limits<float>::infinity()), zero = hn::Zero(f32);
+  auto smallest = far, largest = zero;
+  for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
+    const auto value = hn::LoadU(f32, squared + n);
+    smallest = hn::Min(smallest, hn::IfThenElse(hn::Eq(value, zero), far, value));
+    largest = hn::Max(largest, value);
+  }
+  alignas(64) float low[16], high[16];
+  hn::Store(smallest, f32, low);
+  hn::Store(largest, f32, high);
+  SquaredRange range = {low[0], high[0]};
+  for (size_t n = 1; n < hn::Lanes(f32); ++n) {
+    if (low[n] < range.smallest) range.smallest = low[n];
+    if (high[n] > range.largest) range.largest = high[n];
+  }
+  return range;
+}
+
+SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squared,
+                                ShellPlanes& planes) {
+  alignas(64) uint8_t shells[kBrickPoints];
+  WriteShellBytes(rule, squared, shells);
+  WritePlanes(shells, planes);
+  return RangeOf(squared);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace bccskel
 HWY_AFTER_NAMESPACE();
@@ -94,10 +139,15 @@ int32_t Apply(const FloatShellRule& rule, uint32_t distance) {
 }  // namespace
 
 HWY_EXPORT(SliceBrickTarget);
+HWY_EXPORT(SliceSquaredTarget);
 
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes) {
   return HWY_DYNAMIC_DISPATCH(SliceBrickTarget)(rule, distances, planes);
+}
+
+SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes) {
+  return HWY_DYNAMIC_DISPATCH(SliceSquaredTarget)(rule, squared, planes);
 }
 
 CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest) {

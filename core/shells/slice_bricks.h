@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_SHELLS_SLICE_BRICKS_H_
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -53,6 +54,29 @@ struct DistanceRange {
 // Shapes: `distances` holds kBrickPoints values in bit order.
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes);
+
+// The shell of a squared Euclidean distance in lattice units. Single precision throughout, which
+// every machine rounds alike; exact for whole squares, distances up to 500 and widths in quarters.
+class EuclideanShellRule {
+ public:
+  explicit EuclideanShellRule(double width) : width_(static_cast<float>(width)) {}
+
+  int32_t operator()(float squared) const {
+    const auto shell = static_cast<int32_t>(std::sqrt(squared) / width_ + 0.5f);
+    return shell < 1 ? 1 : shell;
+  }
+  float width() const { return width_; }
+
+ private:
+  float width_;
+};
+
+// The smallest and the largest nonzero value of a brick; the largest is 0 if all are zero.
+struct SquaredRange {
+  float smallest;
+  float largest;
+};
+SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes);
 
 }  // namespace bccskel
 

@@ -44,8 +44,8 @@ std::string SkeletonDigest(const SkeletonGraph& graph) {
   LittleEndianBytes bytes;
   bytes.Add(std::string_view("bccskel.skeleton.v1"));
   bytes.Add(graph.weights.diagonal);
-  bytes.Add(graph.weights.axial);
-  bytes.Add(graph.weights.half_units);
+  bytes.Add(graph.weights.axial[0]);
+  bytes.Add(static_cast<uint32_t>(2 * graph.weights.counts_per_unit));
   bytes.Add(uint64_t{graph.nodes.size()});
   for (const SkeletonNode& node : graph.nodes) {
     bytes.Add(static_cast<uint32_t>(node.kind));

@@ -6,7 +6,7 @@ namespace bccskel {
 
 double SkeletonGraph::RadiusOf(const SkeletonPoint& p) const {
   const double mean = (placement.spacing[0] + placement.spacing[1] + placement.spacing[2]) / 3;
-  const double lattice_units = 2.0 * p.distance / weights.half_units;
+  const double lattice_units = p.distance / weights.counts_per_unit;
   return lattice_units * mean / 2;  // spacing is the edge of the cell, two lattice units
 }
 

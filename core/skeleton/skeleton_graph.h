@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/volume/volume.h"
@@ -97,7 +97,7 @@ std::string SkeletonDigest(const SkeletonGraph& graph);
 // Cost:   follows the points of `thin`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
-                                            const ChamferField& distance,
+                                            const DistanceField& distance,
                                             const exec::Context& context);
 
 }  // namespace bccskel

@@ -19,7 +19,7 @@ bool IsForward(Direction d) { return LatticePoint{} < d.offset(); }
 
 }  // namespace
 
-ThinPoints::ThinPoints(const Volume& thin, const Volume& object, const ChamferField& distance,
+ThinPoints::ThinPoints(const Volume& thin, const Volume& object, const DistanceField& distance,
                        StopPoll& poll) {
   Gather(thin, object, distance, poll);
   FindNeighbors(poll);
@@ -34,7 +34,7 @@ PointIndex ThinPoints::DeepestOf(std::span<const PointIndex> some) const {
 
 // Bricks come in order of bz, and bricks of different bz hold different z: sorting each layer of
 // bricks sorts all points.
-void ThinPoints::Gather(const Volume& thin, const Volume& object, const ChamferField& distance,
+void ThinPoints::Gather(const Volume& thin, const Volume& object, const DistanceField& distance,
                         StopPoll& poll) {
   size_t layer_begin = 0;
   int32_t layer = 0;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/numeric/int128.h"
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/stop_poll.h"
@@ -24,7 +24,7 @@ using PointIndex = uint32_t;
 class ThinPoints {
  public:
   // Left unfinished when `poll` says stop.
-  ThinPoints(const Volume& thin, const Volume& object, const ChamferField& distance,
+  ThinPoints(const Volume& thin, const Volume& object, const DistanceField& distance,
              StopPoll& poll);
 
   size_t size() const { return points_.size(); }
@@ -44,7 +44,7 @@ class ThinPoints {
   }
 
  private:
-  void Gather(const Volume& thin, const Volume& object, const ChamferField& distance,
+  void Gather(const Volume& thin, const Volume& object, const DistanceField& distance,
               StopPoll& poll);
   void FindNeighbors(StopPoll& poll);
   void LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll);

@@ -161,7 +161,7 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement, const ChamferWeig
 }  // namespace
 
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
-                                            const ChamferField& distance,
+                                            const DistanceField& distance,
                                             const exec::Context& context) {
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   StopPoll poll(context);

@@ -23,7 +23,7 @@ absl::Status CheckThinningOptions(const ThinningOptions& options) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferField& distance,
+absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
                                            const ThinningOptions& options,
                                            const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));

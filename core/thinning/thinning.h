@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/shells/shells.h"
@@ -91,7 +91,7 @@ struct ThinningResult {
 // Parallel directional thinning with shells: Conditions 1-6, section 5.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
-absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const ChamferField& distance,
+absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
                                            const ThinningOptions& options,
                                            const exec::Context& context);
 

@@ -47,6 +47,32 @@ absl::StatusOr<ThinnessCleanup> FromMessage(v1::ThinnessCleanup cleanup, const s
   }
 }
 
+v1::DistanceKind ToMessage(DistanceKind kind) {
+  switch (kind) {
+    case DistanceKind::kChamfer:
+      return v1::DISTANCE_KIND_CHAMFER;
+    case DistanceKind::kChamferOptimal:
+      return v1::DISTANCE_KIND_CHAMFER_OPTIMAL;
+    case DistanceKind::kEuclidean:
+      return v1::DISTANCE_KIND_EUCLIDEAN;
+  }
+  return v1::DISTANCE_KIND_UNSPECIFIED;
+}
+
+absl::StatusOr<DistanceKind> FromMessage(v1::DistanceKind kind, const std::string& field) {
+  switch (kind) {
+    case v1::DISTANCE_KIND_UNSPECIFIED:
+    case v1::DISTANCE_KIND_CHAMFER:
+      return DistanceKind::kChamfer;
+    case v1::DISTANCE_KIND_CHAMFER_OPTIMAL:
+      return DistanceKind::kChamferOptimal;
+    case v1::DISTANCE_KIND_EUCLIDEAN:
+      return DistanceKind::kEuclidean;
+    default:
+      return InvalidField(field, absl::StrCat("unknown kind of distance ", int{kind}));
+  }
+}
+
 absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& message,
                                                       const std::string& field) {
   if (message.y_size() != message.x_size() || message.z_size() != message.x_size()) {
@@ -72,6 +98,7 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
                                                                         : v1::THINNESS_CLEANUP_OFF);
   message.set_shell_width(thinning.shell_width);
   message.set_last_shell(thinning.last_shell);
+  message.set_distance_kind(ToMessage(options.distance));
   for (LatticePoint p : thinning.keep) {
     message.mutable_keep()->add_x(p.x);
     message.mutable_keep()->add_y(p.y);
@@ -89,6 +116,8 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
   BCCSKEL_ASSIGN_OR_RETURN(thinning.cleanup,
                            FromMessage(message.thinness_cleanup(), field + ".thinness_cleanup"));
   BCCSKEL_ASSIGN_OR_RETURN(thinning.keep, FromMessage(message.keep(), field + ".keep"));
+  BCCSKEL_ASSIGN_OR_RETURN(options.distance,
+                           FromMessage(message.distance_kind(), field + ".distance_kind"));
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();
   if (absl::Status checked = CheckThinningOptions(thinning); !checked.ok()) {

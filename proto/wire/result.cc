@@ -101,8 +101,9 @@ v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& f
   message.set_point_count(graph.points.size());
   message.set_thin_volume_size_bytes(facts.thin_volume_size_bytes);
   message.mutable_weights()->set_diagonal(graph.weights.diagonal);
-  message.mutable_weights()->set_axial(graph.weights.axial);
-  message.mutable_weights()->set_half_units(graph.weights.half_units);
+  message.mutable_weights()->set_axial(graph.weights.axial[0]);
+  message.mutable_weights()->set_half_units(
+      static_cast<uint32_t>(2 * graph.weights.counts_per_unit));
   *message.mutable_placement() = ToMessage(graph.placement);
   Set(message.mutable_timings(), result.timings, facts);
   message.set_sha256(absl::HexStringToBytes(result.sha256));
@@ -128,7 +129,9 @@ absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message
   }
   SkeletonizeResult result;
   const v1::ChamferWeights& weights = message.weights();
-  result.graph.weights = {weights.diagonal(), weights.axial(), weights.half_units()};
+  result.graph.weights = {weights.diagonal(),
+                          {weights.axial(), weights.axial(), weights.axial()},
+                          weights.half_units() / 2.0};
   BCCSKEL_ASSIGN_OR_RETURN(result.graph.placement,
                            FromMessage(message.placement(), "summary.placement"));
   result.certificate = FromMessage(message.certificate());

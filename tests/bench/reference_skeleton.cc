@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/status_macros.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "tests/support/reference_thinner.h"
@@ -13,7 +13,8 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
   VolumeBuilder builder(object.extent(), object.placement());
   for (const LatticePoint p : ReferenceThin(object, {})) builder.Add(p);
   BCCSKEL_ASSIGN_OR_RETURN(const Volume thin, std::move(builder).Build());
-  BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
+                           ComputeDistance(object, DistanceKind::kChamfer, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(thin, object, distance, {}));
   return SkeletonDigest(graph);
 }

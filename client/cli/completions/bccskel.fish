@@ -25,6 +25,7 @@ __bccskel_option 'voxelize skeletonize view' -x -l spacing -d 'Edge of the cubic
 __bccskel_option 'voxelize skeletonize view' -x -l fill -a 'auto parity winding' -d 'What is inside a mesh'
 __bccskel_option 'submit skeletonize' -x -l server -a '127.0.0.1:50051 unix:' -d 'Where the server is'
 __bccskel_option skeletonize -f -l local -d 'Compute on this machine'
+__bccskel_option 'submit skeletonize' -x -l distance -a 'chamfer chamfer-optimal euclidean' -d 'How the distances that make the shells are measured'
 __bccskel_option 'submit skeletonize' -x -l stubble -a 'keep-two literal none' -d 'Which stubble points to remove'
 __bccskel_option 'submit skeletonize' -x -l shell-width -d 'Thickness of a shell in lattice units'
 __bccskel_option 'submit skeletonize' -x -l last-shell -d 'Stop after this shell'

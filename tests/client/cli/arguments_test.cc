@@ -37,6 +37,17 @@ Parsed Parse(std::vector<const char*> words) {
   return parsed;
 }
 
+TEST(ArgumentsTest, SkeletonizeTakesEveryKindOfDistance) {
+  const auto distance = [](const char* word) {
+    return Parse({"skeletonize", "a.off", "-o", "a.swc", "--distance", word})
+        .as<SkeletonizeArguments>()
+        .skeletonize.distance;
+  };
+  EXPECT_EQ(distance("chamfer"), DistanceKind::kChamfer);
+  EXPECT_EQ(distance("chamfer-optimal"), DistanceKind::kChamferOptimal);
+  EXPECT_EQ(distance("euclidean"), DistanceKind::kEuclidean);
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   const Parsed parsed =
       Parse({"skeletonize",  "a.off",     "-o",           "a.swc",         "--output",

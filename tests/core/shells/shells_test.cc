@@ -50,7 +50,7 @@ TEST(FloatShellRule, IsAcceptedOnlyWhereItIsExact) {
 }
 
 void ExpectShells(const Volume& object, double width) {
-  const auto distance = ComputeChamferDistance(object, exec::Context());
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, exec::Context());
   ASSERT_TRUE(distance.ok());
   const Shells shells = BuildShells(object, *distance, width, exec::Context());
   int32_t last = 0;
@@ -72,6 +72,65 @@ void ExpectShells(const Volume& object, double width) {
     last = std::max(last, range.last);
   }
   EXPECT_EQ(shells.last(), last);
+}
+
+// What a shell is, in long arithmetic.
+int32_t ShellOfSquare(double squared, double width) {
+  return std::max(1, static_cast<int32_t>(std::floor(std::sqrt(squared) / width + 0.5)));
+}
+
+TEST(EuclideanShellRule, IsExactForWholeSquares) {
+  for (double width : {0.75, 1.0, 1.5, 2.0, 3.0, 6.0, 17.0, 64.0}) {
+    const EuclideanShellRule rule(width);
+    for (uint32_t squared = 1; squared < 250'000; ++squared) {
+      ASSERT_EQ(rule(static_cast<float>(squared)), ShellOfSquare(squared, width))
+          << squared << " at width " << width;
+    }
+  }
+}
+
+void ExpectEuclideanShells(const Volume& object, double wanted) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  const double width = EffectiveShellWidth(wanted, scale);
+  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+  const Shells shells = BuildShells(object, *distance, wanted, exec::Context());
+  const EuclideanShellRule rule(width);
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    Shells::Range range = {INT32_MAX, 0};
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      const int32_t shell = rule(std::bit_cast<float>(distance->At(n, bit)));
+      range.first = std::min(range.first, shell);
+      range.last = std::max(range.last, shell);
+      int32_t sliced = 0;
+      for (size_t b = 0; b < kShellPlanes; ++b) {
+        sliced |= (shells.planes()[n][b].Test(bit) ? 1 : 0) << b;
+      }
+      ASSERT_EQ(sliced, shell & 63);
+    });
+    ASSERT_EQ(shells.RangeOf(n).first, range.first);
+    ASSERT_EQ(shells.RangeOf(n).last, range.last);
+    ASSERT_LT(range.last - range.first, 64) << "modulo 64 would not tell shells apart";
+  }
+}
+
+TEST(Shells, HoldEuclideanShellsForAnySpacingOnEveryInstructionSet) {
+  const std::vector<LatticePoint> points = test::RandomBlob(5, {60, 50, 50}, 3, 45);
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    for (const auto& spacing :
+         {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 5.0}, std::array{30.0, 1.0, 1.0}}) {
+      VolumeBuilder builder({60, 50, 50}, {.spacing = spacing});
+      for (LatticePoint p : points) builder.Add(p);
+      ExpectEuclideanShells(*std::move(builder).Build(), 1);
+    }
+  }
+  exec::ChooseInstructionSet("");
+}
+
+TEST(EffectiveShellWidth, IsTheWantedOneForEqualSpacing) {
+  EXPECT_EQ(EffectiveShellWidth(kMinShellWidth, kIsotropic), kMinShellWidth);
+  EXPECT_GT(EffectiveShellWidth(1, {1, 1, 100}), 10);
 }
 
 TEST(Shells, HoldTheShellOfEveryPointOnEveryInstructionSet) {

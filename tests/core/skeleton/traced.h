@@ -14,9 +14,9 @@ namespace bccskel::test {
 // A made-up distance for each point: 1 when nothing else is said.
 using Depth = std::function<uint16_t(LatticePoint)>;
 
-inline ChamferField FieldOf(
+inline DistanceField FieldOf(
     const Volume& object, const Depth& depth = [](LatticePoint) -> uint16_t { return 1; }) {
-  std::variant_alternative_t<0, ChamferField::Values> values;
+  std::variant_alternative_t<0, DistanceField::Values> values;
   values.assign(object.brick_count() * kBrickPoints, 0);
   for (size_t n = 0; n < object.brick_count(); ++n) {
     object.bricks()[n].ForEachSetBit([&](int bit) {
@@ -24,7 +24,7 @@ inline ChamferField FieldOf(
           depth(PointOf(object.keys()[n].coordinates(), bit));
     });
   }
-  return ChamferField(kShortChamfer, std::move(values), 1);
+  return DistanceField(DistanceKind::kChamfer, kShortChamfer, std::move(values), 1);
 }
 
 // Some depth that differs from point to point.

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <vector>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/worker_team.h"
 #include "core/thinning/thinning.h"
 #include "tests/support/random_objects.h"
@@ -42,7 +42,7 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;  // else small objects would be thinned by one worker
-  const auto distance = ComputeChamferDistance(object, context);
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();
   auto result = ThinToCurve(object, *distance, options, context);
   EXPECT_TRUE(result.ok()) << result.status();

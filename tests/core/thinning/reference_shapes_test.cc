@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/worker_team.h"
 #include "core/shapes/shapes.h"
 #include "core/thinning/thinning.h"
@@ -21,7 +21,7 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;  // else shapes of this size would be thinned by one worker
-  const auto distance = ComputeChamferDistance(object, context);
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();
   auto result = ThinToCurve(object, *distance, options, context);
   EXPECT_TRUE(result.ok()) << result.status();

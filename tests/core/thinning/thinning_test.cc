@@ -14,7 +14,8 @@ namespace {
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options,
                     const exec::Context& context = {}) {
-  auto result = ThinToCurve(object, *ComputeChamferDistance(object, {}), options, context);
+  auto result =
+      ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
@@ -97,7 +98,7 @@ TEST(Thinning, OfAnEmptyObjectIsEmpty) {
 
 TEST(Thinning, RefusesBadOptionsWithValueAndLimit) {
   const Volume object = Blob(1);
-  const auto distance = ComputeChamferDistance(object, {});
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, {});
   for (double width : {0.0, 0.5, 65.0, std::nan("")}) {
     const auto status = ThinToCurve(object, *distance, {.shell_width = width}, {}).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
@@ -121,7 +122,8 @@ TEST(Thinning, StopsInTheMiddleWhenAskedWithAnyNumberOfThreads) {
       shells = p.shell;
       if (p.shell == 3) source.request_stop();
     };
-    const auto result = ThinToCurve(object, *ComputeChamferDistance(object, {}), {}, context);
+    const auto result =
+        ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), {}, context);
     EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
     EXPECT_EQ(shells, 3);
   }

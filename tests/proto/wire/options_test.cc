@@ -32,6 +32,15 @@ TEST(OptionsRoundTrip, KeepsEveryField) {
   }
 }
 
+TEST(OptionsRoundTrip, KeepsTheKindOfDistance) {
+  for (DistanceKind kind :
+       {DistanceKind::kChamfer, DistanceKind::kChamferOptimal, DistanceKind::kEuclidean}) {
+    const auto back = FromMessage(ToMessage(SkeletonizeOptions{.distance = kind}), "options");
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(back->distance, kind);
+  }
+}
+
 TEST(Options, AnEmptyMessageMeansTheDefaults) {
   const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
   ASSERT_TRUE(options.ok()) << options.status();
@@ -41,6 +50,7 @@ TEST(Options, AnEmptyMessageMeansTheDefaults) {
   EXPECT_EQ(options->thinning.shell_width, defaults.shell_width);
   EXPECT_EQ(options->thinning.last_shell, defaults.last_shell);
   EXPECT_TRUE(options->thinning.keep.empty());
+  EXPECT_EQ(options->distance, SkeletonizeOptions().distance);
 }
 
 TEST(Options, RefusesEnumeratorsFromTheFuture) {
@@ -50,6 +60,9 @@ TEST(Options, RefusesEnumeratorsFromTheFuture) {
   message.Clear();
   message.set_thinness_cleanup(static_cast<v1::ThinnessCleanup>(99));
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.thinness_cleanup");
+  message.Clear();
+  message.set_distance_kind(static_cast<v1::DistanceKind>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.distance_kind");
 }
 
 TEST(Options, RefusesColumnsOfDifferentLengths) {

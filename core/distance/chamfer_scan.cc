@@ -1,14 +1,14 @@
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/chamfer_scan.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "core/distance/chamfer_rows.h"
 #include "core/exec/status_macros.h"
 
 // Does:  chamfer distance to the background for every point of the stored bricks.
-// Paper: section 4, local distances sqrt(3) between D8 and 2 between D6 neighbors.
+// Paper: section 4, local distances sqrt(3) between D8 and 2 between D6 neighbors; for unequal
+//        spacings the lengths that these steps have in the world.
 // Why it is right: nothing blocks a shortest path, so its steps may be taken in any order: first
 // the
 //   steps within a layer of constant z (D6 along x and y), then those that raise z, then those that
@@ -22,9 +22,10 @@ namespace {
 template <typename T>
 class DistanceScan {
  public:
-  DistanceScan(const Volume& object, ChamferWeights weights, T* values)
+  DistanceScan(const Volume& object, const ChamferWeights& weights, const RunTables* runs,
+               T* values)
       : bricks_(object.brick_count()),
-        view_{object.padded_bricks().data(), object.neighbors().data(), values, weights} {
+        view_{object.padded_bricks().data(), object.neighbors().data(), values, weights, runs} {
     const std::span<const BrickKey> keys = object.keys();
     for (BrickIndex n = 0; n < keys.size(); ++n) {
       const BrickCoordinates brick = keys[n].coordinates();
@@ -148,34 +149,48 @@ class DistanceScan {
   std::vector<Slab> slabs_;
 };
 
+// Counts of every point of the stored bricks and of the padding brick.
 template <typename T>
-absl::StatusOr<ChamferField> Compute(const Volume& object, ChamferWeights weights,
-                                     const exec::Context& context) {
+absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
+                                                  const ChamferWeights& weights,
+                                                  const RunTables* runs,
+                                                  const exec::Context& context) {
   exec::UninitializedVector<T> values((object.brick_count() + 1) * kBrickPoints);
   std::fill(values.end() - kBrickPoints, values.end(), T{0});  // the padding brick
-  BCCSKEL_RETURN_IF_ERROR(DistanceScan<T>(object, weights, values.data()).Run(context));
-  const T largest = LargestOf(std::span<const T>(values));
-  return ChamferField(weights, std::move(values), largest);
+  BCCSKEL_RETURN_IF_ERROR(DistanceScan<T>(object, weights, runs, values.data()).Run(context));
+  return values;
+}
+
+// Made once for equal spacing: small objects would spend more time on them than on their points.
+RunTables RunTablesOf(const ChamferWeights& weights) {
+  static const RunTables equal_spacing = RunTablesFor(kShortChamfer);
+  return weights == kShortChamfer ? equal_spacing : RunTablesFor(weights);
+}
+
+ChamferWeights InUnitOf(DistanceKind kind, const ChamferWeights& weights, const AxisScale& scale) {
+  return kind == DistanceKind::kChamferOptimal ? WithOptimalUnit(weights, scale) : weights;
 }
 
 }  // namespace
 
-uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& weights) {
-  std::array<uint32_t, 3> steps = {static_cast<uint32_t>(std::abs(a.x - b.x)),
-                                   static_cast<uint32_t>(std::abs(a.y - b.y)),
-                                   static_cast<uint32_t>(std::abs(a.z - b.z))};
-  std::ranges::sort(steps);
-  return weights.diagonal * steps[1] + weights.axial * ((steps[2] - steps[1]) / 2);
-}
-
-absl::StatusOr<ChamferField> ComputeChamferDistance(const Volume& object,
-                                                    const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(ChamferField field, Compute<uint16_t>(object, kShortChamfer, context));
-  if (field.largest() < kShortChamferLimit) return field;
-  // Hardly any object is this thick, and a bound from the box would send thin trees in large boxes
-  // the slow way.
-  field = ChamferField(kShortChamfer, ChamferField::Values(), 0);
-  return Compute<uint32_t>(object, kLongChamfer, context);
+// Hardly any object is too thick for 16 bits, and a bound from the box would send thin trees in
+// large boxes the slow way.
+absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind kind,
+                                             const exec::Context& context) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  const ChamferWeights weights = ShortWeights(scale);
+  if (FitShortRows(weights)) {
+    const RunTables runs = RunTablesOf(weights);
+    BCCSKEL_ASSIGN_OR_RETURN(auto values, Scan<uint16_t>(object, weights, &runs, context));
+    const uint16_t largest = LargestOf(std::span<const uint16_t>(values));
+    if (largest < runs.limit()) {
+      return DistanceField(kind, InUnitOf(kind, weights, scale), std::move(values), largest);
+    }
+  }
+  const ChamferWeights wide = LongWeights(scale);
+  BCCSKEL_ASSIGN_OR_RETURN(auto values, Scan<uint32_t>(object, wide, nullptr, context));
+  const uint32_t largest = LargestOf(std::span<const uint32_t>(values));
+  return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
 }
 
 }  // namespace bccskel

@@ -1,11 +1,10 @@
-#include "core/distance/chamfer_distance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "core/distance/chamfer_rows.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_distance.h"
@@ -15,7 +14,7 @@ namespace bccskel {
 namespace {
 
 void ExpectReferenceDistances(const Volume& object, const exec::Context& context) {
-  const auto field = ComputeChamferDistance(object, context);
+  const auto field = ComputeDistance(object, DistanceKind::kChamfer, context);
   ASSERT_TRUE(field.ok()) << field.status();
   const test::ReferencePointSet points(object);
   const std::vector<uint32_t> expected = test::ReferenceChamfer(points);
@@ -46,8 +45,8 @@ TEST(ChamferDistance, OfTwoPointsIsTheShortestPathOfSteps) {
 
 TEST(ChamferDistance, WeightsAreRootThreeAndTwoOfTheUnit) {
   for (const ChamferWeights& w : {kShortChamfer, kLongChamfer}) {
-    const double unit = w.half_units / 2.0;
-    EXPECT_EQ(w.axial / unit, 2);
+    const double unit = w.counts_per_unit;
+    for (uint32_t axial : w.axial) EXPECT_EQ(axial / unit, 2);
     EXPECT_NEAR(w.diagonal / unit, std::sqrt(3.0), 1e-4);
   }
 }
@@ -64,8 +63,9 @@ TEST(ChamferDistance, FixedPointRoundsAsTheRealWeightsDo) {
       for (int axial = 0; diagonal * std::sqrt(3.0) + 2 * axial < range.units; ++axial) {
         const double real = diagonal * std::sqrt(3.0) + 2 * axial;
         const uint64_t counts = uint64_t{w.diagonal} * static_cast<uint64_t>(diagonal) +
-                                uint64_t{w.axial} * static_cast<uint64_t>(axial);
-        const auto rounded = (4 * counts + w.half_units) / (2 * w.half_units);
+                                uint64_t{w.axial[0]} * static_cast<uint64_t>(axial);
+        const auto half_units = static_cast<uint64_t>(2 * w.counts_per_unit);
+        const auto rounded = (4 * counts + half_units) / (2 * half_units);
         ASSERT_EQ(static_cast<double>(rounded), std::floor(real + 0.5)) << diagonal << "," << axial;
       }
     }
@@ -117,7 +117,7 @@ TEST(ChamferDistance, DoesNotOverflowInAWidePlate) {
     }
   }
   const Volume plate = *std::move(builder).Build();
-  const auto field = ComputeChamferDistance(plate, exec::Context());
+  const auto field = ComputeDistance(plate, DistanceKind::kChamfer, exec::Context());
   ASSERT_TRUE(field.ok());
   EXPECT_EQ(field->weights(), kShortChamfer);
   // Above and below every point lies background of the other sublattice.
@@ -157,11 +157,80 @@ TEST(ChamferDistance, LongAndShortLoopsGiveTheSameMixturesOfSteps) {
       JoinLayers(view, Sublattice::kEven, slabs[s][0], k, ScanDirection::kDownward);
     }
   }
-  const auto field = ComputeChamferDistance(object, exec::Context());
+  const auto field = ComputeDistance(object, DistanceKind::kChamfer, exec::Context());
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     for (int bit = 0; bit < kBrickPoints; ++bit) {
       ASSERT_EQ(values[size_t{n} * kBrickPoints + static_cast<size_t>(bit)], field->At(n, bit));
     }
+  }
+}
+
+TEST(ChamferWeights, ForEqualSpacingAreThePapers) {
+  EXPECT_EQ(ShortWeights(kIsotropic), kShortChamfer);
+  EXPECT_EQ(LongWeights(kIsotropic), kLongChamfer);
+}
+
+TEST(ChamferWeights, AreTheLengthsOfTheStepsInTheWorld) {
+  for (const AxisScale& scale : {AxisScale{1, 1, 5}, AxisScale{1.7, 1, 2.2}, AxisScale{9, 30, 1}}) {
+    const ChamferWeights w = LongWeights(scale);
+    const double diagonal = std::hypot(scale[0], scale[1], scale[2]);
+    EXPECT_NEAR(w.diagonal / w.counts_per_unit / diagonal, 1, 1e-3);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(w.axial[axis] / w.counts_per_unit / (2 * scale[axis]), 1, 1e-3);
+    }
+  }
+}
+
+TEST(ChamferWeights, WithTheOptimalUnitErrElevenPercentEitherWay) {
+  EXPECT_NEAR(LargestOverestimate(kIsotropic), 1.239, 5e-4);
+  const ChamferWeights w = WithOptimalUnit(kLongChamfer, kIsotropic);
+  EXPECT_NEAR(w.diagonal / w.counts_per_unit, 1.54695, 1e-4);
+  EXPECT_NEAR(w.axial[0] / w.counts_per_unit, 1.78626, 1e-4);
+}
+
+// The distance by all steps, relaxed until nothing changes.
+std::vector<uint32_t> RelaxedDistances(const Volume& object, const ChamferWeights& weights) {
+  const test::ReferencePointSet set(object);
+  std::vector<uint32_t> counts(set.box_size(), 0);
+  const std::vector<LatticePoint> points = set.SortedPoints();
+  for (LatticePoint p : points) counts[set.Index(p)] = 1u << 30;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (LatticePoint p : points) {
+      for (int bit = 0; bit < kNeighborCount; ++bit) {
+        const uint32_t step =
+            bit < 8 ? weights.diagonal : weights.axial[static_cast<size_t>(bit - 8) / 2];
+        const uint32_t by_step = counts[set.Index(p + Direction(bit).offset())] + step;
+        if (by_step >= counts[set.Index(p)]) continue;
+        counts[set.Index(p)] = by_step;
+        changed = true;
+      }
+    }
+  }
+  return counts;
+}
+
+void ExpectRelaxedDistances(const Volume& object) {
+  const auto field = ComputeDistance(object, DistanceKind::kChamferOptimal, exec::Context());
+  ASSERT_TRUE(field.ok());
+  const test::ReferencePointSet points(object);
+  const std::vector<uint32_t> expected = RelaxedDistances(object, field->weights());
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      const LatticePoint p = PointOf(object.keys()[n].coordinates(), bit);
+      ASSERT_EQ(field->At(n, bit), expected[points.Index(p)]);
+    });
+  }
+}
+
+TEST_P(ChamferDistanceLaw, MeasuresUnequalSpacingsByTheirShortestPaths) {
+  const auto points = test::RandomBlob(GetParam(), {37, 21, 19}, 5, 14);
+  for (const auto& spacing :
+       {std::array{1.0, 1.0, 5.0}, std::array{3.0, 1.1, 1.0}, std::array{0.2, 1.0, 0.3},
+        std::array{90.0, 1.0, 1.0}, std::array{1.0, 1.0, 1e9}}) {
+    VolumeBuilder builder({40, 24, 22}, {.spacing = spacing});
+    for (LatticePoint p : points) builder.Add(p);
+    ExpectRelaxedDistances(*std::move(builder).Build());
   }
 }
 
@@ -171,15 +240,16 @@ TEST(ChamferDistance, StopsWhenAsked) {
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(ComputeChamferDistance(object, context).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(ComputeDistance(object, DistanceKind::kChamfer, context).status().code(),
+            absl::StatusCode::kCancelled);
   exec::Context late;
   late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
-  EXPECT_EQ(ComputeChamferDistance(object, late).status().code(),
+  EXPECT_EQ(ComputeDistance(object, DistanceKind::kChamfer, late).status().code(),
             absl::StatusCode::kDeadlineExceeded);
 }
 
 TEST(ChamferDistance, OfAnEmptyObjectIsEmpty) {
-  const auto field = ComputeChamferDistance(Volume(), exec::Context());
+  const auto field = ComputeDistance(Volume(), DistanceKind::kChamfer, exec::Context());
   ASSERT_TRUE(field.ok());
   EXPECT_EQ(field->largest(), 0u);
 }

@@ -1,0 +1,56 @@
+#ifndef BCCSKEL_CORE_DISTANCE_CHAMFER_WEIGHTS_H_
+#define BCCSKEL_CORE_DISTANCE_CHAMFER_WEIGHTS_H_
+
+#include <array>
+#include <cstdint>
+
+#include "core/lattice/lattice_point.h"
+
+namespace bccskel {
+
+// Spacing along x, y and z relative to the smallest of the three, so at least 1. Ratios beyond
+// kMaxSpacingRatio count as that one.
+using AxisScale = std::array<double, 3>;
+inline constexpr AxisScale kIsotropic = {1, 1, 1};
+inline constexpr double kMaxSpacingRatio = 10'000;
+AxisScale AxisScaleOf(const Placement& placement);
+
+// World units in a lattice unit: half the shortest edge of the cubic cell.
+double WorldUnitsPerLatticeUnit(const Placement& placement);
+
+// Local distances of the steps in fixed-point counts.
+struct ChamferWeights {
+  uint32_t diagonal = 0;               // D8
+  std::array<uint32_t, 3> axial = {};  // D6, along x, y and z
+  double counts_per_unit = 1;          // in one lattice unit
+
+  friend constexpr bool operator==(const ChamferWeights&, const ChamferWeights&) = default;
+};
+
+// For equal spacing: sqrt(3) and 2 lattice units (section 4). Rounds as the real weights do up to a
+// distance of 627 lattice units; 16 bits hold it.
+inline constexpr ChamferWeights kShortChamfer = {181, {209, 209, 209}, 104.5};
+// The same up to 4200 lattice units and beyond, in 32 bits.
+inline constexpr ChamferWeights kLongChamfer = {2521, {2911, 2911, 2911}, 1455.5};
+
+// The lengths of the steps as whole numbers, with the resolution among those of the given size that
+// keeps their ratios best. The short and the long weights above for equal spacing.
+ChamferWeights ShortWeights(const AxisScale& scale);
+ChamferWeights LongWeights(const AxisScale& scale);
+
+// The largest ratio of a chamfer distance with real weights to the Euclidean one: 1.239 for equal
+// spacing. The smallest is 1.
+double LargestOverestimate(const AxisScale& scale);
+
+// The same steps in the unit that makes the largest errors above and below equal.
+ChamferWeights WithOptimalUnit(ChamferWeights weights, const AxisScale& scale);
+
+// Chamfer distance between two points, in counts.
+// Source: "Distance transforms for three-dimensional grids with non-cubic voxels", 2005: with
+//         |x| >= |y| >= |z| the shortest path has |y| D8 steps and (|x| - |y|) / 2 D6 steps.
+// Needs:  weights for equal spacing.
+uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& weights);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_DISTANCE_CHAMFER_WEIGHTS_H_

@@ -1,0 +1,58 @@
+#ifndef BCCSKEL_CORE_DISTANCE_EUCLIDEAN_ROWS_H_
+#define BCCSKEL_CORE_DISTANCE_EUCLIDEAN_ROWS_H_
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/distance/side_runs.h"
+#include "core/volume/brick.h"
+#include "core/volume/brick_neighbors.h"
+
+// The inner loops of the Euclidean distance, for rows of 16 points at a time; compiled for every
+// instruction set and picked at run time. See euclidean_scan.cc for what they add up to.
+
+namespace bccskel {
+
+// A layer's 64 points and a brick's layers, with one more layer beside them.
+inline constexpr size_t kLayerPoints = kBrickX * kBrickY;
+inline constexpr size_t kLayersBeside = kBrickZ + 1;
+
+// What the loops work on. Squared distances in lattice units.
+struct EuclideanView {
+  const BrickBits* object = nullptr;
+  const BrickNeighborhood* neighbors = nullptr;
+  BrickIndex padding = 0;  // the brick that stands for those not stored
+  // Shapes: kBrickPoints per brick. First within the layer, to background of the same sublattice;
+  //         in the end to all background.
+  float* own = nullptr;
+  // Shapes: kLayersBeside * kLayerPoints per brick. From the places above (even brick) or below
+  //         (odd brick) its points, within the layer of the other sublattice that lies there, to
+  //         that layer's background. The last layer is the one on the other side of the brick.
+  float* beside = nullptr;
+};
+
+// Squared lengths along the axes.
+struct SquaredLengths {
+  float x = 1;           // of one unit along x
+  std::vector<float> y;  // of n units along y, as many as the longest stack needs
+  std::vector<float> z;  // of n units along z
+};
+
+// A stack of stored bricks of one sublattice, each the next one's neighbor along an axis.
+using BrickStack = std::span<const BrickIndex>;
+
+// Distances within the layers of a stack along y: `own` of its bricks, `beside` of the bricks of
+// the other sublattice that lie at the same place.
+// Shapes: `runs` of the slab whose first brick is `first`.
+void ScanLayers(const EuclideanView& view, const SquaredLengths& lengths, Sublattice sublattice,
+                BrickStack stack, const SideRuns<uint32_t>& runs, BrickIndex first);
+
+// From distances within layers to distances in space: `own` of a stack along z.
+// Needs: ScanLayers() for all stacks.
+void ScanAcrossLayers(const EuclideanView& view, const SquaredLengths& lengths,
+                      Sublattice sublattice, BrickStack stack);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_DISTANCE_EUCLIDEAN_ROWS_H_

@@ -1,0 +1,154 @@
+#include "core/distance/euclidean_scan.h"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+#include "core/distance/euclidean_rows.h"
+#include "core/exec/status_macros.h"
+
+// Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
+// Paper: goes beyond it; section 4 takes chamfer distances.
+// Why it is right: the square of a distance is a sum over the axes, so the least one is found axis
+//   by axis. Background of either sublattice may be the nearest. So each layer of a sublattice
+//   gives distances within it at two kinds of places: its own points, and the places between them
+//   that lie above and below points of the other sublattice. The scan along z then takes the least
+//   of layer distance plus squared height, over layers of both kinds.
+//   Bricks that are not stored are background: beside them the nearest background of a layer is one
+//   step away along both axes. A scan ends at the first background point of its own column, where
+//   everything farther is farther.
+// Cost:  4.25 bytes per point besides the result. Rows of 16 points look outward together, until
+//   no point can find anything nearer: about a step per lattice unit of distance, each some cycles
+//   for all 16.
+
+namespace bccskel {
+namespace {
+
+// The bricks of one bz and their stacks along y.
+struct Slab {
+  BrickIndex first = 0;
+  BrickIndex last = 0;
+};
+
+class EuclideanScan {
+ public:
+  EuclideanScan(const Volume& object, std::span<float> own)
+      : object_(object),
+        beside_(object.brick_count() * kLayersBeside * kLayerPoints),
+        view_{object.padded_bricks().data(), object.neighbors().data(),
+              static_cast<BrickIndex>(object.brick_count()), own.data(), beside_.data()} {
+    const std::span<const BrickKey> keys = object.keys();
+    for (BrickIndex n = 0; n < keys.size(); ++n) {
+      if (n == 0 || keys[n].coordinates().bz != keys[n - 1].coordinates().bz) {
+        slabs_.push_back({n, n});
+      }
+      slabs_.back().last = n + 1;
+      if (view_.neighbors[n][kBelowZ] == view_.padding) stack_feet_.push_back(n);
+    }
+    MeasureSteps();
+  }
+
+  absl::Status Run(const exec::Context& context) {
+    Share(context, object_.brick_count(), [this](size_t n) { FillBeside(n); });
+    Share(context, slabs_.size(), [this](size_t n) { ScanSlab(slabs_[n]); });
+    Share(context, stack_feet_.size(), [this](size_t n) {
+      const BrickIndex foot = stack_feet_[n];
+      ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveZ));
+    });
+    return context.StopStatus();
+  }
+
+ private:
+  // Positions in a BrickNeighborhood.
+  static constexpr size_t kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
+  static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
+
+  // Splits the items among the workers.
+  template <typename Work>
+  static void Share(const exec::Context& context, size_t count, Work work) {
+    context.Run([&](int worker) {
+      const exec::Share mine = exec::ShareOf(count, worker, context.threads());
+      for (size_t n = mine.begin; n < mine.end; ++n) {
+        if (n % 64 == 0 && context.ShouldStop()) return;
+        work(n);
+      }
+    });
+  }
+
+  std::vector<BrickIndex> StackFrom(BrickIndex foot, size_t onward) const {
+    std::vector<BrickIndex> stack;
+    for (BrickIndex n = foot; n != view_.padding; n = view_.neighbors[n][onward]) {
+      stack.push_back(n);
+    }
+    return stack;
+  }
+
+  Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
+
+  size_t LongestStack(size_t back, size_t onward) const {
+    size_t longest = 0;
+    for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
+      if (view_.neighbors[n][back] != view_.padding) continue;
+      longest = std::max(longest, StackFrom(n, onward).size());
+    }
+    return longest;
+  }
+
+  // Squares for the longest stacks: no scan looks farther than its stack is long.
+  void MeasureSteps() {
+    const AxisScale scale = AxisScaleOf(object_.placement());
+    lengths_.x = static_cast<float>(scale[0] * scale[0]);
+    lengths_.y = Squares(scale[1], 2 * kBrickY * LongestStack(kBelowY, kAboveY) + 4);
+    lengths_.z = Squares(scale[2], 2 * kBrickZ * LongestStack(kBelowZ, kAboveZ) + 4);
+  }
+
+  static std::vector<float> Squares(double unit, size_t count) {
+    std::vector<float> squares(count);
+    for (size_t n = 0; n < count; ++n) {
+      const double length = unit * static_cast<double>(n);
+      squares[n] = static_cast<float>(length * length);
+    }
+    return squares;
+  }
+
+  // Places beside which no brick of the other sublattice will write.
+  void FillBeside(size_t brick) const {
+    const float nearest = lengths_.x + lengths_.y[1];
+    float* layers = view_.beside + brick * kLayersBeside * kLayerPoints;
+    if (view_.neighbors[brick][kSamePlace] == view_.padding) {
+      std::fill_n(layers, kBrickZ * kLayerPoints, nearest);
+    }
+    if (view_.neighbors[brick][kAcrossZ] == view_.padding) {
+      std::fill_n(layers + kBrickZ * kLayerPoints, kLayerPoints, nearest);
+    }
+  }
+
+  void ScanSlab(const Slab& slab) const {
+    const SideRuns<uint32_t> runs = FindSideRuns<uint32_t>(view_.object, view_.neighbors,
+                                                           slab.first, slab.last, kMaxExtentCells);
+    for (BrickIndex n = slab.first; n < slab.last; ++n) {
+      if (view_.neighbors[n][kBelowY] != view_.padding) continue;
+      ScanLayers(view_, lengths_, SublatticeOf(n), StackFrom(n, kAboveY), runs, slab.first);
+    }
+  }
+
+  const Volume& object_;
+  exec::UninitializedVector<float> beside_;
+  const EuclideanView view_;
+  std::vector<Slab> slabs_;
+  std::vector<BrickIndex> stack_feet_;  // the lowest brick of every stack along z
+  SquaredLengths lengths_;
+};
+
+}  // namespace
+
+absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec::Context& context) {
+  exec::UninitializedVector<float> squared((object.brick_count() + 1) * kBrickPoints);
+  std::fill(squared.end() - kBrickPoints, squared.end(), 0.0f);  // the padding brick
+  BCCSKEL_RETURN_IF_ERROR(EuclideanScan(object, squared).Run(context));
+  const float largest = *std::ranges::max_element(squared);
+  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squared),
+                       DistanceField::RankOf(largest));
+}
+
+}  // namespace bccskel

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/distance/distance_field.h"
+#include "core/exec/instruction_sets.h"
+#include "core/lattice/directions.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 3>& spacing) {
+  LatticeExtent extent = {1, 1, 1};
+  for (LatticePoint p : points) {
+    extent = {std::max(extent.nx, p.x / 2 + 1), std::max(extent.ny, p.y / 2 + 1),
+              std::max(extent.nz, p.z / 2 + 1)};
+  }
+  VolumeBuilder builder(extent, {.spacing = spacing});
+  for (LatticePoint p : points) builder.Add(p);
+  return *std::move(builder).Build();
+}
+
+// All background points that have an object neighbor; the nearest one is always among them.
+std::vector<LatticePoint> OuterBorder(const Volume& object) {
+  std::vector<LatticePoint> border;
+  object.ForEachPoint([&](LatticePoint p) {
+    for (const LatticePoint offset : kDirections14) {
+      if (!object.Contains(p + offset)) border.push_back(p + offset);
+    }
+  });
+  std::ranges::sort(border);
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  return border;
+}
+
+double SquaredDistance(LatticePoint a, LatticePoint b, const AxisScale& scale) {
+  const double x = scale[0] * (a.x - b.x), y = scale[1] * (a.y - b.y), z = scale[2] * (a.z - b.z);
+  return x * x + y * y + z * z;
+}
+
+void ExpectNearestBackground(const Volume& object, const exec::Context& context) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  const std::vector<LatticePoint> border = OuterBorder(object);
+  const auto field = ComputeDistance(object, DistanceKind::kEuclidean, context);
+  ASSERT_TRUE(field.ok()) << field.status();
+  uint32_t largest = 0;
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      if (!object.bricks()[n].Test(bit)) {
+        ASSERT_EQ(field->At(n, bit), 0u);
+        continue;
+      }
+      const LatticePoint p = PointOf(object.keys()[n].coordinates(), bit);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (LatticePoint q : border) nearest = std::min(nearest, SquaredDistance(p, q, scale));
+      const auto squared = std::bit_cast<float>(field->At(n, bit));
+      if (scale == kIsotropic) {
+        ASSERT_EQ(squared, nearest) << p.x << " " << p.y << " " << p.z;
+      } else {
+        ASSERT_NEAR(squared / nearest, 1, 1e-6) << p.x << " " << p.y << " " << p.z;
+      }
+      EXPECT_NEAR(field->ToLatticeUnits(field->At(n, bit)), std::sqrt(nearest), 1e-4);
+      largest = std::max(largest, field->At(n, bit));
+    }
+  }
+  EXPECT_EQ(field->largest(), largest);
+}
+
+std::vector<std::vector<LatticePoint>> RandomObjects(uint64_t seed) {
+  const LatticeExtent extent = {35, 12, 11};
+  std::vector<std::vector<LatticePoint>> objects;
+  for (double density : {0.3, 0.9, 0.999}) {
+    objects.push_back(test::RandomCloud(seed, extent, density));
+  }
+  objects.push_back(test::RandomBlob(seed, extent, 4, 10));
+  return objects;
+}
+
+class EuclideanLaw : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(EuclideanLaw, IsTheDistanceToTheNearestBackgroundPoint) {
+  for (const auto& points : RandomObjects(GetParam())) {
+    for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{0.3, 0.3, 1.5},
+                                std::array{2.5, 1.0, 1.1}, std::array{1.0, 40.0, 1.0}}) {
+      ExpectNearestBackground(Placed(points, spacing), exec::Context());
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, EuclideanLaw, testing::Range<uint64_t>(0, 4));
+
+// Bricks whose neighbors are not stored are the borders of the scans.
+TEST(Euclidean, IsExactWhereBricksEnd) {
+  for (int32_t shift = 0; shift < 36; shift += 5) {
+    VolumeBuilder builder({90, 60, 60});
+    for (int32_t z = 0; z < 20; ++z) {
+      for (int32_t y = 0; y < 12; ++y) {
+        for (int32_t x = 0; x < 40; ++x) builder.Add({x + shift, y + shift / 2, z + shift});
+      }
+    }
+    ExpectNearestBackground(*std::move(builder).Build(), exec::Context());
+  }
+}
+
+TEST(Euclidean, IsTheSameForAnyThreadCountAndInstructionSet) {
+  const Volume object = Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7});
+  const auto expected = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    for (int threads : {1, 3}) {
+      exec::WorkerTeam team(threads);
+      exec::Context context;
+      context.team = &team;
+      const auto field = ComputeDistance(object, DistanceKind::kEuclidean, context);
+      ASSERT_EQ(field->values(), expected->values());
+    }
+  }
+  exec::ChooseInstructionSet("");
+}
+
+TEST(Euclidean, StopsWhenAsked) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_EQ(ComputeDistance(object, DistanceKind::kEuclidean, context).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+TEST(Euclidean, OfAnEmptyObjectIsEmpty) {
+  const auto field = ComputeDistance(Volume(), DistanceKind::kEuclidean, exec::Context());
+  ASSERT_TRUE(field.ok());
+  EXPECT_EQ(field->largest(), 0u);
+}
+
+}  // namespace
+}  // namespace bccskel
