@@ -82,6 +82,7 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   Text text;
   text.Add("input:     ", FileName(summary.arguments.input));
   if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
+  if (certificate.mask.has_value()) text.Add("\nmask:      ", BettiPhrase(*certificate.mask));
   text.Add("\nobject:    ", GroupedDigits(result.object_points), " points, ",
            BettiPhrase(certificate.input), '\n');
   text.Add("skeleton:  ", GroupedDigits(result.skeleton_points), " points, ",
@@ -108,7 +109,9 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
   text.Add(",\"object_points\":", result.object_points,
            ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
            ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
-  text.Add(",\"certificate\":{\"input\":", BettiJson(certificate.input),
+  text.Add(",\"certificate\":{");
+  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  text.Add("\"input\":", BettiJson(certificate.input),
            ",\"skeleton\":", BettiJson(certificate.skeleton),
            ",\"simple_points_left\":", certificate.simple_points_left,
            "},\"topology_kept\":", certificate.TopologyKept() ? "true" : "false", ",\"sha256\":\"",

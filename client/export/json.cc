@@ -54,7 +54,13 @@ void AddBettiNumbers(Text& text, const BettiNumbers& betti) {
 }
 
 void AddCertificate(Text& text, const Certificate& certificate) {
-  text.Add("{\"input\":");
+  text.Add('{');
+  if (certificate.mask.has_value()) {
+    text.Add("\"mask\":");
+    AddBettiNumbers(text, *certificate.mask);
+    text.Add(',');
+  }
+  text.Add("\"input\":");
   AddBettiNumbers(text, certificate.input);
   text.Add(",\"skeleton\":");
   AddBettiNumbers(text, certificate.skeleton);

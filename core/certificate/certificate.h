@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_CERTIFICATE_CERTIFICATE_H_
 
 #include <cstdint>
+#include <optional>
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
@@ -33,6 +34,8 @@ uint64_t CountSimpleNonEndPoints(const Volume& object, const exec::Context& cont
 
 // The proof that comes with every result.
 struct Certificate {
+  // Of the cubic mask that the object was made from, counted on the cubic grid, where there is one.
+  std::optional<BettiNumbers> mask = std::nullopt;
   BettiNumbers input;
   BettiNumbers skeleton;
   uint64_t simple_points_left = 0;  // simple and not an end point

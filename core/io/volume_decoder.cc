@@ -3,6 +3,7 @@
 #include "core/exec/status_macros.h"
 #include "core/io/bricks_decoder.h"
 #include "core/io/exr_decoder.h"
+#include "core/io/mask_decoder.h"
 #include "core/io/planes_decoder.h"
 
 namespace bccskel {
@@ -28,6 +29,8 @@ absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHea
       return std::make_unique<PlanesDecoder>(checked);
     case VolumeEncoding::kBricks:
       return std::make_unique<BricksDecoder>(checked, limits);
+    case VolumeEncoding::kCubicMask:
+      return MaskDecoder::Create(checked);
   }
   return absl::InvalidArgumentError("unknown volume encoding");
 }

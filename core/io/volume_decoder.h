@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
 #include "core/exec/context.h"
 #include "core/io/volume_header.h"
 #include "core/volume/volume.h"
@@ -32,6 +34,9 @@ class VolumeDecoder {
   //         DEADLINE_EXCEEDED as the context says.
   virtual absl::StatusOr<Volume> Finish(const exec::Context& context) = 0;
   absl::StatusOr<Volume> Finish() { return Finish(exec::Context()); }
+
+  // Of a cubic mask, what was counted on its own grid; known after Finish().
+  virtual std::optional<BettiNumbers> mask_topology() const { return std::nullopt; }
 };
 
 // `header` comes from ScanVolumeHeader() or MakePlanesHeader(); the decoder insists that the bytes

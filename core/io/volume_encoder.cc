@@ -36,6 +36,8 @@ absl::Status EncodeVolumeTo(const Volume& volume, const EncodeVolumeOptions& opt
       return WritePlanes(volume, options.compression, sink, context);
     case VolumeEncoding::kBricks:
       return WriteBricks(volume, options.compression, sink, context);
+    case VolumeEncoding::kCubicMask:
+      return absl::InvalidArgumentError("a bcc volume cannot be written as a cubic mask");
   }
   return absl::InvalidArgumentError("unknown volume encoding");
 }

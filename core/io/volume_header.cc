@@ -35,6 +35,13 @@ absl::Status CheckExtentLimit(const LatticeExtent& extent, const VolumeLimits& l
                       extent.nx, extent.ny, extent.nz, limits.max_extent_cells));
 }
 
+absl::Status CheckMask(const VolumeHeader& header) {
+  if (header.mask.has_value() == (header.encoding == VolumeEncoding::kCubicMask)) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError("a cubic mask, and nothing else, declares its voxels");
+}
+
 absl::Status CheckDeclaredBricks(const VolumeHeader& header, const VolumeLimits& limits) {
   if (!header.declared_bricks) {
     if (header.encoding != VolumeEncoding::kBricks) return absl::OkStatus();
@@ -61,6 +68,12 @@ absl::Status CheckDecodedBytes(const VolumeHeader& header, const VolumeLimits& l
       limits.max_decoded_bytes));
 }
 
+// A slice as bits, and the slices that conversion and topology look back on.
+uint64_t MaskStripBytes(const MaskGrid& grid) {
+  constexpr uint64_t kSlices = 8;
+  return SaturatingMultiply(kSlices * sizeof(uint64_t), grid.WordsPerSlice());
+}
+
 // The sizes that depend on the encoding. Needs: a checked grid.
 void DeriveSizes(VolumeHeader& header) {
   switch (header.encoding) {
@@ -73,6 +86,12 @@ void DeriveSizes(VolumeHeader& header) {
       header.decoded_bytes = DensePlaneBytes(header.extent);
       header.strip_bytes = static_cast<uint64_t>(header.extent.nx) * 4 * sizeof(uint32_t) +
                            BodyBufferBytes(header.compression);
+      header.max_encoded_bytes = MaxBodyBytes(header.decoded_bytes, header.compression);
+      return;
+    case VolumeEncoding::kCubicMask:
+      header.decoded_bytes = MaskBytes(header.mask->grid);
+      header.strip_bytes =
+          SaturatingAdd(MaskStripBytes(header.mask->grid), BodyBufferBytes(header.compression));
       header.max_encoded_bytes = MaxBodyBytes(header.decoded_bytes, header.compression);
       return;
     case VolumeEncoding::kBricks:
@@ -94,6 +113,8 @@ std::string_view VolumeEncodingName(VolumeEncoding encoding) {
       return "raw planes";
     case VolumeEncoding::kBricks:
       return "bricks";
+    case VolumeEncoding::kCubicMask:
+      return "cubic mask";
   }
   return "unknown";
 }
@@ -129,6 +150,11 @@ uint64_t DensePlaneBytes(const LatticeExtent& extent) {
   return SaturatingMultiply(plane, words * sizeof(uint32_t));
 }
 
+uint64_t MaskBytes(const MaskGrid& grid) {
+  const uint64_t voxels = SaturatingMultiply(grid.VoxelsPerSlice(), static_cast<uint64_t>(grid.nz));
+  return voxels / 8 + (voxels % 8 != 0 ? 1 : 0);
+}
+
 uint64_t BoxBrickCount(const LatticeExtent& extent) {
   const auto bricks = [](int32_t cells, int32_t edge) {
     return (static_cast<uint64_t>(cells) + static_cast<uint64_t>(edge) - 1) /
@@ -146,6 +172,7 @@ uint64_t VolumeHeader::DecodingBytes(uint64_t encoded_bytes) const {
 
 absl::StatusOr<VolumeHeader> CompleteVolumeHeader(VolumeHeader header, const VolumeLimits& limits) {
   BCCSKEL_RETURN_IF_ERROR(CheckGrid(header.extent, header.placement));
+  BCCSKEL_RETURN_IF_ERROR(CheckMask(header));
   BCCSKEL_RETURN_IF_ERROR(CheckCompression(header.encoding, header.compression));
   BCCSKEL_RETURN_IF_ERROR(CheckExtentLimit(header.extent, limits));
   BCCSKEL_RETURN_IF_ERROR(CheckDeclaredBricks(header, limits));
@@ -175,10 +202,12 @@ absl::StatusOr<VolumeHeader> ScanVolumeHeader(VolumeEncoding encoding,
     case VolumeEncoding::kBricks:
       return ScanBricksHeader(front, limits);
     case VolumeEncoding::kRawPlanes:
+    case VolumeEncoding::kCubicMask:
       break;
   }
   return absl::InvalidArgumentError(
-      "raw planes have no header: extent and placement are declared beside them");
+      absl::StrFormat("%s have no header: extent and placement are declared beside them",
+                      VolumeEncodingName(encoding)));
 }
 
 absl::StatusOr<VolumeHeader> MakePlanesHeader(const LatticeExtent& extent,
@@ -190,6 +219,19 @@ absl::StatusOr<VolumeHeader> MakePlanesHeader(const LatticeExtent& extent,
                                .compression = compression,
                                .extent = extent,
                                .placement = placement,
+                               .declared_bricks = declared_bricks},
+                              limits);
+}
+
+absl::StatusOr<VolumeHeader> MakeMaskHeader(const MaskDeclaration& mask, const VolumeLimits& limits,
+                                            VolumeCompression compression,
+                                            std::optional<uint64_t> declared_bricks) {
+  BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(mask.grid));
+  return CompleteVolumeHeader({.encoding = VolumeEncoding::kCubicMask,
+                               .compression = compression,
+                               .extent = ExactExtent(mask.grid),
+                               .placement = ExactPlacement(mask.grid),
+                               .mask = mask,
                                .declared_bricks = declared_bricks},
                               limits);
 }

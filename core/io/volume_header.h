@@ -9,18 +9,21 @@
 
 #include "absl/status/statusor.h"
 #include "core/lattice/lattice_point.h"
+#include "core/mask/mask_grid.h"
 
 namespace bccskel {
 
-// The three forms of a volume outside memory. README.md in this folder pins their bytes.
+// The forms of a volume outside memory. README.md in this folder pins their bytes.
 enum class VolumeEncoding {
   kOpenExr,    // two-part OpenEXR file
   kRawPlanes,  // the bit planes of the two sublattices, without any header
   kBricks,     // coordinates and bits of the occupied bricks
+  kCubicMask,  // the voxels of a cubic mask, a bit each: decoding converts it; nothing is encoded
+               // so
 };
 std::string_view VolumeEncodingName(VolumeEncoding encoding);
 
-// OpenEXR knows kNone, kRle, kZips and kZip; planes and bricks know kNone and kZstd.
+// OpenEXR knows kNone, kRle, kZips and kZip; the others know kNone and kZstd.
 enum class VolumeCompression { kNone, kRle, kZips, kZip, kZstd };
 std::string_view VolumeCompressionName(VolumeCompression compression);
 // Errors: INVALID_ARGUMENT when the encoding does not have the compression.
@@ -37,12 +40,22 @@ struct VolumeLimits {
 // A header fits in the first bytes of an encoding, whatever it declares.
 inline constexpr size_t kMaxHeaderBytes = 64 * 1024;
 
+// A cubic mask that becomes a volume by the exact conversion of core/mask.
+struct MaskDeclaration {
+  MaskGrid grid;
+  MaskAdjacency adjacency = MaskAdjacency::k26;
+
+  friend bool operator==(const MaskDeclaration&, const MaskDeclaration&) = default;
+};
+
 // What is known about a volume before anything is decompressed.
 struct VolumeHeader {
   VolumeEncoding encoding = VolumeEncoding::kOpenExr;
   VolumeCompression compression = VolumeCompression::kNone;
   LatticeExtent extent;
   Placement placement;
+  // Of kCubicMask only; extent and placement follow from it.
+  std::optional<MaskDeclaration> mask = std::nullopt;
   std::optional<uint64_t> declared_bricks;  // a promise of the sender, enforced while decoding
 
   // Derived from the above.
@@ -64,8 +77,8 @@ absl::StatusOr<VolumeEncoding> SniffVolumeEncoding(std::span<const std::byte> fr
 
 // Reads the header of an OpenEXR or bricks encoding and checks it against the profile and limits.
 // Shapes: `front` is the first min(kMaxHeaderBytes, length) bytes of the encoding, or more.
-// Errors: INVALID_ARGUMENT for bytes that are malformed or outside the profile, and for raw planes,
-//         which have no header; RESOURCE_EXHAUSTED for a volume over `limits`.
+// Errors: INVALID_ARGUMENT for bytes that are malformed or outside the profile, and for raw planes
+//         and masks, which have no header; RESOURCE_EXHAUSTED for a volume over `limits`.
 absl::StatusOr<VolumeHeader> ScanVolumeHeader(VolumeEncoding encoding,
                                               std::span<const std::byte> front,
                                               const VolumeLimits& limits);
@@ -78,12 +91,21 @@ absl::StatusOr<VolumeHeader> MakePlanesHeader(
     VolumeCompression compression = VolumeCompression::kNone,
     std::optional<uint64_t> declared_bricks = std::nullopt);
 
+// The header of a cubic mask. Errors: as ScanVolumeHeader().
+absl::StatusOr<VolumeHeader> MakeMaskHeader(
+    const MaskDeclaration& mask, const VolumeLimits& limits,
+    VolumeCompression compression = VolumeCompression::kNone,
+    std::optional<uint64_t> declared_bricks = std::nullopt);
+
 // Checks grid and limits and fills in the derived fields.
 // Errors: as ScanVolumeHeader().
 absl::StatusOr<VolumeHeader> CompleteVolumeHeader(VolumeHeader header, const VolumeLimits& limits);
 
 // Words of 32 layers that a column of nz cells needs; channels of an OpenEXR part.
 constexpr int32_t ChannelCount(const LatticeExtent& extent) { return (extent.nz + 31) / 32; }
+
+// Bytes of a mask with a bit per voxel. Needs: a checked grid.
+uint64_t MaskBytes(const MaskGrid& grid);
 
 // Bytes of the bit planes of both sublattices; saturates at the largest uint64_t.
 uint64_t DensePlaneBytes(const LatticeExtent& extent);

@@ -1,9 +1,37 @@
 #include "core/mask/mask_grid.h"
 
 #include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
+namespace {
+
+// The volume's invariants rest on it: a stray bit would be a point outside the extent.
+absl::Status CheckUnusedBits(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
+  if (grid.nx % 64 == 0) return absl::OkStatus();
+  const uint64_t unused = ~uint64_t{0} << grid.nx % 64;
+  for (int32_t y = 0; y < grid.ny; ++y) {
+    const size_t last = (static_cast<size_t>(y) + 1) * grid.WordsPerRow() - 1;
+    if ((words[last] & unused) != 0) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "slice %d, row %d: a bit is set past the last of %d voxels", z, y, grid.nx));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckSliceSize(const MaskGrid& grid, int32_t z, size_t size, size_t expected) {
+  if (z >= grid.nz) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the image has more than the %d slices of its grid", grid.nz));
+  }
+  if (size == expected) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat("slice %d has %d words: %d x %d voxels take %d",
+                                                    z, size, grid.nx, grid.ny, expected));
+}
+
+}  // namespace
 
 absl::Status CheckMaskGrid(const MaskGrid& grid) {
   for (int32_t voxels : {grid.nx, grid.ny, grid.nz}) {
@@ -14,6 +42,15 @@ absl::Status CheckMaskGrid(const MaskGrid& grid) {
     }
   }
   return CheckGrid(ExactExtent(grid), grid.placement);
+}
+
+absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSliceSize(grid, z, words.size(), grid.WordsPerSlice()));
+  return CheckUnusedBits(grid, words, z);
+}
+
+absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels) {
+  return CheckSliceSize(grid, z, labels.size(), grid.VoxelsPerSlice());
 }
 
 LatticeExtent ExactExtent(const MaskGrid& grid) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "absl/status/status.h"
 #include "core/lattice/lattice_point.h"
@@ -25,7 +26,7 @@ struct MaskGrid {
   int32_t nx = 0;
   int32_t ny = 0;
   int32_t nz = 0;
-  Placement placement;
+  Placement placement = {};
 
   // A slice of a mask is all voxels of one z: row y begins at word y * WordsPerRow(), voxel x of it
   // is bit x % 64 of word x / 64, and bits from nx on are zero.
@@ -40,6 +41,11 @@ struct MaskGrid {
 // OK when each axis has 1..kMaxMaskVoxels voxels and the placement is finite with a positive
 // spacing.
 absl::Status CheckMaskGrid(const MaskGrid& grid);
+
+// OK for slice z of a mask or of labels: z < nz, as many words as MaskGrid says, and in a mask no
+// bit set past the last voxel of a row.
+absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
+absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
 
 // The lattice of the exact conversion: its even points are the corners of the refined voxels, its
 // odd points their centers. World positions are those of the voxels.

@@ -61,11 +61,15 @@ v1::Certificate ToMessage(const Certificate& certificate) {
   Set(message.mutable_input(), certificate.input);
   Set(message.mutable_skeleton(), certificate.skeleton);
   message.set_simple_points_left(certificate.simple_points_left);
+  if (certificate.mask.has_value()) Set(message.mutable_mask(), *certificate.mask);
   return message;
 }
 
 Certificate FromMessage(const v1::Certificate& message) {
-  return {.input = FromMessage(message.input()),
+  std::optional<BettiNumbers> mask;
+  if (message.has_mask()) mask = FromMessage(message.mask());
+  return {.mask = mask,
+          .input = FromMessage(message.input()),
           .skeleton = FromMessage(message.skeleton()),
           .simple_points_left = message.simple_points_left()};
 }

@@ -92,7 +92,10 @@ void PoolJob::DecodeRest(const std::optional<Sha256Digest>& expected) {
     absl::StatusOr<Volume> volume =
         OrOutOfMemory([&] { return intake_->Finish(expected, DecodeContext()); });
     status = volume.status();
-    if (volume.ok()) volume_ = *std::move(volume);
+    if (volume.ok()) {
+      volume_ = *std::move(volume);
+      mask_topology_ = intake_->mask_topology();
+    }
   }
   intake_.reset();
   decoded_ += Clock::now() - start;
@@ -131,6 +134,7 @@ void PoolJob::Run(int threads) {
   if (result.ok()) {
     result->queued = queued;
     result->decoded = decoded_;
+    result->skeleton.certificate.mask = mask_topology_;
   }
   End(std::move(result));
 }

@@ -59,6 +59,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   Ticket ticket_;
   std::unique_ptr<VolumeIntake> intake_;
   std::optional<Volume> volume_;
+  std::optional<BettiNumbers> mask_topology_;
   std::chrono::nanoseconds decoded_{0};
   Clock::time_point waiting_since_;
 

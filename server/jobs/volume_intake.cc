@@ -11,6 +11,10 @@ namespace {
 
 std::span<const std::byte> BytesOf(std::string_view text) { return std::as_bytes(std::span(text)); }
 
+bool CarriesHeader(VolumeEncoding encoding) {
+  return encoding == VolumeEncoding::kOpenExr || encoding == VolumeEncoding::kBricks;
+}
+
 absl::Status CheckExtent(const LatticeExtent& found, const LatticeExtent& declared) {
   if (found == declared) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -48,14 +52,14 @@ absl::StatusOr<Volume> VolumeIntake::Finish(const std::optional<Sha256Digest>& e
 absl::Status VolumeIntake::Decode(std::string_view bytes) {
   if (decoder_ != nullptr) return decoder_->Append(BytesOf(bytes));
   front_.append(bytes);
-  const bool header_complete = declared_.encoding == VolumeEncoding::kRawPlanes ||
+  const bool header_complete = !CarriesHeader(declared_.encoding) ||
                                front_.size() >= std::min<uint64_t>(kMaxHeaderBytes, size_bytes_);
   return header_complete ? StartDecoder(front_) : absl::OkStatus();
 }
 
 absl::Status VolumeIntake::StartDecoder(std::string_view front) {
   VolumeHeader header = declared_;
-  if (declared_.encoding != VolumeEncoding::kRawPlanes) {
+  if (CarriesHeader(declared_.encoding)) {
     BCCSKEL_ASSIGN_OR_RETURN(header, ScanVolumeHeader(declared_.encoding, BytesOf(front), limits_));
     BCCSKEL_RETURN_IF_ERROR(CheckExtent(header.extent, declared_.extent));
   }

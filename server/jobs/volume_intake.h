@@ -32,6 +32,9 @@ class VolumeIntake {
   absl::StatusOr<Volume> Finish(const std::optional<Sha256Digest>& expected,
                                 const exec::Context& context);
 
+  // Of a cubic mask, what was counted on its own grid; known after Finish().
+  std::optional<BettiNumbers> mask_topology() const { return decoder_->mask_topology(); }
+
  private:
   absl::Status Decode(std::string_view bytes);
   absl::Status StartDecoder(std::string_view front);

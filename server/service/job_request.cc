@@ -22,6 +22,8 @@ absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std
       return VolumeEncoding::kRawPlanes;
     case v1::VOLUME_ENCODING_BRICKS:
       return VolumeEncoding::kBricks;
+    case v1::VOLUME_ENCODING_CUBIC_MASK:
+      return VolumeEncoding::kCubicMask;
     case v1::VOLUME_ENCODING_UNSPECIFIED:
       return InvalidField(field, "must be set");
     default:
@@ -64,6 +66,7 @@ VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression
     case VolumeEncoding::kOpenExr:
       return VolumeCompression::kZip;
     case VolumeEncoding::kRawPlanes:
+    case VolumeEncoding::kCubicMask:
       return declared;
     case VolumeEncoding::kBricks:
       return VolumeCompression::kZstd;
@@ -77,6 +80,36 @@ absl::Status DeclarationError(absl::Status status) {
     return InvalidField("config.volume", std::string(status.message()));
   }
   return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
+}
+
+absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
+  switch (adjacency) {
+    case v1::MASK_ADJACENCY_UNSPECIFIED:
+    case v1::MASK_ADJACENCY_OBJECT_26:
+      return MaskAdjacency::k26;
+    case v1::MASK_ADJACENCY_OBJECT_6:
+      return MaskAdjacency::k6;
+    default:
+      return InvalidField(field, absl::StrCat("unknown adjacency ", int{adjacency}));
+  }
+}
+
+// A mask declares its voxels where other encodings declare their lattice.
+absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string& field,
+                         VolumeHeader& header) {
+  MaskDeclaration mask = {.grid = {.nx = header.extent.nx,
+                                   .ny = header.extent.ny,
+                                   .nz = header.extent.nz,
+                                   .placement = header.placement}};
+  BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency,
+                           AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
+  if (absl::Status grid = CheckMaskGrid(mask.grid); !grid.ok()) {
+    return InvalidField(field + ".extent", std::string(grid.message()));
+  }
+  header.extent = ExactExtent(mask.grid);
+  header.placement = ExactPlacement(mask.grid);
+  header.mask = mask;
+  return absl::OkStatus();
 }
 
 absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
@@ -93,6 +126,9 @@ absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
   if (volume.max_bricks() > 0) header.declared_bricks = volume.max_bricks();
   if (header.encoding == VolumeEncoding::kBricks && !header.declared_bricks.has_value()) {
     return InvalidField(field + ".max_bricks", "0, must be the number of bricks");
+  }
+  if (header.encoding == VolumeEncoding::kCubicMask) {
+    BCCSKEL_RETURN_IF_ERROR(DeclareMask(volume, field, header));
   }
   absl::StatusOr<VolumeHeader> complete = CompleteVolumeHeader(header, limits);
   if (!complete.ok()) return DeclarationError(complete.status());

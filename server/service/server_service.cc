@@ -33,6 +33,7 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   response->add_encodings(v1::VOLUME_ENCODING_OPENEXR);
   response->add_encodings(v1::VOLUME_ENCODING_RAW_PLANES);
   response->add_encodings(v1::VOLUME_ENCODING_BRICKS);
+  response->add_encodings(v1::VOLUME_ENCODING_CUBIC_MASK);
   response->add_compressions(v1::VOLUME_COMPRESSION_NONE);
   response->add_compressions(v1::VOLUME_COMPRESSION_ZSTD);
   Set(*response->mutable_limits(), limits_);

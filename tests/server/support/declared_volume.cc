@@ -18,6 +18,8 @@ v1::VolumeEncoding ToMessage(VolumeEncoding encoding) {
       return v1::VOLUME_ENCODING_RAW_PLANES;
     case VolumeEncoding::kBricks:
       return v1::VOLUME_ENCODING_BRICKS;
+    case VolumeEncoding::kCubicMask:
+      return v1::VOLUME_ENCODING_CUBIC_MASK;
   }
   return v1::VOLUME_ENCODING_UNSPECIFIED;
 }

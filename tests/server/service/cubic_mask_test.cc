@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/server/support/declared_volume.h"
+#include "tests/server/support/raw_call.h"
+#include "tests/server/support/running_server.h"
+
+// Callers that hold a cubic mask need not know the lattice.
+
+namespace bccskel {
+namespace {
+
+using test::Converse, test::DeclaredVolume, test::SkeletonOf;
+
+constexpr uint32_t kEdge = 9;
+
+// The edges of a cube of 9 x 9 x 9 voxels: 5 loops.
+bool IsInFrame(uint32_t x, uint32_t y, uint32_t z) {
+  const auto at_side = [](uint32_t v) { return v == 0 || v == kEdge - 1 ? 1 : 0; };
+  return at_side(x) + at_side(y) + at_side(z) >= 2;
+}
+
+template <typename Inside>
+DeclaredVolume MaskOf(Inside inside) {
+  DeclaredVolume mask;
+  mask.bytes = std::string((kEdge * kEdge * kEdge + 7) / 8, '\0');
+  for (uint32_t n = 0; n < kEdge * kEdge * kEdge; ++n) {
+    if (!inside(n % kEdge, n / kEdge % kEdge, n / kEdge / kEdge)) continue;
+    mask.bytes[n / 8] = static_cast<char>(mask.bytes[n / 8] | 1 << n % 8);
+  }
+  v1::VolumeDeclaration& declaration = mask.declaration;
+  declaration.set_encoding(v1::VOLUME_ENCODING_CUBIC_MASK);
+  declaration.mutable_extent()->set_nx(kEdge);
+  declaration.mutable_extent()->set_ny(kEdge);
+  declaration.mutable_extent()->set_nz(kEdge);
+  for (double spacing : {1.0, 2.0, 3.0}) {
+    declaration.mutable_placement()->add_spacing(spacing);
+  }
+  declaration.set_size_bytes(mask.bytes.size());
+  return mask;
+}
+
+TEST(CubicMask, BecomesASkeletonWithTheMasksTopologyInTheWorldOfItsVoxels) {
+  const auto server = test::StartServer();
+  const auto replies =
+      Converse(test::ConnectTo(server->address()), RequestsFor(MaskOf(IsInFrame), 17));
+  const auto skeleton = SkeletonOf(replies);
+  ASSERT_TRUE(skeleton.ok()) << replies.status << ' ' << skeleton.status();
+  const BettiNumbers frame = {1, 5, 0};
+  EXPECT_EQ(skeleton->certificate.mask, frame);
+  EXPECT_EQ(skeleton->certificate.input, frame);
+  EXPECT_EQ(skeleton->certificate.skeleton, frame);
+  for (const SkeletonPoint& point : skeleton->graph.points) {
+    const WorldPoint world = skeleton->graph.PositionOf(point);
+    for (size_t axis : {0, 1, 2}) {  // within the outer faces of the outer voxels
+      EXPECT_GE(world[axis], -0.5 * static_cast<double>(axis + 1));
+      EXPECT_LE(world[axis], (kEdge - 0.5) * static_cast<double>(axis + 1));
+    }
+  }
+}
+
+// Two voxels that touch at a corner only.
+TEST(CubicMask, IsReadInTheAdjacencyAskedFor) {
+  const auto server = test::StartServer();
+  DeclaredVolume mask = MaskOf(
+      [](uint32_t x, uint32_t y, uint32_t z) { return x == y && y == z && (x == 3 || x == 4); });
+  for (const auto& [adjacency, components] :
+       {std::pair(v1::MASK_ADJACENCY_OBJECT_26, 1), std::pair(v1::MASK_ADJACENCY_OBJECT_6, 2)}) {
+    mask.declaration.set_mask_adjacency(adjacency);
+    const auto skeleton =
+        SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+    ASSERT_TRUE(skeleton.ok()) << skeleton.status();
+    EXPECT_EQ(skeleton->certificate.mask, (BettiNumbers{components, 0, 0}));
+    EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{components, 0, 0}));
+  }
+}
+
+struct Fault {
+  const char* what;
+  void (*damage)(DeclaredVolume&);
+  absl::StatusCode code;
+};
+
+TEST(CubicMask, IsRefusedWhereItIsNotWhatItDeclares) {
+  const auto server = test::StartServer();
+  const Fault faults[] = {
+      {"adjacency",
+       [](DeclaredVolume& m) {
+         m.declaration.set_mask_adjacency(static_cast<v1::MaskAdjacency>(9));
+       },
+       absl::StatusCode::kInvalidArgument},
+      {"too few bytes",
+       [](DeclaredVolume& m) {
+         m.bytes.pop_back();
+         m.declaration.set_size_bytes(m.bytes.size());
+       },
+       absl::StatusCode::kInvalidArgument},
+      {"too many bytes",
+       [](DeclaredVolume& m) {
+         m.bytes.push_back('\0');
+         m.declaration.set_size_bytes(m.bytes.size());
+       },
+       absl::StatusCode::kInvalidArgument},
+      {"bits past the end", [](DeclaredVolume& m) { m.bytes.back() = '\xff'; },
+       absl::StatusCode::kInvalidArgument},
+      {"bricks", [](DeclaredVolume& m) { m.declaration.set_max_bricks(1); },
+       absl::StatusCode::kInvalidArgument},
+      {"voxels", [](DeclaredVolume& m) { m.declaration.mutable_extent()->set_nx(1 << 22); },
+       absl::StatusCode::kInvalidArgument},
+      {"compression",
+       [](DeclaredVolume& m) { m.declaration.set_compression(v1::VOLUME_COMPRESSION_ZSTD); },
+       absl::StatusCode::kInvalidArgument},
+  };
+  for (const Fault& fault : faults) {
+    DeclaredVolume mask = MaskOf(IsInFrame);
+    fault.damage(mask);
+    const auto replies = Converse(test::ConnectTo(server->address()), RequestsFor(mask));
+    EXPECT_EQ(replies.status.code(), fault.code) << fault.what << ": " << replies.status;
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
