@@ -2,7 +2,7 @@
 # The Debian packages that hold them are listed in docker/packages/build.txt.
 
 # What a program needs that links our core; bccskelConfig.cmake repeats this list.
-set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB zstd OpenEXR hwy)
+set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB zstd OpenEXR TIFF hwy)
 # What a program needs besides that links our client.
 set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC meshoptimizer nlohmann_json)
 

@@ -1,0 +1,107 @@
+#include "core/image/open_image.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/image/header_text.h"
+#include "core/image/image_headers.h"
+#include "core/image/stored_image.h"
+#include "core/image/tiff_source.h"
+
+namespace bccskel {
+namespace {
+
+constexpr std::array<std::string_view, 14> kEndings = {
+    ".nii", ".nii.gz", ".nrrd", ".nhdr",   ".tif", ".tiff", ".mha",
+    ".mhd", ".inr",    ".npy",  ".inr.gz", ".vol", ".raw",  ".raw.gz"};
+
+struct Format {
+  bool (*is)(std::string_view front);
+  absl::StatusOr<StoredImage> (*parse)(const ImageFront& front, const ImageLimits& limits);
+};
+// The vaguest marks last.
+constexpr std::array<Format, 6> kFormats = {{
+    {IsNrrd, ParseNrrd},
+    {IsNpy, ParseNpy},
+    {IsInrimage, ParseInrimage},
+    {IsNifti, ParseNifti},
+    {IsMetaImage, ParseMetaImage},
+    {IsVol, ParseVol},
+}};
+
+absl::StatusOr<StoredImage> ParseRaw(const ImageFront& front, const RawLayout& raw,
+                                     const ImageLimits& limits) {
+  StoredImage image;
+  image.info.format = "raw";
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(raw.size, limits));
+  image.stored_type = raw.type;
+  image.byte_order = raw.byte_order;
+  BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, raw.header_bytes, Compression::kNone, image));
+  const uint64_t bytes = raw.header_bytes + image.VoxelBytesDeclared();
+  if (front.compression != Compression::kNone || front.file->size() <= bytes) return image;
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "%d bytes of header and voxels are declared, the file holds %d", bytes, front.file->size()));
+}
+
+absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOptions& options) {
+  if (options.raw.has_value()) return ParseRaw(front, *options.raw, options.limits);
+  if (front.bytes.empty()) return absl::InvalidArgumentError("the file is empty");
+  for (const Format& format : kFormats) {
+    if (format.is(front.bytes)) return format.parse(front, options.limits);
+  }
+  return absl::InvalidArgumentError(
+      "format not supported: images are read from NIfTI, NRRD, TIFF, MetaImage, Inrimage, npy and "
+      "vol; raw voxels need their size and type");
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
+                                                      const ImageOptions& options) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
+  if (!options.raw.has_value() && IsTiff(front.bytes)) {
+    return OpenTiff(std::move(file), options);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseStored(front, options));
+  if (options.spacing.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
+                             WithSpacing(image.info.placement, *options.spacing));
+  }
+  return OpenStoredImage(std::move(image));
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(std::shared_ptr<const ImageFile> file,
+                                                       const ImageOptions& options) {
+  const std::string name = file->name();
+  try {
+    auto source = OpenFile(std::move(file), options);
+    if (source.ok()) return source;
+    return absl::Status(source.status().code(),
+                        absl::StrFormat("image '%s': %s", name, source.status().message()));
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError(absl::StrFormat("image '%s': not enough memory", name));
+  }
+}
+
+}  // namespace
+
+bool HasImageFileName(std::string_view path) {
+  const std::string name = LowerCase(path);
+  return std::ranges::any_of(kEndings,
+                             [&name](std::string_view ending) { return name.ends_with(ending); });
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
+                                                       const ImageOptions& options) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto file, ImageFile::Open(path));
+  return OpenNamed(std::move(file), options);
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
+                                                            const ImageOptions& options) {
+  return OpenNamed(ImageFile::OfBytes(std::move(name), std::move(bytes)), options);
+}
+
+}  // namespace bccskel

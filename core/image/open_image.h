@@ -1,0 +1,33 @@
+#ifndef BCCSKEL_CORE_IMAGE_OPEN_IMAGE_H_
+#define BCCSKEL_CORE_IMAGE_OPEN_IMAGE_H_
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "core/image/image_options.h"
+#include "core/image/image_source.h"
+
+namespace bccskel {
+
+// True when the name ends like an image that is read: .nii, .nrrd, .nhdr, .tif, .tiff, .mha, .mhd,
+// .inr, .npy, .vol, .raw; also .nii.gz, .inr.gz and .raw.gz.
+bool HasImageFileName(std::string_view path);
+
+// Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, MetaImage, Inrimage, npy, vol or, with
+// options.raw, any bytes; the content tells which. Reads the header and compares it with the file's
+// length and the limits before any memory is taken for voxels.
+// Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, several channels);
+//         RESOURCE_EXHAUSTED (over a limit); UNIMPLEMENTED (what the format knows and we do not).
+//         Messages name the file.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
+                                                       const ImageOptions& options = {});
+
+// The same for bytes in memory; `name` is used in messages.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
+                                                            const ImageOptions& options = {});
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMAGE_OPEN_IMAGE_H_

@@ -1,0 +1,135 @@
+// TIFF pages written by libtiff and damaged afterwards. Files of other writers:
+// foreign_images_test.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tiffio.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/core/image/image_bytes.h"
+
+namespace bccskel {
+namespace {
+
+using testing::CountedTo;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::ReadBytes;
+
+struct Pages {
+  int count = 2;
+  uint32_t width = 3;
+  uint32_t height = 4;
+  int bits = 8;
+  int samples = 1;
+  int compression = COMPRESSION_NONE;
+  int photometric = PHOTOMETRIC_MINISBLACK;
+  const char* description = "";
+};
+
+// Pages whose bytes count from 0; the last one may be wider.
+std::string Tiff(const Pages& pages, uint32_t last_width = 0) {
+  const std::string path = ::testing::TempDir() + "bccskel_pages.tif";
+  TIFF* tiff = TIFFOpen(path.c_str(), "w");
+  uint8_t next = 0;
+  for (int page = 0; page < pages.count; ++page) {
+    const bool last = page + 1 == pages.count && last_width > 0;
+    const uint32_t width = last ? last_width : pages.width;
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, pages.height);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, pages.bits);
+    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, pages.samples);
+    TIFFSetField(tiff, TIFFTAG_COMPRESSION, pages.compression);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, pages.photometric);
+    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
+    TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 4.0);
+    TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 2.0);
+    TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, pages.description);
+    std::vector<uint8_t> row(static_cast<size_t>(TIFFScanlineSize(tiff)));
+    for (uint32_t y = 0; y < pages.height; ++y) {
+      for (uint8_t& byte : row) byte = next++;
+      TIFFWriteScanline(tiff, row.data(), y, 0);
+    }
+    TIFFWriteDirectory(tiff);
+  }
+  TIFFClose(tiff);
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Tiff, StacksPagesOfEveryCompression) {
+  for (const int compression :
+       {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_PACKBITS, COMPRESSION_ADOBE_DEFLATE}) {
+    const auto image = ReadBytes(Tiff({.compression = compression}));
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->info.size, (ImageSize{3, 4, 2}));
+    EXPECT_EQ(image->values, CountedTo(24));
+  }
+}
+
+TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
+  // Rows of bytes 0, 1, 2, 3: the highest bit is the first pixel.
+  const auto image = ReadBytes(Tiff({.count = 1, .width = 8, .bits = 1}));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(std::vector<double>(image->values.begin() + 24, image->values.end()),
+            (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1}));
+  const auto turned =
+      ReadBytes(Tiff({.count = 1, .width = 8, .bits = 1, .photometric = PHOTOMETRIC_MINISWHITE}));
+  ASSERT_TRUE(turned.ok()) << turned.status();
+  for (size_t n = 0; n < 32; ++n) EXPECT_EQ(turned->values[n], 1 - image->values[n]);
+}
+
+TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
+  const auto plain = ReadBytes(Tiff({}));
+  ASSERT_TRUE(plain.ok()) << plain.status();
+  EXPECT_THAT(plain->info.placement.spacing, ElementsAre(1, 1, 1));
+  const auto printed = ReadBytes(Tiff({.description = "ImageJ=1.53\nimages=2\nunit=inch\n"}));
+  ASSERT_TRUE(printed.ok()) << printed.status();
+  EXPECT_THAT(printed->info.placement.spacing, ElementsAre(1, 1, 1));
+  const auto stack = ReadBytes(Tiff(
+      {.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=micron\nspacing=1.5\nloop=false\n"}));
+  ASSERT_TRUE(stack.ok()) << stack.status();
+  EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
+  EXPECT_EQ(stack->info.unit, "micron");
+}
+
+TEST(Tiff, RefusesWhatIsNoStackOfNumbers) {
+  const auto message = [](const std::string& bytes) {
+    const auto image = ReadBytes(bytes);
+    EXPECT_FALSE(image.ok());
+    return std::string(image.status().message());
+  };
+  EXPECT_THAT(message(Tiff({.samples = 3, .photometric = PHOTOMETRIC_RGB})),
+              HasSubstr("3 samples per pixel"));
+  EXPECT_THAT(message(Tiff({.bits = 4})), HasSubstr("samples of 4 bits"));
+  EXPECT_THAT(message(Tiff({.count = 3}, 5)), HasSubstr("page 2"));
+  EXPECT_THAT(message(Tiff({.description = "ImageJ=1.53\nimages=4\nchannels=2\n"})),
+              HasSubstr("channels"));
+  EXPECT_THAT(message(Tiff({.count = 1, .description = "ImageJ=1.53\nimages=4\n"})),
+              HasSubstr("4 images"));
+}
+
+TEST(Tiff, EndsWellWhereverItIsCutOrChanged) {
+  const std::string bytes = Tiff({.compression = COMPRESSION_LZW});
+  for (size_t size = 4; size < bytes.size(); ++size) {
+    const auto image = ReadBytes(bytes.substr(0, size));
+    // Without its second page the stack is just shorter.
+    if (image.ok()) {
+      EXPECT_EQ(image->info.size.nz, 1) << size;
+    }
+  }
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    for (const int byte : {0, 1, 127, 255}) {
+      std::string changed = bytes;
+      changed[at] = static_cast<char>(byte);
+      ReadBytes(changed).IgnoreError();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
