@@ -6,36 +6,6 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel {
-namespace {
-
-// The volume's invariants rest on it: a stray bit would be a point outside the extent.
-absl::Status CheckUnusedBits(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
-  if (grid.nx % 64 == 0) return absl::OkStatus();
-  const uint64_t unused = ~uint64_t{0} << grid.nx % 64;
-  for (int32_t y = 0; y < grid.ny; ++y) {
-    const size_t last = (static_cast<size_t>(y) + 1) * grid.WordsPerRow() - 1;
-    if ((words[last] & unused) != 0) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "slice %d, row %d: a bit is set past the last of %d voxels", z, y, grid.nx));
-    }
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckSlice(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
-  if (z >= grid.nz) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("the mask has more than the %d slices of its grid", grid.nz));
-  }
-  if (words.size() != grid.WordsPerSlice()) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("slice %d has %d words of 64 voxels: %d x %d voxels take %d", z,
-                        words.size(), grid.nx, grid.ny, grid.WordsPerSlice()));
-  }
-  return CheckUnusedBits(grid, words, z);
-}
-
-}  // namespace
 
 absl::StatusOr<MaskConverter> MaskConverter::Create(const MaskGrid& grid,
                                                     const MaskOptions& options) {
@@ -56,7 +26,7 @@ MaskConverter::MaskConverter(const MaskGrid& grid, const MaskOptions& options)
 
 absl::Status MaskConverter::AddSlice(std::span<const uint64_t> words,
                                      const exec::Context& context) {
-  BCCSKEL_RETURN_IF_ERROR(CheckSlice(grid_, words, next_z_));
+  BCCSKEL_RETURN_IF_ERROR(CheckMaskSlice(grid_, next_z_, words));
   rows_.SetDense(grid_, words);
   return AddRows(next_z_++, rows_, context);
 }

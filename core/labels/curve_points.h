@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_CORE_LABELS_CURVE_POINTS_H_
+#define BCCSKEL_CORE_LABELS_CURVE_POINTS_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/labels/run_components.h"
+#include "core/mask/mask_grid.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel {
+
+// A curve point of a skeleton on the grid of an image.
+struct CurvePoint {
+  std::array<double, 3> at = {};      // in voxels, voxel centers at integers
+  std::array<int32_t, 3> voxel = {};  // of the object
+  RunIndex run = 0;                   // that holds the voxel
+  uint32_t value = 0;                 // see edge_image.h
+};
+
+// Every curve point once, with its smallest value, in lattice order. Points with no object voxel
+// around them, as samplings may make, are left out.
+// Errors: INVALID_ARGUMENT when the grid's direction has no inverse.
+absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph,
+                                                      const MaskGrid& grid,
+                                                      const RunLookup& lookup);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_LABELS_CURVE_POINTS_H_

@@ -1,0 +1,103 @@
+#include "core/labels/skeletonize_labels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/labels/convert_label.h"
+#include "core/labels/ordered_delivery.h"
+
+namespace bccskel {
+namespace {
+
+constexpr size_t kWaitingPerThread = 64;
+
+absl::Status WithLabel(const absl::Status& status, uint64_t label) {
+  if (absl::IsCancelled(status) || absl::IsDeadlineExceeded(status)) return status;
+  return absl::Status(status.code(),
+                      absl::StrFormat("label %d: %s", label, std::string(status.message())));
+}
+
+absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObject& object,
+                                         const LabelsOptions& options,
+                                         const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ConvertedMask converted,
+                           ConvertLabel(grid, object, options.mask, context));
+  LabelSkeleton skeleton{object.label, object.voxels, converted.mask, {}};
+  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
+                           Skeletonize(converted.volume, options.skeleton, context));
+  const std::string changes = DescribeChanges(skeleton.mask, skeleton.result.certificate.input);
+  if (changes.empty() || options.mask.sampling) return skeleton;
+  return absl::InternalError("the exact conversion changed the topology: " + changes);
+}
+
+class LabelWork {
+ public:
+  LabelWork(const LabeledObjects& labels, const LabelsOptions& options,
+            const LabelConsumer& consume, const exec::Context& context)
+      : labels_(labels),
+        options_(options),
+        context_(context),
+        alone_(context),
+        delivery_(consume, kWaitingPerThread * static_cast<size_t>(context.threads())) {
+    // Shells of single labels are no progress of the whole.
+    alone_.on_shell = nullptr;
+    together_ = alone_;
+    alone_.team = nullptr;
+  }
+
+  // In ascending order: small objects up to the next large one in parallel, then that one by all.
+  absl::Status Run() {
+    for (size_t begin = 0; begin < labels_.objects.size() && delivery_.status().ok();) {
+      size_t end = begin;
+      while (end < labels_.objects.size() && !IsLarge(end)) ++end;
+      if (end > begin) RunSmall(begin, end);
+      if (end < labels_.objects.size()) RunOne(end++, together_);
+      begin = end;
+    }
+    return delivery_.status();
+  }
+
+ private:
+  bool IsLarge(size_t n) const { return labels_.objects[n].voxels >= options_.large_voxels; }
+
+  void RunSmall(size_t begin, size_t end) {
+    std::atomic<size_t> next = begin;
+    context_.Run([&](int) {
+      for (size_t n = next++; n < end && RunOne(n, alone_); n = next++) {
+      }
+    });
+  }
+
+  // False when the work is over.
+  bool RunOne(size_t n, const exec::Context& context) {
+    if (!delivery_.WaitForTurn(n, context)) return false;
+    const LabeledObject& object = labels_.objects[n];
+    absl::StatusOr<LabelSkeleton> skeleton = SkeletonOf(labels_.grid, object, options_, context);
+    if (skeleton.ok()) {
+      delivery_.Add(n, *std::move(skeleton));
+    } else {
+      delivery_.Fail(WithLabel(skeleton.status(), object.label));
+    }
+    return skeleton.ok();
+  }
+
+  const LabeledObjects& labels_;
+  const LabelsOptions& options_;
+  const exec::Context& context_;
+  exec::Context alone_;
+  exec::Context together_;
+  OrderedDelivery delivery_;
+};
+
+}  // namespace
+
+absl::Status SkeletonizeLabels(const LabeledObjects& labels, const LabelsOptions& options,
+                               const LabelConsumer& consume, const exec::Context& context) {
+  return LabelWork(labels, options, consume, context).Run();
+}
+
+}  // namespace bccskel

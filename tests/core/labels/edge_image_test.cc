@@ -1,0 +1,387 @@
+#include "core/labels/edge_image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/labels/convert_label.h"
+#include "core/labels/nrrd_writer.h"
+#include "core/labels/point_index.h"
+#include "core/labels/skeletonize_labels.h"
+#include "tests/core/labels/label_volume.h"
+
+namespace bccskel {
+namespace {
+
+using test::LabelVolume;
+using ::testing::HasSubstr;
+using Voxel = std::array<int32_t, 3>;
+
+struct Example {
+  LabelVolume volume;
+  LabeledObjects collected;
+  SkeletonGraph graph;
+
+  const LabeledObject& object() const { return collected.objects[0]; }
+};
+
+Example ExampleOf(LabelVolume volume) {
+  Example example{std::move(volume), {}, {}};
+  example.collected = test::Collected(example.volume);
+  const absl::Status status = SkeletonizeLabels(example.collected, {},
+                                                [&](LabelSkeleton&& skeleton) {
+                                                  example.graph = std::move(skeleton.result.graph);
+                                                  return absl::OkStatus();
+                                                },
+                                                {});
+  EXPECT_TRUE(status.ok()) << status;
+  return example;
+}
+
+// One label: seeded balls that form several components, some with branches.
+Example Balls(const Placement& placement) {
+  LabelVolume volume = test::EmptyLabels(60, 40, 30, placement);
+  const test::ReferenceMask balls = test::RandomBallMask(8, 60, 40, 30, 14, 6);
+  for (size_t n = 0; n < balls.voxels.size(); ++n) volume.labels[n] = balls.voxels[n];
+  return ExampleOf(std::move(volume));
+}
+
+std::map<Voxel, uint32_t> VoxelsOf(const SparseImage& image) {
+  std::map<Voxel, uint32_t> voxels;
+  for (const auto& [run, value] : image) {
+    for (int32_t x = run.begin; x < run.end; ++x) {
+      EXPECT_TRUE(voxels.emplace(Voxel{x, run.y, run.z}, value).second);
+    }
+  }
+  return voxels;
+}
+
+// Component of each object voxel by flood fill over 26 neighbors.
+std::map<Voxel, int> ComponentsOf(const LabeledObject& object) {
+  std::map<Voxel, int> components;
+  for (const VoxelRun& run : object.runs) {
+    for (int32_t x = run.begin; x < run.end; ++x) components[{x, run.y, run.z}] = -1;
+  }
+  int count = 0;
+  for (auto& [start, component] : components) {
+    if (component >= 0) continue;
+    std::vector<Voxel> open = {start};
+    component = count;
+    while (!open.empty()) {
+      const Voxel v = open.back();
+      open.pop_back();
+      for (int n = 0; n < 27; ++n) {
+        const auto near =
+            components.find({v[0] + n % 3 - 1, v[1] + n / 3 % 3 - 1, v[2] + n / 9 - 1});
+        if (near == components.end() || near->second >= 0) continue;
+        near->second = count;
+        open.push_back(near->first);
+      }
+    }
+    ++count;
+  }
+  return components;
+}
+
+// A place on the grid, in quarters of voxels, with its value: all curve points of the graph.
+struct Feature {
+  std::array<int32_t, 3> quarters;
+  uint32_t value;
+};
+std::vector<Feature> FeaturesOf(const SkeletonGraph& graph) {
+  std::vector<Feature> features;
+  std::vector<bool> touched(graph.nodes.size());
+  const auto add = [&](LatticePoint p, size_t value) {
+    features.push_back({{p.x - 2, p.y - 2, p.z - 2}, static_cast<uint32_t>(value)});
+  };
+  for (size_t e = 0; e < graph.edges.size(); ++e) {
+    touched[graph.edges[e].source] = touched[graph.edges[e].target] = true;
+    for (const SkeletonPoint& p : graph.PointsOf(graph.edges[e])) add(p.point, e + 1);
+  }
+  for (size_t n = 0; n < graph.nodes.size(); ++n) {
+    if (!touched[n]) add(graph.nodes[n].at.point, graph.edges.size() + n + 1);
+  }
+  return features;
+}
+
+// The object voxels that the feature touches.
+std::vector<Voxel> VoxelsAt(const Feature& feature, const std::map<Voxel, int>& components) {
+  std::vector<Voxel> voxels;
+  for (const auto& [v, component] : components) {
+    bool touches = true;
+    for (size_t a = 0; a < 3; ++a) touches &= std::abs(4 * v[a] - feature.quarters[a]) <= 2;
+    if (touches) voxels.push_back(v);
+  }
+  return voxels;
+}
+
+void ExpectNearestEdges(const Example& example, int threads) {
+  exec::WorkerTeam team(threads);
+  exec::Context context;
+  context.team = &team;
+  const auto image = NearestEdges(example.volume.grid, example.object(), example.graph,
+                                  MaskAdjacency::k26, context);
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_TRUE(std::ranges::is_sorted(*image));
+  const std::map<Voxel, uint32_t> values = VoxelsOf(*image);
+  const std::map<Voxel, int> components = ComponentsOf(example.object());
+  EXPECT_EQ(values.size(), components.size());
+  std::map<int, std::vector<Feature>> features;
+  for (const Feature& f : FeaturesOf(example.graph)) {
+    features[components.at(VoxelsAt(f, components).at(0))].push_back(f);
+  }
+  const auto& spacing = example.volume.grid.placement.spacing;
+  for (const auto& [v, value] : values) {
+    std::pair<double, uint32_t> best = {1e300, 0};
+    for (const Feature& f : features.at(components.at(v))) {
+      double sum = 0;
+      for (size_t a = 0; a < 3; ++a) {
+        const double d = v[a] * spacing[a] - 0.25 * f.quarters[a] * spacing[a];
+        sum += d * d;
+      }
+      best = std::min(best, {sum, f.value});
+    }
+    ASSERT_EQ(value, best.second) << v[0] << " " << v[1] << " " << v[2];
+  }
+}
+
+TEST(NearestEdges, AreThoseFoundByLookingAtAllCurvePointsOfTheComponent) {
+  const Example example = Balls({});
+  ASSERT_GT(example.graph.edges.size(), 5u);
+  ExpectNearestEdges(example, 1);
+  ExpectNearestEdges(example, 3);
+}
+
+TEST(NearestEdges, FollowTheSpacingOfTheImageAndNotItsPosition) {
+  ExpectNearestEdges(Balls({{1, 2, 4}, {0.1, -70.3, 1e3}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}), 1);
+}
+
+TEST(NearestEdges, AreNeverOfAnotherComponent) {
+  // Two bars side by side: for the outer voxels of the thick one the thin one's curve is nearer.
+  LabelVolume volume = test::EmptyLabels(24, 12, 9);
+  for (int32_t x = 0; x < 24; ++x) {
+    for (int32_t z = 0; z < 9; ++z) {
+      for (int32_t y = 0; y < 9; ++y) volume.At(x, y, z) = 1;
+    }
+    volume.At(x, 10, 4) = 1;
+  }
+  const Example example = ExampleOf(std::move(volume));
+  ASSERT_GE(example.graph.edges.size(), 2u);
+  const auto image =
+      NearestEdges(example.volume.grid, example.object(), example.graph, MaskAdjacency::k26, {});
+  ASSERT_TRUE(image.ok());
+  const std::map<Voxel, uint32_t> values = VoxelsOf(*image);
+  const uint32_t thin = values.at({12, 10, 4});
+  EXPECT_NE(values.at({12, 8, 4}), thin);
+  ExpectNearestEdges(example, 1);
+}
+
+SkeletonPoint CurvePointAt(int32_t x) {
+  SkeletonPoint p;
+  p.point = {x, 6, 6};
+  return p;
+}
+SkeletonNode NodeAt(int32_t x) {
+  SkeletonNode node;
+  node.at = CurvePointAt(x);
+  return node;
+}
+
+TEST(NearestEdges, GiveNodesWithoutEdgesTheNumbersBehindTheEdges) {
+  LabelVolume volume = test::EmptyLabels(32, 3, 3);
+  volume.At(1, 1, 1) = 1;
+  for (int32_t x = 4; x < 30; ++x) volume.At(x, 1, 1) = 1;
+  const Example example = ExampleOf(std::move(volume));
+  // An edge along the bar, a node alone in the single voxel.
+  SkeletonGraph graph;
+  graph.placement = example.graph.placement;
+  graph.nodes = {NodeAt(18), NodeAt(118), NodeAt(6)};
+  graph.edges = {{0, 1, 0, 51}};
+  for (int32_t x = 18; x <= 118; x += 2) graph.points.push_back(CurvePointAt(x));
+  for (const auto& image :
+       {NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {}),
+        DrawSkeleton(example.volume.grid, example.object(), graph)}) {
+    ASSERT_TRUE(image.ok());
+    EXPECT_THAT(*image,
+                ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 4}, ValueRun{{1, 1, 4, 30}, 1}));
+  }
+}
+
+TEST(NearestEdges, LeaveOutComponentsWithoutCurve) {
+  LabelVolume volume = test::EmptyLabels(8, 3, 3);
+  volume.At(1, 1, 1) = volume.At(5, 1, 1) = 1;
+  const Example example = ExampleOf(std::move(volume));
+  SkeletonGraph graph;
+  graph.placement = example.graph.placement;
+  graph.nodes = {NodeAt(6)};
+  const auto image =
+      NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
+  ASSERT_TRUE(image.ok());
+  EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
+}
+
+TEST(NearestEdges, StopWhenCancelled) {
+  const Example example = Balls({});
+  std::stop_source source;
+  source.request_stop();
+  exec::Context context;
+  context.stop = source.get_token();
+  EXPECT_EQ(NearestEdges(example.volume.grid, example.object(), example.graph, MaskAdjacency::k26,
+                         context)
+                .status()
+                .code(),
+            absl::StatusCode::kCancelled);
+}
+
+TEST(NearestEdges, RefuseADirectionWithoutInverse) {
+  Example example = Balls({});
+  example.volume.grid.placement.direction = {1, 0, 0, 1, 0, 0, 0, 0, 1};
+  EXPECT_THAT(std::string(NearestEdges(example.volume.grid, example.object(), example.graph,
+                                       MaskAdjacency::k26, {})
+                              .status()
+                              .message()),
+              HasSubstr("no inverse"));
+}
+
+TEST(DrawSkeleton, SetsOneObjectVoxelForEachCurvePointAndKeepsEdgesConnected) {
+  const Example example = Balls({{1, 1, 3}, {5, 5, 5}, {1, 0, 0, 0, 1, 0, 0, 0, 1}});
+  const auto image = DrawSkeleton(example.volume.grid, example.object(), example.graph);
+  ASSERT_TRUE(image.ok()) << image.status();
+  const std::map<Voxel, uint32_t> drawn = VoxelsOf(*image);
+  const std::map<Voxel, int> components = ComponentsOf(example.object());
+  std::map<Voxel, uint32_t> expected;
+  for (const Feature& f : FeaturesOf(example.graph)) {
+    std::vector<Voxel> voxels = VoxelsAt(f, components);
+    ASSERT_FALSE(voxels.empty());
+    const Voxel first = *std::ranges::min_element(
+        voxels, {}, [](const Voxel& v) { return std::tuple(v[2], v[1], v[0]); });
+    const auto [at, fresh] = expected.emplace(first, f.value);
+    at->second = std::min(at->second, f.value);
+  }
+  EXPECT_EQ(drawn, expected);
+  for (const SkeletonEdge& edge : example.graph.edges) {
+    Voxel before = {};
+    for (const SkeletonPoint& p : example.graph.PointsOf(edge)) {
+      const Feature f = {{p.point.x - 2, p.point.y - 2, p.point.z - 2}, 0};
+      std::vector<Voxel> voxels = VoxelsAt(f, components);
+      const Voxel v = *std::ranges::min_element(
+          voxels, {}, [](const Voxel& w) { return std::tuple(w[2], w[1], w[0]); });
+      if (p.point != example.graph.PointsOf(edge)[0].point) {
+        for (size_t a = 0; a < 3; ++a) EXPECT_LE(std::abs(v[a] - before[a]), 1);
+      }
+      before = v;
+    }
+  }
+}
+
+TEST(DrawSkeleton, FindsVoxelsForTheCurvesOfSamplings) {
+  LabelVolume volume = test::EmptyLabels(40, 12, 12);
+  for (int32_t x = 2; x < 38; ++x) {
+    for (int32_t n = 0; n < 25; ++n) volume.At(x, 3 + n / 5, 3 + n % 5) = 1;
+  }
+  const LabeledObjects collected = test::Collected(volume);
+  const LabeledObject& object = collected.objects[0];
+  const auto sampled = ConvertLabel(volume.grid, object,
+                                    {.sampling = MaskSamplingOptions{.points_per_voxel = 3}}, {});
+  ASSERT_TRUE(sampled.ok());
+  const auto skeleton = Skeletonize(sampled->volume, {}, {});
+  ASSERT_TRUE(skeleton.ok());
+  const auto image = DrawSkeleton(volume.grid, object, skeleton->graph);
+  ASSERT_TRUE(image.ok());
+  EXPECT_GT(VoxelsOf(*image).size(), 25u);
+}
+
+TEST(PointIndex, FindsTheNearestPointAndTheSmallestValueOnTies) {
+  std::mt19937_64 random(5);
+  const auto coordinate = [&] { return static_cast<double>(random() % 12); };
+  for (size_t count : {1u, 2u, 9u, 300u}) {
+    std::vector<ValuePoint> points;
+    for (size_t n = 0; n < count; ++n) {
+      points.push_back(
+          {{coordinate(), coordinate(), coordinate()}, static_cast<uint32_t>(random() % 50)});
+    }
+    const PointIndex index(points);
+    for (int query = 0; query < 500; ++query) {
+      const std::array<double, 3> at = {coordinate(), coordinate(), coordinate()};
+      std::pair<double, uint32_t> best = {1e300, 0};
+      for (const ValuePoint& p : points) {
+        double sum = 0;
+        for (size_t a = 0; a < 3; ++a) sum += (p.at[a] - at[a]) * (p.at[a] - at[a]);
+        best = std::min(best, {sum, p.value});
+      }
+      const NearestPoint found = index.Find(at, random() % count);
+      EXPECT_EQ(std::pair(found.squared, found.value), best);
+    }
+  }
+}
+
+class WrittenNrrd : public ::testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::string path_ = ::testing::TempDir() + "/written_" + std::to_string(::getpid()) + ".nrrd";
+};
+
+std::string Unzipped(const std::string& path, size_t offset, size_t bytes) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(offset));
+  std::string packed((std::istreambuf_iterator<char>(file)), {});
+  std::string plain(bytes + 1, '\0');
+  z_stream stream = {};
+  inflateInit2(&stream, 15 + 16);
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(plain.data());
+  stream.avail_out = static_cast<uInt>(plain.size());
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  plain.resize(stream.total_out);
+  inflateEnd(&stream);
+  return plain;
+}
+
+TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
+  const MaskGrid grid = {5, 3, 2, {{1, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
+  const SparseImage image = {{{0, 1, 1, 3}, 70000}, {{1, 2, 4, 5}, 2}};
+  ASSERT_TRUE(WriteNrrd(path_, grid, image).ok());
+  std::ifstream file(path_, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const size_t data = text.find("\n\n") + 2;
+  EXPECT_THAT(text.substr(0, data), HasSubstr("sizes: 5 3 2\n"));
+  EXPECT_THAT(text.substr(0, data), HasSubstr("space directions: (0,1,0) (-2,0,0) (0,0,3)\n"));
+  EXPECT_THAT(text.substr(0, data), HasSubstr("space origin: (7,8,9)\n"));
+  std::vector<uint32_t> expected(30);
+  expected[6] = expected[7] = 70000;
+  expected[29] = 2;
+  const std::string plain = Unzipped(path_, data, 120);
+  ASSERT_EQ(plain.size(), 120u);
+  EXPECT_EQ(std::memcmp(plain.data(), expected.data(), 120), 0);
+}
+
+TEST_F(WrittenNrrd, IsNotMadeOfRunsOutsideOrOutOfOrder) {
+  const MaskGrid grid = {5, 3, 2, {}};
+  for (const SparseImage& image :
+       {SparseImage{{{0, 0, 3, 6}, 1}}, SparseImage{{{2, 0, 0, 1}, 1}},
+        SparseImage{{{0, 1, 0, 1}, 1}, {{0, 0, 0, 1}, 1}}, SparseImage{{{0, 0, 2, 2}, 1}}}) {
+    EXPECT_EQ(WriteNrrd(path_, grid, image).code(), absl::StatusCode::kInvalidArgument);
+  }
+}
+
+TEST_F(WrittenNrrd, SaysWhenTheFileCannotBeWritten) {
+  const absl::Status status = WriteNrrd("/no/such/folder/image.nrrd", {1, 1, 1, {}}, {});
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnknown);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("/no/such/folder/image.nrrd"));
+}
+
+}  // namespace
+}  // namespace bccskel
