@@ -86,7 +86,8 @@ void WriteRange(const ImageSlice& slice, std::span<const T> values, const Foregr
     return WriteWords(
         slice, values, [all](T v) { return all && IsNumber(v); }, words);
   }
-  const auto [low, high] = *interval;
+  const T low = interval->low;
+  const T high = interval->high;
   if (rule.inverted()) {
     WriteWords(
         slice, values, [=](T v) { return (v < low) | (v > high); }, words);

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"offset", Meta("DimSize = 3 2 2\nElementType = MET_UCHAR\nOffset = 1 2"), kInvalid,
                 "Offset has 2 numbers"},
         Refused{"no_end", "ObjectType = Image\nNDims = 3\nDimSize = 3 2 2\nX = ", kInvalid,
-                "no end"}),
+                "header"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
