@@ -73,6 +73,25 @@ class Slicer {
 
 }  // namespace
 
+Shells SliceAll(const Volume& object, const DistanceField& distance, double width,
+                const exec::Context& context) {
+  const Slicer slice(object, distance, width);
+  Shells shells;
+  shells.planes_.resize(object.brick_count() + 1);
+  shells.planes_.back() = {};
+  shells.ranges_.resize(object.brick_count());
+  context.Run([&](int worker) {
+    const exec::Share share = exec::ShareOf(object.brick_count(), worker, context.threads());
+    for (size_t n = share.begin; n < share.end; ++n) {
+      shells.ranges_[n] = slice(n, shells.planes_[n]);
+    }
+  });
+  for (const Shells::Range& range : shells.ranges_) {
+    shells.last_ = std::max(shells.last_, range.last);
+  }
+  return shells;
+}
+
 int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width) {
   return RuleFor(weights, shell_width)(distance);
 }
@@ -86,22 +105,20 @@ double EffectiveShellWidth(double wanted, const AxisScale& scale) {
   return std::max(wanted, across / 62);
 }
 
+double DepthWidth(const AxisScale& scale) {
+  const double longest_step = 2 * std::max({scale[0], scale[1], scale[2]});
+  return std::max(0.25, LargestOverestimate(scale) * longest_step / 14);
+}
+
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context) {
-  const Slicer slice(object, distance,
-                     EffectiveShellWidth(shell_width, AxisScaleOf(object.placement())));
-  Shells shells;
-  shells.planes_.resize(object.brick_count());
-  shells.ranges_.resize(object.brick_count());
-  context.Run([&](int worker) {
-    const exec::Share share = exec::ShareOf(object.brick_count(), worker, context.threads());
-    for (size_t n = share.begin; n < share.end; ++n) {
-      shells.ranges_[n] = slice(n, shells.planes_[n]);
-    }
-  });
-  for (const Shells::Range& range : shells.ranges_)
-    shells.last_ = std::max(shells.last_, range.last);
-  return shells;
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  return SliceAll(object, distance, width, context);
+}
+
+Shells BuildDepths(const Volume& object, const DistanceField& distance,
+                   const exec::Context& context) {
+  return SliceAll(object, distance, DepthWidth(AxisScaleOf(object.placement())), context);
 }
 
 }  // namespace bccskel

@@ -38,11 +38,12 @@ class Shells {
   const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
   size_t brick_count() const { return ranges_.size(); }
 
-  // Planes of shell modulo 64. Background points may have any bits.
+  // Planes of shell modulo 64, padded for the brick that stands for those not stored. Background
+  // points may have any bits.
   std::span<const ShellPlanes> planes() const { return planes_; }
 
  private:
-  friend Shells BuildShells(const Volume&, const DistanceField&, double, const exec::Context&);
+  friend Shells SliceAll(const Volume&, const DistanceField&, double, const exec::Context&);
   exec::UninitializedVector<ShellPlanes> planes_;
   std::vector<Range> ranges_;
   int32_t last_ = 0;
@@ -52,6 +53,15 @@ class Shells {
 // Needs: kMinShellWidth <= shell_width <= kMaxShellWidth; `distance` belongs to `object`.
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context);
+
+// Thinner shells that tell which of two neighbors is deeper, but no longer the shells of a whole
+// brick apart: those of neighbors differ by less than 16, so planes 0 to 4 are enough.
+Shells BuildDepths(const Volume& object, const DistanceField& distance,
+                   const exec::Context& context);
+
+// The thickness of such a shell: a quarter of a lattice unit, or more where the spacing differs so
+// much between the axes that neighbors could be 16 quarters apart.
+double DepthWidth(const AxisScale& scale);
 
 inline constexpr double kMinShellWidth = 0.75;
 inline constexpr double kMaxShellWidth = 64;

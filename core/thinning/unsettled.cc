@@ -91,33 +91,34 @@ namespace HWY_NAMESPACE {
 
 // Bit n of each: what lane n of a group says.
 struct GroupBits {
-  uint32_t along_d = 0;
+  uint32_t found = 0;
   uint32_t end_points = 0;
   uint32_t odd = 0;
 };
 
 // Reads a group and settles it.
-HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled along_d) {
+HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled looked_for) {
   GroupBits bits;
 #if HWY_TARGET == HWY_SCALAR
   for (size_t n = 0; n < kUnsettledGroup; ++n) {
-    bits.along_d |= ((group[n] & along_d) != 0 ? 1u : 0u) << n;
+    bits.found |= ((group[n] & looked_for) != 0 ? 1u : 0u) << n;
     bits.end_points |= ((group[n] & kEndPointsUnsettled) != 0 ? 1u : 0u) << n;
     bits.odd |= (group[n] >> 15 & 1u) << n;
-    group[n] = static_cast<Unsettled>(group[n] & ~(along_d | kEndPointsUnsettled));
+    group[n] = static_cast<Unsettled>(group[n] & ~(looked_for | kEndPointsUnsettled));
   }
 #else
   const hn::CappedTag<Unsettled, kUnsettledGroup> tag;
-  const auto d = hn::Set(tag, along_d), ends = hn::Set(tag, kEndPointsUnsettled);
-  const auto odd = hn::Set(tag, kOddBrick), taken = hn::Or(d, ends);
+  const auto any = hn::Set(tag, looked_for), ends = hn::Set(tag, kEndPointsUnsettled);
+  const auto odd = hn::Set(tag, kOddBrick), taken = hn::Or(any, ends);
+  const auto zero = hn::Zero(tag);
   for (size_t n = 0; n < kUnsettledGroup; n += hn::Lanes(tag)) {
     const auto lanes = hn::LoadU(tag, group + n);
     // Most groups are at rest.
-    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, taken), hn::Zero(tag)))) continue;
+    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, taken), zero))) continue;
     const auto store = [&](auto mask, uint32_t& to) HWY_ATTR {
       hn::StoreMaskBits(tag, mask, reinterpret_cast<uint8_t*>(&to) + n / 8);
     };
-    store(hn::TestBit(lanes, d), bits.along_d);
+    store(hn::Ne(hn::And(lanes, any), zero), bits.found);
     store(hn::TestBit(lanes, ends), bits.end_points);
     store(hn::TestBit(lanes, odd), bits.odd);
     hn::StoreU(hn::AndNot(taken, lanes), tag, group + n);
@@ -152,14 +153,14 @@ struct ListWriter {
 };
 
 void TakeUnsettledTarget(std::span<Unsettled> unsettled, size_t first, size_t last,
-                         Unsettled along_d, BrickLists& lists, BrickLists& end_lists) {
+                         Unsettled looked_for, BrickLists& lists, BrickLists& end_lists) {
   ListWriter even = {lists.storage()[0]}, odd = {lists.storage()[1]};
   ListWriter even_ends = {end_lists.storage()[0]}, odd_ends = {end_lists.storage()[1]};
   for (size_t at = first; at < last; at += kUnsettledGroup) {
-    const GroupBits bits = TakeGroup(unsettled.data() + at, along_d);
-    if ((bits.along_d | bits.end_points) == 0) continue;
-    even.Append(bits.along_d & ~bits.odd, at);
-    odd.Append(bits.along_d & bits.odd, at);
+    const GroupBits bits = TakeGroup(unsettled.data() + at, looked_for);
+    if ((bits.found | bits.end_points) == 0) continue;
+    even.Append(bits.found & ~bits.odd, at);
+    odd.Append(bits.found & bits.odd, at);
     even_ends.Append(bits.end_points & ~bits.odd, at);
     odd_ends.Append(bits.end_points & bits.odd, at);
   }
@@ -283,10 +284,10 @@ HWY_EXPORT(TakeUnsettledTarget);
 HWY_EXPORT(RemoveMarkedTarget);
 HWY_EXPORT(OpenShellTarget);
 
-void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, DiagonalDirection d,
-                   BrickLists& along_d, BrickLists& end_points) {
+void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Unsettled looked_for,
+                   BrickLists& found, BrickLists& end_points) {
   HWY_DYNAMIC_DISPATCH(TakeUnsettledTarget)
-  (unsettled, first, last, static_cast<Unsettled>(1u << d.bit()), along_d, end_points);
+  (unsettled, first, last, looked_for, found, end_points);
 }
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere) {

@@ -40,6 +40,10 @@ class BrickLists {
     const auto s = static_cast<size_t>(sublattice);
     return {storage_[s].data(), count_[s]};
   }
+  std::span<BrickIndex> Of(Sublattice sublattice) {
+    const auto s = static_cast<size_t>(sublattice);
+    return {storage_[s].data(), count_[s]};
+  }
   std::array<BrickIndex*, 2> storage() { return {storage_[0].data(), storage_[1].data()}; }
   void SetCounts(size_t even, size_t odd) { count_ = {even, odd}; }
 
@@ -48,12 +52,12 @@ class BrickLists {
   std::array<size_t, 2> count_ = {0, 0};
 };
 
-// Lists the bricks in [first, last) that are unsettled along d, and those that are for end points;
-// both are then settled until something beside them is removed.
+// Lists the bricks in [first, last) that are unsettled in one of the directions of `looked_for`,
+// and those that are for end points; both are then settled until something beside them is removed.
 // Needs: first is a multiple of kUnsettledGroup, and so is last or the rest of its group is zero;
 //        the lists have room for last - first.
-void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, DiagonalDirection d,
-                   BrickLists& along_d, BrickLists& end_points);
+void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Unsettled looked_for,
+                   BrickLists& found, BrickLists& end_points);
 
 // What a removal changes.
 struct RemovalView {

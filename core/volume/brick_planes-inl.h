@@ -199,8 +199,11 @@ template <Step kStep>
 struct PlaneReader {
   const BrickBits* bricks;
   const BrickNeighborhood& neighbors;
+  size_t stride = 1;  // from one brick to the next, where several planes of a brick lie together
 
-  HWY_INLINE Plane Brick(size_t position) const { return LoadPlane(bricks[neighbors[position]]); }
+  HWY_INLINE Plane Brick(size_t position) const {
+    return LoadPlane(bricks[neighbors[position] * stride]);
+  }
 
   // The D8 plane moved along the axes in kAxes. Bricks are joined along z first, so that the later
   // steps take their entering bits from bricks that have been moved already.
@@ -252,9 +255,9 @@ constexpr int AxesOf(Sublattice sublattice, int d) {
 // All 14 planes of a brick in the bit order of kDirections14.
 template <Sublattice kSublattice>
 HWY_INLINE void AllPlanes(const BrickBits* bricks, const BrickNeighborhood& neighbors,
-                          const Plane& own, Plane (&planes)[14]) {
-  const PlaneReader<kSublattice == Sublattice::kEven ? Step::kDown : Step::kUp> read{bricks,
-                                                                                     neighbors};
+                          const Plane& own, Plane (&planes)[14], size_t stride = 1) {
+  const PlaneReader<kSublattice == Sublattice::kEven ? Step::kDown : Step::kUp> read{
+      bricks, neighbors, stride};
   Plane diagonals[8];
   read.AllDiagonals(diagonals);
   for (int d = 0; d < 8; ++d) planes[d] = diagonals[AxesOf(kSublattice, d)];

@@ -22,7 +22,7 @@ class Thinner {
       const int32_t shell = ReferenceShell(counts[object_.Index(p)], options_.shell_width);
       result_.last_shell = std::max(result_.last_shell, shell);
       shells_.emplace_back(p, shell);
-      shell_of_[p] = shell;
+      depth_[p] = ReferenceShell(counts[object_.Index(p)], 0.25);
     }
   }
 
@@ -110,7 +110,7 @@ class Thinner {
       if (MayGo(object_.NeighborsOf(p))) simple.insert(p);
     }
     simple = ReferenceRuleB(object_, std::move(simple), [this](LatticePoint p) {
-      return 4 * int64_t{shell_of_[p]} + (p.x + p.y + p.z + cycle_) % 4;
+      return 4 * int64_t{depth_[p]} + (p.x + p.y + p.z + cycle_) % 4;
     });
     ++result_.passes;
     return RemoveAllThat([&](LatticePoint p) { return simple.contains(p) || IsStubble(p); });
@@ -155,7 +155,7 @@ class Thinner {
   ReferencePointSet object_;
   std::set<LatticePoint> keep_;
   std::vector<std::pair<LatticePoint, int32_t>> shells_;
-  std::map<LatticePoint, int32_t> shell_of_;
+  std::map<LatticePoint, int32_t> depth_;  // in quarters of a lattice unit
   std::vector<LatticePoint> candidates_;
   int32_t cycle_ = 0;
   ReferenceThinning result_;

@@ -1,4 +1,4 @@
-#include "core/thinning/direction_passes.h"
+#include "core/thinning/shell_sweep.h"
 
 #include <algorithm>
 #include <array>
@@ -21,11 +21,10 @@ struct alignas(64) Worker {
   size_t reached = 0;                      // how many of them have been reached
   std::vector<BrickIndex> opening;         // reached, and deeper points still to come
 
-  BrickLists directions_to_do;
+  BrickLists to_do;
   BrickLists end_points_to_do;
-  std::vector<BrickIndex> thin;     // bricks that may have end points
-  std::vector<MarkedBrick> marked;  // only grows; the first marked_count are this pass's
-  size_t marked_count = 0;
+  std::vector<BrickIndex> thin;  // bricks that may have end points
+  MarkBuffer marks;              // of this pass
 
   // Bricks of other workers that border on points removed here. Written in one pass and read by
   // their owners in the next, hence two.
@@ -35,17 +34,18 @@ struct alignas(64) Worker {
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
 
-class DirectionPasses {
+class ShellSweep {
  public:
-  DirectionPasses(const Shells& shells, int32_t last, StubblePolicy stubble,
-                  const exec::Context& context, ThinningState& state)
-      : shells_(shells),
-        last_(last),
-        stubble_(stubble),
+  ShellSweep(const SweepPlan& plan, PassRule& rule, const exec::Context& context,
+             ThinningState& state)
+      : shells_(plan.shells),
+        last_(plan.last),
+        stubble_(plan.stubble),
+        rule_(rule),
         context_(context),
         state_(state),
-        watched_(stubble == StubblePolicy::kNone ? kDirectionsUnsettled
-                                                 : kDirectionsUnsettled | kEndPointsUnsettled),
+        watched_(plan.stubble == StubblePolicy::kNone ? kDirectionsUnsettled
+                                                      : kDirectionsUnsettled | kEndPointsUnsettled),
         unsettled_(groups() * kUnsettledGroup),
         enabled_(unsettled_.size()),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
@@ -57,27 +57,29 @@ class DirectionPasses {
     }
   }
 
-  absl::StatusOr<DirectionPassTotals> Run() {
+  absl::StatusOr<SweepTotals> Run() {
     context_.Run([this](int index) {
       if (static_cast<size_t>(index) < workers_.size()) Work(index);
     });
     if (stopped_) return context_.StopStatus();
-    return DirectionPassTotals{TotalRemoved(), passes_};
+    return SweepTotals{TotalRemoved(), passes_};
   }
 
  private:
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
+    int32_t cycle = 0;
     for (int32_t shell = 1; shell <= last_; ++shell) {
       if (alone_ && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
       do {
         before = TotalRemoved();
-        for (int d = 0; d < 8; ++d) {
-          if (!Pass(index, worker, DiagonalDirection(d))) return;
+        for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
+          if (!Pass(index, worker, {.cycle = cycle, .pass = pass})) return;
         }
+        ++cycle;
       } while (shell == last_ && TotalRemoved() != before);
       if (index == 0) Report(shell);
     }
@@ -102,7 +104,7 @@ class DirectionPasses {
   }
 
   static void Reserve(Worker& worker, size_t bricks) {
-    worker.directions_to_do.Reserve(bricks);
+    worker.to_do.Reserve(bricks);
     worker.end_points_to_do.Reserve(bricks);
     worker.thin.resize(bricks);
   }
@@ -165,21 +167,24 @@ class DirectionPasses {
   // One more than full groups, so that there is room for the padding brick.
   size_t groups() const { return state_.brick_count() / kUnsettledGroup + 1; }
 
-  // One pass along d. Returns false when the job was stopped; all workers return the same.
-  bool Pass(int index, Worker& worker, DiagonalDirection d) {
+  // One pass. Returns false when the job was stopped; all workers return the same.
+  bool Pass(int index, Worker& worker, PassStep at) {
     if (index == 0) {
       stopped_ = context_.ShouldStop();
       ++passes_;
     }
     TakeOverUnsettled(worker);
-    worker.marked_count = 0;
-    TakeUnsettled(unsettled_, worker.bricks.begin, worker.bricks.end, d, worker.directions_to_do,
-                  worker.end_points_to_do);
-    MarkDirection(worker, d);
-    MarkStubble(worker);
-    Meet(index);  // nobody reads the old object any more
-    if (stopped_) return false;
+    worker.marks.Clear();
+    TakeUnsettled(unsettled_, worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
+                  worker.to_do, worker.end_points_to_do);
+    for (; at.step < rule_.steps(); ++at.step) {
+      rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks);
+      if (at.step + 1 == rule_.steps()) MarkStubble(worker);
+      Meet(index);  // nobody reads any more what the next step changes
+      if (stopped_) return false;
+    }
     if (index == 0) alone_ = alone_ || patience_.Lost();
+    rule_.Finish(worker.to_do);
     Remove(worker);
     Meet(index);  // the new object is complete
     worker.parity ^= 1;
@@ -201,23 +206,6 @@ class DirectionPasses {
     }
   }
 
-  // Room for `count` more marked bricks.
-  static MarkedBrick* Room(Worker& worker, size_t count) {
-    if (worker.marked.size() < worker.marked_count + count) {
-      worker.marked.resize(worker.marked_count + count);
-    }
-    return worker.marked.data() + worker.marked_count;
-  }
-
-  void MarkDirection(Worker& worker, DiagonalDirection d) {
-    const ObjectView view = state_.View();
-    for (Sublattice sublattice : kSublattices) {
-      const std::span<const BrickIndex> bricks = worker.directions_to_do.Of(sublattice);
-      worker.marked_count +=
-          MarkRemovable(view, sublattice, d, bricks, Room(worker, bricks.size()));
-    }
-  }
-
   // Whether an end point is a stubble point depends on points up to three steps away, so a brick
   // with end points stays unsettled for them.
   void MarkStubble(Worker& worker) {
@@ -225,14 +213,15 @@ class DirectionPasses {
     for (Sublattice sublattice : kSublattices) {
       const size_t thin =
           KeepThinBricks(view, worker.end_points_to_do.Of(sublattice), worker.thin.data());
-      MarkedBrick* marked = Room(worker, thin);
+      MarkedBrick* marked = worker.marks.Room(thin);
       const size_t count =
           MarkEndPoints(view, sublattice, std::span(worker.thin).first(thin), marked);
       for (const MarkedBrick& m : std::span(marked, count)) {
         unsettled_[m.brick] |= kEndPointsUnsettled;
         const BrickBits stubble = SelectStubble(state_, m, stubble_);
         if (stubble.Empty()) continue;
-        worker.marked[worker.marked_count++] = {stubble, m.brick};
+        *worker.marks.Room(1) = {stubble, m.brick};
+        worker.marks.Add(1);
       }
     }
   }
@@ -248,8 +237,7 @@ class DirectionPasses {
                               .first = static_cast<BrickIndex>(worker.bricks.begin),
                               .last = static_cast<BrickIndex>(worker.bricks.end),
                               .none = static_cast<BrickIndex>(state_.brick_count())};
-    worker.removed +=
-        RemoveMarked(view, std::span(worker.marked).first(worker.marked_count), elsewhere);
+    worker.removed += RemoveMarked(view, worker.marks.marked(), elsewhere);
   }
 
   static bool Owns(const Worker& worker, BrickIndex n) {
@@ -280,6 +268,7 @@ class DirectionPasses {
   const Shells& shells_;
   const int32_t last_;
   const StubblePolicy stubble_;
+  PassRule& rule_;
   const exec::Context& context_;
   ThinningState& state_;
   const Unsettled watched_;
@@ -299,11 +288,9 @@ class DirectionPasses {
 
 }  // namespace
 
-absl::StatusOr<DirectionPassTotals> RunDirectionPasses(const Shells& shells, int32_t last,
-                                                       StubblePolicy stubble,
-                                                       const exec::Context& context,
-                                                       ThinningState& state) {
-  return DirectionPasses(shells, last, stubble, context, state).Run();
+absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
+                                        const exec::Context& context, ThinningState& state) {
+  return ShellSweep(plan, rule, context, state).Run();
 }
 
 }  // namespace bccskel

@@ -1,0 +1,22 @@
+#include "core/thinning/direction_rule.h"
+
+namespace bccskel {
+
+DiagonalDirection DirectionRule::DirectionOf(const PassStep& at) const {
+  const bool reversed = order_ == DirectionOrder::kAlternating && at.cycle % 2 == 1;
+  return DiagonalDirection(reversed ? 7 - at.pass : at.pass);
+}
+
+Unsettled DirectionRule::LooksFor(const PassStep& at) const {
+  return static_cast<Unsettled>(1u << DirectionOf(at).bit());
+}
+
+void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled*, MarkBuffer& marks) {
+  for (Sublattice sublattice : kSublattices) {
+    const std::span<const BrickIndex> list = bricks.Of(sublattice);
+    MarkedBrick* room = marks.Room(list.size());
+    marks.Add(MarkRemovable(state_.View(), sublattice, DirectionOf(at), list, room));
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_CORE_THINNING_DIRECTION_RULE_H_
+#define BCCSKEL_CORE_THINNING_DIRECTION_RULE_H_
+
+#include "core/thinning/pass_rule.h"
+#include "core/thinning/thinning_state.h"
+
+namespace bccskel {
+
+enum class DirectionOrder : uint8_t {
+  kSame,         // 0 to 7 in every cycle
+  kAlternating,  // 7 to 0 in every second cycle
+};
+
+// Does:  eight passes a cycle, one along each direction of D8 (Fig. 9).
+// Paper: Conditions 1 to 4. The order of the directions is open in the text; in one that never
+//        changes, the first ones always come first and pull the curve to their side.
+// Why it is right: see mark_removable.h; any order of passes is.
+class DirectionRule : public PassRule {
+ public:
+  // `state` must outlive the rule.
+  DirectionRule(const ThinningState& state, DirectionOrder order) : state_(state), order_(order) {}
+
+  int passes_per_cycle() const override { return 8; }
+  int steps() const override { return 1; }
+  Unsettled LooksFor(const PassStep& at) const override;
+  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
+            MarkBuffer& marks) override;
+  void Finish(const BrickLists&) override {}
+
+ private:
+  DiagonalDirection DirectionOf(const PassStep& at) const;
+
+  const ThinningState& state_;
+  const DirectionOrder order_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_DIRECTION_RULE_H_

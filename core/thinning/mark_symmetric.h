@@ -1,0 +1,66 @@
+#ifndef BCCSKEL_CORE_THINNING_MARK_SYMMETRIC_H_
+#define BCCSKEL_CORE_THINNING_MARK_SYMMETRIC_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/shells/slice_bricks.h"
+#include "core/thinning/mark_removable.h"
+#include "core/thinning/thinning.h"
+#include "core/thinning/unsettled.h"
+#include "core/volume/brick.h"
+
+// Does:  finds the points that a symmetric pass may remove, a brick (512 points) at a time.
+// Paper: the non-directional conditions that its outlook asks for.
+// Why it is right: let S be the candidates that are simple (Condition 1) and no end points
+//   (Condition 2). A set of points can be removed in any order, each simple at its turn, if every
+//   clique of up to four mutually adjacent points in it has a contractible link: the object points
+//   adjacent to all of them. Links are small. The common neighbors of a pair form a cycle of four
+//   (D6) or six (D8), and a part of a cycle is contractible iff it is one arc. A triple has two
+//   common neighbors, of which exactly one must be an object point. A quadruple has none and is
+//   always critical. Rule B sends back, from every critical clique in S, the point of highest
+//   priority: first for pairs, then for triples of what is left, then for quadruples of what is
+//   then left. What remains has no critical clique.
+//   Priorities are strict within a clique: depth in quarters of a lattice unit, and for equal
+//   depths (x + y + z + pass) modulo 4, which adjacent points never share. So the lowest point of S
+//   is never sent back, and a pass that removes nothing had nothing simple before it.
+// Cost:  S takes about 150 logic operations per brick, pairs 200, and 200 more where some clique is
+//   critical. All of it looks at the 14 neighbors of a point alone, thrice in a row.
+
+namespace bccskel {
+
+// Whether end points are kept (Condition 2).
+enum class EndPoints : uint8_t { kStay, kMayGo };
+
+// Writes the set S to `simple[brick]` for each of the bricks.
+// Shapes: `bricks` all of `sublattice`.
+// Returns: how many bricks have points in S; they come first in `bricks`, in order.
+size_t FindSimple(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
+                  std::span<BrickIndex> bricks, BrickBits* simple);
+
+// The candidates that a kind of skeleton keeps for what they separate: 2-isthmuses for kSurface,
+// 1-isthmuses for kIsthmusCurve. Shapes and result as MarkRemovable().
+size_t MarkIsthmuses(const ObjectView& view, Sublattice sublattice, SkeletonKind kind,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked);
+
+// What a step of rule B reads. Nothing of it changes during a step.
+struct CliqueView {
+  ObjectView object;
+  const BrickBits* simple = nullptr;   // padded; empty in bricks that are in no list
+  const ShellPlanes* depth = nullptr;  // padded; planes 0 to 4: quarters of a lattice unit mod 32
+  int32_t pass = 0;
+};
+
+enum class CliqueSize : uint8_t { kPair, kTriple, kQuadruple };
+
+// Writes to `left[brick]` the points of `simple` that critical cliques of one size do not send
+// back, and unsettles the bricks that have others.
+// Shapes: `bricks` all of `sublattice`.
+void SendBackFromCritical(CliqueSize size, const CliqueView& view, Sublattice sublattice,
+                          std::span<const BrickIndex> bricks, BrickBits* left,
+                          Unsettled* unsettled);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_MARK_SYMMETRIC_H_

@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_CORE_THINNING_PASS_RULE_H_
+#define BCCSKEL_CORE_THINNING_PASS_RULE_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/thinning/mark_removable.h"
+#include "core/thinning/unsettled.h"
+
+namespace bccskel {
+
+// The bricks in which one worker marks points during a pass. Only grows.
+class MarkBuffer {
+ public:
+  // Room for `count` more bricks, of which Add() then keeps some.
+  MarkedBrick* Room(size_t count) {
+    if (marked_.size() < count_ + count) marked_.resize(count_ + count);
+    return marked_.data() + count_;
+  }
+  void Add(size_t count) { count_ += count; }
+  void Clear() { count_ = 0; }
+  std::span<const MarkedBrick> marked() const { return std::span(marked_).first(count_); }
+
+ private:
+  std::vector<MarkedBrick> marked_;
+  size_t count_ = 0;
+};
+
+// Where a sweep is: shells are thinned in cycles, cycles consist of passes, and a pass marks in
+// steps before it removes.
+struct PassStep {
+  int32_t cycle = 0;  // counted over all shells
+  int pass = 0;       // of the cycle
+  int step = 0;       // of the pass
+};
+
+// How a pass chooses the points to remove. The object stays as it is until all steps of a pass are
+// done, and no worker begins a step before all have finished the one before.
+// Threads: Mark() and Finish() are called by several workers at once, for different bricks.
+class PassRule {
+ public:
+  virtual ~PassRule() = default;
+
+  virtual int passes_per_cycle() const = 0;
+  virtual int steps() const = 0;
+  // A pass looks at bricks that are unsettled in one of these bits.
+  virtual Unsettled LooksFor(const PassStep& at) const = 0;
+
+  // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the
+  // pass gets, and unsettle listed bricks again.
+  virtual void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
+                    MarkBuffer& marks) = 0;
+  // After the last step, while workers remove.
+  virtual void Finish(const BrickLists& bricks) = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_PASS_RULE_H_

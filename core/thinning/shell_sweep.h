@@ -1,0 +1,42 @@
+#ifndef BCCSKEL_CORE_THINNING_SHELL_SWEEP_H_
+#define BCCSKEL_CORE_THINNING_SHELL_SWEEP_H_
+
+#include <cstdint>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/shells/shells.h"
+#include "core/thinning/pass_rule.h"
+#include "core/thinning/thinning.h"
+#include "core/thinning/thinning_state.h"
+
+namespace bccskel {
+
+struct SweepPlan {
+  const Shells& shells;
+  int32_t last = 0;  // shell
+  StubblePolicy stubble = StubblePolicy::kKeepTwo;
+};
+
+struct SweepTotals {
+  uint64_t removed = 0;
+  uint32_t passes = 0;
+};
+
+// Does:  the algorithm of section 5: for each shell, one cycle of the rule's passes; on shell
+// `last`
+//        cycles repeat until a whole cycle removes nothing.
+// Paper: Figs. 9 and 10; Condition 5 (candidates are the remaining points of shells <= the current
+//        one) and Condition 6 (stubble points go in the same pass).
+// Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proofs
+//        of the rules need, whatever the order and the number of workers.
+// Cost:  a brick is looked at again only after it, or a brick that it borders on, has changed.
+// Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
+// Threads: worker w owns a contiguous range of bricks; one more meeting per pass than it has steps.
+// Errors:  CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
+                                        const exec::Context& context, ThinningState& state);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_SHELL_SWEEP_H_

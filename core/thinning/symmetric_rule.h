@@ -1,0 +1,57 @@
+#ifndef BCCSKEL_CORE_THINNING_SYMMETRIC_RULE_H_
+#define BCCSKEL_CORE_THINNING_SYMMETRIC_RULE_H_
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/shells/shells.h"
+#include "core/thinning/mark_symmetric.h"
+#include "core/thinning/pass_rule.h"
+#include "core/thinning/thinning.h"
+#include "core/thinning/thinning_state.h"
+
+namespace bccskel {
+
+// Whether a kind of skeleton keeps end points, and with them has stubble.
+constexpr EndPoints EndPointsOf(SkeletonKind kind) {
+  return kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface ? EndPoints::kStay
+                                                                        : EndPoints::kMayGo;
+}
+
+// Does:  one pass a cycle for all sides at once: finds the simple points, then in three steps sends
+//        some of them back, so that the others may go together (rule B).
+// Paper: the non-directional thinning of its outlook.
+// Why it is right: see mark_symmetric.h. A step needs what the step before has left in the bricks
+//        around, so workers meet between steps. A brick in no list has no simple candidates: it had
+//        none when it was last looked at, and neither it nor a brick around has changed since.
+// Cost:  a brick is looked at again only after it, or a brick that it borders on, has changed, or
+//        if some of its points were sent back.
+class SymmetricRule : public PassRule {
+ public:
+  // `depth` as from BuildDepths(). It and `state` must outlive the rule.
+  SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningState& state);
+
+  int passes_per_cycle() const override { return 1; }
+  int steps() const override { return 4; }
+  Unsettled LooksFor(const PassStep&) const override { return kDirectionsUnsettled; }
+  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
+            MarkBuffer& marks) override;
+  void Finish(const BrickLists& bricks) override;
+
+ private:
+  void KeepIsthmuses(const BrickLists& bricks, MarkBuffer& scratch);
+  void FindSimpleIn(BrickLists& bricks);
+  void SendBack(const PassStep& at, const BrickLists& bricks, Unsettled* unsettled);
+  void MarkWhatIsLeft(const BrickLists& bricks, MarkBuffer& marks) const;
+
+  const Shells& depth_;
+  const SkeletonKind kind_;
+  ThinningState& state_;
+  // What each step leaves, in turn; padded. Empty between passes.
+  std::array<std::vector<BrickBits>, 2> simple_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_SYMMETRIC_RULE_H_
