@@ -172,21 +172,37 @@ HWY_INLINE Plane TwoIsthmus(const Plane (&link)[14]) {
   return AndNot(more, some);
 }
 
-// Whether the object part of a cycle of six is not one arc. The arcs are counted modulo 2 by their
-// ends; three of them leave every second place.
-HWY_INLINE Plane NotOneArc(const Plane (&link)[14], const Ring& ring) {
-  const auto at = [&](int n) HWY_ATTR -> const Plane& { return link[ring.at[n % 6]]; };
-  Plane arcs = AndNot(at(1), at(0));
-  for (int n = 1; n < 6; ++n) arcs = Xor(arcs, AndNot(at(n + 1), at(n)));
-  const Plane even = AndNot(Or(at(1), at(3), at(5)), And(at(0), at(2), at(4)));
-  const Plane odd = AndNot(Or(at(0), at(2), at(4)), And(at(1), at(3), at(5)));
-  return Not(AndNot(Or(even, odd), arcs));
+// Ends of arcs in three consecutive places of a cycle: a set one before a clear one. There is one
+// at most, because the next one needs a clear place between.
+HWY_INLINE Plane ArcEnd(const Plane& a, const Plane& b, const Plane& c) {
+#if HWY_TARGET <= HWY_AVX3
+  return {{BrickLane{_mm512_ternarylogic_epi64(a.v[0].raw, b.v[0].raw, c.v[0].raw, 0x74)}}};
+#else
+  return Or(AndNot(b, a), AndNot(c, b));
+#endif
+}
+
+// Exactly one of three.
+HWY_INLINE Plane JustOne(const Plane& a, const Plane& b, const Plane& c) {
+#if HWY_TARGET <= HWY_AVX3
+  return {{BrickLane{_mm512_ternarylogic_epi64(a.v[0].raw, b.v[0].raw, c.v[0].raw, 0x16)}}};
+#else
+  return AndNot(And(a, b, c), Xor(a, b, c));
+#endif
+}
+
+// Whether the object part of a cycle of six is one arc: arcs are counted by their ends.
+HWY_INLINE Plane IsOneArc(const Plane (&link)[14], const Ring& ring) {
+  const auto end_after = [&](int n) HWY_ATTR {
+    return ArcEnd(link[ring.at[n]], link[ring.at[n + 1]], link[ring.at[(n + 2) % 6]]);
+  };
+  return JustOne(end_after(0), end_after(2), end_after(4));
 }
 
 // Neighbors with which the point forms a critical pair: both in `among`, and their common neighbors
 // in the object are not one arc.
 HWY_INLINE void CriticalPairs(const Plane (&link)[14], const Plane (&among)[14], Plane (&out)[14]) {
-  for (int v = 0; v < 8; ++v) out[v] = And(among[v], NotOneArc(link, RingOfCorner(v)));
+  for (int v = 0; v < 8; ++v) out[v] = AndNot(IsOneArc(link, RingOfCorner(v)), among[v]);
   for (int f = 0; f < 6; ++f) out[8 + f] = And(among[8 + f], FaceOf(link, f).opposite_agree);
 }
 

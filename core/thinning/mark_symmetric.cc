@@ -98,7 +98,7 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 // at most nine quarters, so the sign of their difference modulo 32 tells; a point that wins by its
 // color needs no more than an equal depth.
 template <Sublattice kSublattice>
-HWY_INLINE void HigherThanNeighbors(const CliqueView& view, BrickIndex brick,
+HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
   constexpr size_t kLast = 4;
   Plane borrow[14];
@@ -118,47 +118,107 @@ HWY_INLINE void HigherThanNeighbors(const CliqueView& view, BrickIndex brick,
   }
 }
 
-// Points of S in critical cliques of one size with neighbors in `among`.
-template <CliqueSize kSize>
-HWY_INLINE Plane InCritical(const Plane (&link)[14], const Plane (&among)[14]) {
-  if constexpr (kSize == CliqueSize::kPair) {
-    Plane critical[14];
-    CriticalPairs(link, among, critical);
-    Plane any = critical[0];
-    for (int n = 1; n < 14; ++n) any = Or(any, critical[n]);
-    return any;
-  } else if constexpr (kSize == CliqueSize::kTriple) {
-    return InCriticalTriple(link, among);
-  } else {
-    return InTetrahedron(among);
-  }
+HWY_INLINE Plane AnyOf(const Plane (&planes)[14]) {
+  Plane any = planes[0];
+  for (int n = 1; n < 14; ++n) any = Or(any, planes[n]);
+  return any;
 }
 
-// A point is sent back if it is in a critical clique with neighbors that all are lower.
-template <Sublattice kSublattice, CliqueSize kSize>
-HWY_INLINE Plane SentBack(const CliqueView& view, BrickIndex brick, const HigherColor& color,
-                          const Plane& own) {
-  Plane link[14], among[14], higher[14];
-  AllPlanes<kSublattice>(view.simple, view.object.neighbors[brick], own, among);
-  if constexpr (kSize != CliqueSize::kQuadruple) LinkOf<kSublattice>(view.object, brick, link);
-  const Plane critical = And(own, InCritical<kSize>(link, among));
-  if (IsEmpty(critical)) return critical;
+HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
+  for (int n = 0; n < 14; ++n) planes[n] = And(planes[n], with[n]);
+}
+
+// Bricks that lost points are looked at again in the next pass.
+HWY_INLINE void UnsettleIf(const Plane& sent_back, Unsettled& brick) {
+  brick = static_cast<Unsettled>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsUnsettled));
+}
+
+// Appends the points as marks if there are any.
+HWY_INLINE void Append(const Plane& marks, BrickIndex brick, MarkedBrick* marked, size_t& count) {
+  StorePlane(marks, marked[count].marks);
+  marked[count].brick = brick;
+  count += IsEmpty(marks) ? 0 : 1;
+}
+
+// Points of S that have the highest priority in a critical pair.
+template <Sublattice kSublattice>
+HWY_INLINE Plane HighestInPairs(const RuleBView& view, BrickIndex brick, const HigherColor& color,
+                                const Plane& own, Plane (&critical)[14]) {
+  Plane higher[14];
   HigherThanNeighbors<kSublattice>(view, brick, color, higher);
-  for (int n = 0; n < 14; ++n) among[n] = And(among[n], higher[n]);
-  return And(critical, InCritical<kSize>(link, among));
+  AndEach(higher, critical);
+  return And(own, AnyOf(critical));
 }
 
-template <Sublattice kSublattice, CliqueSize kSize>
-void SendBack(const CliqueView& view, std::span<const BrickIndex> bricks, BrickBits* left,
-              Unsettled* unsettled) {
+template <Sublattice kSublattice>
+size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   const HigherColor color(kSublattice, view.pass);
+  size_t count = 0;
   for (const BrickIndex brick : bricks) {
     const Plane own = LoadPlane(view.simple[brick]);
-    const Plane back = SentBack<kSublattice, kSize>(view, brick, color, own);
-    StorePlane(AndNot(back, own), left[brick]);
-    const auto again = static_cast<Unsettled>(IsEmpty(back) ? 0 : kDirectionsUnsettled);
-    unsettled[brick] = static_cast<Unsettled>(unsettled[brick] | again);
+    Plane link[14], among[14], critical[14];
+    LinkOf<kSublattice>(view.object, brick, link);
+    AllPlanes<kSublattice>(view.simple, view.object.neighbors[brick], own, among);
+    CriticalPairs(link, among, critical);
+    const Plane larger = Or(InCriticalTriple(link, among), InTetrahedron(among));
+    view.larger_cliques[brick] = IsEmpty(And(own, larger)) ? 0 : 1;
+    Plane left = own;
+    if (!IsEmpty(And(own, AnyOf(critical)))) {
+      const Plane back = HighestInPairs<kSublattice>(view, brick, color, own, critical);
+      UnsettleIf(back, view.unsettled[brick]);
+      left = AndNot(back, own);
+    }
+    StorePlane(left, view.after_pairs[brick]);
+    StorePlane(left, view.after_triples[brick]);
+    Append(left, brick, marked, count);
+    count -= view.larger_cliques[brick] != 0 && !IsEmpty(left) ? 1 : 0;  // not the last word
   }
+  return count;
+}
+
+// Points of S that have the highest priority in a critical triple or in a quadruple.
+template <Sublattice kSublattice, bool kTriples>
+HWY_INLINE Plane HighestInLarger(const RuleBView& view, BrickIndex brick, const HigherColor& color,
+                                 const BrickBits* simple, const Plane& own) {
+  Plane link[14], among[14], higher[14];
+  AllPlanes<kSublattice>(simple, view.object.neighbors[brick], own, among);
+  HigherThanNeighbors<kSublattice>(view, brick, color, higher);
+  AndEach(higher, among);
+  if constexpr (kTriples) {
+    LinkOf<kSublattice>(view.object, brick, link);
+    return And(own, InCriticalTriple(link, among));
+  } else {
+    return And(own, InTetrahedron(among));
+  }
+}
+
+template <Sublattice kSublattice>
+void TriplesIn(const RuleBView& view, std::span<const BrickIndex> bricks) {
+  const HigherColor color(kSublattice, view.pass);
+  for (const BrickIndex brick : bricks) {
+    if (view.larger_cliques[brick] == 0) continue;
+    const Plane own = LoadPlane(view.after_pairs[brick]);
+    const Plane back =
+        HighestInLarger<kSublattice, true>(view, brick, color, view.after_pairs, own);
+    UnsettleIf(back, view.unsettled[brick]);
+    StorePlane(AndNot(back, own), view.after_triples[brick]);
+  }
+}
+
+template <Sublattice kSublattice>
+size_t QuadruplesIn(const RuleBView& view, std::span<const BrickIndex> bricks,
+                    MarkedBrick* marked) {
+  const HigherColor color(kSublattice, view.pass);
+  size_t count = 0;
+  for (const BrickIndex brick : bricks) {
+    if (view.larger_cliques[brick] == 0) continue;
+    const Plane own = LoadPlane(view.after_triples[brick]);
+    const Plane back =
+        HighestInLarger<kSublattice, false>(view, brick, color, view.after_triples, own);
+    UnsettleIf(back, view.unsettled[brick]);
+    Append(AndNot(back, own), brick, marked, count);
+  }
+  return count;
 }
 
 size_t FindSimpleTarget(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
@@ -175,26 +235,20 @@ size_t MarkIsthmusesTarget(const ObjectView& view, Sublattice sublattice, Skelet
              : MarkIsthmusesIn<Sublattice::kOdd>(view, kind, bricks, marked);
 }
 
-template <Sublattice kSublattice>
-void SendBackOfSize(CliqueSize size, const CliqueView& view, std::span<const BrickIndex> bricks,
-                    BrickBits* left, Unsettled* unsettled) {
-  switch (size) {
-    case CliqueSize::kPair:
-      return SendBack<kSublattice, CliqueSize::kPair>(view, bricks, left, unsettled);
-    case CliqueSize::kTriple:
-      return SendBack<kSublattice, CliqueSize::kTriple>(view, bricks, left, unsettled);
-    case CliqueSize::kQuadruple:
-      return SendBack<kSublattice, CliqueSize::kQuadruple>(view, bricks, left, unsettled);
-  }
+size_t PairsTarget(const RuleBView& view, Sublattice sublattice, std::span<const BrickIndex> bricks,
+                   MarkedBrick* marked) {
+  return sublattice == Sublattice::kEven ? PairsIn<Sublattice::kEven>(view, bricks, marked)
+                                         : PairsIn<Sublattice::kOdd>(view, bricks, marked);
 }
-
-void SendBackTarget(CliqueSize size, const CliqueView& view, Sublattice sublattice,
-                    std::span<const BrickIndex> bricks, BrickBits* left, Unsettled* unsettled) {
-  if (sublattice == Sublattice::kEven) {
-    SendBackOfSize<Sublattice::kEven>(size, view, bricks, left, unsettled);
-  } else {
-    SendBackOfSize<Sublattice::kOdd>(size, view, bricks, left, unsettled);
-  }
+void TriplesTarget(const RuleBView& view, Sublattice sublattice,
+                   std::span<const BrickIndex> bricks) {
+  sublattice == Sublattice::kEven ? TriplesIn<Sublattice::kEven>(view, bricks)
+                                  : TriplesIn<Sublattice::kOdd>(view, bricks);
+}
+size_t QuadruplesTarget(const RuleBView& view, Sublattice sublattice,
+                        std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return sublattice == Sublattice::kEven ? QuadruplesIn<Sublattice::kEven>(view, bricks, marked)
+                                         : QuadruplesIn<Sublattice::kOdd>(view, bricks, marked);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -206,7 +260,9 @@ namespace bccskel {
 
 HWY_EXPORT(FindSimpleTarget);
 HWY_EXPORT(MarkIsthmusesTarget);
-HWY_EXPORT(SendBackTarget);
+HWY_EXPORT(PairsTarget);
+HWY_EXPORT(TriplesTarget);
+HWY_EXPORT(QuadruplesTarget);
 
 size_t FindSimple(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
                   std::span<BrickIndex> bricks, BrickBits* simple) {
@@ -216,10 +272,17 @@ size_t MarkIsthmuses(const ObjectView& view, Sublattice sublattice, SkeletonKind
                      std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   return HWY_DYNAMIC_DISPATCH(MarkIsthmusesTarget)(view, sublattice, kind, bricks, marked);
 }
-void SendBackFromCritical(CliqueSize size, const CliqueView& view, Sublattice sublattice,
-                          std::span<const BrickIndex> bricks, BrickBits* left,
-                          Unsettled* unsettled) {
-  HWY_DYNAMIC_DISPATCH(SendBackTarget)(size, view, sublattice, bricks, left, unsettled);
+size_t SendBackFromPairs(const RuleBView& view, Sublattice sublattice,
+                         std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return HWY_DYNAMIC_DISPATCH(PairsTarget)(view, sublattice, bricks, marked);
+}
+void SendBackFromTriples(const RuleBView& view, Sublattice sublattice,
+                         std::span<const BrickIndex> bricks) {
+  HWY_DYNAMIC_DISPATCH(TriplesTarget)(view, sublattice, bricks);
+}
+size_t SendBackFromQuadruples(const RuleBView& view, Sublattice sublattice,
+                              std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+  return HWY_DYNAMIC_DISPATCH(QuadruplesTarget)(view, sublattice, bricks, marked);
 }
 
 }  // namespace bccskel

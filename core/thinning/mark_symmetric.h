@@ -25,8 +25,10 @@
 //   Priorities are strict within a clique: depth in quarters of a lattice unit, and for equal
 //   depths (x + y + z + pass) modulo 4, which adjacent points never share. So the lowest point of S
 //   is never sent back, and a pass that removes nothing had nothing simple before it.
-// Cost:  S takes about 150 logic operations per brick, pairs 200, and 200 more where some clique is
-//   critical. All of it looks at the 14 neighbors of a point alone, thrice in a row.
+// Cost:  about 160 logic operations per brick for S and as many for cliques. On smooth objects
+// every
+//   fifth brick has a critical pair, which takes 250 more to compare priorities, and every
+//   hundredth a critical triple.
 
 namespace bccskel {
 
@@ -44,22 +46,32 @@ size_t FindSimple(const ObjectView& view, Sublattice sublattice, EndPoints end_p
 size_t MarkIsthmuses(const ObjectView& view, Sublattice sublattice, SkeletonKind kind,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked);
 
-// What a step of rule B reads. Nothing of it changes during a step.
-struct CliqueView {
+// What the steps of rule B read and write. All arrays have an element for each brick and one for
+// the padding brick, which stays empty; so do those of bricks that are in no list.
+struct RuleBView {
   ObjectView object;
-  const BrickBits* simple = nullptr;   // padded; empty in bricks that are in no list
-  const ShellPlanes* depth = nullptr;  // padded; planes 0 to 4: quarters of a lattice unit mod 32
+  // The set S, what pairs leave of it, and what triples leave of that.
+  BrickBits* simple = nullptr;
+  BrickBits* after_pairs = nullptr;
+  BrickBits* after_triples = nullptr;
+  const ShellPlanes* depth = nullptr;  // planes 0 to 4: quarters of a lattice unit modulo 32
+  // Whether points of a brick may be in larger critical cliques than pairs; few bricks have any.
+  uint8_t* larger_cliques = nullptr;
+  Unsettled* unsettled = nullptr;  // bricks that points are sent back to are looked at again
   int32_t pass = 0;
 };
 
-enum class CliqueSize : uint8_t { kPair, kTriple, kQuadruple };
-
-// Writes to `left[brick]` the points of `simple` that critical cliques of one size do not send
-// back, and unsettles the bricks that have others.
-// Shapes: `bricks` all of `sublattice`.
-void SendBackFromCritical(CliqueSize size, const CliqueView& view, Sublattice sublattice,
-                          std::span<const BrickIndex> bricks, BrickBits* left,
-                          Unsettled* unsettled);
+// The three steps, for bricks of one sublattice. In each, a worker's points depend on what others
+// have left in the step before. The last two skip bricks without larger cliques, which the first
+// one marks.
+// Shapes: `marked` has room for bricks.size().
+// Returns: how many bricks have marks; they come in the order of `bricks`.
+size_t SendBackFromPairs(const RuleBView& view, Sublattice sublattice,
+                         std::span<const BrickIndex> bricks, MarkedBrick* marked);
+void SendBackFromTriples(const RuleBView& view, Sublattice sublattice,
+                         std::span<const BrickIndex> bricks);
+size_t SendBackFromQuadruples(const RuleBView& view, Sublattice sublattice,
+                              std::span<const BrickIndex> bricks, MarkedBrick* marked);
 
 }  // namespace bccskel
 

@@ -15,21 +15,40 @@ void Keep(std::span<const MarkedBrick> points, std::vector<BrickBits>& candidate
 }  // namespace
 
 SymmetricRule::SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningState& state)
-    : depth_(depth), kind_(kind), state_(state) {
+    : depth_(depth), kind_(kind), state_(state), larger_cliques_(state.object.size()) {
   for (std::vector<BrickBits>& simple : simple_) simple.resize(state.object.size());
 }
 
 void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
                          MarkBuffer& marks) {
-  if (at.step > 0) {
-    SendBack(at, bricks, unsettled);
-    if (at.step + 1 == steps()) MarkWhatIsLeft(bricks, marks);
-    return;
+  if (at.step == 0) {
+    if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
+      KeepIsthmuses(bricks, marks);
+    }
+    return FindSimpleIn(bricks);
   }
-  if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
-    KeepIsthmuses(bricks, marks);
+  const RuleBView view = ViewOf(at, unsettled);
+  for (Sublattice sublattice : kSublattices) {
+    const std::span<const BrickIndex> list = bricks.Of(sublattice);
+    if (at.step == 2) {
+      SendBackFromTriples(view, sublattice, list);
+      continue;
+    }
+    MarkedBrick* room = marks.Room(list.size());
+    marks.Add(at.step == 1 ? SendBackFromPairs(view, sublattice, list, room)
+                           : SendBackFromQuadruples(view, sublattice, list, room));
   }
-  FindSimpleIn(bricks);
+}
+
+RuleBView SymmetricRule::ViewOf(const PassStep& at, Unsettled* unsettled) {
+  return {.object = state_.View(),
+          .simple = simple_[0].data(),
+          .after_pairs = simple_[1].data(),
+          .after_triples = simple_[2].data(),
+          .depth = depth_.planes().data(),
+          .larger_cliques = larger_cliques_.data(),
+          .unsettled = unsettled,
+          .pass = at.cycle};
 }
 
 // Needs: nothing is marked yet, so that the buffer is free.
@@ -49,29 +68,6 @@ void SymmetricRule::FindSimpleIn(BrickLists& bricks) {
         state_.View(), sublattice, EndPointsOf(kind_), bricks.Of(sublattice), simple_[0].data());
   }
   bricks.SetCounts(counts[0], counts[1]);
-}
-
-void SymmetricRule::SendBack(const PassStep& at, const BrickLists& bricks, Unsettled* unsettled) {
-  const auto from = static_cast<size_t>(at.step + 1) % 2;
-  const CliqueView view = {.object = state_.View(),
-                           .simple = simple_[from].data(),
-                           .depth = depth_.planes().data(),
-                           .pass = at.cycle};
-  const auto size = static_cast<CliqueSize>(at.step - 1);
-  for (Sublattice sublattice : kSublattices) {
-    SendBackFromCritical(size, view, sublattice, bricks.Of(sublattice), simple_[1 - from].data(),
-                         unsettled);
-  }
-}
-
-void SymmetricRule::MarkWhatIsLeft(const BrickLists& bricks, MarkBuffer& marks) const {
-  const std::vector<BrickBits>& left = simple_[1];
-  for (Sublattice sublattice : kSublattices) {
-    for (const BrickIndex brick : bricks.Of(sublattice)) {
-      *marks.Room(1) = {left[brick], brick};
-      marks.Add(left[brick].Empty() ? 0 : 1);
-    }
-  }
 }
 
 void SymmetricRule::Finish(const BrickLists& bricks) {

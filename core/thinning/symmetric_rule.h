@@ -42,14 +42,14 @@ class SymmetricRule : public PassRule {
  private:
   void KeepIsthmuses(const BrickLists& bricks, MarkBuffer& scratch);
   void FindSimpleIn(BrickLists& bricks);
-  void SendBack(const PassStep& at, const BrickLists& bricks, Unsettled* unsettled);
-  void MarkWhatIsLeft(const BrickLists& bricks, MarkBuffer& marks) const;
+  RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
 
   const Shells& depth_;
   const SkeletonKind kind_;
   ThinningState& state_;
-  // What each step leaves, in turn; padded. Empty between passes.
-  std::array<std::vector<BrickBits>, 2> simple_;
+  // What each step leaves; padded, and empty between passes.
+  std::array<std::vector<BrickBits>, 3> simple_;
+  std::vector<uint8_t> larger_cliques_;
 };
 
 }  // namespace bccskel
