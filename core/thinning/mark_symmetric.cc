@@ -160,8 +160,6 @@ size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, Marked
     LinkOf<kSublattice>(view.object, brick, link);
     AllPlanes<kSublattice>(view.simple, view.object.neighbors[brick], own, among);
     CriticalPairs(link, among, critical);
-    const Plane larger = Or(InCriticalTriple(link, among), InTetrahedron(among));
-    view.larger_cliques[brick] = IsEmpty(And(own, larger)) ? 0 : 1;
     Plane left = own;
     if (!IsEmpty(And(own, AnyOf(critical)))) {
       const Plane back = HighestInPairs<kSublattice>(view, brick, color, own, critical);
@@ -170,26 +168,30 @@ size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, Marked
     }
     StorePlane(left, view.after_pairs[brick]);
     StorePlane(left, view.after_triples[brick]);
-    Append(left, brick, marked, count);
-    count -= view.larger_cliques[brick] != 0 && !IsEmpty(left) ? 1 : 0;  // not the last word
+    const Plane larger = Or(InCriticalTriple(link, among), InTetrahedron(among));
+    const bool is_final = IsEmpty(And(left, larger));
+    view.larger_cliques[brick] = is_final ? 0 : 1;
+    StorePlane(left, marked[count].marks);
+    marked[count].brick = brick;
+    count += is_final && !IsEmpty(left) ? 1 : 0;
   }
   return count;
 }
 
-// Points of S that have the highest priority in a critical triple or in a quadruple.
-template <Sublattice kSublattice, bool kTriples>
+// Points of S that have the highest priority in a critical triple or, with the other test, in a
+// quadruple.
+template <Sublattice kSublattice, typename InCritical>
 HWY_INLINE Plane HighestInLarger(const RuleBView& view, BrickIndex brick, const HigherColor& color,
-                                 const BrickBits* simple, const Plane& own) {
+                                 const BrickBits* simple, const Plane& own,
+                                 InCritical in_critical) {
   Plane link[14], among[14], higher[14];
+  LinkOf<kSublattice>(view.object, brick, link);
   AllPlanes<kSublattice>(simple, view.object.neighbors[brick], own, among);
+  const Plane critical = And(own, in_critical(link, among));
+  if (IsEmpty(critical)) return critical;
   HigherThanNeighbors<kSublattice>(view, brick, color, higher);
   AndEach(higher, among);
-  if constexpr (kTriples) {
-    LinkOf<kSublattice>(view.object, brick, link);
-    return And(own, InCriticalTriple(link, among));
-  } else {
-    return And(own, InTetrahedron(among));
-  }
+  return And(critical, in_critical(link, among));
 }
 
 template <Sublattice kSublattice>
@@ -198,8 +200,9 @@ void TriplesIn(const RuleBView& view, std::span<const BrickIndex> bricks) {
   for (const BrickIndex brick : bricks) {
     if (view.larger_cliques[brick] == 0) continue;
     const Plane own = LoadPlane(view.after_pairs[brick]);
-    const Plane back =
-        HighestInLarger<kSublattice, true>(view, brick, color, view.after_pairs, own);
+    const Plane back = HighestInLarger<kSublattice>(
+        view, brick, color, view.after_pairs, own,
+        [](const auto& link, const auto& among) HWY_ATTR { return InCriticalTriple(link, among); });
     UnsettleIf(back, view.unsettled[brick]);
     StorePlane(AndNot(back, own), view.after_triples[brick]);
   }
@@ -213,8 +216,9 @@ size_t QuadruplesIn(const RuleBView& view, std::span<const BrickIndex> bricks,
   for (const BrickIndex brick : bricks) {
     if (view.larger_cliques[brick] == 0) continue;
     const Plane own = LoadPlane(view.after_triples[brick]);
-    const Plane back =
-        HighestInLarger<kSublattice, false>(view, brick, color, view.after_triples, own);
+    const Plane back = HighestInLarger<kSublattice>(view, brick, color, view.after_triples, own,
+                                                    [](const auto&, const auto& among)
+                                                        HWY_ATTR { return InTetrahedron(among); });
     UnsettleIf(back, view.unsettled[brick]);
     Append(AndNot(back, own), brick, marked, count);
   }
