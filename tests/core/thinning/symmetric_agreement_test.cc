@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
 #include "core/exec/worker_team.h"
 #include "core/thinning/thinning.h"
@@ -42,7 +42,7 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto result = ThinToCurve(object, *ComputeChamferDistance(object, context), options, context);
+  auto result = ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, context), options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
