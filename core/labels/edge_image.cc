@@ -69,7 +69,8 @@ class NearestEdgeWork {
   void Work() {
     for (size_t n = next_++; n < images_.size() && !context_.ShouldStop(); n = next_++) {
       const size_t end = std::min((n + 1) * kRunsPerBatch, runs_.size());
-      for (RunIndex run = n * kRunsPerBatch; run < end; ++run) LabelRun(run, images_[n]);
+      Hint hint;
+      for (RunIndex run = n * kRunsPerBatch; run < end; ++run) LabelRun(run, hint, images_[n]);
     }
   }
 
@@ -81,16 +82,22 @@ class NearestEdgeWork {
   }
 
  private:
-  void LabelRun(RunIndex n, SparseImage& image) const {
+  // The last answer and where it was found.
+  struct Hint {
+    const PointIndex* index = nullptr;
+    size_t point = 0;
+  };
+
+  void LabelRun(RunIndex n, Hint& hint, SparseImage& image) const {
     const PointIndex* const index = points_.Of(n);
     if (index == nullptr) return;
+    if (index != hint.index) hint = {index, 0};
     const VoxelRun& run = runs_[n];
     std::array<double, 3> at = {0, run.y * spacing_[1], run.z * spacing_[2]};
-    size_t hint = 0;
     for (int32_t x = run.begin; x < run.end; ++x) {
       at[0] = x * spacing_[0];
-      const NearestPoint nearest = index->Find(at, hint);
-      hint = nearest.point;
+      const NearestPoint nearest = index->Find(at, hint.point);
+      hint.point = nearest.point;
       Append(image, {run.z, run.y, x, x + 1}, nearest.value);
     }
   }

@@ -47,33 +47,30 @@ void PointIndex::Offer(const std::array<double, 3>& at, size_t point, NearestPoi
   best.Offer(dx * dx + dy * dy + dz * dz, points_[point].value, point);
 }
 
+// `away` is how far the range lies from the place along each axis, at least. Rounding keeps order,
+// so what it bounds is never nearer than the bound, ties included.
 void PointIndex::Search(const std::array<double, 3>& at, size_t begin, size_t end,
-                        NearestPoint& best) const {
+                        const std::array<double, 3>& away, NearestPoint& best) const {
   if (end - begin <= kLeaf) {
     for (size_t n = begin; n < end; ++n) Offer(at, n, best);
     return;
   }
   const size_t middle = (begin + end) / 2, axis = axes_[middle];
   const double across = at[axis] - points_[middle].at[axis];
+  const bool below = across < 0;
+  Search(at, below ? begin : middle + 1, below ? middle : end, away, best);
   Offer(at, middle, best);
-  if (across < 0) {
-    Search(at, begin, middle, best);
-  } else {
-    Search(at, middle + 1, end, best);
-  }
+  std::array<double, 3> far = away;
+  far[axis] = across;
   // Points at the same distance may have a smaller value.
-  if (across * across > best.squared) return;
-  if (across < 0) {
-    Search(at, middle + 1, end, best);
-  } else {
-    Search(at, begin, middle, best);
-  }
+  if (far[0] * far[0] + far[1] * far[1] + far[2] * far[2] > best.squared) return;
+  Search(at, below ? middle + 1 : begin, below ? end : middle, far, best);
 }
 
 NearestPoint PointIndex::Find(const std::array<double, 3>& at, size_t hint) const {
   NearestPoint best;
   Offer(at, hint, best);
-  Search(at, 0, points_.size(), best);
+  Search(at, 0, points_.size(), {}, best);
   return best;
 }
 

@@ -40,7 +40,8 @@ class PointIndex {
 
  private:
   void Build(size_t begin, size_t end);
-  void Search(const std::array<double, 3>& at, size_t begin, size_t end, NearestPoint& best) const;
+  void Search(const std::array<double, 3>& at, size_t begin, size_t end,
+              const std::array<double, 3>& away, NearestPoint& best) const;
   void Offer(const std::array<double, 3>& at, size_t point, NearestPoint& best) const;
 
   std::vector<ValuePoint> points_;

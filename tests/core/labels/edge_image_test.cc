@@ -16,6 +16,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/image/foreground.h"
+#include "core/image/open_image.h"
 #include "core/labels/convert_label.h"
 #include "core/labels/nrrd_writer.h"
 #include "core/labels/point_index.h"
@@ -366,6 +368,24 @@ TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
   const std::string plain = Unzipped(path_, data, 120);
   ASSERT_EQ(plain.size(), 120u);
   EXPECT_EQ(std::memcmp(plain.data(), expected.data(), 120), 0);
+}
+
+TEST_F(WrittenNrrd, IsReadBackAsItWas) {
+  const MaskGrid grid = {5, 3, 2, {{1, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
+  ASSERT_TRUE(WriteNrrd(path_, grid, {{{1, 2, 3, 5}, 4000000000}}).ok());
+  const auto image = OpenImage(path_);
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ((*image)->info().size, (ImageSize{5, 3, 2}));
+  EXPECT_EQ((*image)->info().type, VoxelType::kUint32);
+  EXPECT_EQ((*image)->info().placement, grid.placement);
+  std::vector<uint64_t> labels(15);
+  ASSERT_TRUE((*image)->NextSlice().ok());
+  const auto slice = (*image)->NextSlice();
+  ASSERT_TRUE(slice.ok()) << slice.status();
+  ASSERT_TRUE(LabelSlice(*slice, labels).ok());
+  std::vector<uint64_t> expected(15);
+  expected[13] = expected[14] = 4000000000;
+  EXPECT_EQ(labels, expected);
 }
 
 TEST_F(WrittenNrrd, IsNotMadeOfRunsOutsideOrOutOfOrder) {
