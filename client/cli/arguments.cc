@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "client/cli/bench_arguments.h"
+#include "client/cli/choice_option.h"
 #include "client/cli/load_object.h"
 #include "client/export/skeleton_file.h"
 #include "core/thinning/thinning.h"
 #include "core/version/version.h"
 
-// Only this file and bench_arguments.cc include CLI11, which is slow to compile.
+// Only the files of arguments include CLI11, which is slow to compile.
 
 namespace bccskel::cli {
 namespace {
@@ -49,17 +50,6 @@ constexpr const char* kThreadsHere = "Threads to use; 0 means all of this machin
 constexpr const char* kThreadsBoth =
     "Threads to use, here and on the server; 0 means all of this machine and what the server "
     "gives (default)";
-
-// An option with a few words as its values.
-template <typename Enum>
-void AddChoice(CLI::App& command, const char* name, Enum& value, const char* description,
-               const std::vector<std::pair<std::string, Enum>>& choices) {
-  std::string words;
-  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
-  command.add_option(name, value, description)
-      ->transform(CLI::CheckedTransformer(choices))
-      ->option_text(words);
-}
 
 void AddInput(CLI::App& command, const char* name, std::string& path, const char* description) {
   command.add_option(name, path, description)->required()->option_text(" ");
@@ -145,10 +135,12 @@ CLI::Option* AddServer(CLI::App& command, SkeletonizeArguments& arguments) {
 }
 
 CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("voxelize", "Fill a mesh with bcc lattice points");
-  AddInput(command, "MESH", arguments.mesh, "OBJ, STL, PLY or OFF file, also .gz");
+  CLI::App& command =
+      *app.add_subcommand("voxelize", "Turn a mesh or an image into bcc lattice points");
+  AddInput(command, "INPUT", arguments.input, "Mesh or image file");
   AddVolumeOutput(command, arguments.output);
   AddGrid(command, arguments.grid);
+  AddImage(command, arguments.image);
   AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
   return command;
@@ -170,10 +162,11 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
 
 CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   CLI::App& command =
-      *app.add_subcommand("skeletonize", "Make the skeleton of a mesh or a volume in one go");
-  AddInput(command, "INPUT", arguments.input, "Mesh or volume file");
+      *app.add_subcommand("skeletonize", "Make the skeleton of an object in one go");
+  AddInput(command, "INPUT", arguments.input, "Mesh, volume or image file");
   AddOutputs(command, arguments.outputs);
   AddGrid(command, arguments.grid);
+  AddImage(command, arguments.image);
   CLI::Option* server = AddServer(command, arguments);
   command
       .add_flag_callback(
@@ -189,8 +182,9 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
 }
 
 CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("info", "Describe a mesh or a volume");
-  AddInput(command, "FILE", arguments.file, "Mesh or volume file");
+  CLI::App& command = *app.add_subcommand("info", "Describe a mesh, a volume or an image");
+  AddInput(command, "FILE", arguments.file, "Mesh, volume or image file");
+  AddImage(command, arguments.image);
   AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
   return command;
@@ -198,10 +192,12 @@ CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
 
 void AddResult(CLI::App& command, ResultArguments& source) {
   AddInput(command, "RESULT", source.result, "JSON file of skeletonize or submit");
-  command.add_option("--object", source.object, "Mesh or volume that the result was made from")
+  command
+      .add_option("--object", source.object, "Mesh, volume or image that the result was made from")
       ->required()
       ->option_text("FILE (required)");
   AddGrid(command, source.grid);
+  AddImage(command, source.image);
 }
 
 CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
@@ -305,12 +301,20 @@ Complaint OverwriteComplaint(const std::string& input, const std::string& output
   return output + ": is the input, too, and would be overwritten";
 }
 
-Complaint GridComplaint(const std::string& input, const VoxelizeOptions& grid) {
-  const bool given =
+// Options that say how to make an object are for one kind of input each.
+Complaint ObjectComplaint(const std::string& input, const VoxelizeOptions& grid,
+                          const ImageArguments& image) {
+  if (Complaint c = IfError(ForegroundOf(image).status()); c.has_value()) return c;
+  const absl::StatusOr<InputKind> kind = InputKindOf(input, image);
+  if (!kind.ok()) return std::nullopt;
+  const std::string is = "; " + input + " is " + std::string(InputKindPhrase(*kind));
+  const bool grid_given =
       grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto;
-  const absl::StatusOr<InputKind> kind = InputKindOf(input);
-  if (!given || !kind.ok() || *kind == InputKind::kMesh) return std::nullopt;
-  return "--points, --spacing and --fill are for meshes; " + input + " is a volume";
+  if (grid_given && *kind != InputKind::kMesh) {
+    return "--points, --spacing and --fill are for meshes" + is;
+  }
+  if (!image.given || *kind == InputKind::kImage) return std::nullopt;
+  return "--label, --range, --threshold and the like are for images" + is;
 }
 
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
@@ -319,15 +323,21 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
       return c;
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
-  if (Complaint c = GridComplaint(arguments.input, arguments.grid); c.has_value()) return c;
+  if (Complaint c = ObjectComplaint(arguments.input, arguments.grid, arguments.image);
+      c.has_value()) {
+    return c;
+  }
   return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
 }
 
 Complaint ComplaintAbout(const VoxelizeArguments& arguments) {
-  if (!arguments.grid.points.has_value() && !arguments.grid.spacing.has_value()) {
-    return "voxelize needs --points or --spacing";
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  const bool sized = arguments.grid.points.has_value() || arguments.grid.spacing.has_value();
+  if (!sized && kind.ok() && *kind == InputKind::kMesh) {
+    return "voxelize needs --points or --spacing for a mesh";
   }
-  return VolumeOutputComplaint(arguments.output);
+  if (Complaint c = VolumeOutputComplaint(arguments.output); c.has_value()) return c;
+  return ObjectComplaint(arguments.input, arguments.grid, arguments.image);
 }
 
 Complaint ComplaintAbout(const GenerateArguments& arguments) {
@@ -345,10 +355,13 @@ Complaint ComplaintAbout(const ViewArguments& arguments) {
   for (const std::string& input : {source.result, source.object}) {
     if (Complaint c = OverwriteComplaint(input, arguments.output); c.has_value()) return c;
   }
-  return GridComplaint(source.object, source.grid);
+  return ObjectComplaint(source.object, source.grid, source.image);
 }
 
-Complaint ComplaintAbout(const InfoArguments&) { return std::nullopt; }
+Complaint ComplaintAbout(const InfoArguments& arguments) {
+  return ObjectComplaint(arguments.file, {}, arguments.image);
+}
+
 Complaint ComplaintAbout(const BenchCoreArguments&) { return std::nullopt; }
 
 std::string CommandRequired(const CLI::App& app) {

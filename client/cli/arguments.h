@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/cli/exit_code.h"
+#include "client/cli/image_arguments.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
 #include "core/voxelize/voxelize.h"
@@ -29,22 +30,24 @@ struct CommonArguments {
 
 struct VoxelizeArguments {
   CommonArguments common;
-  std::string mesh;
+  std::string input;
   std::string output;
-  VoxelizeOptions grid;
+  VoxelizeOptions grid;  // of a mesh
+  ImageArguments image;
 };
 
 enum class Place { kServer, kLocal };
 
 // `submit` is the same with a volume as the only kind of input and a server as the only place.
-enum class AcceptedInput { kMeshOrVolume, kVolumeOnly };
+enum class AcceptedInput { kAll, kVolumeOnly };
 
 struct SkeletonizeArguments {
   CommonArguments common;
-  AcceptedInput accepted = AcceptedInput::kMeshOrVolume;
+  AcceptedInput accepted = AcceptedInput::kAll;
   std::string input;
   std::vector<std::string> outputs;
-  VoxelizeOptions grid;
+  VoxelizeOptions grid;  // of a mesh
+  ImageArguments image;
   SkeletonizeOptions skeletonize;
   Place place = Place::kServer;
   std::string server = "127.0.0.1:50051";
@@ -55,13 +58,15 @@ struct SkeletonizeArguments {
 struct InfoArguments {
   CommonArguments common;
   std::string file;
+  ImageArguments image;
 };
 
-// A JSON result and the mesh or volume that it was made from.
+// A JSON result and the mesh, volume or image that it was made from.
 struct ResultArguments {
   std::string result;
   std::string object;
   VoxelizeOptions grid;  // of a mesh
+  ImageArguments image;
 };
 
 struct ViewArguments {

@@ -2,7 +2,9 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/image_summary.h"
 #include "client/cli/json_text.h"
+#include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "client/cli/mesh_summary.h"
@@ -28,6 +30,15 @@ ExitCode AboutMesh(const InfoArguments& arguments) {
   return Print(Wrapped(arguments, "mesh", MeshJson(report)));
 }
 
+ExitCode AboutImage(const InfoArguments& arguments, const std::stop_token& stop) {
+  LocalTeam team(arguments.common.threads, stop);
+  const absl::StatusOr<ImageObject> object =
+      ConvertImageFile(arguments.file, arguments.image, team.context());
+  if (!object.ok()) return Fail(object.status());
+  if (arguments.common.summary == SummaryStyle::kText) return Print(ImageText(object->image));
+  return Print(Wrapped(arguments, "image", ImageJson(object->image)));
+}
+
 ExitCode AboutVolume(const InfoArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Volume> volume = ReadVolumeFile(arguments.file, {}, team.context());
@@ -41,8 +52,9 @@ ExitCode AboutVolume(const InfoArguments& arguments, const std::stop_token& stop
 }  // namespace
 
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop) {
-  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.file);
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.file, arguments.image);
   if (!kind.ok()) return Fail(kind.status());
+  if (*kind == InputKind::kImage) return AboutImage(arguments, stop);
   return *kind == InputKind::kMesh ? AboutMesh(arguments) : AboutVolume(arguments, stop);
 }
 

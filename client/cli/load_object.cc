@@ -1,17 +1,12 @@
 #include "client/cli/load_object.h"
 
 #include <algorithm>
-#include <array>
 
+#include "core/image/open_image.h"
 #include "core/mesh/mesh_file.h"
 
 namespace bccskel::cli {
 namespace {
-
-// Formats of cubic images, with the compressed forms that are common.
-constexpr std::array<std::string_view, 17> kImageEndings = {
-    ".nrrd", ".nhdr", ".nii", ".nii.gz", ".npy", ".npz",   ".tif", ".tiff", ".mha",
-    ".mhd",  ".vol",  ".inr", ".inr.gz", ".vti", ".pgm3d", ".dcm", ".raw"};
 
 std::string LowerCase(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) {
@@ -20,27 +15,33 @@ std::string LowerCase(std::string text) {
   return text;
 }
 
-// The same error with the path in front, unless it is in there.
-absl::Status WithPath(const absl::Status& error, const std::string& path) {
-  const std::string message(error.message());
-  if (message.find(path) != message.npos) return error;
-  return absl::Status(error.code(), path + ": " + message);
-}
-
 }  // namespace
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   const std::string name = LowerCase(path);
   if (HasMeshFileName(name)) return InputKind::kMesh;
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
-  for (const std::string_view ending : kImageEndings) {
-    if (!name.ends_with(ending)) continue;
-    return absl::UnimplementedError(path + ": format not supported: images (" +
-                                    std::string(ending) + ") are not read yet");
-  }
-  return absl::InvalidArgumentError(path +
-                                    ": format not supported; there are meshes (.obj, .stl, .ply, "
-                                    ".off, each also with .gz) and volumes (.exr, .bccb)");
+  if (HasImageFileName(name)) return InputKind::kImage;
+  return absl::InvalidArgumentError(
+      path +
+      ": format not supported; there are meshes (.obj, .stl, .ply, .off, each also with .gz), "
+      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, ...)");
+}
+
+absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image) {
+  if (image.open.raw.has_value()) return InputKind::kImage;
+  return InputKindOf(path);
+}
+
+std::string_view InputKindPhrase(InputKind kind) {
+  if (kind == InputKind::kMesh) return "a mesh";
+  return kind == InputKind::kVolume ? "a volume" : "an image";
+}
+
+absl::Status WithPath(const absl::Status& error, const std::string& path) {
+  const std::string message(error.message());
+  if (message.find(path) != message.npos) return error;
+  return absl::Status(error.code(), path + ": " + message);
 }
 
 absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const VoxelizeOptions& grid,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "client/cli/console.h"
+#include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/export/picture/caption.h"
 #include "core/exec/status_macros.h"
@@ -12,8 +13,13 @@ namespace bccskel::cli {
 namespace {
 
 absl::StatusOr<Volume> LoadObject(const ResultArguments& arguments, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.object));
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.object, arguments.image));
   if (kind == InputKind::kVolume) return ReadVolumeFile(arguments.object, {}, context);
+  if (kind == InputKind::kImage) {
+    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
+                             ConvertImageFile(arguments.object, arguments.image, context));
+    return std::move(object.volume);
+  }
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
                            VoxelizeFile(arguments.object, arguments.grid, context));
   return std::move(result.volume);

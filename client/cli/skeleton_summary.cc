@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/cli/image_summary.h"
 #include "client/cli/json_text.h"
 #include "client/cli/load_object.h"
 #include "client/cli/mesh_summary.h"
@@ -82,6 +83,7 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   Text text;
   text.Add("input:     ", FileName(summary.arguments.input));
   if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
+  if (summary.image.has_value()) text.Add(", ", ImagePhrase(*summary.image));
   if (certificate.mask.has_value()) text.Add("\nmask:      ", BettiPhrase(*certificate.mask));
   text.Add("\nobject:    ", GroupedDigits(result.object_points), " points, ",
            BettiPhrase(certificate.input), '\n');
@@ -106,6 +108,7 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
   text.Add("{\"input\":", JsonString(summary.arguments.input),
            ",\"volume\":", VolumeJson(summary.object, std::nullopt));
   if (summary.mesh.has_value()) AddMeshJson(text, *summary.mesh);
+  if (summary.image.has_value()) text.Add(",\"image\":", ImageJson(*summary.image));
   text.Add(",\"object_points\":", result.object_points,
            ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
            ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/cli/arguments.h"
+#include "client/cli/load_image.h"
 #include "core/mesh/mesh_report.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/volume/volume.h"
@@ -31,6 +32,7 @@ struct SkeletonSummary {
   const Volume& object;
   const SkeletonizeResult& result;
   std::optional<MeshStage> mesh;
+  std::optional<ImageStage> image;
   std::vector<WrittenFile> files;
   double seconds = 0;  // from start to end, as the user waited
 };

@@ -3,6 +3,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "client/cli/progress_bar.h"
@@ -18,10 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The object to thin, and the mesh that it was made from if there was one.
+// The object to thin, and the mesh or image that it was made from if there was one.
 struct Object {
   Volume volume;
-  std::optional<MeshStage> mesh;
+  std::optional<MeshStage> mesh = std::nullopt;
+  std::optional<ImageStage> image = std::nullopt;
 };
 
 absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
@@ -36,15 +38,24 @@ absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
 absl::StatusOr<Object> FromVolume(const SkeletonizeArguments& arguments,
                                   const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(Volume volume, ReadVolumeFile(arguments.input, {}, context));
-  return Object{std::move(volume), std::nullopt};
+  return Object{std::move(volume)};
+}
+
+absl::StatusOr<Object> FromImage(const SkeletonizeArguments& arguments,
+                                 const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
+                           ConvertImageFile(arguments.input, arguments.image, context));
+  return Object{std::move(object.volume), std::nullopt, std::move(object.image)};
 }
 
 absl::StatusOr<Object> Load(const SkeletonizeArguments& arguments, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.input));
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.input, arguments.image));
   if (kind == InputKind::kVolume) return FromVolume(arguments, context);
-  if (arguments.accepted == AcceptedInput::kMeshOrVolume) return FromMesh(arguments, context);
-  return absl::InvalidArgumentError(arguments.input +
-                                    ": submit takes volumes; skeletonize takes meshes, too");
+  if (arguments.accepted == AcceptedInput::kVolumeOnly) {
+    return absl::InvalidArgumentError(
+        arguments.input + ": submit takes volumes; skeletonize takes meshes and images, too");
+  }
+  return kind == InputKind::kMesh ? FromMesh(arguments, context) : FromImage(arguments, context);
 }
 
 bool WantsThinVolume(const SkeletonizeArguments& arguments) {
@@ -82,6 +93,14 @@ absl::StatusOr<SkeletonizeResult> Compute(const SkeletonizeArguments& arguments,
   ProgressBar bar(arguments.progress);
   if (arguments.place == Place::kLocal) return OnThisMachine(arguments, object, bar, context);
   return OnServer(arguments, object, bar, context.stop);
+}
+
+// Takes the image's own topology into the certificate.
+absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& object,
+                          Certificate& certificate) {
+  if (!object.image.has_value()) return absl::OkStatus();
+  certificate.mask = object.image->mask;
+  return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.input);
 }
 
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
@@ -129,13 +148,14 @@ ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop)
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Object> object = Load(arguments, team.context());
   if (!object.ok()) return Fail(object.status());
-  const absl::StatusOr<SkeletonizeResult> result =
-      Compute(arguments, object->volume, team.context());
+  absl::StatusOr<SkeletonizeResult> result = Compute(arguments, object->volume, team.context());
   if (!result.ok()) return FailComputing(arguments, result.status());
+  const absl::Status kept = CertifyImage(arguments, *object, result->certificate);
+  if (!kept.ok()) return Fail(kept);
   absl::StatusOr<std::vector<WrittenFile>> files = WriteOutputs(arguments, *object, *result);
   if (!files.ok()) return FailWriting(arguments, files.status());
-  const ExitCode printed = PrintSummary(
-      {arguments, object->volume, *result, object->mesh, *std::move(files), SecondsSince(start)});
+  const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,
+                                         object->image, *std::move(files), SecondsSince(start)});
   return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;
 }
 

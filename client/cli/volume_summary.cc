@@ -30,6 +30,17 @@ std::string BettiJson(const BettiNumbers& betti) {
   return std::move(text).Take();
 }
 
+std::string PlacementJson(const Placement& placement) {
+  Text text;
+  text.Add("\"spacing\":");
+  AddList(text, placement.spacing);
+  text.Add(",\"origin\":");
+  AddList(text, placement.origin);
+  text.Add(",\"direction\":");
+  AddList(text, placement.direction);
+  return std::move(text).Take();
+}
+
 std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti) {
   const LatticeExtent& extent = volume.extent();
   const Placement& placement = volume.placement();
@@ -48,12 +59,8 @@ std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& 
 std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti) {
   const LatticeExtent& extent = volume.extent();
   Text text;
-  text.Add("{\"extent\":[", extent.nx, ',', extent.ny, ',', extent.nz, "],\"spacing\":");
-  AddList(text, volume.placement().spacing);
-  text.Add(",\"origin\":");
-  AddList(text, volume.placement().origin);
-  text.Add(",\"direction\":");
-  AddList(text, volume.placement().direction);
+  text.Add("{\"extent\":[", extent.nx, ',', extent.ny, ',', extent.nz, "],",
+           PlacementJson(volume.placement()));
   text.Add(",\"points\":", volume.PointCount(), ",\"bricks\":", volume.brick_count());
   if (betti.has_value()) text.Add(",\"topology\":", BettiJson(*betti));
   text.Add('}');

@@ -16,6 +16,9 @@ std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& 
 
 std::string BettiJson(const BettiNumbers& betti);
 
+// "spacing":[...],"origin":[...],"direction":[...]
+std::string PlacementJson(const Placement& placement);
+
 }  // namespace bccskel::cli
 
 #endif  // BCCSKEL_CLIENT_CLI_VOLUME_SUMMARY_H_

@@ -2,33 +2,86 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/image_summary.h"
 #include "client/cli/json_text.h"
+#include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "client/cli/mesh_summary.h"
 #include "client/cli/volume_summary.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
+#include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
 namespace {
 
-std::string SummaryOf(const VoxelizeArguments& arguments, const VoxelizeResult& result) {
+// What was said of the input, as text and as members of a JSON object.
+struct Story {
+  std::string text;
+  std::string json;
+};
+
+struct Voxelized {
+  Volume volume;
+  Story source;
+};
+
+Story MeshStory(const VoxelizeResult& result) {
+  exporting::Text text, json;
+  text.Add("mesh:        ", MeshPhrase(result.mesh), "\nfilled by:   ", FillRuleName(result.fill),
+           '\n');
+  json.Add("\"mesh\":", MeshJson(result.mesh), ",\"fill\":\"", FillRuleName(result.fill),
+           "\",\"warnings\":[");
+  for (size_t n = 0; n < result.warnings.size(); ++n) {
+    json.Add(n > 0 ? "," : "", JsonString(result.warnings[n]));
+  }
+  json.Add(']');
+  return {std::move(text).Take(), std::move(json).Take()};
+}
+
+Story ImageStory(const ImageStage& image) {
+  return {"image:       " + ImagePhrase(image) +
+              "\nmask:        " + exporting::BettiPhrase(image.mask) + '\n',
+          "\"image\":" + ImageJson(image)};
+}
+
+absl::StatusOr<Voxelized> FromMesh(const VoxelizeArguments& arguments,
+                                   const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
+                           VoxelizeFile(arguments.input, arguments.grid, context));
+  for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
+  Story story = MeshStory(result);
+  return Voxelized{std::move(result.volume), std::move(story)};
+}
+
+absl::StatusOr<Voxelized> FromImage(const VoxelizeArguments& arguments,
+                                    const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
+                           ConvertImageFile(arguments.input, arguments.image, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const BettiNumbers betti, CountBettiNumbers(object.volume, context));
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckConversion(arguments.input, arguments.image, object.image.mask, betti));
+  return Voxelized{std::move(object.volume), ImageStory(object.image)};
+}
+
+absl::StatusOr<Voxelized> Load(const VoxelizeArguments& arguments, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.input, arguments.image));
+  if (kind == InputKind::kMesh) return FromMesh(arguments, context);
+  if (kind == InputKind::kImage) return FromImage(arguments, context);
+  return absl::InvalidArgumentError(arguments.input + ": is a volume already");
+}
+
+std::string SummaryOf(const VoxelizeArguments& arguments, const Voxelized& result) {
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
-    text.Add("{\"input\":", JsonString(arguments.mesh),
-             ",\"output\":", JsonString(arguments.output), ",\"mesh\":", MeshJson(result.mesh),
-             ",\"fill\":\"", FillRuleName(result.fill),
-             "\",\"volume\":", VolumeJson(result.volume, std::nullopt), ",\"warnings\":[");
-    for (size_t n = 0; n < result.warnings.size(); ++n) {
-      text.Add(n > 0 ? "," : "", JsonString(result.warnings[n]));
-    }
-    text.Add("]}\n");
+    text.Add("{\"input\":", JsonString(arguments.input),
+             ",\"output\":", JsonString(arguments.output), ',', result.source.json,
+             ",\"volume\":", VolumeJson(result.volume, std::nullopt), "}\n");
   } else {
-    text.Add("mesh:        ", MeshPhrase(result.mesh), "\nfilled by:   ", FillRuleName(result.fill),
-             '\n', VolumeText(result.volume, std::nullopt), "written:     ", arguments.output,
-             '\n');
+    text.Add(result.source.text, VolumeText(result.volume, std::nullopt),
+             "written:     ", arguments.output, '\n');
   }
   return std::move(text).Take();
 }
@@ -36,16 +89,9 @@ std::string SummaryOf(const VoxelizeArguments& arguments, const VoxelizeResult& 
 }  // namespace
 
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
-  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.mesh);
-  if (!kind.ok()) return Fail(kind.status());
-  if (*kind != InputKind::kMesh) {
-    return Fail(absl::InvalidArgumentError(arguments.mesh + ": is a volume already"));
-  }
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<VoxelizeResult> result =
-      VoxelizeFile(arguments.mesh, arguments.grid, team.context());
+  const absl::StatusOr<Voxelized> result = Load(arguments, team.context());
   if (!result.ok()) return Fail(result.status());
-  for (const std::string& warning : result->warnings) Warn(arguments.mesh + ": " + warning);
   const absl::Status written =
       WriteVolumeFile(arguments.output, result->volume, {}, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);

@@ -36,7 +36,7 @@ class ExitCodesTest(harness.TestCase):
             self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
             self.fail_with(3, name, "info", self.path(name))
         self.fail_with(3, "format not supported", *self.skeletonize("a.docx", "--local"))
-        self.fail_with(3, "not read yet", *self.skeletonize("a.nrrd", "--local"))
+        self.fail_with(3, "No such file", *self.skeletonize("a.nrrd", "--local"))
         self.fail_with(3, "submit takes volumes", "submit", "a.off", "-o", self.path("a.swc"))
         self.fail_with(3, "is a volume already", "voxelize", "a.exr", "--points", 9, "-o", "b.exr")
 

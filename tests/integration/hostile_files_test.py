@@ -1,4 +1,4 @@
-"""Broken and hostile mesh files: each has a stated end, in bounded time and memory."""
+"""Broken and hostile files: each has a stated end, in bounded time and memory."""
 
 import json
 
@@ -65,7 +65,31 @@ ACCEPTED = [
 ]
 # Whatever topology the grid gives these; the point is that they end well.
 SURVIVED = ["real_beast_nonmanifold.obj.gz", "real_openscad-nonmanifold-crash.obj"]
-NOT_YET = (".nrrd", ".npy")
+# Images, in the same way; the topology is that of the mask, too.
+IMAGES_REFUSED = [
+    ("short_data.nrrd", 3, "declares 262144 bytes of voxels"),
+    ("sizes_1e6_cubed.nrrd", 7, "1000000 x 1000000 holds 1000000000000 voxels, the limit is"),
+    ("sizes_overflow.nrrd", 7, "axis 0 holds 4294967296 voxels, the limit is 2097151"),
+    ("sizes_negative.nrrd", 3, "axis 0 holds -8 voxels"),
+    ("sizes_zero.nrrd", 3, "axis 0 holds 0 voxels"),
+    ("four_dim.nrrd", 3, "4 axes (3 x 8 x 8 x 8)"),
+    ("float_nan.nrrd", 3, "lacks 'endian'"),
+    ("gzip_truncated.nrrd", 3, "is cut"),
+    ("gzip_bomb.nrrd", 3, "the compressed stream holds more"),
+    ("detached_path.nrrd", 3, "names '/etc/passwd'"),
+    ("spacing_zero.nrrd", 3, "spacing 0 x 1 x 1"),
+    ("pickle_object.npy", 3, "'|O'"),
+    ("shape_overflow.npy", 7, "4000000000 voxels, the limit is"),
+]
+IMAGES_ACCEPTED = [
+    ("all_zero.nrrd", (0, 0, 0)),
+    ("all_one.nrrd", (1, 0, 0)),
+    ("single_voxel.nrrd", (1, 0, 0)),
+    ("one_by_one.nrrd", (1, 0, 0)),
+    ("anisotropic_1000.nrrd", None),
+    ("fortran_order.npy", None),
+    ("big_endian_u2.npy", None),
+]
 
 
 @harness.needs_data("hostile")
@@ -121,20 +145,32 @@ class HostileFilesTest(harness.TestCase):
                 if done.returncode == 0:
                     json.loads(done.stdout)
 
-    def test_images_are_refused_as_not_supported_yet(self):
-        for path in sorted((harness.DATA / "hostile").iterdir()):
-            if path.suffix in NOT_YET:
-                with self.subTest(path.name):
-                    self.check_refused(self.skeletonize_image(path), 3, "format not supported")
-
-    def skeletonize_image(self, path):
-        return harness.bccskel("skeletonize", path, "--local", "-o", self.path("out.json"),
+    def skeletonize_image(self, name):
+        return harness.bccskel("skeletonize", harness.DATA / "hostile" / name, "--local", "--json",
+                               "-o", self.path("out.json"), "-o", self.path("out.vtp"),
                                timeout=SECONDS, preexec_fn=harness.limit_memory(GIB))
 
+    def test_broken_images_are_refused_with_the_reason(self):
+        for name, code, message in IMAGES_REFUSED:
+            with self.subTest(name):
+                done = self.skeletonize_image(name)
+                self.check_refused(done, code, message)
+                self.assertEqual(done.stderr.count(name), 1, "the file is named once")
+
+    def test_valid_images_keep_the_topology_of_their_mask(self):
+        for name, topology in IMAGES_ACCEPTED:
+            with self.subTest(name):
+                done = self.skeletonize_image(name)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                certificate = json.loads(done.stdout)["certificate"]
+                self.assertEqual(certificate["mask"], certificate["skeleton"])
+                if topology:
+                    self.assertEqual(tuple(certificate["mask"].values()), topology)
+
     def test_every_file_has_a_stated_end(self):
-        stated = {row[0] for row in REFUSED + ACCEPTED} | set(SURVIVED) | {"LIST.md"}
-        present = {p.name for p in (harness.DATA / "hostile").iterdir()
-                   if p.suffix not in NOT_YET}
+        rows = REFUSED + ACCEPTED + IMAGES_REFUSED + IMAGES_ACCEPTED
+        stated = {row[0] for row in rows} | set(SURVIVED) | {"LIST.md"}
+        present = {p.name for p in (harness.DATA / "hostile").iterdir()}
         self.assertEqual(present, stated)
 
 

@@ -1,0 +1,24 @@
+#ifndef BCCSKEL_CLIENT_CLI_CHOICE_OPTION_H_
+#define BCCSKEL_CLIENT_CLI_CHOICE_OPTION_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bccskel::cli {
+
+// An option with a few words as its values.
+template <typename Enum>
+CLI::Option* AddChoice(CLI::App& command, const char* name, Enum& value, const char* description,
+                       const std::vector<std::pair<std::string, Enum>>& choices) {
+  std::string words;
+  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  return command.add_option(name, value, description)
+      ->transform(CLI::CheckedTransformer(choices))
+      ->option_text(words);
+}
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_CHOICE_OPTION_H_

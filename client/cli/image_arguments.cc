@@ -1,0 +1,172 @@
+#include "client/cli/image_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+#include "client/cli/choice_option.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::cli {
+namespace {
+
+constexpr const char* kGroup = "Images";
+
+// Three numbers with commas between them.
+template <typename Number>
+CLI::Option* AddTriple(CLI::App& command, const char* name, const char* description,
+                       std::function<void(const std::array<Number, 3>&)> use) {
+  return command
+      .add_option_function<std::vector<Number>>(
+          name,
+          [use](const std::vector<Number>& values) {
+            use({values[0], values[1], values[2]});
+          },
+          description)
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("X,Y,Z");
+}
+
+void AddForeground(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option* labels =
+      command.add_option("--label,--labels", arguments.labels, "Voxels of these labels")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->option_text("LIST");
+  CLI::Option* range =
+      command
+          .add_option("--range", arguments.range, "Voxels from LOW to HIGH; either may be left out")
+          ->option_text("LOW,HIGH");
+  CLI::Option* threshold =
+      command.add_option("--threshold", arguments.threshold, "Voxels from this value on")
+          ->option_text("T");
+  CLI::Option* below =
+      command.add_option("--below", arguments.below, "Voxels below this value (level sets: 0)")
+          ->option_text("T");
+  const std::vector<CLI::Option*> rules = {labels, range, threshold, below};
+  for (CLI::Option* rule : rules) {
+    for (CLI::Option* other : rules) {
+      if (rule != other) rule->excludes(other);
+    }
+  }
+  command.add_flag("--invert", arguments.invert, "Exchange object and background");
+}
+
+void AddConversion(CLI::App& command, ImageArguments& arguments) {
+  AddChoice<MaskAdjacency>(command, "--adjacency", arguments.mask.adjacency,
+                           "Which voxels touch: object, background (default 26,6)",
+                           {{"26,6", MaskAdjacency::k26}, {"6,26", MaskAdjacency::k6}});
+  CLI::Option* sampling =
+      command
+          .add_option_function<std::string>(
+              "--sampling",
+              [&arguments](const std::string& word) {
+                if (word == "exact") return;
+                arguments.mask.sampling.emplace().weights =
+                    word == "nearest" ? MaskWeights::kNearest : MaskWeights::kTrilinear;
+              },
+              "How voxels become lattice points; only exact (default) keeps the topology")
+          ->check(CLI::IsMember({"exact", "nearest", "trilinear"}))
+          ->option_text("exact|nearest|trilinear");
+  command
+      .add_option_function<double>(
+          "--density",
+          [&arguments](double points) {
+            if (!arguments.mask.sampling.has_value()) {
+              throw CLI::ValidationError("--density is for samplings, not for exact");
+            }
+            arguments.mask.sampling->points_per_voxel = points;
+          },
+          "Lattice points for each voxel of a sampling (default 2)")
+      ->needs(sampling)
+      ->option_text("X");
+}
+
+RawLayout& RawOf(ImageArguments& arguments) {
+  if (!arguments.open.raw.has_value()) arguments.open.raw.emplace();
+  return *arguments.open.raw;
+}
+
+void AddRaw(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option* size = AddTriple<int64_t>(
+      command, "--raw-size", "Read raw voxels, this many",
+      [&arguments](const std::array<int64_t, 3>& n) { RawOf(arguments).size = n; });
+  command
+      .add_option_function<std::string>(
+          "--raw-type",
+          [&arguments](const std::string& name) {
+            const absl::StatusOr<VoxelType> type = ParseVoxelType(name);
+            if (!type.ok()) throw CLI::ValidationError(std::string(type.status().message()));
+            RawOf(arguments).type = *type;
+          },
+          "Their type: u8 (default), i8, u16, i16, u32, i32, u64, i64, f32 or f64")
+      ->needs(size)
+      ->option_text("TYPE");
+  command
+      .add_option_function<std::string>(
+          "--raw-order",
+          [&arguments](const std::string& word) {
+            RawOf(arguments).byte_order = word == "big" ? std::endian::big : std::endian::little;
+          },
+          "Their byte order (default little)")
+      ->check(CLI::IsMember({"little", "big"}))
+      ->needs(size)
+      ->option_text("little|big");
+  command
+      .add_option_function<uint64_t>(
+          "--raw-header", [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
+          "Bytes in front of them (default 0)")
+      ->needs(size)
+      ->option_text("N");
+}
+
+// An end of a range; open where nothing is said.
+absl::StatusOr<double> EndOf(std::string_view text, double open) {
+  if (text.empty()) return open;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  return absl::InvalidArgumentError("--range: '" + std::string(text) + "' is not a number");
+}
+
+absl::StatusOr<ForegroundRule> RangeOf(std::string_view text) {
+  const size_t comma = text.find(',');
+  if (comma == text.npos || text.size() == 1) {
+    return absl::InvalidArgumentError("--range needs LOW,HIGH, not '" + std::string(text) + "'");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const double low, EndOf(text.substr(0, comma), -ForegroundRule::kOpen));
+  BCCSKEL_ASSIGN_OR_RETURN(const double high, EndOf(text.substr(comma + 1), ForegroundRule::kOpen));
+  return ForegroundRule::Range(low, high);
+}
+
+absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
+  if (!arguments.labels.empty()) return ForegroundRule::Labels(arguments.labels);
+  if (!arguments.range.empty()) return RangeOf(arguments.range);
+  if (arguments.threshold.has_value()) return ForegroundRule::From(*arguments.threshold);
+  if (arguments.below.has_value()) return ForegroundRule::Below(*arguments.below);
+  return ForegroundRule::NonZero();
+}
+
+}  // namespace
+
+void AddImage(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option_group& group = *command.add_option_group(kGroup, "How an image becomes an object");
+  AddForeground(group, arguments);
+  AddConversion(group, arguments);
+  AddTriple<double>(group, "--voxel-size", "Spacing, instead of the one in the file",
+                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+  AddRaw(group, arguments);
+  group.callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
+}
+
+absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(ForegroundRule rule, UprightRule(arguments));
+  return arguments.invert ? rule.Inverted() : rule;
+}
+
+}  // namespace bccskel::cli

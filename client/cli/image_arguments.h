@@ -1,0 +1,40 @@
+#ifndef BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_
+#define BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/image/foreground.h"
+#include "core/image/image_options.h"
+#include "core/mask/mask_converter.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bccskel::cli {
+
+// How an image becomes an object, as the command line says it.
+struct ImageArguments {
+  ImageOptions open;
+  std::vector<uint64_t> labels;
+  std::string range;  // "LOW,HIGH", an end left out is open
+  std::optional<double> threshold;
+  std::optional<double> below;
+  bool invert = false;
+  MaskOptions mask;
+  bool given = false;  // any of these options
+};
+
+// Adds the options to a command that takes images.
+void AddImage(CLI::App& command, ImageArguments& arguments);
+
+// Errors: INVALID_ARGUMENT, as ForegroundRule's.
+absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_

@@ -1,0 +1,42 @@
+#ifndef BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
+#define BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/cli/image_arguments.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/image/image_info.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::cli {
+
+// What an image was before it became an object.
+struct ImageStage {
+  ImageInfo info;
+  uint64_t voxels = 0;  // of the foreground
+  BettiNumbers mask;    // counted on the image's own grid
+};
+
+struct ImageObject {
+  Volume volume;
+  ImageStage image;
+};
+
+// Reads an image slice by slice and converts its foreground.
+// Errors: as OpenImage(), ForegroundOf() and MaskConverter; every message names the path.
+absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
+                                             const ImageArguments& arguments,
+                                             const exec::Context& context);
+
+// OK where the object has the topology of the mask that it was made from. A sampling may change
+// it, which is only said on standard error; the exact conversion may not.
+// Errors: INTERNAL, says what changed.
+absl::Status CheckConversion(const std::string& path, const ImageArguments& arguments,
+                             const BettiNumbers& mask, const BettiNumbers& object);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_

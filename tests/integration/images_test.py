@@ -1,0 +1,144 @@
+"""Segmented images: from the file to a skeleton that keeps what the mask has, at its place."""
+
+import gzip
+import json
+import xml.etree.ElementTree
+
+import harness
+import numpy
+
+# A file, what is foreground, its voxels and their (components, loops, cavities), as other programs
+# counted them.
+VOLUMES = [
+    ("airway_p4_chopped.nrrd", (), 485117, (1, 2, 0)),
+    ("neuron_28648864.nrrd", (), 335259, (1, 1, 1)),
+    ("neuron_28018323.nrrd", (), 384708, (4, 4, 0)),
+    ("neuron_28794499.nrrd", (), 1446575, (3, 6, 5)),
+    ("Al.100.vol", (), 70413, (1, 2, 0)),
+    ("cat10b.vol", (), 8043, (1, 0, 0)),
+    ("lobster.vol", ("--threshold", 40), 269432, (46, 547, 222)),
+    ("lobsterCroped2.nii.gz", ("--range", "40,"), 50899, (3, 102, 50)),
+    ("liver.inr.gz", ("--label", 127), 314086, (1, 0, 33)),
+    ("poon2015_BBB_noLeakage_manualLabel_v2.tif", (), 242943, (153, 224, 0)),
+    ("santos2015_lowContrastVessels_labelsMarc.tif", (), 458204, (11, 32, 0)),
+    ("100_fiberform.tif", ("--threshold", 90), 167140, (10, 6, 16)),
+    ("aorta-final-levelset.mha", ("--below", 0), 11590, (1, 0, 0)),
+]
+
+
+def ring(size=(9, 8, 7)):
+    """A mask with a loop, index (z, y, x)."""
+    mask = numpy.zeros(size[::-1], "u1")
+    mask[3, 1:7, 1:8] = 5
+    mask[3, 3:5, 3:6] = 0
+    return mask
+
+
+class ImagesTest(harness.TestCase):
+    def skeletonize(self, source, *words):
+        """The summary of a skeleton made here."""
+        return json.loads(self.succeed("skeletonize", source, "--local", "--json", "-o",
+                                       self.path("s.vtp"), *words))
+
+    def write(self, name, content):
+        (self.folder / name).write_bytes(content)
+        return self.path(name)
+
+    def write_ring(self):
+        header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 8 7\nspace: LPS\n"
+                  "space directions: (0,2,0) (-3,0,0) (0,0,4)\nspace origin: (100,200,300)\n"
+                  "encoding: gzip\n\n")
+        return self.write("ring.nrrd", header.encode() + gzip.compress(ring().tobytes()))
+
+    @harness.needs_data("volume")
+    def test_real_volumes_keep_their_topology_through_mask_lattice_and_skeleton(self):
+        for name, rule, voxels, topology in VOLUMES:
+            with self.subTest(name):
+                summary = self.skeletonize(harness.DATA / "volume" / name, *rule)
+                self.assertEqual(summary["image"]["voxels"], voxels)
+                for stage in ("mask", "input", "skeleton"):
+                    betti = summary["certificate"][stage]
+                    found = (betti["components"], betti["loops"], betti["cavities"])
+                    self.assertEqual(found, topology, stage)
+                self.assertEqual(summary["certificate"]["simple_points_left"], 0)
+
+    def test_the_skeleton_lies_in_the_world_of_the_image(self):
+        summary = self.skeletonize(self.write_ring())
+        self.assertEqual(summary["certificate"]["mask"],
+                         {"components": 1, "loops": 1, "cavities": 0})
+        text = xml.etree.ElementTree.parse(self.path("s.vtp")).find(".//Points/DataArray").text
+        points = numpy.array(text.split(), float).reshape(-1, 3)
+        # Voxel (x, y, z) lies at (100 - 3 y, 200 + 2 x, 300 + 4 z); half a voxel around each.
+        self.assertTrue((points >= [100 - 3 * 6.5, 200 + 2 * 0.5, 300 + 4 * 2.5]).all(), points)
+        self.assertTrue((points <= [100 - 3 * 0.5, 200 + 2 * 7.5, 300 + 4 * 3.5]).all(), points)
+        self.assertLess(abs(points[:, 2].mean() - 312), 1)
+
+    def test_the_same_mask_gives_the_same_skeleton_from_every_format(self):
+        mask = ring()
+        numpy.save(self.path("c.npy"), mask)
+        numpy.save(self.path("f.npy"), numpy.asfortranarray(mask.astype(">i4")))
+        raw = self.write("mask.bin", b"head" + mask.astype(">u2").tobytes())
+        packed = self.write("mask.raw.gz", gzip.compress(mask.tobytes()))
+        layout = ("--raw-size", "9,8,7")
+        runs = [self.skeletonize(self.path("c.npy")), self.skeletonize(self.path("f.npy")),
+                self.skeletonize(raw, *layout, "--raw-type", "u16", "--raw-order", "big",
+                                 "--raw-header", 4),
+                self.skeletonize(packed, *layout)]
+        self.assertEqual({run["sha256"] for run in runs}, {runs[0]["sha256"]})
+        placed = self.skeletonize(packed, *layout, "--voxel-size", "3,2,0.5")
+        self.assertEqual(placed["image"]["spacing"], [3, 2, 0.5])
+
+    def test_rules_choose_the_object(self):
+        ring_file = self.write_ring()
+        for rule, loops in ((("--label", "4,5"), 1), (("--label", 4, "--label", 5), 1),
+                            (("--range", "5,5"), 1), (("--range", ",-1", "--invert"), 0),
+                            (("--threshold", 4.5), 1), (("--below", 1, "--invert"), 1)):
+            with self.subTest(rule):
+                summary = self.skeletonize(ring_file, *rule)
+                self.assertEqual(summary["certificate"]["mask"]["loops"], loops)
+        info = json.loads(self.succeed("info", ring_file, "--label", 7, "--json"))
+        self.assertEqual(info["image"]["voxels"], 0)
+
+    def test_adjacency_decides_whether_voxels_at_a_corner_touch(self):
+        pair = numpy.zeros((2, 2, 2), "u1")
+        pair[0, 0, 0] = pair[1, 1, 1] = 1
+        numpy.save(self.path("pair.npy"), pair)
+        for adjacency, components in (("26,6", 1), ("6,26", 2)):
+            summary = self.skeletonize(self.path("pair.npy"), "--adjacency", adjacency)
+            self.assertEqual(summary["certificate"]["skeleton"]["components"], components)
+
+    def test_a_sampling_says_what_it_changed(self):
+        line = numpy.zeros((5, 5, 21), "u1")
+        line[2, 2, ::2] = 1
+        numpy.save(self.path("line.npy"), line)
+        done = harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--sampling",
+                               "trilinear", "--density", 0.5, "-o", self.path("s.swc"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("changed components 11 -> ", done.stderr)
+
+    def test_voxelize_submit_and_view_take_what_comes_from_an_image(self):
+        ring_file = self.write_ring()
+        text = self.succeed("voxelize", ring_file, "-o", self.path("v.bccb"))
+        self.assertIn("NRRD, 9 x 8 x 7 uint8, 36 voxels", text)
+        with harness.Server(self.folder) as server:
+            place = ("--server", server.address, "--json", "-o", self.path("s.json"))
+            sent = json.loads(self.succeed("submit", self.path("v.bccb"), *place))
+            direct = json.loads(self.succeed("skeletonize", ring_file, *place))
+        self.assertEqual(sent["sha256"], direct["sha256"])
+        self.assertEqual(direct["certificate"]["mask"], direct["certificate"]["skeleton"])
+        self.succeed("view", self.path("s.json"), "--object", ring_file, "-o", self.path("v.html"))
+
+    def test_options_of_images_are_for_images(self):
+        wrong = [("are for images", "a.off", "--label", 1), ("are for meshes", "a.nii", "--points", 9),
+                 ("excludes", "a.nii", "--label", 1, "--below", 0),
+                 ("holds no number", "a.nii", "--range", "3,2"),
+                 ("requires --raw-size", "a.nii", "--raw-type", "u8"),
+                 ("not a voxel type", "a.nii", "--raw-size", "1,1,1", "--raw-type", "u12")]
+        for message, *words in wrong:
+            with self.subTest(message):
+                self.fail_with(2, message, "skeletonize", *words, "--local", "-o",
+                               self.path("s.swc"))
+
+
+if __name__ == "__main__":
+    harness.main()
