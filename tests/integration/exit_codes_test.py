@@ -38,7 +38,7 @@ class ExitCodesTest(harness.TestCase):
         self.fail_with(3, "format not supported", *self.skeletonize("a.docx", "--local"))
         self.fail_with(3, "No such file", *self.skeletonize("a.nrrd", "--local"))
         self.fail_with(3, "submit takes volumes", "submit", "a.off", "-o", self.path("a.swc"))
-        self.fail_with(3, "is a volume already", "voxelize", "a.exr", "--points", 9, "-o", "b.exr")
+        self.fail_with(3, "is a volume already", "voxelize", "a.exr", "-o", "b.exr")
 
     def test_4_for_no_server(self):
         done = self.fail_with(4, "server unix:/nowhere", *self.skeletonize(
