@@ -26,6 +26,9 @@ class Ticket {
   uint64_t bytes() const { return bytes_; }
   // Gives back what is over `bytes`.
   void ShrinkTo(uint64_t bytes);
+  // The same, or takes what is missing.
+  // Errors: a Refusal: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
+  absl::Status ResizeTo(uint64_t bytes);
   // Gives back the place among the jobs; the memory stays.
   void LeavePlace();
 
@@ -70,6 +73,10 @@ class Admission {
 
  private:
   friend class Ticket;
+  // Needs of these two: mutex_ held.
+  absl::Status CheckLimit(uint64_t bytes) const;
+  absl::Status Take(uint64_t bytes);
+  absl::Status Grow(const Ticket& ticket, uint64_t bytes);
   void GiveBack(const Usage& part);
 
   const Limits limits_;

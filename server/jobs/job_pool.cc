@@ -6,7 +6,7 @@
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
-#include "server/jobs/pool_job.h"
+#include "server/jobs/skeletonize_work.h"
 
 namespace bccskel::server {
 namespace {
@@ -15,11 +15,11 @@ namespace {
 // slow decoder from holding up the others' uploads.
 constexpr int kDecoderThreads = 2;
 
-absl::Status CheckSize(const JobRequest& request, uint64_t max_volume_bytes) {
-  if (request.size_bytes <= max_volume_bytes) return absl::OkStatus();
+absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
+  if (size_bytes <= max_volume_bytes) return absl::OkStatus();
   return Refuse(Refusal::kVolumeTooLarge,
-                absl::StrFormat("the declared volume has %d bytes, the limit is %d",
-                                request.size_bytes, max_volume_bytes));
+                absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
+                                max_volume_bytes));
 }
 
 }  // namespace
@@ -32,12 +32,20 @@ JobPool::JobPool(const Limits& limits)
 
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
                                                     std::shared_ptr<JobListener> listener) {
-  BCCSKEL_RETURN_IF_ERROR(CheckSize(request, limits_.max_volume_bytes));
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(
       Ticket ticket, admission_.Admit(BytesToSkeletonize(request.header, request.size_bytes)));
-  return std::make_shared<PoolJob>(absl::StrFormat("jobs/%d", next_job_++), std::move(request),
-                                   std::move(ticket), limits_.volume, std::move(listener),
-                                   decoders_, compute_);
+  const auto deadline = request.deadline;
+  return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume, listener),
+                std::move(ticket), deadline, listener);
+}
+
+std::shared_ptr<Job> JobPool::Launch(std::unique_ptr<JobWork> work, Ticket ticket,
+                                     PoolJob::Clock::time_point deadline,
+                                     std::shared_ptr<UploadListener> listener) {
+  return std::make_shared<PoolJob>(absl::StrFormat("jobs/%d", next_job_++), std::move(work),
+                                   std::move(ticket), deadline, std::move(listener), decoders_,
+                                   compute_);
 }
 
 }  // namespace bccskel::server

@@ -9,6 +9,7 @@
 #include "server/admission/admission.h"
 #include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
+#include "server/jobs/pool_job.h"
 #include "server/jobs/task_threads.h"
 
 namespace bccskel::server {
@@ -42,6 +43,10 @@ class JobPool : public JobRunner {
   Admission::Usage admission_usage() const { return admission_.usage(); }
 
  private:
+  std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket,
+                              PoolJob::Clock::time_point deadline,
+                              std::shared_ptr<UploadListener> listener);
+
   const Limits limits_;
   Admission admission_;
   std::atomic<uint64_t> next_job_{1};

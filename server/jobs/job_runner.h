@@ -26,6 +26,12 @@ struct JobRequest {
   exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
 };
 
+// Memory that a graph keeps.
+inline uint64_t GraphBytes(const SkeletonGraph& graph) {
+  return graph.nodes.size() * sizeof(SkeletonNode) + graph.edges.size() * sizeof(SkeletonEdge) +
+         graph.points.size() * sizeof(SkeletonPoint);
+}
+
 struct JobResult {
   SkeletonizeResult skeleton;
   std::string thin_volume;  // encoded; empty unless asked for
@@ -37,11 +43,15 @@ struct JobResult {
 
 // Hears what becomes of a job. Called on the job's threads, never from inside a call to the job;
 // the listener must not block.
-class JobListener {
+class UploadListener {
  public:
-  virtual ~JobListener() = default;
+  virtual ~UploadListener() = default;
   // The bytes of the last Append() are decoded: there is room for more. May come after OnEnd().
   virtual void OnBytesConsumed() = 0;
+};
+
+class JobListener : public UploadListener {
+ public:
   // `elapsed` since the computation began.
   virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
   // Exactly once, whatever happens.

@@ -1,33 +1,22 @@
 #include "server/jobs/pool_job.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "server/admission/demand.h"
+#include "core/exec/status_macros.h"
+#include "core/exec/worker_team.h"
 #include "server/jobs/out_of_memory.h"
-#include "server/jobs/run_skeletonize.h"
 
 namespace bccskel::server {
-namespace {
 
-// Memory that a finished result keeps while it is sent.
-uint64_t BytesOf(const JobResult& result) {
-  const SkeletonGraph& graph = result.skeleton.graph;
-  return graph.nodes.size() * sizeof(SkeletonNode) + graph.edges.size() * sizeof(SkeletonEdge) +
-         graph.points.size() * sizeof(SkeletonPoint) + result.thin_volume.size();
-}
-
-}  // namespace
-
-PoolJob::PoolJob(std::string name, JobRequest request, Ticket ticket, const VolumeLimits& limits,
-                 std::shared_ptr<JobListener> listener, TaskThreads& decoders,
-                 ComputeQueue& compute)
+PoolJob::PoolJob(std::string name, std::unique_ptr<JobWork> work, Ticket ticket,
+                 Clock::time_point deadline, std::shared_ptr<UploadListener> listener,
+                 TaskThreads& decoders, ComputeQueue& compute)
     : name_(std::move(name)),
-      request_(std::move(request)),
+      deadline_(deadline),
       decoders_(decoders),
       compute_(compute),
+      work_(std::move(work)),
       ticket_(std::move(ticket)),
-      intake_(std::make_unique<VolumeIntake>(request_.header, request_.size_bytes, limits)),
       listener_(std::move(listener)) {}
 
 void PoolJob::Append(std::string bytes) {
@@ -44,12 +33,12 @@ void PoolJob::Cancel() {
   stop_.request_stop();
   {
     std::lock_guard lock(mutex_);
-    const bool waits =
+    const bool removed =
         phase_ == Phase::kWaiting && compute_.Remove(entry_) == ComputeQueue::Removal::kRemoved;
-    if (phase_ != Phase::kReceiving && !waits) return;
+    if (phase_ != Phase::kReceiving && phase_ != Phase::kPaused && !removed) return;
     phase_ = Phase::kDecoding;
   }
-  decoders_.Post([self = shared_from_this()] { self->End(self->StopStatus()); });
+  decoders_.Post([self = shared_from_this()] { self->End(self->StopContext().StopStatus()); });
 }
 
 bool PoolJob::Enter(Phase from, Phase to) {
@@ -59,105 +48,101 @@ bool PoolJob::Enter(Phase from, Phase to) {
   return true;
 }
 
-exec::Context PoolJob::DecodeContext() const {
-  return {.stop = stop_.get_token(), .deadline = request_.deadline, .on_shell = nullptr};
+exec::Context PoolJob::StopContext() const {
+  return {.stop = stop_.get_token(), .deadline = deadline_, .on_shell = nullptr};
 }
 
-absl::Status PoolJob::StopStatus() const { return DecodeContext().StopStatus(); }
+template <typename Step>
+absl::Status PoolJob::OnDecoderClock(Step step) {
+  const Clock::time_point start = Clock::now();
+  const exec::Context context = StopContext();
+  absl::Status status = context.StopStatus();
+  if (status.ok()) status = OrOutOfMemory([&]() -> absl::Status { return step(context); });
+  times_.decoded += Clock::now() - start;
+  return status.ok() ? context.StopStatus() : status;
+}
 
 void PoolJob::Decode(const std::string& bytes) {
-  const Clock::time_point start = Clock::now();
-  absl::Status status = StopStatus();
-  if (status.ok()) status = OrOutOfMemory([&] { return intake_->Append(bytes); });
-  decoded_ += Clock::now() - start;
-  if (status.ok()) status = StopStatus();
-  if (!status.ok()) return End(std::move(status));
-  std::shared_ptr<JobListener> listener;
-  {
+  absl::Status status =
+      OnDecoderClock([&](const exec::Context& context) { return work_->Append(bytes, context); });
+  std::shared_ptr<UploadListener> listener;
+  if (status.ok()) {
     // Whoever cancels sees either kDecoding, and the stop is seen here, or kReceiving.
     std::lock_guard lock(mutex_);
-    if (!stop_.stop_requested()) {
-      phase_ = Phase::kReceiving;
-      listener = listener_;
-    }
+    status = StopContext().StopStatus();
+    if (status.ok()) phase_ = Phase::kReceiving;
+    listener = listener_;
   }
-  if (listener == nullptr) return End(StopStatus());
+  if (!status.ok()) return End(std::move(status));
   listener->OnBytesConsumed();
 }
 
 void PoolJob::DecodeRest(const std::optional<Sha256Digest>& expected) {
-  const Clock::time_point start = Clock::now();
-  absl::Status status = StopStatus();
-  if (status.ok()) {
-    absl::StatusOr<Volume> volume =
-        OrOutOfMemory([&] { return intake_->Finish(expected, DecodeContext()); });
-    status = volume.status();
-    if (volume.ok()) {
-      volume_ = *std::move(volume);
-      mask_topology_ = intake_->mask_topology();
-    }
-  }
-  intake_.reset();
-  decoded_ += Clock::now() - start;
+  absl::Status status = OnDecoderClock(
+      [&](const exec::Context& context) { return work_->Finish(expected, context); });
+  if (status.ok()) status = ticket_.ResizeTo(work_->BytesToRun());
   if (!status.ok()) return End(std::move(status));
-  ticket_.ShrinkTo(BytesToSkeletonize(*volume_));
   WaitForTurn();
 }
 
 void PoolJob::WaitForTurn() {
-  waiting_since_ = Clock::now();
-  const int most_threads =
-      ThreadsFor(volume_->brick_count(), request_.threads_wanted, compute_.threads());
-  std::unique_lock lock(mutex_);
-  if (stop_.stop_requested()) {
-    lock.unlock();
-    return End(StopStatus());
+  absl::Status stop;
+  {
+    std::lock_guard lock(mutex_);
+    stop = StopContext().StopStatus();
+    if (stop.ok()) {
+      phase_ = Phase::kPaused;
+      PostIfReady();
+    }
   }
+  if (!stop.ok()) End(std::move(stop));
+}
+
+void PoolJob::Wake() {
+  std::lock_guard lock(mutex_);
+  if (phase_ == Phase::kPaused) PostIfReady();
+}
+
+void PoolJob::PostIfReady() {
+  if (!work_->MayRun()) return;
   phase_ = Phase::kWaiting;
-  entry_ =
-      compute_.Post(most_threads, [self = shared_from_this()](int threads) { self->Run(threads); });
+  waiting_since_ = Clock::now();
+  entry_ = compute_.Post(work_->MostThreads(compute_.threads()),
+                         [self = shared_from_this()](int threads) { self->Run(threads); });
 }
 
 void PoolJob::Run(int threads) {
-  std::shared_ptr<JobListener> listener;
+  const Clock::time_point start = Clock::now();
   {
     std::lock_guard lock(mutex_);
     phase_ = Phase::kRunning;
-    listener = listener_;
+    times_.queued += start - waiting_since_;
   }
-  const auto queued = Clock::now() - waiting_since_;
-  absl::StatusOr<JobResult> result = RunSkeletonize(
-      *volume_, request_, threads, stop_.get_token(),
-      [&listener](const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) {
-        listener->OnShell(progress, elapsed);
-      });
-  if (result.ok()) {
-    result->queued = queued;
-    result->decoded = decoded_;
-    result->skeleton.certificate.mask = mask_topology_;
-  }
-  End(std::move(result));
+  absl::StatusOr<JobWork::Turn> turn =
+      OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(threads); });
+  times_.computed += Clock::now() - start;
+  if (turn.ok() && *turn == JobWork::Turn::kMore) return WaitForTurn();
+  End(turn.status());
 }
 
-void PoolJob::End(absl::StatusOr<JobResult> result) {
-  std::shared_ptr<JobListener> listener;
-  bool cancelled = false;
+absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(int threads) {
+  exec::WorkerTeam team(threads);
+  exec::Context context = StopContext();
+  context.team = &team;
+  return work_->Run(std::move(context), [job = weak_from_this()] {
+    if (const auto self = job.lock()) self->Wake();
+  });
+}
+
+void PoolJob::End(absl::Status status) {
   {
     std::lock_guard lock(mutex_);
     phase_ = Phase::kEnded;
-    listener = std::move(listener_);
-    cancelled = stop_.stop_requested();
+    listener_ = nullptr;  // it holds the job
+    // The last stage may not have seen it in time.
+    if (stop_.stop_requested() && status.ok()) status = StopContext().StopStatus();
   }
-  if (cancelled && result.ok()) result = StopStatus();  // the last stage did not see it in time
-  volume_.reset();
-  intake_.reset();
-  if (result.ok()) {
-    ticket_.LeavePlace();
-    ticket_.ShrinkTo(BytesOf(*result));
-    result->ticket = std::move(ticket_);
-  }
-  ticket_ = Ticket();
-  listener->OnEnd(std::move(result));
+  work_->End(status, times_, std::move(ticket_));
 }
 
 }  // namespace bccskel::server

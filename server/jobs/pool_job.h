@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_SERVER_JOBS_POOL_JOB_H_
 #define BCCSKEL_SERVER_JOBS_POOL_JOB_H_
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,25 +9,29 @@
 
 #include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
+#include "server/jobs/job_work.h"
 #include "server/jobs/task_threads.h"
-#include "server/jobs/volume_intake.h"
 
 namespace bccskel::server {
 
 // A job of a JobPool: receives its volume piece by piece, each decoded on a decoder thread, then
-// waits for its turn and is computed. At any time at most one task of a job exists, so that its
-// volume needs no lock; the mutex guards what callers and that task share.
+// waits for its turn and is computed, in as many turns as its work wants. At any time at most one
+// task of a job exists, so that its work needs no lock; the mutex guards what callers and that task
+// share.
 //
-//   kReceiving --Append, FinishVolume--> kDecoding --> kReceiving | kWaiting --> kRunning -->
-//   kEnded
+//   kReceiving --Append, FinishVolume--> kDecoding --> kReceiving | kPaused
+//   kPaused --as soon as the work may run--> kWaiting --> kRunning --> kPaused | kEnded
 //
-// Cancel() asks the task to stop; where there is none (kReceiving, kWaiting) it posts one that ends
-// the job.
+// Cancel() asks the task to stop; where there is none (kReceiving, kPaused, kWaiting) it posts one
+// that ends the job.
 class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
  public:
+  using Clock = exec::Context::Clock;
+
   // Needs: decoders and compute outlive the job.
-  PoolJob(std::string name, JobRequest request, Ticket ticket, const VolumeLimits& limits,
-          std::shared_ptr<JobListener> listener, TaskThreads& decoders, ComputeQueue& compute);
+  PoolJob(std::string name, std::unique_ptr<JobWork> work, Ticket ticket,
+          Clock::time_point deadline, std::shared_ptr<UploadListener> listener,
+          TaskThreads& decoders, ComputeQueue& compute);
 
   const std::string& name() const override { return name_; }
   void Append(std::string bytes) override;
@@ -36,37 +39,40 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   void Cancel() override;
 
  private:
-  using Clock = exec::Context::Clock;
-  enum class Phase { kReceiving, kDecoding, kWaiting, kRunning, kEnded };
+  enum class Phase { kReceiving, kDecoding, kPaused, kWaiting, kRunning, kEnded };
 
   // False when the job was cancelled meanwhile and the caller has nothing to do.
   bool Enter(Phase from, Phase to);
   void Decode(const std::string& bytes);
   void DecodeRest(const std::optional<Sha256Digest>& expected);
+  // Runs a step of the decoder on the clock. Errors: the step's; when the job is to stop.
+  template <typename Step>
+  absl::Status OnDecoderClock(Step step);
   void WaitForTurn();
+  void Wake();
+  // Needs: mutex_ held.
+  void PostIfReady();
   void Run(int threads);
-  void End(absl::StatusOr<JobResult> result);
-  exec::Context DecodeContext() const;
-  absl::Status StopStatus() const;
+  absl::StatusOr<JobWork::Turn> RunTurn(int threads);
+  void End(absl::Status status);
+  exec::Context StopContext() const;
 
   const std::string name_;
-  const JobRequest request_;
+  const Clock::time_point deadline_;
   TaskThreads& decoders_;
   ComputeQueue& compute_;
   std::stop_source stop_;
 
   // Owned by the one task that exists.
+  const std::unique_ptr<JobWork> work_;
   Ticket ticket_;
-  std::unique_ptr<VolumeIntake> intake_;
-  std::optional<Volume> volume_;
-  std::optional<BettiNumbers> mask_topology_;
-  std::chrono::nanoseconds decoded_{0};
-  Clock::time_point waiting_since_;
+  JobTimes times_;
 
   std::mutex mutex_;
-  Phase phase_ = Phase::kReceiving;        // guarded by mutex_
-  ComputeQueue::Entry entry_ = 0;          // guarded by mutex_; valid in kWaiting
-  std::shared_ptr<JobListener> listener_;  // guarded by mutex_; null once ended
+  Phase phase_ = Phase::kReceiving;           // guarded by mutex_
+  ComputeQueue::Entry entry_ = 0;             // guarded by mutex_; valid in kWaiting
+  Clock::time_point waiting_since_;           // guarded by mutex_; valid in kWaiting
+  std::shared_ptr<UploadListener> listener_;  // guarded by mutex_; null once ended
 };
 
 }  // namespace bccskel::server

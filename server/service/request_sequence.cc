@@ -20,17 +20,7 @@ absl::Status WrongSize(const std::string& field, const std::string& message) {
 
 }  // namespace
 
-absl::Status RequestSequence::Take(const v1::SkeletonizeRequest& request) {
-  switch (request.request_case()) {
-    case v1::SkeletonizeRequest::kConfig:
-      return TakeConfig(request.config());
-    case v1::SkeletonizeRequest::kChunk:
-      return TakeChunk(request.chunk());
-    case v1::SkeletonizeRequest::kFinish:
-      return TakeFinish(request.finish());
-    case v1::SkeletonizeRequest::REQUEST_NOT_SET:
-      break;
-  }
+absl::Status RequestSequence::UnknownRequest() {
   return wire::InvalidField("request", "holds neither config nor chunk nor finish");
 }
 
@@ -42,10 +32,10 @@ absl::Status RequestSequence::HalfClose() const {
                     "VOLUME_TRUNCATED");
 }
 
-absl::Status RequestSequence::TakeConfig(const v1::SkeletonizeConfig& config) {
+absl::Status RequestSequence::TakeConfig(uint64_t declared_bytes) {
   BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kConfig, "config"));
   expected_ = Expected::kBytes;
-  declared_bytes_ = config.volume().size_bytes();
+  declared_bytes_ = declared_bytes;
   return absl::OkStatus();
 }
 

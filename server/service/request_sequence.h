@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "absl/status/status.h"
-#include "bccskel/v1/skeletonization_service.pb.h"
+#include "bccskel/v1/volume.pb.h"
 
 namespace bccskel::server {
 
@@ -14,10 +14,24 @@ inline constexpr size_t kMaxChunkBytes = size_t{1} << 20;
 // Holds the requests of a stream to their order: config, chunks without gaps, finish, half-close.
 class RequestSequence {
  public:
-  // Checks one more request against what came before and the declared size.
+  // Checks one more request, whose kind is config, chunk or finish, against what came before and
+  // the declared size.
   // Errors: INVALID_ARGUMENT for a request out of order, a chunk or a volume of a wrong size;
   //         OUT_OF_RANGE, with the committed size, for a chunk with a wrong offset.
-  absl::Status Take(const v1::SkeletonizeRequest& request);
+  template <typename Request>
+  absl::Status Take(const Request& request) {
+    switch (request.request_case()) {
+      case Request::kConfig:
+        return TakeConfig(request.config().volume().size_bytes());
+      case Request::kChunk:
+        return TakeChunk(request.chunk());
+      case Request::kFinish:
+        return TakeFinish(request.finish());
+      case Request::REQUEST_NOT_SET:
+        break;
+    }
+    return UnknownRequest();
+  }
 
   // The caller sends no more.
   // Errors: INVALID_ARGUMENT before finish.
@@ -28,9 +42,10 @@ class RequestSequence {
  private:
   enum class Expected { kConfig, kBytes, kNothing };
 
-  absl::Status TakeConfig(const v1::SkeletonizeConfig& config);
+  absl::Status TakeConfig(uint64_t declared_bytes);
   absl::Status TakeChunk(const v1::VolumeChunk& chunk);
   absl::Status TakeFinish(const v1::VolumeFinish& finish);
+  static absl::Status UnknownRequest();
   absl::Status CheckExpected(Expected expected, const char* request) const;
 
   Expected expected_ = Expected::kConfig;

@@ -14,11 +14,12 @@ constexpr size_t kThinVolumeChunkBytes = 256 * 1024;
 
 }  // namespace
 
-void ResponseOutbox::Accept(const std::string& job) {
-  accepted_.emplace();
-  accepted_->set_job(job);
-  accepted_->set_durable(false);
-  accepted_->set_max_chunk_bytes(kMaxChunkBytes);
+v1::SkeletonizeAccepted AcceptedFor(const std::string& job) {
+  v1::SkeletonizeAccepted accepted;
+  accepted.set_job(job);
+  accepted.set_durable(false);
+  accepted.set_max_chunk_bytes(kMaxChunkBytes);
+  return accepted;
 }
 
 void ResponseOutbox::Complete(JobResult result) {

@@ -10,11 +10,14 @@
 
 namespace bccskel::server {
 
+// The first response of every call.
+v1::SkeletonizeAccepted AcceptedFor(const std::string& job);
+
 // What is still to be sent on a stream. Memory is bounded however slowly the caller reads: of the
 // progress only the latest is kept, and a result is cut into responses one at a time.
 class ResponseOutbox {
  public:
-  void Accept(const std::string& job);
+  void Accept(const std::string& job) { accepted_ = AcceptedFor(job); }
   void Report(v1::ShellProgress progress) { progress_ = std::move(progress); }
   void Complete(JobResult result);
 
@@ -23,6 +26,10 @@ class ResponseOutbox {
 
   // The summary has been handed out: nothing will come any more.
   bool AtEnd() const { return stage_ == Stage::kEnd; }
+  // A piece of the result, on which another one follows.
+  static bool IsPiece(const v1::SkeletonizeResponse& response) {
+    return response.has_skeleton_chunk() || response.has_thin_volume_chunk();
+  }
 
  private:
   enum class Stage { kJob, kSkeleton, kThinVolume, kSummary, kEnd };

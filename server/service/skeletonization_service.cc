@@ -6,7 +6,7 @@ namespace bccskel::server {
 
 grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>*
 SkeletonizationService::Skeletonize(grpc::CallbackServerContext* context) {
-  return SkeletonizeStream::Start(context, runner_, limits_);
+  return StartStream<SkeletonizeStream>(*context, runner_, limits_);
 }
 
 }  // namespace bccskel::server

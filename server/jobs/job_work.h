@@ -1,0 +1,57 @@
+#ifndef BCCSKEL_SERVER_JOBS_JOB_WORK_H_
+#define BCCSKEL_SERVER_JOBS_JOB_WORK_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+#include "core/exec/context.h"
+#include "server/admission/admission.h"
+
+namespace bccskel::server {
+
+// Where the time of a job went.
+struct JobTimes {
+  std::chrono::nanoseconds queued{0};    // waiting for threads
+  std::chrono::nanoseconds decoded{0};   // in the decoder
+  std::chrono::nanoseconds computed{0};  // from first to last of each turn
+};
+
+// What a job receives and computes: the part of a PoolJob that depends on its kind. The job
+// knows threads, turns, cancellation and memory.
+// Threads: the job calls one member at a time; MayRun() also while nothing else is under way.
+class JobWork {
+ public:
+  virtual ~JobWork() = default;
+
+  // The next bytes of the volume.
+  // Errors: INVALID_ARGUMENT, RESOURCE_EXHAUSTED, CANCELLED, DEADLINE_EXCEEDED.
+  virtual absl::Status Append(std::string_view bytes, const exec::Context& context) = 0;
+  // All bytes were appended. Errors: as Append().
+  virtual absl::Status Finish(const std::optional<Sha256Digest>& expected,
+                              const exec::Context& context) = 0;
+
+  // After Finish(): memory that the rest takes, and threads of `threads` that it can use.
+  virtual uint64_t BytesToRun() const = 0;
+  virtual int MostThreads(int threads) const = 0;
+
+  // Whether the next turn may begin. Where not, `wake` is called when that may have changed.
+  virtual bool MayRun() const { return true; }
+  enum class Turn { kDone, kMore };
+  // One turn at computing, on the context's threads. Between turns other jobs have theirs.
+  // Needs: MayRun(). `wake` may be called from any thread at any time, even after the end.
+  // Errors: as the core's.
+  virtual absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) = 0;
+
+  // Called once, last: gives back the memory that is no longer needed and tells the listener.
+  virtual void End(const absl::Status& status, const JobTimes& times, Ticket ticket) = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_JOB_WORK_H_

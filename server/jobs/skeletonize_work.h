@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_SERVER_JOBS_SKELETONIZE_WORK_H_
+#define BCCSKEL_SERVER_JOBS_SKELETONIZE_WORK_H_
+
+#include <memory>
+#include <optional>
+
+#include "core/volume/volume.h"
+#include "server/jobs/job_runner.h"
+#include "server/jobs/job_work.h"
+#include "server/jobs/volume_intake.h"
+
+namespace bccskel::server {
+
+// One volume, one skeleton, in one turn.
+class SkeletonizeWork final : public JobWork {
+ public:
+  SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
+                  std::shared_ptr<JobListener> listener);
+
+  absl::Status Append(std::string_view bytes, const exec::Context& context) override;
+  absl::Status Finish(const std::optional<Sha256Digest>& expected,
+                      const exec::Context& context) override;
+  uint64_t BytesToRun() const override;
+  int MostThreads(int threads) const override;
+  absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
+  void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
+
+ private:
+  const JobRequest request_;
+  std::shared_ptr<JobListener> listener_;
+  std::unique_ptr<VolumeIntake> intake_;
+  std::optional<Volume> volume_;
+  std::optional<BettiNumbers> mask_topology_;
+  JobResult result_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_SKELETONIZE_WORK_H_

@@ -1,0 +1,58 @@
+#include "server/service/call_facts.h"
+
+#include <algorithm>
+
+#include "server/logging/json_log.h"
+
+namespace bccskel::server {
+namespace {
+
+using Clock = CallFacts::Clock;
+
+// gRPC states deadlines in wall-clock time; jobs must not be moved by clock adjustments.
+Clock::time_point SteadyDeadline(std::chrono::system_clock::time_point deadline) {
+  const auto left = deadline - std::chrono::system_clock::now();
+  constexpr auto kFar = std::chrono::hours(24 * 365);
+  return left > kFar ? Clock::time_point::max() : Clock::now() + left;
+}
+
+std::string TraceOf(const grpc::CallbackServerContext& context) {
+  const auto trace = context.client_metadata().find("traceparent");
+  if (trace == context.client_metadata().end()) return std::string();
+  return std::string(trace->second.data(), trace->second.size());
+}
+
+}  // namespace
+
+CallFacts FactsOf(const grpc::CallbackServerContext& context) {
+  return {.deadline = SteadyDeadline(context.deadline()), .trace = TraceOf(context)};
+}
+
+absl::Status CallFacts::CancelStatus() const {
+  return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
+                                  : absl::CancelledError("the caller cancelled the call");
+}
+
+void CallFacts::LogAccepted(const std::string& job, uint64_t volume_bytes) const {
+  Log(LogLevel::kInfo, "job accepted",
+      {{"job", job}, {"volume_bytes", static_cast<int64_t>(volume_bytes)}, {"traceparent", trace}});
+}
+
+void CallFacts::LogEnded(const std::string& job, const absl::Status& status) const {
+  Log(status.ok() ? LogLevel::kInfo : LogLevel::kWarning, "call ended",
+      {{"job", job},
+       {"code", absl::StatusCodeToString(status.code())},
+       {"message", std::string(status.message())},
+       {"seconds", std::chrono::duration<double>(Clock::now() - started).count()},
+       {"traceparent", trace}});
+}
+
+std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish) {
+  Sha256Digest digest;
+  const std::string& bytes = finish.sha256();
+  if (bytes.size() != digest.bytes.size()) return std::nullopt;
+  std::copy(bytes.begin(), bytes.end(), digest.bytes.begin());
+  return digest;
+}
+
+}  // namespace bccskel::server
