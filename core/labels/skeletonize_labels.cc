@@ -26,10 +26,12 @@ absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObje
                                          const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const ConvertedMask converted,
                            ConvertLabel(grid, object, options.mask, context));
-  LabelSkeleton skeleton{object.label, object.voxels, converted.mask, {}};
+  LabelSkeleton skeleton{object.label, object.voxels, {}};
   BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
                            Skeletonize(converted.volume, options.skeleton, context));
-  const std::string changes = DescribeChanges(skeleton.mask, skeleton.result.certificate.input);
+  Certificate& certificate = skeleton.result.certificate;
+  certificate.mask = converted.mask;
+  const std::string changes = DescribeChanges(converted.mask, certificate.input);
   if (changes.empty() || options.mask.sampling) return skeleton;
   return absl::InternalError("the exact conversion changed the topology: " + changes);
 }

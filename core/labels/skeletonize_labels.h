@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "absl/status/status.h"
-#include "core/certificate/certificate.h"
 #include "core/exec/context.h"
 #include "core/labels/voxel_runs.h"
 #include "core/mask/mask_converter.h"
@@ -23,8 +22,7 @@ struct LabelsOptions {
 struct LabelSkeleton {
   uint64_t label = 0;
   uint64_t voxels = 0;
-  BettiNumbers mask;  // counted on the cubic grid
-  SkeletonizeResult result;
+  SkeletonizeResult result;  // its certificate tells the mask's topology, too
 };
 
 // Takes the skeletons by ascending label, one at a time, from any thread. An error ends the work.

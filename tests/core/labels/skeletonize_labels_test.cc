@@ -59,7 +59,7 @@ TEST(SkeletonizeLabels, KeepsTheTopologyOfEveryLabel) {
       EXPECT_EQ(skeleton.voxels, Objects().objects[n].voxels);
       const BettiNumbers expected =
           test::ReferenceMaskBetti(volume.MaskOf(skeleton.label), test::ReachOf(adjacency));
-      EXPECT_EQ(skeleton.mask, expected);
+      EXPECT_EQ(skeleton.result.certificate.mask, expected);
       EXPECT_EQ(skeleton.result.certificate.input, expected);
       EXPECT_EQ(skeleton.result.certificate.skeleton, expected);
     }
@@ -138,7 +138,7 @@ TEST(OrderedDelivery, HandsOnInOrderWhateverTheOrderOfArrival) {
     return absl::OkStatus();
   };
   OrderedDelivery delivery(consume, 10);
-  for (uint64_t n : {3, 1, 2, 0, 4}) delivery.Add(n, {n, 0, {}, {}});
+  for (uint64_t n : {3, 1, 2, 0, 4}) delivery.Add(n, {n, 0, {}});
   EXPECT_THAT(labels, ::testing::ElementsAre(0, 1, 2, 3, 4));
 }
 
