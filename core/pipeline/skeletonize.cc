@@ -4,6 +4,7 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
+#include "core/pipeline/method_in_words.h"
 
 namespace bccskel {
 namespace {
@@ -27,6 +28,7 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
                                               const exec::Context& context) {
   SkeletonizeResult result;
+  result.method = MethodInWords(options.thinning, options.distance);
   result.object_points = object.PointCount();
   exec::StageClock clock;
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,

@@ -28,6 +28,7 @@ struct SkeletonizeResult {
   uint64_t object_points = 0;
   uint64_t skeleton_points = 0;
   int32_t last_shell = 0;
+  std::string method;  // MethodInWords()
   std::string sha256;  // SkeletonDigest(graph)
 };
 

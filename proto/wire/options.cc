@@ -73,6 +73,62 @@ absl::StatusOr<DistanceKind> FromMessage(v1::DistanceKind kind, const std::strin
   }
 }
 
+v1::ThinningMethod ToMessage(ThinningMethod method) {
+  switch (method) {
+    case ThinningMethod::kDirectional:
+      return v1::THINNING_METHOD_DIRECTIONAL;
+    case ThinningMethod::kDirectionalAlternating:
+      return v1::THINNING_METHOD_DIRECTIONAL_ALTERNATING;
+    case ThinningMethod::kSymmetric:
+      return v1::THINNING_METHOD_SYMMETRIC;
+  }
+  return v1::THINNING_METHOD_UNSPECIFIED;
+}
+
+absl::StatusOr<ThinningMethod> FromMessage(v1::ThinningMethod method, const std::string& field) {
+  switch (method) {
+    case v1::THINNING_METHOD_UNSPECIFIED:
+    case v1::THINNING_METHOD_DIRECTIONAL:
+      return ThinningMethod::kDirectional;
+    case v1::THINNING_METHOD_DIRECTIONAL_ALTERNATING:
+      return ThinningMethod::kDirectionalAlternating;
+    case v1::THINNING_METHOD_SYMMETRIC:
+      return ThinningMethod::kSymmetric;
+    default:
+      return InvalidField(field, absl::StrCat("unknown method ", int{method}));
+  }
+}
+
+v1::SkeletonKind ToMessage(SkeletonKind kind) {
+  switch (kind) {
+    case SkeletonKind::kCurve:
+      return v1::SKELETON_KIND_CURVE;
+    case SkeletonKind::kSurface:
+      return v1::SKELETON_KIND_SURFACE;
+    case SkeletonKind::kKernel:
+      return v1::SKELETON_KIND_KERNEL;
+    case SkeletonKind::kIsthmusCurve:
+      return v1::SKELETON_KIND_ISTHMUS_CURVE;
+  }
+  return v1::SKELETON_KIND_UNSPECIFIED;
+}
+
+absl::StatusOr<SkeletonKind> FromMessage(v1::SkeletonKind kind, const std::string& field) {
+  switch (kind) {
+    case v1::SKELETON_KIND_UNSPECIFIED:
+    case v1::SKELETON_KIND_CURVE:
+      return SkeletonKind::kCurve;
+    case v1::SKELETON_KIND_SURFACE:
+      return SkeletonKind::kSurface;
+    case v1::SKELETON_KIND_KERNEL:
+      return SkeletonKind::kKernel;
+    case v1::SKELETON_KIND_ISTHMUS_CURVE:
+      return SkeletonKind::kIsthmusCurve;
+    default:
+      return InvalidField(field, absl::StrCat("unknown kind of skeleton ", int{kind}));
+  }
+}
+
 absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& message,
                                                       const std::string& field) {
   if (message.y_size() != message.x_size() || message.z_size() != message.x_size()) {
@@ -96,6 +152,8 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
   message.set_stubble_policy(ToMessage(thinning.stubble));
   message.set_thinness_cleanup(thinning.cleanup == ThinnessCleanup::kOn ? v1::THINNESS_CLEANUP_ON
                                                                         : v1::THINNESS_CLEANUP_OFF);
+  message.set_method(ToMessage(thinning.method));
+  message.set_kind(ToMessage(thinning.kind));
   message.set_shell_width(thinning.shell_width);
   message.set_last_shell(thinning.last_shell);
   message.set_distance_kind(ToMessage(options.distance));
@@ -115,6 +173,8 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
                            FromMessage(message.stubble_policy(), field + ".stubble_policy"));
   BCCSKEL_ASSIGN_OR_RETURN(thinning.cleanup,
                            FromMessage(message.thinness_cleanup(), field + ".thinness_cleanup"));
+  BCCSKEL_ASSIGN_OR_RETURN(thinning.method, FromMessage(message.method(), field + ".method"));
+  BCCSKEL_ASSIGN_OR_RETURN(thinning.kind, FromMessage(message.kind(), field + ".kind"));
   BCCSKEL_ASSIGN_OR_RETURN(thinning.keep, FromMessage(message.keep(), field + ".keep"));
   BCCSKEL_ASSIGN_OR_RETURN(options.distance,
                            FromMessage(message.distance_kind(), field + ".distance_kind"));

@@ -143,6 +143,7 @@ absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message
   result.object_points = message.object_points();
   result.skeleton_points = message.skeleton_points();
   result.last_shell = message.last_shell();
+  result.method = message.method();
   result.sha256 = absl::BytesToHexString(message.sha256());
   return result;
 }

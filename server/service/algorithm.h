@@ -6,8 +6,6 @@ namespace bccskel::server {
 // Raised whenever the same volume and options may give another skeleton: stored results are found
 // again by it.
 inline constexpr char kAlgorithmVersion[] = "1";
-inline constexpr char kMethod[] =
-    "parallel directional thinning on the body-centered cubic grid by chamfer shells";
 
 }  // namespace bccskel::server
 

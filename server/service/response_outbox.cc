@@ -76,7 +76,7 @@ v1::SkeletonizeResponse ResponseOutbox::Summary() const {
                                 .threads = result_.threads,
                                 .thin_volume_size_bytes = result_.thin_volume.size(),
                                 .algorithm_version = kAlgorithmVersion,
-                                .method = kMethod};
+                                .method = result_.skeleton.method};
   v1::SkeletonizeResponse response;
   *response.mutable_summary() = wire::SummaryOf(result_.skeleton, facts);
   return response;

@@ -21,13 +21,16 @@ constexpr StubblePolicy kPolicies[] = {StubblePolicy::kKeepTwo, StubblePolicy::k
                                        StubblePolicy::kNone};
 constexpr ThinnessCleanup kCleanups[] = {ThinnessCleanup::kOn, ThinnessCleanup::kOff};
 constexpr double kWidths[] = {1, 0.75, 2};
+constexpr ThinningMethod kMethods[] = {ThinningMethod::kDirectional,
+                                       ThinningMethod::kDirectionalAlternating};
 constexpr int32_t kLastShells[] = {0, 1, 2, 3};
 constexpr double kKeptFractions[] = {0, 0.02};
 constexpr int kTeams[] = {2, 3, 8};
 
-// The options of combination `n` of the 144 there are.
+// The options of combination `n` of the 144 there are; the two methods take turns.
 ThinningOptions Combination(size_t n, std::span<const LatticePoint> points) {
   ThinningOptions options;
+  options.method = kMethods[n / 2 % 2];
   options.stubble = kPolicies[n % 3];
   options.shell_width = kWidths[n / 3 % 3];
   options.cleanup = kCleanups[n / 9 % 2];

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <string>
 #include <vector>
 
 #include "core/distance/distance_field.h"
@@ -26,6 +28,10 @@ constexpr double kWidths[] = {1, 0.75, 2};
 constexpr int32_t kLastShells[] = {0, 0, 1, 2, 3};
 constexpr int kTeams[] = {2, 3, 8};
 
+ThinningOptions Symmetric(SkeletonKind kind) {
+  return {.method = ThinningMethod::kSymmetric, .kind = kind};
+}
+
 ThinningOptions Combination(uint64_t n, std::span<const LatticePoint> points) {
   ThinningOptions options;
   options.method = ThinningMethod::kSymmetric;
@@ -42,7 +48,8 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto result = ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, context), options, context);
+  auto result = ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, context),
+                            options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
@@ -90,6 +97,163 @@ TEST(SymmetricAgreementLaw, HoldsOnNoisyBlobs) {
     const Volume object = PlacedVolume(seed, noisy);
     ExpectAgreement(object, Combination(seed, object.SortedPoints()), seed);
     if (HasFatalFailure()) return;
+  }
+}
+
+class SymmetricThinningLaw : public testing::TestWithParam<uint64_t> {
+ protected:
+  std::vector<LatticePoint> Points() const {
+    const uint64_t seed = GetParam();
+    if (seed % 2 == 0) return test::RandomCloud(seed, {9, 9, 9}, 0.1 * static_cast<double>(seed));
+    return test::WithNoisyBoundary(seed, test::RandomBlob(seed, {12, 12, 12}, 5, 9), 0.1);
+  }
+};
+
+bool IsSimple(NeighborMask mask) { return test::ReferenceCondition1(mask); }
+
+TEST_P(SymmetricThinningLaw, KeepsTheTopologyAfterAnyShell) {
+  const Volume object = VolumeOfPoints(Points());
+  const BettiNumbers betti = test::ReferenceBetti(test::ReferencePointSet(object));
+  for (SkeletonKind kind : kKinds) {
+    for (int32_t last_shell : {1, 2, 3, 0}) {
+      ThinningOptions options = Symmetric(kind);
+      options.last_shell = last_shell;
+      const test::ReferencePointSet thin(Thin(object, options, 2).thin);
+      EXPECT_EQ(test::ReferenceBetti(thin), betti) << last_shell;
+    }
+  }
+}
+
+// What each kind means by thin.
+TEST_P(SymmetricThinningLaw, LeavesNoSimplePointButThoseThatTheKindKeeps) {
+  const Volume object = VolumeOfPoints(Points());
+  const test::ReferencePointSet curve(Thin(object, Symmetric(SkeletonKind::kCurve), 2).thin);
+  EXPECT_EQ(test::ReferenceSimpleNonEndPoints(curve), 0u);
+  const test::ReferencePointSet kernel(Thin(object, Symmetric(SkeletonKind::kKernel), 2).thin);
+  for (LatticePoint p : kernel.SortedPoints()) EXPECT_FALSE(IsSimple(kernel.NeighborsOf(p)));
+}
+
+// A second run finds nothing to remove: all that is kept shows in what is left, but for isthmuses
+// that have lost what they separated.
+TEST_P(SymmetricThinningLaw, ChangesNothingTheSecondTime) {
+  for (SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kKernel}) {
+    ThinningOptions options = Symmetric(kind);
+    options.stubble = StubblePolicy::kNone;
+    const Volume once = Thin(VolumeOfPoints(Points()), options, 2).thin;
+    EXPECT_EQ(Thin(once, options, 2).thin, once);
+  }
+}
+
+TEST_P(SymmetricThinningLaw, TheKernelIsNoLargerThanAnyOtherKind) {
+  const Volume object = VolumeOfPoints(Points());
+  const uint64_t kernel = Thin(object, Symmetric(SkeletonKind::kKernel), 1).thin.PointCount();
+  for (SkeletonKind kind : kKinds) {
+    EXPECT_LE(kernel, Thin(object, Symmetric(kind), 1).thin.PointCount());
+  }
+}
+
+// Colors of points and the rotation of the passes move along.
+TEST_P(SymmetricThinningLaw, MovesWithTheObject) {
+  const std::vector<LatticePoint> points = Points();
+  const LatticePoint by = {14, 6, 24};
+  ASSERT_TRUE(IsOnLattice(by) && (by.x + by.y + by.z) % 4 == 0);
+  const ThinningOptions options = Symmetric(SkeletonKind::kCurve);
+  const Volume thin = Thin(VolumeOfPoints(points), options, 2).thin;
+  const Volume moved = Thin(VolumeOfPoints(test::Translated(points, by)), options, 2).thin;
+  EXPECT_EQ(moved.SortedPoints(), test::Translated(thin.SortedPoints(), by));
+}
+
+TEST_P(SymmetricThinningLaw, NeverRemovesKeptPoints) {
+  const std::vector<LatticePoint> points = Points();
+  for (SkeletonKind kind : kKinds) {
+    ThinningOptions options = Symmetric(kind);
+    options.keep = test::RandomSubset(GetParam(), points, 0.05);
+    const Volume thin = Thin(VolumeOfPoints(points), options, 2).thin;
+    for (LatticePoint p : options.keep) EXPECT_TRUE(thin.Contains(p));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SymmetricThinningLaw, testing::Range<uint64_t>(1, 10));
+
+// All four kinds, of which each takes a path of its own through the kernels.
+TEST(SymmetricThinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
+  const Volume object =
+      VolumeOfPoints(test::WithNoisyBoundary(5, test::RandomBlob(11, {40, 40, 40}, 7, 16), 0.02));
+  for (SkeletonKind kind : kKinds) {
+    const Volume expected = Thin(object, Symmetric(kind), 1).thin;
+    for (const std::string& name : exec::SupportedInstructionSets()) {
+      SCOPED_TRACE(name);
+      ASSERT_TRUE(exec::ChooseInstructionSet(name));
+      for (int threads : {1, 2, 5, 8}) {
+        EXPECT_TRUE(Thin(object, Symmetric(kind), threads).thin == expected) << threads;
+      }
+    }
+    exec::ChooseInstructionSet("");
+  }
+}
+
+Volume Bar(int nx, int ny, int nz) {
+  VolumeBuilder builder({nx, ny, nz});
+  for (Sublattice s : kSublattices) {
+    for (int k = 0; k < nz; ++k) {
+      for (int j = 0; j < ny; ++j) {
+        for (int i = 0; i < nx; ++i) builder.Add(PointAt(s, i, j, k));
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+int EndsOf(const test::ReferencePointSet& thin) {
+  int ends = 0;
+  for (LatticePoint p : thin.SortedPoints()) {
+    ends += std::popcount(thin.NeighborsOf(p)) == 1;
+  }
+  return ends;
+}
+
+// Where a plain bar loses everything with other tools.
+TEST(SymmetricThinning, LeavesOneCurveAlongABar) {
+  const Volume thin = Thin(Bar(4, 4, 100), Symmetric(SkeletonKind::kCurve), 1).thin;
+  const test::ReferencePointSet points(thin);
+  EXPECT_EQ(test::ReferenceBetti(points), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(EndsOf(points), 2);
+  const std::vector<LatticePoint> sorted = thin.SortedPoints();
+  EXPECT_GT(sorted.back().z - sorted.front().z, 180);  // of 200
+}
+
+TEST(SymmetricThinning, LosesNoCube) {
+  for (SkeletonKind kind : kKinds) {
+    for (int edge : {1, 2, 4, 7}) {
+      const Volume thin = Thin(Bar(edge, edge, edge), Symmetric(kind), 1).thin;
+      const test::ReferencePointSet points(thin);
+      EXPECT_EQ(test::ReferenceBetti(points), (BettiNumbers{1, 0, 0})) << edge;
+      if (kind == SkeletonKind::kKernel) {
+        EXPECT_EQ(thin.PointCount(), 1u);
+      }
+    }
+  }
+}
+
+// A plate: the surface skeleton keeps its extent, the curve skeleton does not keep its area.
+TEST(SymmetricThinning, TheSurfaceSkeletonOfAPlateIsASheet) {
+  const Volume plate = Bar(30, 24, 5);
+  const uint64_t surface = Thin(plate, Symmetric(SkeletonKind::kSurface), 1).thin.PointCount();
+  const uint64_t curve = Thin(plate, Symmetric(SkeletonKind::kCurve), 1).thin.PointCount();
+  EXPECT_GT(surface, 400u);
+  EXPECT_LT(surface, 2000u);
+  EXPECT_LT(curve, 150u);
+}
+
+TEST(SymmetricThinning, OtherMethodsRefuseOtherKinds) {
+  for (ThinningMethod method :
+       {ThinningMethod::kDirectional, ThinningMethod::kDirectionalAlternating}) {
+    for (SkeletonKind kind : kKinds) {
+      const absl::Status status = CheckThinningOptions({.method = method, .kind = kind});
+      EXPECT_EQ(status.ok(), kind == SkeletonKind::kCurve) << status;
+      if (status.ok()) continue;
+      EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    }
   }
 }
 

@@ -41,12 +41,41 @@ TEST(OptionsRoundTrip, KeepsTheKindOfDistance) {
   }
 }
 
+TEST(OptionsRoundTrip, KeepsTheMethodAndTheKindOfSkeleton) {
+  for (ThinningMethod method :
+       {ThinningMethod::kDirectional, ThinningMethod::kDirectionalAlternating,
+        ThinningMethod::kSymmetric}) {
+    const auto back =
+        FromMessage(ToMessage(SkeletonizeOptions{.thinning = {.method = method}}), "options");
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(back->thinning.method, method);
+  }
+  for (SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kSurface, SkeletonKind::kKernel,
+                            SkeletonKind::kIsthmusCurve}) {
+    const SkeletonizeOptions options = {
+        .thinning = {.method = ThinningMethod::kSymmetric, .kind = kind}};
+    const auto back = FromMessage(ToMessage(options), "options");
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(back->thinning.kind, kind);
+  }
+}
+
+TEST(Options, RefusesAKindThatTheMethodDoesNotGive) {
+  v1::SkeletonizeOptions message;
+  message.set_kind(v1::SKELETON_KIND_SURFACE);
+  const absl::Status refused = FromMessage(message, "options").status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ViolatedField(refused), "options");
+}
+
 TEST(Options, AnEmptyMessageMeansTheDefaults) {
   const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
   ASSERT_TRUE(options.ok()) << options.status();
   const ThinningOptions defaults;
   EXPECT_EQ(options->thinning.stubble, defaults.stubble);
   EXPECT_EQ(options->thinning.cleanup, defaults.cleanup);
+  EXPECT_EQ(options->thinning.method, defaults.method);
+  EXPECT_EQ(options->thinning.kind, defaults.kind);
   EXPECT_EQ(options->thinning.shell_width, defaults.shell_width);
   EXPECT_EQ(options->thinning.last_shell, defaults.last_shell);
   EXPECT_TRUE(options->thinning.keep.empty());
@@ -55,6 +84,12 @@ TEST(Options, AnEmptyMessageMeansTheDefaults) {
 
 TEST(Options, RefusesEnumeratorsFromTheFuture) {
   v1::SkeletonizeOptions message;
+  message.set_method(static_cast<v1::ThinningMethod>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.method");
+  message.Clear();
+  message.set_kind(static_cast<v1::SkeletonKind>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.kind");
+  message.Clear();
   message.set_stubble_policy(static_cast<v1::StubblePolicy>(99));
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.stubble_policy");
   message.Clear();

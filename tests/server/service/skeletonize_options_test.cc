@@ -52,15 +52,21 @@ TEST_P(OptionsTest, ReachesThePipeline) {
 
 INSTANTIATE_TEST_SUITE_P(
     Skeletonize, OptionsTest,
-    testing::Values(OptionsCase{"StubbleNone", {.thinning = {.stubble = StubblePolicy::kNone}}},
-                    OptionsCase{"StubbleLiteral",
-                                {.thinning = {.stubble = StubblePolicy::kLiteral}}},
-                    OptionsCase{"CleanupOff",
-                                {.thinning = {.stubble = StubblePolicy::kNone,
-                                              .cleanup = ThinnessCleanup::kOff}}},
-                    OptionsCase{"ShellWidth", {.thinning = {.shell_width = 2.5}}},
-                    OptionsCase{"Partial", {.thinning = {.last_shell = 3}}},
-                    OptionsCase{"Keep", {.thinning = {.keep = {Blob().front()}}}}),
+    testing::Values(
+        OptionsCase{"StubbleNone", {.thinning = {.stubble = StubblePolicy::kNone}}},
+        OptionsCase{"StubbleLiteral", {.thinning = {.stubble = StubblePolicy::kLiteral}}},
+        OptionsCase{
+            "CleanupOff",
+            {.thinning = {.stubble = StubblePolicy::kNone, .cleanup = ThinnessCleanup::kOff}}},
+        OptionsCase{"Symmetric", {.thinning = {.method = ThinningMethod::kSymmetric}}},
+        OptionsCase{"Alternating",
+                    {.thinning = {.method = ThinningMethod::kDirectionalAlternating}}},
+        OptionsCase{
+            "Kernel",
+            {.thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel}}},
+        OptionsCase{"ShellWidth", {.thinning = {.shell_width = 2.5}}},
+        OptionsCase{"Partial", {.thinning = {.last_shell = 3}}},
+        OptionsCase{"Keep", {.thinning = {.keep = {Blob().front()}}}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 struct ThinCase {

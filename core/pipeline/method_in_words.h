@@ -1,0 +1,16 @@
+#ifndef BCCSKEL_CORE_PIPELINE_METHOD_IN_WORDS_H_
+#define BCCSKEL_CORE_PIPELINE_METHOD_IN_WORDS_H_
+
+#include <string>
+
+#include "core/distance/distance_field.h"
+#include "core/thinning/thinning.h"
+
+namespace bccskel {
+
+// What kind of skeleton is made, and how: one line for whoever reads a result.
+std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_METHOD_IN_WORDS_H_

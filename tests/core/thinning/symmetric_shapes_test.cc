@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/distance/distance_field.h"
+#include "core/exec/worker_team.h"
+#include "core/shapes/shapes.h"
+#include "core/thinning/thinning.h"
+#include "tests/support/reference_betti.h"
+#include "tests/support/reference_point_set.h"
+#include "tests/support/reference_thinner.h"
+
+// Symmetric thinning of every generated shape: the reference's bits, the object's topology, and
+// nothing thick.
+
+namespace bccskel {
+namespace {
+
+struct Case {
+  Shape shape;
+  SkeletonKind kind;
+};
+
+std::vector<Case> AllCases() {
+  std::vector<Case> cases;
+  for (Shape shape : kShapes) {
+    for (SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kSurface, SkeletonKind::kKernel,
+                              SkeletonKind::kIsthmusCurve}) {
+      cases.push_back({shape, kind});
+    }
+  }
+  return cases;
+}
+
+Volume Generate(Shape shape, uint64_t points, double noise) {
+  auto volume = GenerateShape(shape, {.points = points, .seed = 1, .noise = noise});
+  EXPECT_TRUE(volume.ok()) << volume.status();
+  return *std::move(volume);
+}
+
+Volume Thin(const Volume& object, DistanceKind distance, SkeletonKind kind, int threads) {
+  exec::WorkerTeam team(threads);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  auto result = ThinToCurve(object, *ComputeDistance(object, distance, context),
+                            {.method = ThinningMethod::kSymmetric, .kind = kind}, context);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return std::move(result->thin);
+}
+
+class SymmetricShapes : public testing::TestWithParam<Case> {};
+
+TEST_P(SymmetricShapes, EngineAndReferenceGiveTheSamePoints) {
+  const auto [shape, kind] = GetParam();
+  const Volume object = Generate(shape, 8'000, kind == SkeletonKind::kCurve ? 0.05 : 0.01);
+  const ThinningOptions options = {.method = ThinningMethod::kSymmetric, .kind = kind};
+  const std::vector<LatticePoint> expected = test::ReferenceThin(object, options);
+  for (int threads : {1, 3}) {
+    EXPECT_TRUE(Thin(object, DistanceKind::kChamfer, kind, threads).SortedPoints() == expected)
+        << threads << " threads";
+  }
+}
+
+TEST_P(SymmetricShapes, TopologyIsKeptWithEveryDistance) {
+  const auto [shape, kind] = GetParam();
+  const Volume object = Generate(shape, 20'000, 0);
+  const BettiNumbers betti = test::ReferenceBetti(test::ReferencePointSet(object));
+  for (DistanceKind distance :
+       {DistanceKind::kChamfer, DistanceKind::kChamferOptimal, DistanceKind::kEuclidean}) {
+    const test::ReferencePointSet thin(Thin(object, distance, kind, 2));
+    EXPECT_EQ(test::ReferenceBetti(thin), betti);
+    if (kind == SkeletonKind::kCurve || kind == SkeletonKind::kKernel) {
+      EXPECT_EQ(test::ReferenceSimpleNonEndPoints(thin), 0u);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, SymmetricShapes, testing::ValuesIn(AllCases()), [](const auto& info) {
+      constexpr const char* kKinds[] = {"Curve", "Surface", "Kernel", "IsthmusCurve"};
+      std::string name(ShapeName(info.param.shape));
+      std::erase(name, '-');
+      return name + kKinds[static_cast<size_t>(info.param.kind)];
+    });
+
+}  // namespace
+}  // namespace bccskel
