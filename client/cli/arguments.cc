@@ -10,6 +10,7 @@
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/load_object.h"
+#include "client/cli/method_words.h"
 #include "client/export/skeleton_file.h"
 #include "core/thinning/thinning.h"
 #include "core/version/version.h"
@@ -82,6 +83,15 @@ void AddDistance(CLI::App& command, DistanceKind& distance) {
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
+  AddChoice<ThinningMethod>(command, "--method", thinning.method,
+                            "How points are chosen for removal (default directional)",
+                            MethodWords());
+  AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
+                          "What to keep; all but curve (default) need --method symmetric",
+                          {{"curve", SkeletonKind::kCurve},
+                           {"surface", SkeletonKind::kSurface},
+                           {"kernel", SkeletonKind::kKernel},
+                           {"isthmus-curve", SkeletonKind::kIsthmusCurve}});
   AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
                            "Which stubble points to remove (default keep-two)",
                            {{"keep-two", StubblePolicy::kKeepTwo},

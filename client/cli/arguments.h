@@ -86,6 +86,7 @@ struct BenchCoreArguments {
   CommonArguments common;
   std::string shape = "ball";  // one of kBenchObjects
   uint64_t points = 850'000;
+  ThinningMethod method = ThinningMethod::kDirectional;
   int repeat = 11;              // warm runs
   std::string instruction_set;  // empty: the best
 };

@@ -8,6 +8,8 @@
 
 #include "absl/strings/str_join.h"
 #include "client/cli/bench_objects.h"
+#include "client/cli/choice_option.h"
+#include "client/cli/method_words.h"
 #include "core/exec/instruction_sets.h"
 #include "core/shapes/shapes.h"
 
@@ -21,11 +23,6 @@ std::function<std::string(const std::string&)> OneOf(const Names& names, const c
     if (std::ranges::find(names, value) != names.end()) return "";
     return std::string(what) + " \"" + value + "\": must be one of " + absl::StrJoin(names, ", ");
   };
-}
-
-std::string CheckMethod(const std::string& method) {
-  if (method == "directional") return "";
-  return "method \"" + method + "\" does not exist yet: must be directional";
 }
 
 void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
@@ -46,10 +43,8 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
   core.add_option("--isa", arguments.instruction_set, "Instruction set (default the first)")
       ->check(OneOf(sets, "instruction set"))
       ->option_text(absl::StrJoin(sets, "|"));
-  core.add_option_function<std::string>(
-          "--method", [](const std::string&) {}, "How to thin (default directional)")
-      ->check(CheckMethod)
-      ->option_text("directional");
+  AddChoice<ThinningMethod>(core, "--method", arguments.method,
+                            "How to thin (default directional)", MethodWords());
 }
 
 }  // namespace

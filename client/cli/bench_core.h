@@ -46,8 +46,8 @@ struct CoreMeasurement {
 // to load the program's code.
 // Needs:  repeat >= 1.
 // Errors: as Skeletonize(); INTERNAL if two runs gave different skeletons.
-absl::StatusOr<CoreMeasurement> MeasureCore(const Volume& object, int repeat,
-                                            const exec::Context& context);
+absl::StatusOr<CoreMeasurement> MeasureCore(const Volume& object, const SkeletonizeOptions& options,
+                                            int repeat, const exec::Context& context);
 
 }  // namespace bccskel::cli
 

@@ -8,6 +8,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/local_team.h"
+#include "client/cli/method_words.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/instruction_sets.h"
@@ -17,6 +18,13 @@ namespace {
 
 using exporting::GroupedDigits;
 using exporting::Text;
+
+std::string WordOf(ThinningMethod wanted) {
+  for (const auto& [word, method] : MethodWords()) {
+    if (method == wanted) return word;
+  }
+  return "";
+}
 
 // What is timed, in milliseconds.
 struct Figure {
@@ -60,9 +68,9 @@ std::string Json(const BenchCoreArguments& arguments, int threads,
                  const CoreMeasurement& measured) {
   const double ns = NanosecondsPerPoint(measured);
   Text text;
-  text.Add("{\"method\":\"directional\",\"isa\":\"", exec::ChosenInstructionSet(),
-           "\",\"threads\":", threads, ",\"shape\":\"", arguments.shape,
-           "\",\"points\":", measured.points, ",\"bricks\":", measured.bricks,
+  text.Add("{\"method\":\"", WordOf(arguments.method), "\",\"isa\":\"",
+           exec::ChosenInstructionSet(), "\",\"threads\":", threads, ",\"shape\":\"",
+           arguments.shape, "\",\"points\":", measured.points, ",\"bricks\":", measured.bricks,
            ",\"repeat\":", arguments.repeat);
   text.Add(",\"ns_per_point\":", SpreadJson(WarmSpread(measured, kCore.of, ns)),
            ",\"whole_ns_per_point\":", SpreadJson(WarmSpread(measured, kWhole.of, ns)));
@@ -111,8 +119,8 @@ std::string Summary(const BenchCoreArguments& arguments, int threads,
   Text text;
   text.Add("object:      ", arguments.shape, ", ", GroupedDigits(measured.points), " points in ",
            GroupedDigits(measured.bricks), " bricks\n");
-  text.Add("engine:      directional, ", exec::ChosenInstructionSet(), ", ", threads,
-           threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
+  text.Add("engine:      ", WordOf(arguments.method), ", ", exec::ChosenInstructionSet(), ", ",
+           threads, threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
   text.Add(Table(measured), "\npeak memory: ", PeakText(measured),
            "\nsha256:      ", measured.sha256, '\n');
   return std::move(text).Take();
@@ -125,7 +133,8 @@ ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<Volume> object = MakeBenchObject(arguments.shape, arguments.points);
   if (!object.ok()) return FailWith(ExitCode::kUsage, object.status());
   LocalTeam team(arguments.common.threads, stop);
-  const auto measured = MeasureCore(*object, arguments.repeat, team.context());
+  const SkeletonizeOptions options = {.thinning = {.method = arguments.method}};
+  const auto measured = MeasureCore(*object, options, arguments.repeat, team.context());
   if (!measured.ok()) return Fail(measured.status());
   const int threads = team.context().threads();
   return Print(arguments.common.summary == SummaryStyle::kJson

@@ -55,7 +55,7 @@ TEST(MeasureCore, GivesTheReferencesSkeletonOfEveryObject) {
   for (const char* name : kBenchObjects) {
     if (std::string_view(name) == "thin-tubes") continue;  // box too large for the reference here
     const Volume object = Object(name, 10'000);
-    const auto measured = MeasureCore(object, 1, {});
+    const auto measured = MeasureCore(object, {}, 1, {});
     ASSERT_TRUE(measured.ok()) << measured.status();
     const auto expected = test::ReferenceDigest(object);
     ASSERT_TRUE(expected.ok()) << expected.status();
@@ -65,7 +65,7 @@ TEST(MeasureCore, GivesTheReferencesSkeletonOfEveryObject) {
 
 TEST(MeasureCore, HasOneTimingForEachWarmRunAndStagesThatAddUpToNoMoreThanTheWhole) {
   const Volume object = Object("torus", 20'000);
-  const auto measured = MeasureCore(object, 3, {});
+  const auto measured = MeasureCore(object, {}, 3, {});
   ASSERT_TRUE(measured.ok()) << measured.status();
   EXPECT_EQ(measured->points, object.PointCount());
   EXPECT_EQ(measured->bricks, object.brick_count());
@@ -84,7 +84,7 @@ TEST(MeasureCore, HasOneTimingForEachWarmRunAndStagesThatAddUpToNoMoreThanTheWho
 // Distances alone are two bytes for each point of a brick; a hundred would be a mistake of units.
 TEST(MeasureCore, CountsTheMemoryOfTheDistancesAtLeast) {
   const Volume object = Object("ball", 2'000'000);
-  const auto measured = MeasureCore(object, 1, {});
+  const auto measured = MeasureCore(object, {}, 1, {});
   ASSERT_TRUE(measured.ok()) << measured.status();
   if (!measured->peak_bytes.has_value()) GTEST_SKIP() << "no high-water mark on this system";
   const uint64_t lattice_points = object.brick_count() * kBrickPoints;
@@ -97,7 +97,7 @@ TEST(MeasureCore, StopsWhenAskedTo) {
   source.request_stop();
   exec::Context context;
   context.stop = source.get_token();
-  EXPECT_EQ(MeasureCore(Object("ball", 10'000), 1, context).status().code(),
+  EXPECT_EQ(MeasureCore(Object("ball", 10'000), {}, 1, context).status().code(),
             absl::StatusCode::kCancelled);
 }
 

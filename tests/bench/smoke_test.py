@@ -62,8 +62,18 @@ class SmokeTest(unittest.TestCase):
                 self.assertEqual(result["threads"], 2)
                 self.assertEqual(result["sha256"], self.reference[name])
 
+    def test_each_method_makes_a_skeleton_of_its_own(self):
+        digests = set()
+        for method in ("directional", "directional-alternating", "symmetric"):
+            result = json.loads(output_of(
+                COMMAND, "bench", "core", "--shape", "horse", "--points", str(POINTS),
+                "--method", method, "--repeat", "1", "--json"))
+            self.assertEqual(result["method"], method)
+            digests.add(result["sha256"])
+        self.assertEqual(len(digests), 3)
+
     def test_the_command_refuses_what_does_not_exist(self):
-        for option, value in (("--method", "symmetric"), ("--isa", "abacus"),
+        for option, value in (("--method", "sideways"), ("--isa", "abacus"),
                               ("--shape", "teapot"), ("--points", "3"), ("--repeat", "0")):
             with self.subTest(option):
                 ended = subprocess.run([COMMAND, "bench", "core", option, value],

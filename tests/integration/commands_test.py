@@ -96,14 +96,16 @@ class CommandsTest(harness.TestCase):
         with harness.Server(self.folder) as server:
             digests = set()
             for options in ((), ("--stubble", "none"), ("--shell-width", 3), ("--last-shell", 2),
-                            ("--no-cleanup",)):
+                            ("--no-cleanup",), ("--method", "directional-alternating"),
+                            ("--method", "symmetric"),
+                            ("--method", "symmetric", "--kind", "kernel")):
                 local, remote = (
                     json.loads(self.succeed("skeletonize", volume, "--json", *options, *place,
                                             "-o", self.path("a.swc")))
                     for place in (("--local",), ("--server", server.address)))
                 self.assertEqual(harness.without_times(local), harness.without_times(remote))
                 digests.add(local["sha256"])
-        self.assertGreaterEqual(len(digests), 3)
+        self.assertGreaterEqual(len(digests), 5)
 
     def test_a_pipe_gets_no_progress_unless_it_is_asked_for(self):
         command = ("skeletonize", self.generate("tree"), "--local", "-o", self.path("a.swc"))

@@ -48,6 +48,28 @@ TEST(ArgumentsTest, SkeletonizeTakesEveryKindOfDistance) {
   EXPECT_EQ(distance("euclidean"), DistanceKind::kEuclidean);
 }
 
+TEST(ArgumentsTest, SkeletonizeTakesMethodsAndKinds) {
+  const auto thinning = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"skeletonize", "a.off", "-o", "a.swc"});
+    return Parse(words).as<SkeletonizeArguments>().skeletonize.thinning;
+  };
+  EXPECT_EQ(thinning({}).method, ThinningMethod::kDirectional);
+  EXPECT_EQ(thinning({"--method", "directional-alternating"}).method,
+            ThinningMethod::kDirectionalAlternating);
+  const ThinningOptions surface = thinning({"--method", "symmetric", "--kind", "surface"});
+  EXPECT_EQ(surface.method, ThinningMethod::kSymmetric);
+  EXPECT_EQ(surface.kind, SkeletonKind::kSurface);
+  EXPECT_EQ(thinning({"--method", "symmetric", "--kind", "kernel"}).kind, SkeletonKind::kKernel);
+  EXPECT_EQ(thinning({"--method", "symmetric", "--kind", "isthmus-curve"}).kind,
+            SkeletonKind::kIsthmusCurve);
+}
+
+TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
+  const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc", "--kind", "surface"});
+  EXPECT_EQ(parsed.code(), ExitCode::kUsage);
+  EXPECT_THAT(parsed.err, HasSubstr("symmetric"));
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   const Parsed parsed =
       Parse({"skeletonize",  "a.off",     "-o",           "a.swc",         "--output",
