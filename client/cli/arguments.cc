@@ -10,7 +10,7 @@
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/load_object.h"
-#include "client/cli/method_words.h"
+#include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
 #include "core/thinning/thinning.h"
 #include "core/version/version.h"
@@ -72,42 +72,6 @@ void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   AddChoice<FillRule>(
       command, "--fill", grid.fill, "What is inside a mesh (default auto)",
       {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
-}
-
-void AddDistance(CLI::App& command, DistanceKind& distance) {
-  AddChoice<DistanceKind>(command, "--distance", distance,
-                          "How the distances that make the shells are measured (default chamfer)",
-                          {{"chamfer", DistanceKind::kChamfer},
-                           {"chamfer-optimal", DistanceKind::kChamferOptimal},
-                           {"euclidean", DistanceKind::kEuclidean}});
-}
-
-void AddThinning(CLI::App& command, ThinningOptions& thinning) {
-  AddChoice<ThinningMethod>(command, "--method", thinning.method,
-                            "How points are chosen for removal (default directional)",
-                            MethodWords());
-  AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
-                          "What to keep; all but curve (default) need --method symmetric",
-                          {{"curve", SkeletonKind::kCurve},
-                           {"surface", SkeletonKind::kSurface},
-                           {"kernel", SkeletonKind::kKernel},
-                           {"isthmus-curve", SkeletonKind::kIsthmusCurve}});
-  AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
-                           "Which stubble points to remove (default keep-two)",
-                           {{"keep-two", StubblePolicy::kKeepTwo},
-                            {"literal", StubblePolicy::kLiteral},
-                            {"none", StubblePolicy::kNone}});
-  command
-      .add_option("--shell-width", thinning.shell_width,
-                  "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")
-      ->option_text("X");
-  command
-      .add_option("--last-shell", thinning.last_shell,
-                  "Stop after this shell; 0 thins to the end (default)")
-      ->option_text("N");
-  command.add_flag_callback(
-      "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
-      "Leave the simple points that parallel thinning leaves");
 }
 
 void AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {

@@ -77,13 +77,14 @@ TEST_P(SymmetricShapes, TopologyIsKeptWithEveryDistance) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, SymmetricShapes, testing::ValuesIn(AllCases()), [](const auto& info) {
-      constexpr const char* kKinds[] = {"Curve", "Surface", "Kernel", "IsthmusCurve"};
-      std::string name(ShapeName(info.param.shape));
-      std::erase(name, '-');
-      return name + kKinds[static_cast<size_t>(info.param.kind)];
-    });
+std::string NameOf(const testing::TestParamInfo<Case>& info) {
+  constexpr const char* kKinds[] = {"Curve", "Surface", "Kernel", "IsthmusCurve"};
+  std::string name(ShapeName(info.param.shape));
+  std::erase(name, '-');
+  return name + kKinds[static_cast<size_t>(info.param.kind)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SymmetricShapes, testing::ValuesIn(AllCases()), NameOf);
 
 }  // namespace
 }  // namespace bccskel
