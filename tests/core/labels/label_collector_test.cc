@@ -117,6 +117,17 @@ TEST(ConvertLabel, GivesTheObjectThatTheLabelAsAMaskGives) {
   }
 }
 
+TEST(ConvertLabel, KeepsPiecesApartThatLieAboveEachOther) {
+  LabelVolume volume = test::EmptyLabels(6, 5, 24);
+  // On either side of the borders between layers of bricks, with gaps of one slice and of many.
+  for (int32_t z : {3, 5, 11, 20, 21, 23}) volume.At(2, 2, z) = 7;
+  const LabeledObjects collected = Collected(volume);
+  const auto converted = ConvertLabel(collected.grid, collected.objects.at(0), {}, {});
+  ASSERT_TRUE(converted.ok()) << converted.status();
+  EXPECT_EQ(converted->mask, (BettiNumbers{5, 0, 0}));
+  EXPECT_EQ(converted->volume, test::Converted(volume.MaskOf(7), {}).volume);
+}
+
 TEST(ComponentsOfRuns, AreThoseOfTheMask) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const test::ReferenceMask mask =
