@@ -31,6 +31,7 @@ class MarkBuffer {
 // Where a sweep is: shells are thinned in cycles, cycles consist of passes, and a pass marks in
 // steps before it removes.
 struct PassStep {
+  int32_t shell = 0;
   int32_t cycle = 0;  // counted over all shells
   int pass = 0;       // of the cycle
   int step = 0;       // of the pass

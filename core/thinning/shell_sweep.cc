@@ -77,7 +77,7 @@ class ShellSweep {
       do {
         before = TotalRemoved();
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
-          if (!Pass(index, worker, {.cycle = cycle, .pass = pass})) return;
+          if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
         ++cycle;
       } while (shell == last_ && TotalRemoved() != before);

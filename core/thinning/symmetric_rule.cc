@@ -1,19 +1,8 @@
 #include "core/thinning/symmetric_rule.h"
 
+#include <algorithm>
+
 namespace bccskel {
-namespace {
-
-// Takes points out of the candidates for good.
-void Keep(std::span<const MarkedBrick> points, std::vector<BrickBits>& candidates) {
-  for (const MarkedBrick& m : points) {
-    for (size_t k = 0; k < m.marks.words.size(); ++k) {
-      candidates[m.brick].words[k] &= ~m.marks.words[k];
-    }
-  }
-}
-
-}  // namespace
-
 SymmetricRule::SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningState& state)
     : depth_(depth), kind_(kind), state_(state), larger_cliques_(state.object.size()) {
   for (std::vector<BrickBits>& simple : simple_) simple.resize(state.object.size());
@@ -23,7 +12,7 @@ void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unse
                          MarkBuffer& marks) {
   if (at.step == 0) {
     if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
-      KeepIsthmuses(bricks, marks);
+      KeepIsthmuses(at.shell, bricks, marks);
     }
     return FindSimpleIn(bricks);
   }
@@ -52,13 +41,35 @@ RuleBView SymmetricRule::ViewOf(const PassStep& at, Unsettled* unsettled) {
 }
 
 // Needs: nothing is marked yet, so that the buffer is free.
-void SymmetricRule::KeepIsthmuses(const BrickLists& bricks, MarkBuffer& scratch) {
+void SymmetricRule::KeepIsthmuses(int32_t shell, const BrickLists& bricks, MarkBuffer& scratch) {
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);
     MarkedBrick* found = scratch.Room(list.size());
     const size_t count = MarkIsthmuses(state_.View(), sublattice, kind_, list, found);
-    Keep(std::span(found, count), state_.candidates);
+    Keep(shell, std::span(found, count));
   }
+}
+
+// Takes points out of the candidates for good.
+void SymmetricRule::Keep(int32_t shell, std::span<const MarkedBrick> points) {
+  for (const MarkedBrick& m : points) {
+    BrickBits& candidates = state_.candidates[m.brick];
+    for (size_t k = 0; k < m.marks.words.size(); ++k) candidates.words[k] &= ~m.marks.words[k];
+  }
+  const std::lock_guard lock(births_mutex_);
+  for (const MarkedBrick& m : points) births_.push_back({m, shell});
+}
+
+std::vector<IsthmusBirth> SymmetricRule::Isthmuses() const {
+  std::vector<IsthmusBirth> isthmuses;
+  for (const Births& births : births_) {
+    const BrickCoordinates brick = state_.keys[births.points.brick].coordinates();
+    births.points.marks.ForEachSetBit([&](int bit) {
+      isthmuses.push_back({PointOf(brick, bit), births.shell});
+    });
+  }
+  std::ranges::sort(isthmuses, {}, &IsthmusBirth::point);
+  return isthmuses;
 }
 
 void SymmetricRule::FindSimpleIn(BrickLists& bricks) {

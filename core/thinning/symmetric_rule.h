@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_THINNING_SYMMETRIC_RULE_H_
 
 #include <array>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -39,8 +40,17 @@ class SymmetricRule : public PassRule {
             MarkBuffer& marks) override;
   void Finish(const BrickLists& bricks) override;
 
+  // The points kept as isthmuses, in lattice order. Needs: no pass is running.
+  std::vector<IsthmusBirth> Isthmuses() const;
+
  private:
-  void KeepIsthmuses(const BrickLists& bricks, MarkBuffer& scratch);
+  struct Births {
+    MarkedBrick points;
+    int32_t shell = 0;
+  };
+
+  void KeepIsthmuses(int32_t shell, const BrickLists& bricks, MarkBuffer& scratch);
+  void Keep(int32_t shell, std::span<const MarkedBrick> points);
   void FindSimpleIn(BrickLists& bricks);
   RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
 
@@ -50,6 +60,8 @@ class SymmetricRule : public PassRule {
   // What each step leaves; padded, and empty between passes.
   std::array<std::vector<BrickBits>, 3> simple_;
   std::vector<uint8_t> larger_cliques_;
+  std::mutex births_mutex_;
+  std::vector<Births> births_;  // guarded by births_mutex_; in any order
 };
 
 }  // namespace bccskel

@@ -32,20 +32,69 @@ absl::Status CheckThinningOptions(const ThinningOptions& options) {
 
 namespace {
 
-// Thins with the rule of the method. A symmetric pass removes something as long as something is
-// simple, so clean-up is for the directional methods.
-absl::StatusOr<SweepTotals> Sweep(const SweepPlan& plan, const DistanceField& distance,
-                                  const ThinningOptions& options, const exec::Context& context,
-                                  const Volume& object, ThinningState& state) {
-  if (options.method == ThinningMethod::kSymmetric) {
-    const Shells depth = BuildDepths(object, distance, context);
-    SymmetricRule rule(depth, options.kind, state);
-    return SweepShells(plan, rule, context, state);
+// One run, stage by stage.
+class Thinning {
+ public:
+  Thinning(const Volume& object, const DistanceField& distance, const ThinningOptions& options,
+           const exec::Context& context)
+      : object_(object),
+        distance_(distance),
+        options_(options),
+        context_(context),
+        state_(object, options.keep) {}
+
+  absl::StatusOr<ThinningResult> Run() {
+    const Shells shells = BuildShells(object_, distance_, options_.shell_width, context_);
+    result_.last_shell = shells.last();
+    BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    const bool symmetric = options_.method == ThinningMethod::kSymmetric;
+    BCCSKEL_RETURN_IF_ERROR(symmetric ? SweepSymmetrically(shells) : SweepByDirections(shells));
+    // A symmetric pass removes something as long as anything is simple.
+    if (options_.cleanup == ThinnessCleanup::kOn && !symmetric) {
+      BCCSKEL_ASSIGN_OR_RETURN(result_.removed_by_cleanup, CleanUpThinness(context_, state_));
+    }
+    result_.times.cleanup = clock_.Lap();
+    result_.thin = std::move(state_).ToVolume(object_);
+    result_.times.passes += clock_.Lap();
+    return std::move(result_);
   }
-  const bool alternating = options.method == ThinningMethod::kDirectionalAlternating;
-  DirectionRule rule(state, alternating ? DirectionOrder::kAlternating : DirectionOrder::kSame);
-  return SweepShells(plan, rule, context, state);
-}
+
+ private:
+  absl::Status SweepByDirections(const Shells& shells) {
+    const bool alternating = options_.method == ThinningMethod::kDirectionalAlternating;
+    DirectionRule rule(state_, alternating ? DirectionOrder::kAlternating : DirectionOrder::kSame);
+    return Sweep(shells, rule);
+  }
+
+  absl::Status SweepSymmetrically(const Shells& shells) {
+    const Shells depth = BuildDepths(object_, distance_, context_);
+    SymmetricRule rule(depth, options_.kind, state_);
+    BCCSKEL_RETURN_IF_ERROR(Sweep(shells, rule));
+    result_.isthmuses = rule.Isthmuses();
+    return absl::OkStatus();
+  }
+
+  absl::Status Sweep(const Shells& shells, PassRule& rule) {
+    result_.times.shells = clock_.Lap();
+    const int32_t last =
+        options_.last_shell == 0 ? shells.last() : std::min(options_.last_shell, shells.last());
+    const bool has_stubble = EndPointsOf(options_.kind) == EndPoints::kStay;
+    const SweepPlan plan = {shells, last, has_stubble ? options_.stubble : StubblePolicy::kNone};
+    BCCSKEL_ASSIGN_OR_RETURN(const SweepTotals totals, SweepShells(plan, rule, context_, state_));
+    result_.removed = totals.removed;
+    result_.passes = totals.passes;
+    result_.times.passes = clock_.Lap();
+    return absl::OkStatus();
+  }
+
+  const Volume& object_;
+  const DistanceField& distance_;
+  const ThinningOptions& options_;
+  const exec::Context& context_;
+  exec::StageClock clock_;
+  ThinningState state_;
+  ThinningResult result_;
+};
 
 }  // namespace
 
@@ -53,29 +102,7 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceF
                                            const ThinningOptions& options,
                                            const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  ThinningResult result;
-  exec::StageClock clock;
-  const Shells shells = BuildShells(object, distance, options.shell_width, context);
-  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
-  result.times.shells = clock.Lap();
-  ThinningState state(object, options.keep);
-  result.last_shell = shells.last();
-  const int32_t last =
-      options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
-  const bool has_stubble = EndPointsOf(options.kind) == EndPoints::kStay;
-  const SweepPlan plan = {shells, last, has_stubble ? options.stubble : StubblePolicy::kNone};
-  BCCSKEL_ASSIGN_OR_RETURN(const SweepTotals totals,
-                           Sweep(plan, distance, options, context, object, state));
-  result.removed = totals.removed;
-  result.passes = totals.passes;
-  result.times.passes = clock.Lap();
-  if (options.cleanup == ThinnessCleanup::kOn && options.method != ThinningMethod::kSymmetric) {
-    BCCSKEL_ASSIGN_OR_RETURN(result.removed_by_cleanup, CleanUpThinness(context, state));
-  }
-  result.times.cleanup = clock.Lap();
-  result.thin = std::move(state).ToVolume(object);
-  result.times.passes += clock.Lap();
-  return result;
+  return Thinning(object, distance, options, context).Run();
 }
 
 }  // namespace bccskel

@@ -79,8 +79,19 @@ struct ThinningTimes {
   std::chrono::nanoseconds cleanup{0};
 };
 
+// A point that its kind of skeleton keeps as an isthmus, and the shell that was being thinned when
+// it first was one. Early births belong to thin parts and to noise on the surface.
+struct IsthmusBirth {
+  LatticePoint point;
+  int32_t shell = 0;
+
+  friend bool operator==(const IsthmusBirth&, const IsthmusBirth&) = default;
+};
+
 struct ThinningResult {
   Volume thin;
+  // Of kSurface and kIsthmusCurve, in lattice order.
+  std::vector<IsthmusBirth> isthmuses;
   int32_t last_shell = 0;  // the deepest shell of the object
   uint64_t removed = 0;    // by passes, which includes stubble
   uint64_t removed_by_cleanup = 0;
@@ -88,7 +99,7 @@ struct ThinningResult {
   ThinningTimes times;
 };
 
-// Parallel directional thinning with shells: Conditions 1-6, section 5.
+// Parallel thinning with shells: section 5, by the method and to the kind of skeleton wanted.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
 absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,

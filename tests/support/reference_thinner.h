@@ -11,9 +11,10 @@
 namespace bccskel::test {
 
 struct ReferenceThinning {
-  std::vector<LatticePoint> thin;  // in lattice order
-  int32_t last_shell = 0;          // the deepest shell of the object
-  uint64_t removed = 0;            // by passes and stubble removal
+  std::vector<LatticePoint> thin;       // in lattice order
+  std::vector<IsthmusBirth> isthmuses;  // in lattice order
+  int32_t last_shell = 0;               // the deepest shell of the object
+  uint64_t removed = 0;                 // by passes and stubble removal
   uint64_t removed_by_cleanup = 0;
   uint32_t passes = 0;
 };

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <vector>
@@ -63,6 +64,7 @@ void ExpectAgreement(const Volume& object, const ThinningOptions& options, uint6
     ASSERT_TRUE(result.thin.SortedPoints() == expected.thin)
         << result.thin.PointCount() << " points instead of " << expected.thin.size();
     ASSERT_EQ(result.removed, expected.removed);
+    ASSERT_EQ(result.isthmuses, expected.isthmuses);
     ASSERT_EQ(result.removed_by_cleanup, 0u);
     ASSERT_EQ(result.passes, expected.passes);
   }
@@ -124,6 +126,21 @@ TEST_P(SymmetricThinningLaw, KeepsTheTopologyAfterAnyShell) {
   }
 }
 
+TEST_P(SymmetricThinningLaw, IsthmusesStay) {
+  const Volume object = VolumeOfPoints(Points());
+  for (SkeletonKind kind : kKinds) {
+    const ThinningResult result = Thin(object, Symmetric(kind), 3);
+    for (const IsthmusBirth& isthmus : result.isthmuses) {
+      EXPECT_TRUE(result.thin.Contains(isthmus.point));
+      EXPECT_GE(isthmus.shell, 1);
+      EXPECT_LE(isthmus.shell, result.last_shell);
+    }
+    if (kind == SkeletonKind::kCurve || kind == SkeletonKind::kKernel) {
+      EXPECT_TRUE(result.isthmuses.empty());
+    }
+  }
+}
+
 // What each kind means by thin.
 TEST_P(SymmetricThinningLaw, LeavesNoSimplePointButThoseThatTheKindKeeps) {
   const Volume object = VolumeOfPoints(Points());
@@ -131,6 +148,16 @@ TEST_P(SymmetricThinningLaw, LeavesNoSimplePointButThoseThatTheKindKeeps) {
   EXPECT_EQ(test::ReferenceSimpleNonEndPoints(curve), 0u);
   const test::ReferencePointSet kernel(Thin(object, Symmetric(SkeletonKind::kKernel), 2).thin);
   for (LatticePoint p : kernel.SortedPoints()) EXPECT_FALSE(IsSimple(kernel.NeighborsOf(p)));
+  for (SkeletonKind kind : {SkeletonKind::kSurface, SkeletonKind::kIsthmusCurve}) {
+    const ThinningResult result = Thin(object, Symmetric(kind), 2);
+    const test::ReferencePointSet thin(result.thin);
+    for (LatticePoint p : result.thin.SortedPoints()) {
+      const NeighborMask mask = thin.NeighborsOf(p);
+      if (kind == SkeletonKind::kSurface && std::popcount(mask) == 1) continue;
+      const bool kept = std::ranges::binary_search(result.isthmuses, p, {}, &IsthmusBirth::point);
+      EXPECT_TRUE(kept || !IsSimple(mask));
+    }
+  }
 }
 
 // A second run finds nothing to remove: all that is kept shows in what is left, but for isthmuses
