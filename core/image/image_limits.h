@@ -14,6 +14,8 @@ struct ImageLimits {
   uint64_t max_slice_voxels = uint64_t{1} << 30;
   uint64_t max_voxels = uint64_t{1} << 36;  // bounds how long a small compressed file can take
   uint64_t max_header_bytes = uint64_t{1} << 20;
+  // Slices that lie scattered over a file are gathered this many bytes at a time, or one by one.
+  uint64_t max_slab_bytes = uint64_t{64} << 20;
 };
 
 }  // namespace bccskel

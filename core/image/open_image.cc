@@ -69,7 +69,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
     BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
                              WithSpacing(image.info.placement, *options.spacing));
   }
-  return OpenStoredImage(std::move(image));
+  return OpenStoredImage(std::move(image), options.limits);
 }
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(std::shared_ptr<const ImageFile> file,

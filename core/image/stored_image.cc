@@ -14,9 +14,6 @@
 namespace bccskel {
 namespace {
 
-// Slices of an image whose z varies fastest are gathered this many bytes at a time.
-constexpr uint64_t kSlabBytes = uint64_t{64} << 20;
-
 absl::Status CheckLength(const StoredImage& image) {
   const uint64_t declared = image.VoxelBytesDeclared();
   const uint64_t rest = image.file->size() - std::min(image.stream_offset, image.file->size());
@@ -109,10 +106,11 @@ class XFastestSource : public StoredSource {
 };
 
 // A slice lies scattered over the whole file. So the file is read once for every slab of slices
-// that fits kSlabBytes, and at least one.
+// that fits the limit, and at least one.
 class ZFastestSource : public StoredSource {
  public:
-  using StoredSource::StoredSource;
+  ZFastestSource(StoredImage image, std::unique_ptr<ByteStream> stream, uint64_t max_slab_bytes)
+      : StoredSource(std::move(image), std::move(stream)), max_slab_bytes_(max_slab_bytes) {}
 
  private:
   absl::Status Fill(int32_t z, std::span<std::byte> slice) override {
@@ -125,7 +123,7 @@ class ZFastestSource : public StoredSource {
   absl::Status GatherSlab(int32_t z) {
     const ImageSize& size = image_.info.size;
     const uint64_t slice_bytes = size.SliceVoxels() * VoxelBytes(image_.stored_type);
-    const uint64_t fitting = std::max<uint64_t>(1, kSlabBytes / slice_bytes);
+    const uint64_t fitting = std::max<uint64_t>(1, max_slab_bytes_ / slice_bytes);
     if (z > 0) {
       BCCSKEL_ASSIGN_OR_RETURN(stream_, OpenVoxels(image_));
     }
@@ -154,6 +152,7 @@ class ZFastestSource : public StoredSource {
     }
   }
 
+  uint64_t max_slab_bytes_;
   int32_t first_ = 0;
   int32_t count_ = 0;
   exec::UninitializedVector<std::byte> slab_;
@@ -162,12 +161,14 @@ class ZFastestSource : public StoredSource {
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image) {
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image,
+                                                             const ImageLimits& limits) {
   image.info.type = image.Scaled() ? VoxelType::kFloat64 : image.stored_type;
   BCCSKEL_RETURN_IF_ERROR(CheckLength(image));
   BCCSKEL_ASSIGN_OR_RETURN(auto stream, OpenVoxels(image));
   if (image.voxel_order == VoxelOrder::kZFastest) {
-    return std::make_unique<ZFastestSource>(std::move(image), std::move(stream));
+    return std::make_unique<ZFastestSource>(std::move(image), std::move(stream),
+                                            limits.max_slab_bytes);
   }
   return std::make_unique<XFastestSource>(std::move(image), std::move(stream));
 }

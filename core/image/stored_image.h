@@ -43,7 +43,8 @@ struct StoredImage {
 // Compares what the header declares with what the file can hold, then opens the stream.
 // Needs:  info.size from SizeOfAxes(), info.placement from PlacementOf...().
 // Errors: INVALID_ARGUMENT where the file is too short; RESOURCE_EXHAUSTED (memory).
-absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image);
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image,
+                                                             const ImageLimits& limits);
 
 }  // namespace bccskel
 

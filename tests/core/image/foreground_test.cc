@@ -65,6 +65,9 @@ TEST(ForegroundRule, IsExactWhereATypeCannotHoldTheEndsOfARange) {
   const float third = 1.0F / 3;  // above 1/3 in double
   EXPECT_THAT(Foreground<float>({third}, *ForegroundRule::Range(0, 1.0 / 3)), ElementsAre(0));
   EXPECT_THAT(Foreground<float>({third}, *ForegroundRule::From(1.0 / 3)), ElementsAre(1));
+  const float seven_tenths = 0.7F;  // below 0.7 in double
+  EXPECT_THAT(Foreground<float>({seven_tenths}, *ForegroundRule::From(0.7)), ElementsAre(0));
+  EXPECT_THAT(Foreground<float>({seven_tenths}, *ForegroundRule::Below(0.7)), ElementsAre(1));
   EXPECT_THAT(Foreground<uint8_t>({0, 39, 40, 255}, *ForegroundRule::From(39.5)),
               ElementsAre(0, 0, 1, 1));
   EXPECT_THAT(Foreground<uint8_t>({0, 255}, *ForegroundRule::Range(256, 1e9)), ElementsAre(0, 0));

@@ -98,11 +98,17 @@ TEST(OpenImage, ReadsNpyInFortranOrderAsTheSameArray) {
       for (int z = 0; z < 2; ++z) elements += Bytes<int32_t>(12 * z + 4 * y + x, std::endian::big);
     }
   }
-  const auto image =
-      ReadBytes(Npy("{'descr': '>i4', 'fortran_order': True, 'shape': (2, 3, 4), }", elements));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{4, 3, 2}));
-  EXPECT_EQ(image->values, CountedTo(24));
+  const std::string bytes =
+      Npy("{'descr': '>i4', 'fortran_order': True, 'shape': (2, 3, 4), }", elements);
+  // A slice has 48 bytes: both at once, and one by one.
+  for (const uint64_t slab : {uint64_t{1} << 20, uint64_t{50}, uint64_t{1}}) {
+    ImageOptions options;
+    options.limits.max_slab_bytes = slab;
+    const auto image = ReadBytes(bytes, options);
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->info.size, (ImageSize{4, 3, 2}));
+    EXPECT_EQ(image->values, CountedTo(24)) << slab;
+  }
 }
 
 TEST(OpenImage, DropsAxesOfLengthOneOfNpyArrays) {
