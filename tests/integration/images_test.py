@@ -128,6 +128,12 @@ class ImagesTest(harness.TestCase):
         self.assertEqual(direct["certificate"]["mask"], direct["certificate"]["skeleton"])
         self.succeed("view", self.path("s.json"), "--object", ring_file, "-o", self.path("v.html"))
 
+    def test_the_readme_names_every_key_of_an_image(self):
+        readme = (harness.SOURCES / "client/README.md").read_text()
+        info = json.loads(self.succeed("info", self.write_ring(), "--json"))
+        for key in [*info, *info["image"]]:
+            self.assertIn(f"`{key}`", readme)
+
     def test_options_of_images_are_for_images(self):
         wrong = [("are for images", "a.off", "--label", 1), ("are for meshes", "a.nii", "--points", 9),
                  ("excludes", "a.nii", "--label", 1, "--below", 0),
