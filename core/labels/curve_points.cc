@@ -1,6 +1,5 @@
 #include "core/labels/curve_points.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -55,11 +54,8 @@ absl::StatusOr<LatticeOnGrid> PlaceOnGrid(const Placement& lattice, const Placem
 struct ValuedPoint {
   LatticePoint point;
   uint32_t value;
-
-  friend auto operator<=>(const ValuedPoint&, const ValuedPoint&) = default;
 };
 
-// Every curve point once, with its smallest value.
 std::vector<ValuedPoint> ValuedPoints(const SkeletonGraph& graph) {
   std::vector<ValuedPoint> points;
   std::vector<bool> touched(graph.nodes.size());
@@ -74,9 +70,6 @@ std::vector<ValuedPoint> ValuedPoints(const SkeletonGraph& graph) {
     if (touched[n]) continue;
     points.push_back({graph.nodes[n].at.point, static_cast<uint32_t>(graph.edges.size() + n + 1)});
   }
-  std::ranges::sort(points);
-  const auto same = std::ranges::unique(points, {}, &ValuedPoint::point);
-  points.erase(same.begin(), same.end());
   return points;
 }
 

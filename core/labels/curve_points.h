@@ -22,8 +22,8 @@ struct CurvePoint {
   uint32_t value = 0;                 // see edge_image.h
 };
 
-// Every curve point once, with its smallest value, in lattice order. Points with no object voxel
-// around them, as samplings may make, are left out.
+// The points of every edge, so a node once for each of its edges, and the nodes without edges.
+// Points with no object voxel around them, as samplings may make, are left out.
 // Errors: INVALID_ARGUMENT when the grid's direction has no inverse.
 absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph,
                                                       const MaskGrid& grid,

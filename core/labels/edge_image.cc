@@ -135,10 +135,12 @@ absl::StatusOr<SparseImage> DrawSkeleton(const MaskGrid& grid, const LabeledObje
     voxels.push_back({{z, y, x, x + 1}, p.value});
   }
   std::ranges::sort(voxels);
-  const auto same = std::ranges::unique(voxels, {}, &ValueRun::voxels);
-  voxels.erase(same.begin(), same.end());
   SparseImage image;
-  for (const auto& [voxel, value] : voxels) Append(image, voxel, value);
+  const VoxelRun* before = nullptr;
+  for (const auto& [voxel, value] : voxels) {
+    if (before == nullptr || *before != voxel) Append(image, voxel, value);
+    before = &voxel;
+  }
   return image;
 }
 

@@ -41,8 +41,10 @@ absl::Status LabelCollector::AddSlice(std::span<const uint64_t> labels,
   const auto nx = static_cast<size_t>(grid_.nx);
   for (int32_t y = 0; y < grid_.ny; ++y) {
     AddRow(labels.subspan(static_cast<size_t>(y) * nx, nx), y);
+    BCCSKEL_RETURN_IF_ERROR(CheckLimits());
   }
-  return EndSlice(context);
+  ++next_z_;
+  return context.StopStatus();
 }
 
 absl::Status LabelCollector::AddMaskSlice(std::span<const uint64_t> words,
@@ -53,17 +55,22 @@ absl::Status LabelCollector::AddMaskSlice(std::span<const uint64_t> words,
     ForEachRun(rows_[n], [&](int32_t begin, int32_t end) {
       AddRun(1, {next_z_, rows_.y(n), begin, end});
     });
+    BCCSKEL_RETURN_IF_ERROR(CheckLimits());
   }
-  return EndSlice(context);
+  ++next_z_;
+  return context.StopStatus();
 }
 
-absl::Status LabelCollector::EndSlice(const exec::Context& context) {
-  ++next_z_;
+absl::Status LabelCollector::CheckLimits() const {
   if (runs_ > filter_.max_runs) {
     return absl::ResourceExhaustedError(absl::StrFormat(
         "the image has more runs of labeled voxels than the limit of %d", filter_.max_runs));
   }
-  return context.StopStatus();
+  if (filter_.labels.empty() && objects_.size() > filter_.max_labels) {
+    return absl::ResourceExhaustedError(
+        absl::StrFormat("the image has more labels than the limit of %d", filter_.max_labels));
+  }
+  return absl::OkStatus();
 }
 
 void LabelCollector::AddRow(std::span<const uint64_t> labels, int32_t y) {

@@ -18,6 +18,7 @@ struct LabelFilter {
   std::vector<uint64_t> labels = {};  // none: all but 0, the background
   uint64_t min_voxels = 1;            // smaller objects are left out
   uint64_t max_runs = uint64_t{1} << 28;
+  uint64_t max_labels = uint64_t{1} << 28;  // where `labels` does not list them
 };
 
 // Gathers the voxels of every label in one pass over the slices of an image.
@@ -29,9 +30,8 @@ class LabelCollector {
   static absl::StatusOr<LabelCollector> Create(const MaskGrid& grid, const LabelFilter& filter);
 
   // The next slice, from z = 0 on. Shapes: see MaskGrid.
-  // Errors: INVALID_ARGUMENT (number of values or slices), RESOURCE_EXHAUSTED (max_runs),
-  // CANCELLED,
-  //         DEADLINE_EXCEEDED.
+  // Errors: INVALID_ARGUMENT (number of values or slices), RESOURCE_EXHAUSTED (max_runs or
+  //         max_labels, checked after each row), CANCELLED, DEADLINE_EXCEEDED.
   absl::Status AddSlice(std::span<const uint64_t> labels, const exec::Context& context);
   // The same for a slice of a mask, whose voxels get label 1.
   absl::Status AddMaskSlice(std::span<const uint64_t> words, const exec::Context& context);
@@ -41,7 +41,7 @@ class LabelCollector {
 
  private:
   LabelCollector(const MaskGrid& grid, const LabelFilter& filter);
-  absl::Status EndSlice(const exec::Context& context);
+  absl::Status CheckLimits() const;
   void AddRow(std::span<const uint64_t> labels, int32_t y);
   void AddRun(uint64_t label, const VoxelRun& run);
   LabeledObject* Find(uint64_t label);

@@ -234,6 +234,35 @@ TEST(NearestEdges, LeaveOutComponentsWithoutCurve) {
   EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
 }
 
+// Lattice point (x, 6, 6) lies at x / 4 - 1 / 2 voxels in the rows through voxel (1, 1, 1).
+TEST(DrawSkeleton, PutsAPointBesideTheObjectIntoItsNextVoxelIfThatIsOneAway) {
+  LabelVolume volume = test::EmptyLabels(8, 3, 3);
+  volume.At(1, 1, 1) = 1;
+  const Example example = ExampleOf(std::move(volume));
+  SkeletonGraph graph;
+  graph.placement = example.graph.placement;
+  graph.nodes = {NodeAt(10)};
+  EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph),
+              ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
+  graph.nodes = {NodeAt(14)};
+  EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph), ::testing::IsEmpty());
+}
+
+TEST(NearestEdges, KeepRunsOfARowApart) {
+  LabelVolume volume = test::EmptyLabels(6, 4, 3);
+  for (int32_t x : {1, 2, 3}) volume.At(x, 1, 1) = 1;
+  volume.At(1, 2, 1) = volume.At(3, 2, 1) = 1;
+  const Example example = ExampleOf(std::move(volume));
+  SkeletonGraph graph;
+  graph.placement = example.graph.placement;
+  graph.nodes = {NodeAt(10)};
+  const auto image =
+      NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
+  ASSERT_TRUE(image.ok());
+  EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 4}, 1}, ValueRun{{1, 2, 1, 2}, 1},
+                                             ValueRun{{1, 2, 3, 4}, 1}));
+}
+
 TEST(NearestEdges, StopWhenCancelled) {
   const Example example = Balls({});
   std::stop_source source;
@@ -353,14 +382,14 @@ std::string Unzipped(const std::string& path, size_t offset, size_t bytes) {
 }
 
 TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
-  const MaskGrid grid = {5, 3, 2, {{1, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
+  const MaskGrid grid = {5, 3, 2, {{4, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
   const SparseImage image = {{{0, 1, 1, 3}, 70000}, {{1, 2, 4, 5}, 2}};
   ASSERT_TRUE(WriteNrrd(path_, grid, image).ok());
   std::ifstream file(path_, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   const size_t data = text.find("\n\n") + 2;
   EXPECT_THAT(text.substr(0, data), HasSubstr("sizes: 5 3 2\n"));
-  EXPECT_THAT(text.substr(0, data), HasSubstr("space directions: (0,1,0) (-2,0,0) (0,0,3)\n"));
+  EXPECT_THAT(text.substr(0, data), HasSubstr("space directions: (0,4,0) (-2,0,0) (0,0,3)\n"));
   EXPECT_THAT(text.substr(0, data), HasSubstr("space origin: (7,8,9)\n"));
   std::vector<uint32_t> expected(30);
   expected[6] = expected[7] = 70000;
@@ -371,7 +400,7 @@ TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
 }
 
 TEST_F(WrittenNrrd, IsReadBackAsItWas) {
-  const MaskGrid grid = {5, 3, 2, {{1, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
+  const MaskGrid grid = {5, 3, 2, {{4, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
   ASSERT_TRUE(WriteNrrd(path_, grid, {{{1, 2, 3, 5}, 4000000000}}).ok());
   const auto image = OpenImage(path_);
   ASSERT_TRUE(image.ok()) << image.status();

@@ -138,7 +138,7 @@ TEST(OrderedDelivery, HandsOnInOrderWhateverTheOrderOfArrival) {
     return absl::OkStatus();
   };
   OrderedDelivery delivery(consume, 10);
-  for (uint64_t n : {3, 1, 2, 0, 4}) delivery.Add(n, {n, 0, {}});
+  for (uint64_t n : {3u, 1u, 2u, 0u, 4u}) delivery.Add(n, {n, 0, {}});
   EXPECT_THAT(labels, ::testing::ElementsAre(0, 1, 2, 3, 4));
 }
 
