@@ -135,7 +135,8 @@ class ImagesTest(harness.TestCase):
             self.assertIn(f"`{key}`", readme)
 
     def test_options_of_images_are_for_images(self):
-        wrong = [("are for images", "a.off", "--label", 1), ("are for meshes", "a.nii", "--points", 9),
+        wrong = [("are for images", "a.off", "--label", 1),
+                 ("are for meshes", "a.nii", "--points", 9),
                  ("excludes", "a.nii", "--label", 1, "--below", 0),
                  ("holds no number", "a.nii", "--range", "3,2"),
                  ("requires --raw-size", "a.nii", "--raw-type", "u8"),

@@ -1,7 +1,8 @@
 """Writes images with a program of others, for foreign_images_test.
 
 Usage: foreign_images.py PROGRAM FOLDER
-Voxel (x, y, z) is (7 x + 13 y + 29 z) % 100, and a quarter more for floats; bools are x + y + z odd.
+Voxel (x, y, z) is (7 x + 13 y + 29 z) % 100, and a quarter more for floats; bools are whether
+x + y + z is odd.
 Writes FOLDER/list.txt, a line for each image: name, voxel type, kind of values, size, the world
 steps of the three axes and the origin, 0 0 0 0 where the format holds none. Exits with 77 where the
 program is missing.

@@ -72,8 +72,7 @@ void ExpectImage(const testing::ReadImage& image, const Expected& expected) {
 class ForeignImages : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForeignImages, AreReadAsTheyWereMade) {
-  const auto folder =
-      std::filesystem::path(::testing::TempDir()) / (std::string("bccskel_foreign_") + GetParam());
+  const auto folder = std::filesystem::path(testing::TemporaryPath(GetParam()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const std::string command = std::string(BCCSKEL_PYTHON) + " -B " + BCCSKEL_FOREIGN_IMAGES + " " +

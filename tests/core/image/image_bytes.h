@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_TESTS_CORE_IMAGE_IMAGE_BYTES_H_
 #define BCCSKEL_TESTS_CORE_IMAGE_IMAGE_BYTES_H_
 
+#include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -41,6 +43,11 @@ inline std::string Deflated(const std::string& bytes, Wrapping wrapping) {
   packed.resize(zlib.total_out);
   deflateEnd(&zlib);
   return packed;
+}
+
+// A path of this process alone.
+inline std::string TemporaryPath(const std::string& name) {
+  return ::testing::TempDir() + "bccskel_" + std::to_string(getpid()) + "_" + name;
 }
 
 // What an image holds, all values as double, x fastest.

@@ -210,7 +210,7 @@ TEST(OpenImage, TakesTheSpacingFromTheOptions) {
 }
 
 TEST(OpenImage, ReadsVoxelsFromAFileBesideTheHeaderOnly) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "bccskel_detached";
+  const auto folder = std::filesystem::path(testing::TemporaryPath("detached"));
   std::filesystem::create_directories(folder / "inner");
   const auto write = [&folder](const std::string& name, const std::string& bytes) {
     std::ofstream(folder / name, std::ios::binary) << bytes;
@@ -230,8 +230,10 @@ TEST(OpenImage, ReadsVoxelsFromAFileBesideTheHeaderOnly) {
     ASSERT_TRUE(image.ok()) << image.status();
     EXPECT_EQ(image->values, CountedTo(12));
   }
-  for (const char* place : {"inner/voxels.raw", "../bccskel_detached/voxels.raw", "/etc/passwd"}) {
-    const auto status = OpenImage(nrrd(std::string("data file: ") + place)).status();
+  const std::string around = absl::StrFormat("../%s/voxels.raw", folder.filename().string());
+  for (const std::string& place :
+       {std::string("inner/voxels.raw"), around, std::string("/etc/passwd")}) {
+    const auto status = OpenImage(nrrd(absl::StrFormat("data file: %s", place))).status();
     EXPECT_THAT(std::string(status.message()), HasSubstr("only a file beside the header"));
   }
   const auto meta = write("a.mhd",

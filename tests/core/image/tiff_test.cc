@@ -33,7 +33,7 @@ struct Pages {
 
 // Pages whose bytes count from 0; the last one may be wider.
 std::string Tiff(const Pages& pages, uint32_t last_width = 0) {
-  const std::string path = ::testing::TempDir() + "bccskel_pages.tif";
+  const std::string path = testing::TemporaryPath("pages.tif");
   TIFF* tiff = TIFFOpen(path.c_str(), "w");
   uint8_t next = 0;
   for (int page = 0; page < pages.count; ++page) {
@@ -58,7 +58,9 @@ std::string Tiff(const Pages& pages, uint32_t last_width = 0) {
   }
   TIFFClose(tiff);
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  return bytes;
 }
 
 TEST(Tiff, StacksPagesOfEveryCompression) {
