@@ -12,7 +12,6 @@
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
-#include "core/thinning/thinning.h"
 #include "core/version/version.h"
 
 // Only the files of arguments include CLI11, which is slow to compile.
@@ -127,6 +126,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   AddOutputs(command, arguments.outputs);
   AddServer(command, arguments);
   AddDistance(command, arguments.skeletonize.distance);
+  AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
@@ -148,6 +148,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
           "Compute on this machine, without a server")
       ->excludes(server);
   AddDistance(command, arguments.skeletonize.distance);
+  AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
@@ -301,7 +302,7 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
       c.has_value()) {
     return c;
   }
-  return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
+  return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
 }
 
 Complaint ComplaintAbout(const VoxelizeArguments& arguments) {

@@ -13,6 +13,25 @@ void AddDistance(CLI::App& command, DistanceKind& distance) {
                            {"euclidean", DistanceKind::kEuclidean}});
 }
 
+void AddPruning(CLI::App& command, PruningOptions& pruning) {
+  AddChoice<PruningRule>(command, "--pruning", pruning.rule,
+                         "Which branches with a free end to remove (default slope)",
+                         {{"slope", PruningRule::kSlope},
+                          {"length", PruningRule::kLength},
+                          {"relative-length", PruningRule::kRelativeLength},
+                          {"none", PruningRule::kNone}});
+  command
+      .add_option("--pruning-threshold", pruning.threshold,
+                  "Margin in lattice units for slope (default 4), world units for length, radii of "
+                  "the junction for relative-length (default 1)")
+      ->option_text("X");
+  AddChoice<TipPlacement>(
+      command, "--tips", pruning.tips,
+      "Where branches end: where the ridge of the distances does (default), or "
+      "as thinned",
+      {{"ridge", TipPlacement::kRidge}, {"as-thinned", TipPlacement::kAsThinned}});
+}
+
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
                             "How points are chosen for removal (default directional)",

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_CLI_THINNING_ARGUMENTS_H_
 
 #include "core/distance/distance_field.h"
+#include "core/pruning/prune.h"
 #include "core/thinning/thinning.h"
 
 namespace CLI {
@@ -10,8 +11,9 @@ class App;
 
 namespace bccskel::cli {
 
-// Adds the options that say how an object is thinned.
+// Adds the options that say how an object is thinned and what is pruned.
 void AddDistance(CLI::App& command, DistanceKind& distance);
+void AddPruning(CLI::App& command, PruningOptions& pruning);
 void AddThinning(CLI::App& command, ThinningOptions& thinning);
 
 }  // namespace bccskel::cli

@@ -34,7 +34,7 @@ class Skeleton:
     node: np.ndarray         # per node: lattice point, shape (nodes, 3)
     ends: np.ndarray         # per edge: its source and target node, shape (edges, 2)
     paths: list      # per edge: its lattice points from source to target, shape (points, 3)
-    radii: list      # per edge: the distance of each point to the background, in world units
+    radii: list      # per edge: the exact distance of each point to the background, in world units
     summary: object  # skeleton_pb2.SkeletonSummary: certificate, timings, SHA-256
 
 
@@ -67,7 +67,7 @@ def requests(cells, spacing, options=None):
 
 def skeletonize(channel, cells, spacing=1.0, options=None, on_progress=None, timeout=600):
     """One call. Raises grpc.RpcError; error_reason() takes it apart."""
-    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "distance")}
+    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "radius")}
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
     for reply in stub.Skeletonize(requests(cells, spacing, options), timeout=timeout):
@@ -88,13 +88,13 @@ def add(columns, chunk):
     columns["ends"].extend(zip(edges.source, edges.target))
     columns["count"].extend(edges.point_count)
     columns["point"].extend(zip(points.x, points.y, points.z))
-    columns["distance"].extend(points.distance)
+    columns["radius"].extend(points.radius)
 
 
 def assemble(columns, summary, spacing):
     """Each edge owns the next point_count rows of the point table."""
     points = np.array(columns["point"], dtype=np.int32).reshape(-1, 3)
-    radii = np.array(columns["distance"]) / summary.weights.half_units * spacing
+    radii = np.array(columns["radius"]) * spacing / 2  # of lattice units
     if (len(columns["node"]), len(columns["ends"]), len(points)) != (
             summary.node_count, summary.edge_count, summary.point_count):
         raise ValueError("the summary states other numbers of rows than came")

@@ -1,12 +1,12 @@
 #include "client/export/graphml.h"
 
-#include <algorithm>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "client/export/node_kind_name.h"
 #include "client/export/text.h"
+#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -23,11 +23,14 @@ constexpr std::string_view kHead =
     "<key id=\"y\" for=\"node\" attr.name=\"y\" attr.type=\"double\"/>\n"
     "<key id=\"z\" for=\"node\" attr.name=\"z\" attr.type=\"double\"/>\n"
     "<key id=\"radius\" for=\"node\" attr.name=\"radius\" attr.type=\"double\"/>\n"
+    "<key id=\"component\" for=\"node\" attr.name=\"component\" attr.type=\"int\"/>\n"
     "<key id=\"loops\" for=\"node\" attr.name=\"loops\" attr.type=\"int\"/>\n"
     "<key id=\"cavities\" for=\"node\" attr.name=\"cavities\" attr.type=\"int\"/>\n"
     "<key id=\"length\" for=\"edge\" attr.name=\"length\" attr.type=\"double\"/>\n"
     "<key id=\"mean_radius\" for=\"edge\" attr.name=\"mean_radius\" attr.type=\"double\"/>\n"
     "<key id=\"min_radius\" for=\"edge\" attr.name=\"min_radius\" attr.type=\"double\"/>\n"
+    "<key id=\"max_radius\" for=\"edge\" attr.name=\"max_radius\" attr.type=\"double\"/>\n"
+    "<key id=\"tortuosity\" for=\"edge\" attr.name=\"tortuosity\" attr.type=\"double\"/>\n"
     "<key id=\"points\" for=\"edge\" attr.name=\"points\" attr.type=\"string\"/>\n"
     "<graph id=\"skeleton\" edgedefault=\"undirected\">\n";
 
@@ -36,7 +39,7 @@ void AddData(Text& text, std::string_view key, const Value& value) {
   text.Add("<data key=\"", key, "\">", value, "</data>");
 }
 
-void AddNode(Text& text, const SkeletonGraph& graph, size_t n) {
+void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component) {
   const SkeletonNode& node = graph.nodes[n];
   const WorldPoint p = graph.PositionOf(node.at);
   text.Add("<node id=\"n", n, "\">");
@@ -45,22 +48,12 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n) {
   AddData(text, "y", p[1]);
   AddData(text, "z", p[2]);
   AddData(text, "radius", graph.RadiusOf(node.at));
+  AddData(text, "component", component);
   if (node.kind == NodeKind::kClosedSurface) {
     AddData(text, "loops", node.loops);
     AddData(text, "cavities", node.cavities);
   }
   text.Add("</node>\n");
-}
-
-double MeanRadius(const SkeletonGraph& graph, std::span<const SkeletonPoint> points) {
-  double sum = 0;
-  for (const SkeletonPoint& p : points) sum += graph.RadiusOf(p);
-  return points.empty() ? 0 : sum / static_cast<double>(points.size());
-}
-
-double MinRadius(const SkeletonGraph& graph, std::span<const SkeletonPoint> points) {
-  const auto thinnest = std::ranges::min_element(points, {}, &SkeletonPoint::distance);
-  return thinnest == points.end() ? 0 : graph.RadiusOf(*thinnest);
 }
 
 void AddPathPoints(Text& text, const SkeletonGraph& graph, std::span<const SkeletonPoint> points) {
@@ -78,9 +71,12 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n) {
   const SkeletonEdge& edge = graph.edges[n];
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   text.Add("<edge id=\"e", n, "\" source=\"n", edge.source, "\" target=\"n", edge.target, "\">");
-  AddData(text, "length", graph.LengthOf(edge));
-  AddData(text, "mean_radius", MeanRadius(graph, points));
-  AddData(text, "min_radius", MinRadius(graph, points));
+  const EdgeFigures figures = FiguresOf(graph, edge);
+  AddData(text, "length", figures.length);
+  AddData(text, "mean_radius", figures.mean_radius);
+  AddData(text, "min_radius", figures.min_radius);
+  AddData(text, "max_radius", figures.max_radius);
+  if (figures.tortuosity.has_value()) AddData(text, "tortuosity", *figures.tortuosity);
   AddPathPoints(text, graph, points);
   text.Add("</edge>\n");
 }
@@ -90,7 +86,10 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n) {
 std::string GraphMlText(const SkeletonGraph& graph) {
   Text text;
   text.Add(kHead);
-  for (size_t n = 0; n < graph.nodes.size(); ++n) AddNode(text, graph, n);
+  const GraphComponents components = ComponentsOf(graph);
+  for (size_t n = 0; n < graph.nodes.size(); ++n) {
+    AddNode(text, graph, n, components.of_node[n]);
+  }
   for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n);
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();

@@ -8,8 +8,9 @@
 namespace bccskel::exporting {
 
 // GraphML, one undirected graph with self loops and parallel edges.
-// Nodes: kind, x, y, z, radius; loops and cavities where a closed surface has them.
-// Edges: length, mean_radius, min_radius, points ("x y z radius; x y z radius; ...").
+// Nodes: kind, x, y, z, radius, component; loops and cavities where a closed surface has them.
+// Edges: length, mean_radius, min_radius, max_radius, tortuosity (not of closed curves),
+//         points ("x y z radius; x y z radius; ...").
 // World coordinates and units throughout.
 std::string GraphMlText(const SkeletonGraph& graph);
 

@@ -6,6 +6,7 @@
 
 #include "client/export/node_kind_name.h"
 #include "client/export/text.h"
+#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -27,11 +28,11 @@ void AddPosition(Text& text, const WorldPoint& p) {
   text.Add('[', p[0], ',', p[1], ',', p[2], ']');
 }
 
-void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node) {
+void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, uint32_t component) {
   text.Add("{\"id\":", &node - graph.nodes.data(), ",\"kind\":\"", NodeKindName(node.kind),
            "\",\"position\":");
   AddPosition(text, graph.PositionOf(node.at));
-  text.Add(",\"radius\":", graph.RadiusOf(node.at));
+  text.Add(",\"radius\":", graph.RadiusOf(node.at), ",\"component\":", component);
   if (node.kind == NodeKind::kClosedSurface) {
     text.Add(",\"cavities\":", node.cavities, ",\"loops\":", node.loops);
   }
@@ -45,7 +46,20 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge) {
           [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
   AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
-  text.Add(",\"length\":", graph.LengthOf(edge), '}');
+  text.Add(",\"curve\":");
+  AddList(text, ",", SmoothCurve(graph, edge), [&](const WorldPoint& p) { AddPosition(text, p); });
+  const EdgeFigures figures = FiguresOf(graph, edge);
+  text.Add(",\"length\":", figures.length, ",\"mean_radius\":", figures.mean_radius,
+           ",\"min_radius\":", figures.min_radius, ",\"max_radius\":", figures.max_radius);
+  if (figures.tortuosity.has_value()) text.Add(",\"tortuosity\":", *figures.tortuosity);
+  text.Add('}');
+}
+
+void AddFigures(Text& text, const ComponentFigures& figures) {
+  text.Add("{\"nodes\":", figures.nodes, ",\"edges\":", figures.edges, ",\"ends\":", figures.ends,
+           ",\"junctions\":", figures.junctions, ",\"loops\":", figures.loops,
+           ",\"cavities\":", figures.cavities, ",\"length\":", figures.length,
+           ",\"max_radius\":", figures.max_radius, '}');
 }
 
 void AddBettiNumbers(Text& text, const BettiNumbers& betti) {
@@ -85,9 +99,17 @@ std::string JsonText(const SkeletonizeResult& result) {
   const SkeletonGraph& graph = result.graph;
   Text text;
   text.Add("{\n\"nodes\":");
-  AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) { AddNode(text, graph, n); });
+  const GraphComponents components = ComponentsOf(graph);
+  AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) {
+    AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())]);
+  });
   text.Add(",\n\"edges\":");
   AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e); });
+  text.Add(",\n\"components\":");
+  AddList(text, ",\n", components.figures,
+          [&](const ComponentFigures& figures) { AddFigures(text, figures); });
+  text.Add(",\n\"totals\":");
+  AddFigures(text, TotalOf(components));
   text.Add(",\n\"certificate\":");
   AddCertificate(text, result.certificate);
   text.Add(",\n\"object_points\":", result.object_points, ",\n\"timings\":");

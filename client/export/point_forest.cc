@@ -109,7 +109,7 @@ class ShortestWays {
 std::vector<size_t> DeepestFirst(const std::vector<SkeletonPoint>& points) {
   std::vector<size_t> order(points.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_sort(order, std::greater<>{}, [&](size_t n) { return points[n].distance; });
+  std::ranges::stable_sort(order, std::greater<>{}, [&](size_t n) { return points[n].radius; });
   return order;
 }
 

@@ -16,6 +16,7 @@
 #include "client/export/vtp.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
+#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -48,7 +49,7 @@ absl::Status CheckFinite(const SkeletonGraph& graph) {
   const bool all = std::ranges::all_of(graph.points, finite) &&
                    std::ranges::all_of(graph.nodes, finite, &SkeletonNode::at) &&
                    std::ranges::all_of(graph.edges, [&](const SkeletonEdge& edge) {
-                     return std::isfinite(graph.LengthOf(edge));
+                     return std::isfinite(FiguresOf(graph, edge).length);
                    });
   return all ? absl::OkStatus()
              : absl::InvalidArgumentError("the skeleton's coordinates do not fit a double");

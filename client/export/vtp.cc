@@ -6,6 +6,7 @@
 
 #include "client/export/polylines.h"
 #include "client/export/text.h"
+#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -43,8 +44,17 @@ void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<si
   text.Add("</", tag, ">\n");
 }
 
-double LatticeUnits(const ChamferWeights& weights, uint32_t counts) {
-  return counts / weights.counts_per_unit;
+// The places of the points on smooth curves, in the order of Polylines::points.
+std::vector<WorldPoint> SmoothPoints(const SkeletonGraph& graph) {
+  std::vector<WorldPoint> places;
+  for (const SkeletonNode& node : graph.nodes) places.push_back(graph.PositionOf(node.at));
+  for (const SkeletonEdge& edge : graph.edges) {
+    const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+    if (curve.empty()) continue;
+    if (graph.nodes[edge.source].kind == NodeKind::kLoop) places[edge.source] = curve.front();
+    if (curve.size() > 2) places.insert(places.end(), curve.begin() + 1, curve.end() - 1);
+  }
+  return places;
 }
 
 void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
@@ -53,16 +63,17 @@ void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polyl
     for (const SkeletonPoint& p : polylines.points) text.Add(graph.RadiusOf(p), '\n');
   });
   AddArray(text, "Float64", "distance", [&] {
-    for (const SkeletonPoint& p : polylines.points) {
-      text.Add(LatticeUnits(graph.weights, p.distance), '\n');
-    }
+    for (const SkeletonPoint& p : polylines.points) text.Add(p.radius, '\n');
   });
   AddArray(text, "UInt8", "node_kind", [&] {
     for (size_t n = 0; n < polylines.points.size(); ++n) {
       text.Add(n < graph.nodes.size() ? 1 + static_cast<int>(graph.nodes[n].kind) : 0, '\n');
     }
   });
-  text.Add("</PointData>\n");
+  text.Add("<DataArray type=\"Float64\" Name=\"smooth\" NumberOfComponents=\"3\" ",
+           "format=\"ascii\">\n");
+  for (const WorldPoint& p : SmoothPoints(graph)) text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
+  text.Add("</DataArray>\n</PointData>\n");
 }
 
 void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
@@ -71,10 +82,19 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
     for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("-1\n");
     for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(n, '\n');
   });
-  AddArray(text, "Float64", "length", [&] {
-    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("0\n");
-    for (const SkeletonEdge& edge : graph.edges) text.Add(graph.LengthOf(edge), '\n');
-  });
+  std::vector<EdgeFigures> figures;
+  for (const SkeletonEdge& edge : graph.edges) figures.push_back(FiguresOf(graph, edge));
+  const auto add = [&](std::string_view name, auto figure) {
+    AddArray(text, "Float64", name, [&] {
+      for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("0\n");
+      for (const EdgeFigures& one : figures) text.Add(figure(one), '\n');
+    });
+  };
+  add("length", [](const EdgeFigures& one) { return one.length; });
+  add("mean_radius", [](const EdgeFigures& one) { return one.mean_radius; });
+  add("min_radius", [](const EdgeFigures& one) { return one.min_radius; });
+  add("max_radius", [](const EdgeFigures& one) { return one.max_radius; });
+  add("tortuosity", [](const EdgeFigures& one) { return one.tortuosity.value_or(0); });
   text.Add("</CellData>\n");
 }
 

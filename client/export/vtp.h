@@ -10,8 +10,10 @@ namespace bccskel::exporting {
 // VTK XML PolyData, version 1.0, ASCII.
 // Cells:       one vertex per node without edges, then one polyline per edge.
 // Point data:  radius (world units), distance (lattice units), node_kind (0 inside an edge, else
-//              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface).
-// Cell data:   edge_id (-1 for vertices), length (world units).
+//              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface); smooth (the place on a
+//              smooth curve inside the object).
+// Cell data:   edge_id (-1 for vertices); length, mean_radius, min_radius, max_radius (world
+//              units), tortuosity (0 for closed curves).
 std::string VtpText(const SkeletonGraph& graph);
 
 }  // namespace bccskel::exporting

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/distance/chamfer_distance.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/status_macros.h"
 #include "core/shells/shells.h"
 #include "core/surface/smooth_surface.h"
@@ -56,7 +56,7 @@ DisplaySurface InWorld(const SurfaceMesh& mesh, const Placement& placement) {
 }
 
 // The points of an object that are deeper than a shell.
-Volume DeeperThan(int32_t shell, const Volume& object, const ChamferField& distance) {
+Volume DeeperThan(int32_t shell, const Volume& object, const DistanceField& distance) {
   std::vector<BrickKey> keys(object.keys().begin(), object.keys().end());
   std::vector<BrickBits> bricks(object.bricks().begin(), object.bricks().end());
   for (BrickIndex n = 0; n < bricks.size(); ++n) {
@@ -86,7 +86,8 @@ absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits
   BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
                            MakeDisplaySurface(object, limits.object_triangles, context));
   peeling.layers.push_back({0, std::move(whole)});
-  BCCSKEL_ASSIGN_OR_RETURN(const ChamferField distance, ComputeChamferDistance(object, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
+                           ComputeDistance(object, DistanceKind::kChamfer, context));
   peeling.last_shell = ShellOf(distance.largest(), distance.weights(), kShellWidth);
   const int32_t layers = std::min(limits.layers, peeling.last_shell - 1);
   for (int32_t n = 1; n <= layers; ++n) {

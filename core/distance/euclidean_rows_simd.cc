@@ -28,6 +28,13 @@ struct PointRuns {
 };
 
 HWY_INLINE void FindPointRuns(uint32_t bits, uint32_t left, uint32_t right, PointRuns& runs) {
+  if (bits == 0xffff) {  // most rows of a thick object
+    for (uint32_t i = 0; i <= kBrickX; ++i) {
+      runs.leftward[i] = static_cast<int32_t>(left + i);
+      runs.rightward[i] = static_cast<int32_t>(right + kBrickX - i);
+    }
+    return;
+  }
   auto run = static_cast<int32_t>(left);
   runs.leftward[0] = run;
   for (size_t i = 0; i < kBrickX; ++i) {
@@ -99,8 +106,13 @@ HWY_INLINE void ReadLayer(const EuclideanView& view, float unit_square, BrickSta
   size_t at = kBrickX;
   for (BrickIndex brick : stack) {
     for (size_t row = 4 * k; row < 4 * k + 4; ++row, at += kBrickX) {
-      FindPointRuns(RowBits(view.object[brick], row), runs.left[brick - first][row],
-                    runs.right[brick - first][row], points);
+      const uint16_t bits = RowBits(view.object[brick], row);
+      if (bits == 0) {
+        std::fill_n(rows.own.begin() + static_cast<ptrdiff_t>(at), kBrickX, 0.0f);
+        std::fill_n(rows.between.begin() + static_cast<ptrdiff_t>(at), kBrickX, unit_square);
+        continue;
+      }
+      FindPointRuns(bits, runs.left[brick - first][row], runs.right[brick - first][row], points);
       MeasureRow(points, sublattice, unit_square, rows.own.data() + at, rows.between.data() + at);
     }
   }

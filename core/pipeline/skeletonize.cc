@@ -2,6 +2,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/distance/distance_field.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/method_in_words.h"
@@ -22,11 +23,23 @@ absl::StatusOr<Certificate> Certify(const Volume& object, const Volume& thin,
       in.components, out.components, in.loops, out.loops, in.cavities, out.cavities));
 }
 
+bool HasCurvesToPrune(const SkeletonizeOptions& options) {
+  const bool asked = options.pruning.rule != PruningRule::kNone ||
+                     options.pruning.tips != TipPlacement::kAsThinned;
+  return asked && options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
+}
+
 }  // namespace
+
+absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
+  BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
+  return CheckPruningOptions(options.pruning);
+}
 
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
                                               const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
   SkeletonizeResult result;
   result.method = MethodInWords(options.thinning, options.distance);
   result.object_points = object.PointCount();
@@ -38,14 +51,24 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                            ThinToCurve(object, distance, options.thinning, context));
   result.thin = std::move(thinned.thin);
   result.last_shell = thinned.last_shell;
-  result.skeleton_points = result.thin.PointCount();
   result.timings.shells = thinned.times.shells;
   result.timings.thinning = thinned.times.passes;
   result.timings.cleanup = thinned.times.cleanup;
   clock.Lap();
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
+                           ExactRadii(result.thin, object, distance, context));
+  if (HasCurvesToPrune(options)) {
+    BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
+                             Prune(result.thin, radii, object, distance, options.thinning.keep,
+                                   options.pruning, context));
+    result.thin = std::move(pruned.thin);
+    radii = std::move(pruned.radii);
+  }
+  result.skeleton_points = result.thin.PointCount();
+  result.timings.pruning = clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(result.certificate, Certify(object, result.thin, context));
   result.timings.certificate = clock.Lap();
-  BCCSKEL_ASSIGN_OR_RETURN(result.graph, TraceSkeleton(result.thin, object, distance, context));
+  BCCSKEL_ASSIGN_OR_RETURN(result.graph, TraceSkeleton(result.thin, radii, context));
   result.sha256 = SkeletonDigest(result.graph);
   result.timings.graph = clock.Lap();
   result.timings.total = clock.Total();

@@ -9,6 +9,7 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/pipeline/stage_timings.h"
+#include "core/pruning/prune.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/thinning/thinning.h"
 #include "core/volume/volume.h"
@@ -18,7 +19,12 @@ namespace bccskel {
 struct SkeletonizeOptions {
   ThinningOptions thinning = {};
   DistanceKind distance = DistanceKind::kChamfer;  // that makes the shells
+  // Not done where thinning stops at a shell, which leaves no curves.
+  PruningOptions pruning = {};
 };
+
+// Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options);
 
 struct SkeletonizeResult {
   SkeletonGraph graph;
@@ -32,7 +38,7 @@ struct SkeletonizeResult {
   std::string sha256;  // SkeletonDigest(graph)
 };
 
-// The straight path of an object: distance, shells, thinning, certificate, graph.
+// The straight path of an object: distance, shells, thinning, pruning, certificate, graph.
 // An empty object gives an empty graph.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate
 //         shows that topology was lost, which would be a defect of this library.

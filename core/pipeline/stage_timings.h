@@ -13,6 +13,7 @@ struct StageTimings {
   Duration shells{0};
   Duration thinning{0};  // until stable
   Duration cleanup{0};
+  Duration pruning{0};  // radii, branches and tips
   Duration certificate{0};
   Duration graph{0};
   Duration total{0};
@@ -26,11 +27,12 @@ struct Stage {
 };
 
 // In the order in which they run. Everything that shows or sends times goes by this list.
-inline constexpr std::array<Stage, 6> kStages = {{
+inline constexpr std::array<Stage, 7> kStages = {{
     {"distance", &StageTimings::distance},
     {"shells", &StageTimings::shells},
     {"thinning", &StageTimings::thinning},
     {"cleanup", &StageTimings::cleanup},
+    {"pruning", &StageTimings::pruning},
     {"certificate", &StageTimings::certificate},
     {"graph", &StageTimings::graph},
 }};

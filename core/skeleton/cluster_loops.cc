@@ -88,9 +88,9 @@ ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster) {
 // Removes simple points, shallow ones first. A set with loops never shrinks to one point, so points
 // without neighbors in the set are those that are gone.
 std::vector<PointIndex> ClusterLoopFinder::ThinToKernel(const Cluster& cluster) {
-  using Turn = std::pair<uint32_t, PointIndex>;  // distance, then lattice order
+  using Turn = std::pair<float, PointIndex>;  // radius, then lattice order
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns;
-  for (PointIndex p : cluster.points) turns.emplace(points_[p].distance, p);
+  for (PointIndex p : cluster.points) turns.emplace(points_[p].radius, p);
   while (!turns.empty() && !poll_.Stopped()) {
     const PointIndex p = turns.top().second;
     turns.pop();
@@ -99,7 +99,7 @@ std::vector<PointIndex> ClusterLoopFinder::ThinToKernel(const Cluster& cluster) 
     Remove(p);
     ForEachDirection(mask, [&](Direction d) {
       const PointIndex q = points_.Neighbor(p, d);
-      turns.emplace(points_[q].distance, q);
+      turns.emplace(points_[q].radius, q);
     });
   }
   std::vector<PointIndex> kernel;

@@ -1,3 +1,4 @@
+#include <bit>
 #include <string>
 
 #include "core/digest/sha256.h"
@@ -15,7 +16,7 @@ class LittleEndianBytes {
     Add(p.point.x);
     Add(p.point.y);
     Add(p.point.z);
-    Add(p.distance);
+    Add(std::bit_cast<uint32_t>(p.radius));
   }
   void Add(std::string_view text) { bytes_ += text; }
   const std::string& bytes() const { return bytes_; }
@@ -31,21 +32,17 @@ class LittleEndianBytes {
 
 }  // namespace
 
-// Layout, all integers little-endian:
-//   the 19 characters "bccskel.skeleton.v1"
-//   u32 diagonal, u32 axial, u32 half_units              chamfer weights
+// Layout, all numbers little-endian:
+//   the 19 characters "bccskel.skeleton.v2"
 //   u64 number of nodes, then for each node
 //     u32 kind: 0 end, 1 junction, 2 loop, 3 isolated, 4 closed surface
-//     i32 x, i32 y, i32 z, u32 distance, u32 loops, u32 cavities
+//     i32 x, i32 y, i32 z, f32 radius, u32 loops, u32 cavities
 //   u64 number of edges, then for each edge
 //     u32 source, u32 target, u64 number of points, then for each point
-//     i32 x, i32 y, i32 z, u32 distance
+//     i32 x, i32 y, i32 z, f32 radius
 std::string SkeletonDigest(const SkeletonGraph& graph) {
   LittleEndianBytes bytes;
-  bytes.Add(std::string_view("bccskel.skeleton.v1"));
-  bytes.Add(graph.weights.diagonal);
-  bytes.Add(graph.weights.axial[0]);
-  bytes.Add(static_cast<uint32_t>(2 * graph.weights.counts_per_unit));
+  bytes.Add(std::string_view("bccskel.skeleton.v2"));
   bytes.Add(uint64_t{graph.nodes.size()});
   for (const SkeletonNode& node : graph.nodes) {
     bytes.Add(static_cast<uint32_t>(node.kind));

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/volume/volume.h"
@@ -27,10 +26,12 @@ enum class NodeKind : uint8_t {
   kClosedSurface,  // what a cavity leaves: a cluster with cavities
 };
 
-// A skeleton point: where it is and how far from the background.
+// A skeleton point: where it is and the radius of the largest ball around it inside the object.
 struct SkeletonPoint {
   LatticePoint point;
-  uint32_t distance = 0;  // in counts of SkeletonGraph::weights
+  // Exact Euclidean distance to the nearest background point in lattice units, half the shortest
+  // edge of the cubic cell.
+  float radius = 0;
 
   friend constexpr auto operator<=>(const SkeletonPoint&, const SkeletonPoint&) = default;
 };
@@ -69,7 +70,6 @@ struct SkeletonEdge {
 // points.
 struct SkeletonGraph {
   Placement placement;
-  ChamferWeights weights = kShortChamfer;
   std::vector<SkeletonNode> nodes;
   std::vector<SkeletonEdge> edges;
   std::vector<SkeletonPoint> points;  // of all edges, one after the other
@@ -78,26 +78,24 @@ struct SkeletonGraph {
     return std::span(points).subspan(edge.first_point, edge.point_count);
   }
   WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
-  // World units; for an anisotropic placement the mean of the three spacings is used.
+  // World units.
   double RadiusOf(const SkeletonPoint& p) const;
-  // Sum of the straight steps between consecutive points, world units.
-  double LengthOf(const SkeletonEdge& edge) const;
 
   friend bool operator==(const SkeletonGraph&, const SkeletonGraph&) = default;
 };
 
-// SHA-256, in lower-case hex, over the integers of the graph (lattice points, distances, kinds,
+// SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
 // topology) in canonical order. Placement is not part of it. The byte layout is stated at the
 // definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives
 // few nodes for large clusters.
-// Shapes: `distance` belongs to `object`, whose points include those of `thin`.
+// Shapes: `radii` one per point of `thin`, in lattice units, in the order of
+//         Volume::ForEachPoint().
 // Cost:   follows the points of `thin`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
-                                            const DistanceField& distance,
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
                                             const exec::Context& context);
 
 }  // namespace bccskel

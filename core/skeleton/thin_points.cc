@@ -1,7 +1,6 @@
 #include "core/skeleton/thin_points.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace bccskel {
 namespace {
@@ -19,23 +18,21 @@ bool IsForward(Direction d) { return LatticePoint{} < d.offset(); }
 
 }  // namespace
 
-ThinPoints::ThinPoints(const Volume& thin, const Volume& object, const DistanceField& distance,
-                       StopPoll& poll) {
-  Gather(thin, object, distance, poll);
+ThinPoints::ThinPoints(const Volume& thin, std::span<const float> radii, StopPoll& poll) {
+  Gather(thin, radii, poll);
   FindNeighbors(poll);
 }
 
 PointIndex ThinPoints::DeepestOf(std::span<const PointIndex> some) const {
   return *std::ranges::min_element(some, [this](PointIndex p, PointIndex q) {
-    const uint32_t a = points_[p].distance, b = points_[q].distance;
+    const float a = points_[p].radius, b = points_[q].radius;
     return a != b ? a > b : p < q;
   });
 }
 
 // Bricks come in order of bz, and bricks of different bz hold different z: sorting each layer of
 // bricks sorts all points.
-void ThinPoints::Gather(const Volume& thin, const Volume& object, const DistanceField& distance,
-                        StopPoll& poll) {
+void ThinPoints::Gather(const Volume& thin, std::span<const float> radii, StopPoll& poll) {
   size_t layer_begin = 0;
   int32_t layer = 0;
   const auto sort_layer = [&] {
@@ -46,9 +43,8 @@ void ThinPoints::Gather(const Volume& thin, const Volume& object, const Distance
     const BrickCoordinates brick = thin.keys()[n].coordinates();
     if (brick.bz != layer) sort_layer();
     layer = brick.bz;
-    const std::optional<BrickIndex> deep = object.Find(thin.keys()[n]);
     thin.bricks()[n].ForEachSetBit([&](int bit) {
-      points_.push_back({PointOf(brick, bit), deep ? distance.At(*deep, bit) : 0});
+      points_.push_back({PointOf(brick, bit), radii[points_.size()]});
     });
   }
   sort_layer();

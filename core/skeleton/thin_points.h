@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "absl/numeric/int128.h"
-#include "core/distance/distance_field.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/stop_poll.h"
@@ -19,17 +18,16 @@ namespace bccskel {
 // Position of a point in ThinPoints.
 using PointIndex = uint32_t;
 
-// The points of a thin volume as a list in lattice order, with their distances and neighbors.
+// The points of a thin volume as a list in lattice order, with their radii and neighbors.
 // Translating the volume translates the list: nothing that follows depends on bricks.
 class ThinPoints {
  public:
-  // Left unfinished when `poll` says stop.
-  ThinPoints(const Volume& thin, const Volume& object, const DistanceField& distance,
-             StopPoll& poll);
+  // Left unfinished when `poll` says stop. Shapes: as TraceSkeleton().
+  ThinPoints(const Volume& thin, std::span<const float> radii, StopPoll& poll);
 
   size_t size() const { return points_.size(); }
   const SkeletonPoint& operator[](PointIndex p) const { return points_[p]; }
-  // The point with the largest distance, on ties the smallest. Needs: some points.
+  // The point with the largest radius, on ties the smallest. Needs: some points.
   PointIndex DeepestOf(std::span<const PointIndex> some) const;
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
   // Needs: mask(p) has d.
@@ -44,8 +42,7 @@ class ThinPoints {
   }
 
  private:
-  void Gather(const Volume& thin, const Volume& object, const DistanceField& distance,
-              StopPoll& poll);
+  void Gather(const Volume& thin, std::span<const float> radii, StopPoll& poll);
   void FindNeighbors(StopPoll& poll);
   void LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll);
 

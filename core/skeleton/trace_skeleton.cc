@@ -55,7 +55,7 @@ class GraphBuilder {
     for (const PointPath& curve : branches.closed) AddClosedCurve(curve);
   }
 
-  SkeletonGraph Finish(const Placement& placement, const ChamferWeights& weights) &&;
+  SkeletonGraph Finish(const Placement& placement) &&;
 
  private:
   void AddCluster(ClusterIndex c) {
@@ -144,12 +144,11 @@ void GraphBuilder::TurnEdges() {
   });
 }
 
-SkeletonGraph GraphBuilder::Finish(const Placement& placement, const ChamferWeights& weights) && {
+SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
   SortNodes();
   TurnEdges();
   SkeletonGraph graph;
   graph.placement = placement;
-  graph.weights = weights;
   graph.nodes = std::move(nodes_);
   for (const TracedEdge& edge : edges_) {
     graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
@@ -160,12 +159,11 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement, const ChamferWeig
 
 }  // namespace
 
-absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& object,
-                                            const DistanceField& distance,
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
                                             const exec::Context& context) {
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   StopPoll poll(context);
-  const ThinPoints points(thin, object, distance, poll);
+  const ThinPoints points(thin, radii, poll);
   if (poll.Stopped()) return context.StopStatus();
   const Clusters clusters(points, poll);
   if (poll.Stopped()) return context.StopStatus();
@@ -174,7 +172,7 @@ absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, const Volume& ob
   builder.AddClusters();
   if (poll.Stopped()) return context.StopStatus();
   builder.AddBranches(branches);
-  return std::move(builder).Finish(object.placement(), distance.weights());
+  return std::move(builder).Finish(thin.placement());
 }
 
 }  // namespace bccskel

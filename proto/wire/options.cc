@@ -129,6 +129,62 @@ absl::StatusOr<SkeletonKind> FromMessage(v1::SkeletonKind kind, const std::strin
   }
 }
 
+v1::PruningRule ToMessage(PruningRule rule) {
+  switch (rule) {
+    case PruningRule::kSlope:
+      return v1::PRUNING_RULE_SLOPE;
+    case PruningRule::kLength:
+      return v1::PRUNING_RULE_LENGTH;
+    case PruningRule::kRelativeLength:
+      return v1::PRUNING_RULE_RELATIVE_LENGTH;
+    case PruningRule::kNone:
+      return v1::PRUNING_RULE_NONE;
+  }
+  return v1::PRUNING_RULE_UNSPECIFIED;
+}
+
+absl::StatusOr<PruningRule> FromMessage(v1::PruningRule rule, const std::string& field) {
+  switch (rule) {
+    case v1::PRUNING_RULE_UNSPECIFIED:
+    case v1::PRUNING_RULE_SLOPE:
+      return PruningRule::kSlope;
+    case v1::PRUNING_RULE_LENGTH:
+      return PruningRule::kLength;
+    case v1::PRUNING_RULE_RELATIVE_LENGTH:
+      return PruningRule::kRelativeLength;
+    case v1::PRUNING_RULE_NONE:
+      return PruningRule::kNone;
+    default:
+      return InvalidField(field, absl::StrCat("unknown pruning rule ", int{rule}));
+  }
+}
+
+absl::StatusOr<TipPlacement> FromMessage(v1::TipPlacement tips, const std::string& field) {
+  switch (tips) {
+    case v1::TIP_PLACEMENT_UNSPECIFIED:
+    case v1::TIP_PLACEMENT_RIDGE:
+      return TipPlacement::kRidge;
+    case v1::TIP_PLACEMENT_AS_THINNED:
+      return TipPlacement::kAsThinned;
+    default:
+      return InvalidField(field, absl::StrCat("unknown placement of tips ", int{tips}));
+  }
+}
+
+absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
+                                         const std::string& field) {
+  PruningOptions pruning;
+  BCCSKEL_ASSIGN_OR_RETURN(pruning.rule,
+                           FromMessage(message.pruning_rule(), field + ".pruning_rule"));
+  BCCSKEL_ASSIGN_OR_RETURN(pruning.tips,
+                           FromMessage(message.tip_placement(), field + ".tip_placement"));
+  pruning.threshold = message.pruning_threshold();
+  if (absl::Status checked = CheckPruningOptions(pruning); !checked.ok()) {
+    return InvalidField(field + ".pruning_threshold", std::string(checked.message()));
+  }
+  return pruning;
+}
+
 absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& message,
                                                       const std::string& field) {
   if (message.y_size() != message.x_size() || message.z_size() != message.x_size()) {
@@ -157,6 +213,11 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
   message.set_shell_width(thinning.shell_width);
   message.set_last_shell(thinning.last_shell);
   message.set_distance_kind(ToMessage(options.distance));
+  message.set_pruning_rule(ToMessage(options.pruning.rule));
+  message.set_pruning_threshold(options.pruning.threshold);
+  message.set_tip_placement(options.pruning.tips == TipPlacement::kRidge
+                                ? v1::TIP_PLACEMENT_RIDGE
+                                : v1::TIP_PLACEMENT_AS_THINNED);
   for (LatticePoint p : thinning.keep) {
     message.mutable_keep()->add_x(p.x);
     message.mutable_keep()->add_y(p.y);
@@ -178,6 +239,7 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
   BCCSKEL_ASSIGN_OR_RETURN(thinning.keep, FromMessage(message.keep(), field + ".keep"));
   BCCSKEL_ASSIGN_OR_RETURN(options.distance,
                            FromMessage(message.distance_kind(), field + ".distance_kind"));
+  BCCSKEL_ASSIGN_OR_RETURN(options.pruning, PruningOf(message, field));
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();
   if (absl::Status checked = CheckThinningOptions(thinning); !checked.ok()) {

@@ -39,6 +39,7 @@ void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts&
   Set(message->mutable_shells(), timings.shells);
   Set(message->mutable_thinning(), timings.thinning);
   Set(message->mutable_cleanup(), timings.cleanup);
+  Set(message->mutable_pruning(), timings.pruning);
   Set(message->mutable_certificate(), timings.certificate);
   Set(message->mutable_graph(), timings.graph);
   Set(message->mutable_total(), timings.total);
@@ -49,6 +50,7 @@ StageTimings FromMessage(const v1::StageTimings& message) {
           .shells = DurationOf(message.shells()),
           .thinning = DurationOf(message.thinning()),
           .cleanup = DurationOf(message.cleanup()),
+          .pruning = DurationOf(message.pruning()),
           .certificate = DurationOf(message.certificate()),
           .graph = DurationOf(message.graph()),
           .total = DurationOf(message.total())};
@@ -104,10 +106,6 @@ v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& f
   message.set_edge_count(graph.edges.size());
   message.set_point_count(graph.points.size());
   message.set_thin_volume_size_bytes(facts.thin_volume_size_bytes);
-  message.mutable_weights()->set_diagonal(graph.weights.diagonal);
-  message.mutable_weights()->set_axial(graph.weights.axial[0]);
-  message.mutable_weights()->set_half_units(
-      static_cast<uint32_t>(2 * graph.weights.counts_per_unit));
   *message.mutable_placement() = ToMessage(graph.placement);
   Set(message.mutable_timings(), result.timings, facts);
   message.set_sha256(absl::HexStringToBytes(result.sha256));
@@ -132,10 +130,6 @@ absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message
                                             " bytes, must be ", kDigestBytes));
   }
   SkeletonizeResult result;
-  const v1::ChamferWeights& weights = message.weights();
-  result.graph.weights = {weights.diagonal(),
-                          {weights.axial(), weights.axial(), weights.axial()},
-                          weights.half_units() / 2.0};
   BCCSKEL_ASSIGN_OR_RETURN(result.graph.placement,
                            FromMessage(message.placement(), "summary.placement"));
   result.certificate = FromMessage(message.certificate());

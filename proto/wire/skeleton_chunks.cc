@@ -1,6 +1,7 @@
 #include "proto/wire/skeleton_chunks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -10,7 +11,7 @@
 namespace bccskel::wire {
 namespace {
 
-// Most bytes of a row: 5 for each 32-bit varint, 10 for a 64-bit one, 1 for a kind.
+// Most bytes of a row: 5 for each 32-bit varint, 4 for a float, 10 for a 64-bit one, 1 for a kind.
 constexpr size_t kNodeRowBytes = 1 + 6 * 5;
 constexpr size_t kEdgeRowBytes = 2 * 5 + 10;
 constexpr size_t kPointRowBytes = 4 * 5;
@@ -65,12 +66,12 @@ void AppendPoint(const SkeletonPoint& point, Columns& columns) {
   columns.add_x(point.point.x);
   columns.add_y(point.point.y);
   columns.add_z(point.point.z);
-  columns.add_distance(point.distance);
+  columns.add_radius(point.radius);
 }
 
 template <typename Columns>
 SkeletonPoint PointOfRow(const Columns& columns, int row) {
-  return {{columns.x(row), columns.y(row), columns.z(row)}, columns.distance(row)};
+  return {{columns.x(row), columns.y(row), columns.z(row)}, columns.radius(row)};
 }
 
 absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {
@@ -85,7 +86,7 @@ absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {
 
 absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph) {
   BCCSKEL_RETURN_IF_ERROR(
-      CheckColumns("node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.distance_size(),
+      CheckColumns("node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.radius_size(),
                             c.loops_size(), c.cavities_size()}));
   for (int row = 0; row < c.kind_size(); ++row) {
     const std::optional<NodeKind> kind = FromMessage(c.kind(row));
@@ -99,7 +100,7 @@ absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph)
 
 absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
   BCCSKEL_RETURN_IF_ERROR(
-      CheckColumns("point", {c.x_size(), c.y_size(), c.z_size(), c.distance_size()}));
+      CheckColumns("point", {c.x_size(), c.y_size(), c.z_size(), c.radius_size()}));
   for (int row = 0; row < c.x_size(); ++row) graph.points.push_back(PointOfRow(c, row));
   return absl::OkStatus();
 }
@@ -125,6 +126,11 @@ absl::Status CheckEdge(const SkeletonGraph& graph, size_t n) {
   return absl::OkStatus();
 }
 
+absl::Status CheckRadius(float radius) {
+  if (radius >= 0 && std::isfinite(radius)) return absl::OkStatus();
+  return absl::DataLossError(absl::StrCat("a radius of ", radius));
+}
+
 absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
                         const v1::SkeletonSummary& summary) {
   BCCSKEL_RETURN_IF_ERROR(CheckCount("nodes", graph.nodes.size(), summary.node_count()));
@@ -133,6 +139,12 @@ absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
   BCCSKEL_RETURN_IF_ERROR(CheckCount("points of edges", edge_points, summary.point_count()));
   for (size_t n = 0; n < graph.edges.size(); ++n) {
     BCCSKEL_RETURN_IF_ERROR(CheckEdge(graph, n));
+  }
+  for (const SkeletonNode& node : graph.nodes) {
+    BCCSKEL_RETURN_IF_ERROR(CheckRadius(node.at.radius));
+  }
+  for (const SkeletonPoint& point : graph.points) {
+    BCCSKEL_RETURN_IF_ERROR(CheckRadius(point.radius));
   }
   return absl::OkStatus();
 }
@@ -213,7 +225,6 @@ absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
 absl::StatusOr<SkeletonizeResult> SkeletonAssembler::Finish(const v1::SkeletonSummary& summary) && {
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, FromMessage(summary));
   BCCSKEL_RETURN_IF_ERROR(CheckGraph(graph_, edge_points_, summary));
-  graph_.weights = result.graph.weights;
   graph_.placement = result.graph.placement;
   result.graph = std::move(graph_);
   if (const std::string digest = SkeletonDigest(result.graph); digest != result.sha256) {

@@ -49,7 +49,8 @@ class SkeletonAssembler {
 
   // The result that the summary and the chunks make together.
   // Errors: DATA_LOSS for wrong counts, edges to nodes that do not exist, edges whose points do not
-  //         run from source to target, and a graph that has not the summary's digest.
+  //         run from source to target, radii that are none, and a graph that has not the summary's
+  //         digest.
   absl::StatusOr<SkeletonizeResult> Finish(const v1::SkeletonSummary& summary) &&;
 
  private:

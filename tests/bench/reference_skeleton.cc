@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "core/distance/distance_field.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
+#include "core/pruning/prune.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "tests/support/reference_thinner.h"
 
@@ -15,7 +17,11 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
   BCCSKEL_ASSIGN_OR_RETURN(const Volume thin, std::move(builder).Build());
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                            ComputeDistance(object, DistanceKind::kChamfer, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(thin, object, distance, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, ExactRadii(thin, object, distance, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
+                           Prune(thin, radii, object, distance, {}, {}, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph,
+                           TraceSkeleton(pruned.thin, pruned.radii, {}));
   return SkeletonDigest(graph);
 }
 

@@ -6,7 +6,7 @@ import statistics
 
 OBJECTS = ("ball", "torus", "horse", "blob", "tubes", "thin-tubes", "tree")
 COMPACT = ("ball", "torus", "horse")
-STAGES = ("distance", "shells", "thinning", "cleanup", "certificate", "graph")
+STAGES = ("distance", "shells", "thinning", "cleanup", "pruning", "certificate", "graph")
 LARGE = 64_000_000
 
 Target = collections.namedtuple("Target", "what target measured met")

@@ -11,8 +11,8 @@ import unittest
 OBJECTS = ["ball", "torus", "horse", "blob", "tubes", "tree", "thin-tubes"]
 POINTS = 10000
 COUNTERS = {"points", "bricks", "ns_per_point", "whole_ns_per_point",
-            "distance_ms", "shells_ms", "thinning_ms", "cleanup_ms", "certificate_ms",
-            "graph_ms"}
+            "distance_ms", "shells_ms", "thinning_ms", "cleanup_ms", "pruning_ms",
+            "certificate_ms", "graph_ms"}
 SPREAD = {"min", "median", "max"}
 
 

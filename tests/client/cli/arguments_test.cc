@@ -70,6 +70,16 @@ TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
   EXPECT_THAT(parsed.err, HasSubstr("symmetric"));
 }
 
+TEST(ArgumentsTest, SkeletonizeTakesPruning) {
+  const Parsed parsed =
+      Parse({"skeletonize", "a.off", "-o", "a.swc", "--pruning", "relative-length",
+             "--pruning-threshold", "1.5", "--tips", "as-thinned"});
+  const PruningOptions expected = {PruningRule::kRelativeLength, 1.5, TipPlacement::kAsThinned};
+  EXPECT_EQ(parsed.as<SkeletonizeArguments>().skeletonize.pruning, expected);
+  const Parsed no_length = Parse({"skeletonize", "a.off", "-o", "a.swc", "--pruning", "length"});
+  EXPECT_THAT(no_length.err, HasSubstr("needs a threshold"));
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   const Parsed parsed =
       Parse({"skeletonize",  "a.off",     "-o",           "a.swc",         "--output",

@@ -52,7 +52,8 @@ TEST(VtpTest, CountsItsPiecesAndNamesItsArrays) {
   const std::string vtp = VtpText(Lollipop());
   EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"6\" NumberOfVerts=\"1\" NumberOfLines=\"2\""));
   for (const char* name :
-       {"radius", "distance", "node_kind", "edge_id", "length", "connectivity", "offsets"}) {
+       {"radius", "distance", "node_kind", "smooth", "edge_id", "length", "mean_radius",
+        "min_radius", "max_radius", "tortuosity", "connectivity", "offsets"}) {
     EXPECT_THAT(vtp, HasSubstr("Name=\"" + std::string(name) + '"'));
   }
 }
@@ -61,11 +62,14 @@ TEST(GraphMlTest, HasEveryNodeAndEdgeWithItsData) {
   const std::string graphml = GraphMlText(Lollipop());
   EXPECT_EQ(CountOf(graphml, "<node "), 3);
   EXPECT_EQ(CountOf(graphml, "<edge "), 2);
-  EXPECT_THAT(graphml, HasSubstr("<node id=\"n0\"><data key=\"kind\">end</data><data key=\"x\">10"
-                                 "</data><data key=\"y\">20</data><data key=\"z\">30</data>"
-                                 "<data key=\"radius\">2</data></node>"));
+  EXPECT_THAT(graphml,
+              HasSubstr("<node id=\"n0\"><data key=\"kind\">end</data><data key=\"x\">10"
+                        "</data><data key=\"y\">20</data><data key=\"z\">30</data>"
+                        "<data key=\"radius\">2</data><data key=\"component\">0</data></node>"));
   EXPECT_THAT(graphml, HasSubstr("source=\"n1\" target=\"n1\""));
-  EXPECT_THAT(graphml, HasSubstr("<data key=\"min_radius\">2</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"mean_radius\">3</data><data key=\"min_radius\">2"
+                                 "</data><data key=\"max_radius\">4</data>"
+                                 "<data key=\"tortuosity\">1</data>"));
 }
 
 TEST(GraphMlTest, StatesTheTopologyOfAClosedSurface) {
@@ -82,12 +86,15 @@ TEST(JsonTest, HoldsGraphCertificateAndDigest) {
   result.sha256 = "abc";
   const std::string json = JsonText(result);
   EXPECT_THAT(json, HasSubstr("{\"id\":1,\"kind\":\"junction\",\"position\":[12,22,32],"
-                              "\"radius\":4}"));
+                              "\"radius\":4,\"component\":0}"));
   EXPECT_THAT(json, HasSubstr("{\"source\":0,\"target\":1,\"points\":[[10,20,30],[11,21,31],"
-                              "[12,22,32]],\"radii\":[2,"));
+                              "[12,22,32]],\"radii\":[2,3,4],"));
   EXPECT_THAT(json, HasSubstr("\"certificate\":{\"input\":{\"components\":2,\"loops\":1,"
                               "\"cavities\":0},\"skeleton\":{\"components\":2,\"loops\":1,"
                               "\"cavities\":0},\"simple_points_left\":7}"));
+  EXPECT_THAT(json, HasSubstr("{\"nodes\":1,\"edges\":0,\"ends\":0,\"junctions\":0,\"loops\":0,"
+                              "\"cavities\":0,\"length\":0,\"max_radius\":2}],\n\"totals\":"
+                              "{\"nodes\":3,\"edges\":2,\"ends\":1,\"junctions\":1,\"loops\":1,"));
   EXPECT_THAT(json, HasSubstr("\"object_points\":99"));
   EXPECT_THAT(json, HasSubstr("\"sha256\":\"abc\""));
 }

@@ -9,11 +9,11 @@ SkeletonGraph Lollipop() {
   SkeletonGraph graph;
   graph.placement.spacing = {2, 2, 2};
   graph.placement.origin = {10, 20, 30};
-  const SkeletonPoint end = {{0, 0, 0}, 209}, junction = {{2, 2, 2}, 418};
+  const SkeletonPoint end = {{0, 0, 0}, 2}, junction = {{2, 2, 2}, 4};
   graph.nodes = {{NodeKind::kEnd, end},
                  {NodeKind::kJunction, junction},
-                 {NodeKind::kIsolated, {{10, 10, 10}, 209}}};
-  graph.points = {end,     {{1, 1, 1}, 300}, junction, junction, {{3, 3, 3}, 209}, {{4, 2, 2}, 209},
+                 {NodeKind::kIsolated, {{10, 10, 10}, 2}}};
+  graph.points = {end,     {{1, 1, 1}, 3}, junction, junction, {{3, 3, 3}, 2}, {{4, 2, 2}, 2},
                   junction};
   graph.edges = {{0, 1, 0, 3}, {1, 1, 3, 4}};
   return graph;

@@ -70,7 +70,7 @@ constexpr NodeKind kEnd = NodeKind::kEnd, kJunction = NodeKind::kJunction, kLoop
 using Kinds = std::vector<NodeKind>;
 
 TEST(TraceSkeleton, OfNothingIsTheEmptyGraph) {
-  const SkeletonGraph graph = TraceSkeleton({}, {}, test::FieldOf({}), {}).value();
+  const SkeletonGraph graph = TraceSkeleton({}, {}, {}).value();
   EXPECT_TRUE(graph.nodes.empty() && graph.edges.empty() && graph.points.empty());
 }
 
@@ -265,20 +265,16 @@ TEST(TraceSkeleton, OfASolidTorusIsALoopAlongItsMiddle) {
   for (LatticePoint p : PathOf(graph, 0)) EXPECT_LE(radius(p), 2.5);
 }
 
-TEST(TraceSkeleton, TakesDistancesAndPlacementFromTheObject) {
+TEST(TraceSkeleton, KeepsRadiiAndPlacement) {
   const Points line = Polyline({{4, 4, 4}, {4, 4, 40}});
-  const Points block = test::RandomCloud(0, {5, 5, 21}, 1);
   VolumeBuilder builder({5, 5, 21}, {.spacing = {2, 3, 4}});
-  for (LatticePoint p : block) builder.Add(p);
-  const Volume object = *std::move(builder).Build();
+  for (LatticePoint p : line) builder.Add(p);
+  const Volume thin = *std::move(builder).Build();
   const SkeletonGraph graph =
-      TraceSkeleton(VolumeOfPoints(line), object, test::FieldOf(object, test::RuggedDepth), {})
-          .value();
-  EXPECT_EQ(graph.placement, object.placement());
+      TraceSkeleton(thin, test::RadiiOf(thin, test::RuggedDepth), {}).value();
+  EXPECT_EQ(graph.placement, thin.placement());
   ASSERT_EQ(graph.points.size(), line.size());
-  for (const SkeletonPoint& p : graph.points) {
-    EXPECT_EQ(p.distance, test::RuggedDepth(p.point));
-  }
+  for (const SkeletonPoint& p : graph.points) EXPECT_EQ(p.radius, test::RuggedDepth(p.point));
 }
 
 TEST(TraceSkeleton, StopsWhenTheJobIsCancelledOrLate) {
@@ -287,11 +283,11 @@ TEST(TraceSkeleton, StopsWhenTheJobIsCancelledOrLate) {
   cancel.request_stop();
   exec::Context context;
   context.stop = cancel.get_token();
-  EXPECT_EQ(TraceSkeleton(volume, volume, test::FieldOf(volume), context).status().code(),
+  EXPECT_EQ(TraceSkeleton(volume, test::RadiiOf(volume), context).status().code(),
             absl::StatusCode::kCancelled);
   exec::Context late;
   late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
-  EXPECT_EQ(TraceSkeleton(volume, volume, test::FieldOf(volume), late).status().code(),
+  EXPECT_EQ(TraceSkeleton(volume, test::RadiiOf(volume), late).status().code(),
             absl::StatusCode::kDeadlineExceeded);
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <variant>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -11,36 +10,30 @@
 
 namespace bccskel::test {
 
-// A made-up distance for each point: 1 when nothing else is said.
-using Depth = std::function<uint16_t(LatticePoint)>;
+// A made-up radius for each point: 1 when nothing else is said.
+using Depth = std::function<float(LatticePoint)>;
 
-inline DistanceField FieldOf(
-    const Volume& object, const Depth& depth = [](LatticePoint) -> uint16_t { return 1; }) {
-  std::variant_alternative_t<0, DistanceField::Values> values;
-  values.assign(object.brick_count() * kBrickPoints, 0);
-  for (size_t n = 0; n < object.brick_count(); ++n) {
-    object.bricks()[n].ForEachSetBit([&](int bit) {
-      values[n * kBrickPoints + static_cast<size_t>(bit)] =
-          depth(PointOf(object.keys()[n].coordinates(), bit));
-    });
-  }
-  return DistanceField(DistanceKind::kChamfer, kShortChamfer, std::move(values), 1);
+inline std::vector<float> RadiiOf(
+    const Volume& thin, const Depth& depth = [](LatticePoint) { return 1.0f; }) {
+  std::vector<float> radii;
+  thin.ForEachPoint([&](LatticePoint p) { radii.push_back(depth(p)); });
+  return radii;
 }
 
 // Some depth that differs from point to point.
-inline uint16_t RuggedDepth(LatticePoint p) {
+inline float RuggedDepth(LatticePoint p) {
   const auto hash = static_cast<uint32_t>(p.x * 73 + p.y * 151 + p.z * 283);
-  return static_cast<uint16_t>(181 + hash % 17);
+  return static_cast<float>(181 + hash % 17);
 }
 
 inline SkeletonGraph Trace(const std::vector<LatticePoint>& points) {
   const Volume volume = VolumeOfPoints(points);
-  return TraceSkeleton(volume, volume, FieldOf(volume), {}).value();
+  return TraceSkeleton(volume, RadiiOf(volume), {}).value();
 }
 
 inline SkeletonGraph Trace(const std::vector<LatticePoint>& points, const Depth& depth) {
   const Volume volume = VolumeOfPoints(points);
-  return TraceSkeleton(volume, volume, FieldOf(volume, depth), {}).value();
+  return TraceSkeleton(volume, RadiiOf(volume, depth), {}).value();
 }
 
 }  // namespace bccskel::test

@@ -68,6 +68,24 @@ TEST(Options, RefusesAKindThatTheMethodDoesNotGive) {
   EXPECT_EQ(ViolatedField(refused), "options");
 }
 
+TEST(OptionsRoundTrip, KeepsPruning) {
+  for (PruningRule rule : {PruningRule::kSlope, PruningRule::kLength, PruningRule::kRelativeLength,
+                           PruningRule::kNone}) {
+    for (TipPlacement tips : {TipPlacement::kRidge, TipPlacement::kAsThinned}) {
+      const PruningOptions pruning = {rule, 2.5, tips};
+      const auto back = FromMessage(ToMessage(SkeletonizeOptions{.pruning = pruning}), "options");
+      ASSERT_TRUE(back.ok()) << back.status();
+      EXPECT_EQ(back->pruning, pruning);
+    }
+  }
+}
+
+TEST(Options, RefusePruningByNoLength) {
+  v1::SkeletonizeOptions message;
+  message.set_pruning_rule(v1::PRUNING_RULE_LENGTH);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.pruning_threshold");
+}
+
 TEST(Options, AnEmptyMessageMeansTheDefaults) {
   const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
   ASSERT_TRUE(options.ok()) << options.status();
@@ -80,6 +98,7 @@ TEST(Options, AnEmptyMessageMeansTheDefaults) {
   EXPECT_EQ(options->thinning.last_shell, defaults.last_shell);
   EXPECT_TRUE(options->thinning.keep.empty());
   EXPECT_EQ(options->distance, SkeletonizeOptions().distance);
+  EXPECT_EQ(options->pruning, PruningOptions());
 }
 
 TEST(Options, RefusesEnumeratorsFromTheFuture) {
@@ -98,6 +117,12 @@ TEST(Options, RefusesEnumeratorsFromTheFuture) {
   message.Clear();
   message.set_distance_kind(static_cast<v1::DistanceKind>(99));
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.distance_kind");
+  message.Clear();
+  message.set_pruning_rule(static_cast<v1::PruningRule>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.pruning_rule");
+  message.Clear();
+  message.set_tip_placement(static_cast<v1::TipPlacement>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.tip_placement");
 }
 
 TEST(Options, RefusesColumnsOfDifferentLengths) {

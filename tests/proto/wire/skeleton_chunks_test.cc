@@ -18,7 +18,6 @@ constexpr int32_t kFar = 2 * kMaxExtentCells - 1;
 // as the format allows, so that chunks reach their largest size.
 SkeletonGraph Chain(uint32_t edges, uint64_t length) {
   SkeletonGraph graph;
-  graph.weights = kLongChamfer;
   graph.placement.origin = {1, 2, 3};
   const auto point = [](uint32_t n) {
     return SkeletonPoint{{kFar - static_cast<int32_t>(n % 1000), kFar, kFar}, kLargest - n};

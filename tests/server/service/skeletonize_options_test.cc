@@ -66,6 +66,9 @@ INSTANTIATE_TEST_SUITE_P(
             {.thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel}}},
         OptionsCase{"ShellWidth", {.thinning = {.shell_width = 2.5}}},
         OptionsCase{"Partial", {.thinning = {.last_shell = 3}}},
+        OptionsCase{"Distance", {.distance = DistanceKind::kEuclidean}},
+        OptionsCase{"Pruning", {.pruning = {.rule = PruningRule::kNone}}},
+        OptionsCase{"Tips", {.pruning = {.tips = TipPlacement::kAsThinned}}},
         OptionsCase{"Keep", {.thinning = {.keep = {Blob().front()}}}}),
     [](const auto& test) { return std::string(test.param.name); });
 

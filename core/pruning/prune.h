@@ -1,0 +1,65 @@
+#ifndef BCCSKEL_CORE_PRUNING_PRUNE_H_
+#define BCCSKEL_CORE_PRUNING_PRUNE_H_
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "absl/container/flat_hash_set.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/distance/distance_field.h"
+#include "core/exec/context.h"
+#include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Which branches, from an end to the first junction, are spurious. J is the junction point, R the
+// largest radius of its cluster, D(p) the radius at p.
+enum class PruningRule : uint8_t {
+  // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default) at all their points
+  // p: the radius falls about as fast as the branch leaves the junction's ball, so the branch is a
+  // bump of the surface.
+  kSlope,
+  // Those shorter than the threshold, in world units.
+  kLength,
+  // Those shorter than threshold * R; the factor is 1 by default.
+  kRelativeLength,
+  kNone,
+};
+
+// Whether ends are moved along the ridge of the distances to where it ends.
+enum class TipPlacement : uint8_t { kRidge, kAsThinned };
+
+struct PruningOptions {
+  PruningRule rule = PruningRule::kSlope;
+  double threshold = 0;  // 0: the rule's default; a length must be given
+  TipPlacement tips = TipPlacement::kRidge;
+
+  friend bool operator==(const PruningOptions&, const PruningOptions&) = default;
+};
+
+// Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::Status CheckPruningOptions(const PruningOptions& options);
+
+struct PrunedSkeleton {
+  Volume thin;
+  std::vector<float> radii;  // of its points, lattice units, in the order of ForEachPoint()
+  uint64_t branches_removed = 0;
+};
+
+// Removes spurious branches and places the tips of the others. Points go and come one by one, each
+// simple at its turn, so the topology stays: loops and components have no end to begin at. A branch
+// with points of `keep` stays.
+// Shapes: `radii` of the points of `thin`, which are points of `object`; `field` belongs to it.
+// Needs:  a thin curve skeleton.
+// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<PrunedSkeleton> Prune(const Volume& thin, std::span<const float> radii,
+                                     const Volume& object, const DistanceField& field,
+                                     std::span<const LatticePoint> keep,
+                                     const PruningOptions& options, const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_PRUNE_H_

@@ -1,0 +1,148 @@
+#include "core/pruning/tips.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/pruning/branch_walk.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kSlope = 0.4;         // of the way from the anchor
+constexpr double kAnchorRadii = 3;     // how far back the anchor lies, in radii
+constexpr double kAnchorMargin = 5;    // and in lattice units
+constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
+constexpr double kLeastCosine = 0.4;   // between the way on and a step
+constexpr double kCosineWeight = 0.5;  // against the rise of the distance
+constexpr float kLeastRadius = 2;      // in lattice units, of a new point
+constexpr double kPatience = 4;        // how far below the best a growing tip may fall
+
+class TipPlacer {
+ public:
+  TipPlacer(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep)
+      : set_(set), radius_(radius), object_(object), keep_(keep) {}
+
+  void Place(LatticePoint end) {
+    if (!set_.Contains(end) || set_.Degree(end) != 1) return;
+    FreeBranch branch = BranchFrom(set_, end);
+    const std::optional<LatticePoint> anchor = TakeAnchor(branch);
+    if (!anchor.has_value() || branch.points.empty()) return;
+    anchor_ = *anchor;
+    path_.assign(branch.points.rbegin(), branch.points.rend());
+    Trim();
+    Extend();
+  }
+
+ private:
+  // Finds the anchor and leaves the points between the end and it.
+  std::optional<LatticePoint> TakeAnchor(FreeBranch& branch) const {
+    std::vector<LatticePoint>& points = branch.points;
+    double length = 0;
+    float radius = set_.RadiusOf(points[0]);
+    for (size_t n = 1; n < points.size(); ++n) {
+      length += set_.Between(points[n - 1], points[n]);
+      radius = std::max(radius, set_.RadiusOf(points[n]));
+      if (length < kAnchorRadii * radius + kAnchorMargin) continue;
+      const LatticePoint anchor = points[n];
+      points.resize(n);
+      return anchor;
+    }
+    if (branch.junction.has_value()) return branch.junction;
+    const auto deepest =
+        std::ranges::max_element(points, {}, [this](LatticePoint p) { return set_.RadiusOf(p); });
+    const LatticePoint anchor = *deepest;
+    points.erase(deepest, points.end());
+    return anchor;
+  }
+
+  double Merit(LatticePoint p) const {
+    return kSlope * set_.Between(p, anchor_) + set_.RadiusOf(p);
+  }
+
+  // Position in the path of the point with the largest merit, on ties the farthest.
+  size_t BestFrom(size_t first) const {
+    size_t best = first;
+    for (size_t n = first + 1; n < path_.size(); ++n) {
+      if (Merit(path_[n]) >= Merit(path_[best])) best = n;
+    }
+    return best;
+  }
+
+  void CutAfter(size_t last) {
+    while (path_.size() > last + 1 && !keep_.contains(path_.back())) {
+      set_.Remove(path_.back());
+      path_.pop_back();
+    }
+  }
+
+  void Trim() { CutAfter(BestFrom(0)); }
+
+  void Extend() {
+    const size_t old_size = path_.size();
+    double best = Merit(path_.back());
+    while (const std::optional<LatticePoint> next = NextTip()) {
+      const float radius = radius_.At(*next);
+      if (radius < kLeastRadius) break;
+      set_.Add(*next, radius);
+      path_.push_back(*next);
+      const double merit = Merit(*next);
+      if (merit < best - kPatience) break;
+      best = std::max(best, merit);
+    }
+    CutAfter(BestFrom(old_size - 1));
+  }
+
+  // The object point to go on to; its only neighbor in the set is the tip.
+  std::optional<LatticePoint> NextTip() {
+    const LatticePoint tip = path_.back();
+    const LatticePoint from =
+        path_.size() > kHeadingPoints ? path_[path_.size() - 1 - kHeadingPoints] : anchor_;
+    std::optional<LatticePoint> best;
+    double best_score = 0;
+    for (const LatticePoint offset : kDirections14) {
+      const LatticePoint next = tip + offset;
+      const double cosine = Cosine(from, tip, next);
+      if (cosine < kLeastCosine || !IsFreeWay(tip, next)) continue;
+      const double rise = (radius_.At(next) - set_.RadiusOf(tip)) / set_.Between(tip, next);
+      const double score = rise + kCosineWeight * cosine;
+      if (best.has_value() && score <= best_score) continue;
+      best = next;
+      best_score = score;
+    }
+    return best;
+  }
+
+  bool IsFreeWay(LatticePoint tip, LatticePoint next) const {
+    if (!object_.Contains(next) || set_.Contains(next)) return false;
+    if (set_.Between(next, anchor_) <= set_.Between(tip, anchor_)) return false;
+    return std::has_single_bit(set_.NeighborsAround(next));
+  }
+
+  // Between the ways a -> b and b -> c, by the law of cosines.
+  double Cosine(LatticePoint a, LatticePoint b, LatticePoint c) const {
+    const double ab = set_.Between(a, b), bc = set_.Between(b, c), ac = set_.Between(a, c);
+    return (ac * ac - ab * ab - bc * bc) / (2 * ab * bc);
+  }
+
+  ThinSet& set_;
+  ExactRadius& radius_;
+  const Volume& object_;
+  const PointSet& keep_;
+  LatticePoint anchor_;
+  std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
+};
+
+}  // namespace
+
+void PlaceTips(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep,
+               const exec::Context& context) {
+  TipPlacer placer(set, radius, object, keep);
+  for (LatticePoint end : set.Ends()) {
+    if (context.ShouldStop()) return;
+    placer.Place(end);
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,168 @@
+#include "core/skeleton/skeleton_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace bccskel {
+namespace {
+
+constexpr size_t kReach = 4;
+
+double Between(const WorldPoint& a, const WorldPoint& b) {
+  const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+double LengthOfCurve(std::span<const WorldPoint> curve) {
+  double length = 0;
+  for (size_t n = 1; n < curve.size(); ++n) length += Between(curve[n - 1], curve[n]);
+  return length;
+}
+
+// The mean of the points from `first` on, `count` of them, in a list that may close on itself.
+WorldPoint MeanOf(std::span<const WorldPoint> points, size_t first, size_t count) {
+  WorldPoint mean = {0, 0, 0};
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t axis = 0; axis < 3; ++axis) mean[axis] += points[(first + n) % points.size()][axis];
+  }
+  for (double& coordinate : mean) coordinate /= static_cast<double>(count);
+  return mean;
+}
+
+std::vector<WorldPoint> SmoothOpen(std::span<const WorldPoint> points) {
+  std::vector<WorldPoint> curve(points.size());
+  for (size_t n = 0; n < points.size(); ++n) {
+    const size_t reach = std::min({kReach, n, points.size() - 1 - n});
+    curve[n] = MeanOf(points, n - reach, 2 * reach + 1);
+  }
+  return curve;
+}
+
+// First and last point are the same.
+std::vector<WorldPoint> SmoothClosed(std::span<const WorldPoint> points) {
+  const std::span<const WorldPoint> once = points.first(points.size() - 1);
+  const size_t reach = std::min(kReach, (once.size() - 1) / 4);
+  std::vector<WorldPoint> curve(points.size());
+  for (size_t n = 0; n < curve.size(); ++n) {
+    curve[n] = MeanOf(once, n + once.size() - reach, 2 * reach + 1);
+  }
+  return curve;
+}
+
+// The place, or the one on the way to it that is as far from `from` as may be.
+WorldPoint Within(double reach, const WorldPoint& from, const WorldPoint& place) {
+  const double way = Between(from, place);
+  if (way <= reach) return place;
+  WorldPoint nearer;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    nearer[axis] = from[axis] + (place[axis] - from[axis]) * (reach / way);
+  }
+  return nearer;
+}
+
+// Which component each node is in; nodes are joined edge by edge.
+class Components {
+ public:
+  explicit Components(const SkeletonGraph& graph) : parents_(graph.nodes.size()) {
+    std::iota(parents_.begin(), parents_.end(), uint32_t{0});
+    for (const SkeletonEdge& edge : graph.edges) {
+      const uint32_t a = FirstOf(edge.source), b = FirstOf(edge.target);
+      parents_[std::max(a, b)] = std::min(a, b);
+    }
+  }
+
+  // The component's first node.
+  uint32_t FirstOf(uint32_t node) {
+    while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
+    return node;
+  }
+
+ private:
+  std::vector<uint32_t> parents_;
+};
+
+void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigures& figures) {
+  ++figures.nodes;
+  figures.ends += node.kind == NodeKind::kEnd ? 1 : 0;
+  figures.junctions += node.kind == NodeKind::kJunction ? 1 : 0;
+  figures.loops += node.loops;
+  figures.cavities += node.cavities;
+  figures.max_radius = std::max(figures.max_radius, graph.RadiusOf(node.at));
+}
+
+}  // namespace
+
+std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  std::vector<WorldPoint> points;
+  for (const SkeletonPoint& p : graph.PointsOf(edge)) points.push_back(graph.PositionOf(p));
+  const bool closed = edge.source == edge.target && points.size() > 2 &&
+                      graph.nodes[edge.source].kind == NodeKind::kLoop;
+  std::vector<WorldPoint> curve = closed ? SmoothClosed(points) : SmoothOpen(points);
+  for (size_t n = 0; n < curve.size(); ++n) {
+    const double reach = graph.RadiusOf(graph.PointsOf(edge)[n]) / 2;
+    curve[n] = Within(reach, points[n], curve[n]);
+  }
+  return curve;
+}
+
+EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+  EdgeFigures figures;
+  if (points.empty()) return figures;
+  figures.length = LengthOfCurve(SmoothCurve(graph, edge));
+  const auto [thinnest, thickest] = std::ranges::minmax_element(points, {}, &SkeletonPoint::radius);
+  figures.min_radius = graph.RadiusOf(*thinnest);
+  figures.max_radius = graph.RadiusOf(*thickest);
+  for (const SkeletonPoint& p : points) figures.mean_radius += graph.RadiusOf(p);
+  figures.mean_radius /= static_cast<double>(points.size());
+  const double straight =
+      Between(graph.PositionOf(points.front()), graph.PositionOf(points.back()));
+  if (straight > 0) figures.tortuosity = figures.length / straight;
+  return figures;
+}
+
+GraphComponents ComponentsOf(const SkeletonGraph& graph) {
+  Components joined(graph);
+  GraphComponents components;
+  components.of_node.resize(graph.nodes.size());
+  for (uint32_t n = 0; n < graph.nodes.size(); ++n) {
+    const uint32_t first = joined.FirstOf(n);
+    if (first == n) {
+      components.of_node[n] = static_cast<uint32_t>(components.figures.size());
+      components.figures.emplace_back();
+    } else {
+      components.of_node[n] = components.of_node[first];
+    }
+    AddNode(graph, graph.nodes[n], components.figures[components.of_node[n]]);
+  }
+  for (const SkeletonEdge& edge : graph.edges) {
+    ComponentFigures& figures = components.figures[components.of_node[edge.source]];
+    const EdgeFigures measured = FiguresOf(graph, edge);
+    ++figures.edges;
+    figures.length += measured.length;
+    figures.max_radius = std::max(figures.max_radius, measured.max_radius);
+  }
+  for (ComponentFigures& figures : components.figures) {
+    figures.loops += figures.edges + 1 - figures.nodes;
+  }
+  return components;
+}
+
+ComponentFigures TotalOf(const GraphComponents& components) {
+  ComponentFigures total;
+  for (const ComponentFigures& one : components.figures) {
+    total.nodes += one.nodes;
+    total.edges += one.edges;
+    total.ends += one.ends;
+    total.junctions += one.junctions;
+    total.loops += one.loops;
+    total.cavities += one.cavities;
+    total.length += one.length;
+    total.max_radius = std::max(total.max_radius, one.max_radius);
+  }
+  return total;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,53 @@
+#ifndef BCCSKEL_CORE_SKELETON_SKELETON_FIGURES_H_
+#define BCCSKEL_CORE_SKELETON_SKELETON_FIGURES_H_
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel {
+
+// What is measured of a branch, in world units.
+struct EdgeFigures {
+  double length = 0;  // of the curve through its points, smoothed
+  double mean_radius = 0;
+  double min_radius = 0;
+  double max_radius = 0;
+  // Length by the straight distance between the ends; none for a closed curve.
+  std::optional<double> tortuosity;
+};
+EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
+
+// The totals of a connected piece of the graph.
+struct ComponentFigures {
+  uint64_t nodes = 0;
+  uint64_t edges = 0;
+  uint64_t ends = 0;
+  uint64_t junctions = 0;
+  uint64_t loops = 0;  // those of closed surfaces included
+  uint64_t cavities = 0;
+  double length = 0;      // of all edges, world units
+  double max_radius = 0;  // world units
+};
+
+struct GraphComponents {
+  std::vector<uint32_t> of_node;          // by node: position in `figures`
+  std::vector<ComponentFigures> figures;  // in the order of their first nodes
+};
+GraphComponents ComponentsOf(const SkeletonGraph& graph);
+
+// The sum of all components.
+ComponentFigures TotalOf(const GraphComponents& components);
+
+// The curve through the points of an edge, one place for each, in world units: the mean of the
+// point and up to four on either side. A path on a lattice is a staircase, up to 24 % too long;
+// this is not. No place is farther from its point than half the radius there, so the curve stays
+// inside the object. First and last point stay; a closed curve without junction is smooth all
+// around.
+std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_SKELETON_FIGURES_H_

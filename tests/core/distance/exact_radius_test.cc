@@ -1,0 +1,64 @@
+#include "core/distance/exact_radius.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <vector>
+
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 3>& spacing) {
+  VolumeBuilder builder({80, 80, 80}, {.spacing = spacing});
+  for (LatticePoint p : points) builder.Add(p);
+  return *std::move(builder).Build();
+}
+
+class ExactRadiusLaw : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(ExactRadiusLaw, IsFoundWithTheSameBitsWhateverTheField) {
+  const uint64_t seed = GetParam();
+  const LatticeExtent extent = {70, 40, 40};
+  for (const auto& points :
+       {test::RandomBlob(seed, extent, 4, 35), test::RandomCloud(seed, {40, 20, 20}, 0.9)}) {
+    for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{0.3, 0.3, 1.5},
+                                std::array{2.5, 1.0, 1.1}, std::array{1.0, 40.0, 1.0}}) {
+      const Volume object = Placed(points, spacing);
+      const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
+      const std::vector<float> expected = *ExactRadii(object, object, *euclidean, {});
+      for (DistanceKind kind : {DistanceKind::kChamfer, DistanceKind::kChamferOptimal}) {
+        const auto chamfer = ComputeDistance(object, kind, {});
+        exec::WorkerTeam team(3);
+        exec::Context context;
+        context.team = &team;
+        ASSERT_EQ(*ExactRadii(object, object, *chamfer, context), expected);
+      }
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, ExactRadiusLaw, testing::Range<uint64_t>(0, 3));
+
+TEST(ExactRadius, OfABackgroundPointIsZero) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
+  ExactRadius radius(object, *field);
+  EXPECT_EQ(radius.At({-2, 0, 0}), 0);
+  EXPECT_EQ(radius.At({1, 2, 2}), 0) << "not on the lattice";
+  EXPECT_EQ(radius.At({38, 38, 38}), 0);
+}
+
+TEST(ExactRadii, StopWhenAsked) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_EQ(ExactRadii(object, object, *field, context).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace bccskel

@@ -1,0 +1,155 @@
+#include "core/pruning/prune.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/distance/exact_radius.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/shapes/shapes.h"
+#include "core/thinning/thinning.h"
+#include "tests/core/pruning/simple_noise.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+SkeletonizeOptions WithPruning(PruningOptions pruning, ThinningMethod method) {
+  SkeletonizeOptions options;
+  options.thinning.method = method;
+  options.distance = DistanceKind::kEuclidean;
+  options.pruning = pruning;
+  return options;
+}
+
+size_t EndsOf(const SkeletonGraph& graph) {
+  return static_cast<size_t>(std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind));
+}
+
+// The fewest and the most ends that a shape may have.
+struct ShapeCase {
+  Shape shape;
+  size_t fewest;
+  size_t most;
+};
+
+class PrunedShapes : public testing::TestWithParam<ShapeCase> {};
+
+TEST_P(PrunedShapes, HaveTheirTrueEndsWithAndWithoutNoise) {
+  const auto& [shape, fewest, most] = GetParam();
+  const Volume clean = *GenerateShape(shape, {.points = 100'000});
+  for (ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
+    for (double noise : {0.0, 0.02, 0.05, 0.1}) {
+      SCOPED_TRACE(noise);
+      const Volume object = noise == 0 ? clean : test::WithSimpleNoise(clean, noise, 1);
+      const auto result = Skeletonize(object, WithPruning({}, method), {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_EQ(result->certificate.simple_points_left, 0u);
+      EXPECT_GE(EndsOf(result->graph), fewest);
+      EXPECT_LE(EndsOf(result->graph), most);
+    }
+  }
+}
+// The trees end at their tips and at the foot of the trunk. The horse's ears hardly stand out of
+// its head: one may go.
+INSTANTIATE_TEST_SUITE_P(
+    All, PrunedShapes,
+    testing::Values(ShapeCase{Shape::kTorus, 0, 0}, ShapeCase{Shape::kKnot, 0, 0},
+                    ShapeCase{Shape::kTubes, 9, 9}, ShapeCase{Shape::kTree, 34, 34},
+                    ShapeCase{Shape::kHorse, 7, 8}),
+    [](const auto& param) { return std::string(ShapeName(param.param.shape)); });
+
+TEST(Pruning, RemovesWhatNoiseRaises) {
+  const Volume object =
+      test::WithSimpleNoise(*GenerateShape(Shape::kTree, {.points = 100'000}), 0.1, 1);
+  const auto ends_with = [&](PruningOptions pruning) {
+    return EndsOf(
+        Skeletonize(object, WithPruning(pruning, ThinningMethod::kDirectional), {})->graph);
+  };
+  const size_t raw = ends_with({PruningRule::kNone, 0, TipPlacement::kAsThinned});
+  EXPECT_GT(raw, 50u);
+  EXPECT_LT(ends_with({PruningRule::kRelativeLength, 1, TipPlacement::kAsThinned}), raw);
+  EXPECT_LT(ends_with({PruningRule::kLength, 3, TipPlacement::kAsThinned}), raw);
+  EXPECT_EQ(ends_with({PruningRule::kLength, 1e-3, TipPlacement::kAsThinned}), raw);
+  EXPECT_EQ(ends_with({PruningRule::kSlope, 0, TipPlacement::kAsThinned}), 34u);
+}
+
+TEST(Pruning, LeavesKeptPointsAndTheirBranches) {
+  const Volume object =
+      test::WithSimpleNoise(*GenerateShape(Shape::kTorus, {.points = 50'000}), 0.1, 1);
+  SkeletonizeOptions options =
+      WithPruning({PruningRule::kNone, 0, TipPlacement::kAsThinned}, ThinningMethod::kDirectional);
+  const auto raw = Skeletonize(object, options, {});
+  ASSERT_GT(EndsOf(raw->graph), 0u);
+  for (const SkeletonNode& node : raw->graph.nodes) {
+    if (node.kind == NodeKind::kEnd) options.thinning.keep.push_back(node.at.point);
+  }
+  options.pruning = {};
+  const auto result = Skeletonize(object, options, {});
+  for (LatticePoint p : options.thinning.keep) EXPECT_TRUE(result->thin.Contains(p));
+}
+
+TEST(Pruning, IsTheSameForAnyThreadCount) {
+  const Volume object =
+      test::WithSimpleNoise(*GenerateShape(Shape::kHorse, {.points = 50'000}), 0.05, 3);
+  SkeletonizeOptions options;
+  const std::string expected = Skeletonize(object, options, {})->sha256;
+  for (int threads : {2, 3}) {
+    exec::WorkerTeam team(threads);
+    exec::Context context;
+    context.team = &team;
+    context.min_bricks_per_worker = 1;
+    EXPECT_EQ(Skeletonize(object, options, context)->sha256, expected);
+  }
+}
+
+TEST(PruningOptions, AreChecked) {
+  EXPECT_TRUE(CheckPruningOptions({}).ok());
+  EXPECT_EQ(CheckPruningOptions({PruningRule::kLength, 0}).code(),
+            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(CheckPruningOptions({PruningRule::kSlope, -1}).code(),
+            absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Pruning, StopsWhenAsked) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
+  const Volume thin = ThinToCurve(object, *field, {}, {})->thin;
+  const auto radii = ExactRadii(thin, object, *field, {});
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_EQ(Prune(thin, *radii, object, *field, {}, {}, context).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+class PruningLaw : public testing::TestWithParam<uint64_t> {};
+
+TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
+  const uint64_t seed = GetParam();
+  const LatticeExtent extent = {40, 30, 30};
+  const auto blob = test::RandomBlob(seed, extent, 8, 14);
+  for (const auto& points : {blob, test::WithNoisyBoundary(seed, blob, 0.1),
+                             test::RandomCloud(seed, {16, 16, 16}, 0.6)}) {
+    const Volume object = VolumeOfPoints(points);
+    for (PruningRule rule : {PruningRule::kSlope, PruningRule::kLength,
+                             PruningRule::kRelativeLength, PruningRule::kNone}) {
+      for (TipPlacement tips : {TipPlacement::kRidge, TipPlacement::kAsThinned}) {
+        for (double threshold : {3.0, 1000.0}) {
+          const auto result = Skeletonize(
+              object, WithPruning({rule, threshold, tips}, ThinningMethod::kDirectional), {});
+          ASSERT_TRUE(result.ok()) << result.status();  // which says that topology was kept
+          EXPECT_EQ(result->certificate.simple_points_left, 0u);
+          for (LatticePoint p : result->thin.SortedPoints()) ASSERT_TRUE(object.Contains(p));
+        }
+      }
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4));
+
+}  // namespace
+}  // namespace bccskel

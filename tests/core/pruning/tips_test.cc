@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel {
+namespace {
+
+// Points within `radius` of the segment from a to b, in lattice units of a grid with this spacing.
+Volume Capsule(std::array<double, 3> a, std::array<double, 3> b, double radius,
+               std::array<double, 3> spacing) {
+  const Placement placement = {.spacing = spacing};
+  LatticeExtent extent = {1, 1, 1};
+  const auto cells = [&](size_t axis) {
+    return static_cast<int32_t>(std::ceil((std::max(a[axis], b[axis]) + radius) / spacing[axis])) +
+           2;
+  };
+  extent = {cells(0), cells(1), cells(2)};
+  VolumeBuilder builder(extent, placement);
+  const auto dot = [](const WorldPoint& u, const WorldPoint& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  };
+  const WorldPoint axis = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  for (Sublattice s : kSublattices) {
+    for (int32_t k = 0; k < extent.nz; ++k) {
+      for (int32_t j = 0; j < extent.ny; ++j) {
+        for (int32_t i = 0; i < extent.nx; ++i) {
+          const LatticePoint p = PointAt(s, i, j, k);
+          const WorldPoint w = placement.ToWorld(p);
+          const WorldPoint from = {w[0] - a[0], w[1] - a[1], w[2] - a[2]};
+          const double t = std::clamp(dot(from, axis) / dot(axis, axis), 0.0, 1.0);
+          const WorldPoint off = {from[0] - t * axis[0], from[1] - t * axis[1],
+                                  from[2] - t * axis[2]};
+          if (dot(off, off) <= radius * radius) builder.Add(p);
+        }
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+double Gap(const WorldPoint& a, const WorldPoint& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(Tips, LieWhereTheAxisOfACapsuleEnds) {
+  const std::array<double, 3> a = {12, 12, 12}, b = {60, 30, 24};
+  const Volume object = Capsule(a, b, 8, {1, 1, 1});
+  for (DistanceKind kind : {DistanceKind::kChamfer, DistanceKind::kEuclidean}) {
+    SkeletonizeOptions options;
+    options.distance = kind;
+    const auto result = Skeletonize(object, options, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    const SkeletonGraph& graph = result->graph;
+    ASSERT_EQ(graph.nodes.size(), 2u);
+    const WorldPoint first = graph.PositionOf(graph.nodes[0].at),
+                     second = graph.PositionOf(graph.nodes[1].at);
+    EXPECT_LT(std::min(Gap(first, a), Gap(second, a)), 1.5);
+    EXPECT_LT(std::min(Gap(first, b), Gap(second, b)), 1.5);
+  }
+}
+
+// One cylinder, sampled alike along all axes and five times coarser along z.
+TEST(UnequalSpacing, GivesTheSameCenterLineAndRadius) {
+  const std::array<double, 3> a = {14, 14, 20}, b = {30, 44, 100};
+  const double radius = 8;
+  for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 5.0}}) {
+    // Half the coarsest spacing, and at least what the directional method needs.
+    const double tolerance = std::max(spacing[2] / 2, 1.25);
+    const Volume object = Capsule(a, b, radius, spacing);
+    for (DistanceKind kind :
+         {DistanceKind::kChamfer, DistanceKind::kChamferOptimal, DistanceKind::kEuclidean}) {
+      SkeletonizeOptions options;
+      options.distance = kind;
+      const auto result = Skeletonize(object, options, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      const SkeletonGraph& graph = result->graph;
+      ASSERT_EQ(graph.edges.size(), 1u);
+      const double length = Gap(a, b);
+      for (const SkeletonPoint& p : graph.points) {
+        const WorldPoint at = graph.PositionOf(p);
+        double t = 0, squared = 0;
+        for (size_t n = 0; n < 3; ++n) t += (at[n] - a[n]) * (b[n] - a[n]) / length;
+        if (t < radius || t > length - radius) continue;  // the caps
+        for (size_t n = 0; n < 3; ++n) {
+          const double off = at[n] - a[n] - t * (b[n] - a[n]) / length;
+          squared += off * off;
+        }
+        EXPECT_LE(std::sqrt(squared), tolerance) << "at " << t;
+        EXPECT_NEAR(graph.RadiusOf(p), radius, tolerance) << "at " << t;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
