@@ -10,6 +10,7 @@
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/load_object.h"
+#include "client/cli/result_arguments.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
 #include "core/version/version.h"
@@ -165,25 +166,12 @@ CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
   return command;
 }
 
-void AddResult(CLI::App& command, ResultArguments& source) {
-  AddInput(command, "RESULT", source.result, "JSON file of skeletonize or submit");
-  command
-      .add_option("--object", source.object, "Mesh, volume or image that the result was made from")
-      ->required()
-      ->option_text("FILE (required)");
+// What commands that show a result share with those that make one.
+CLI::App& WithGrid(CLI::App& command, ResultArguments& source, CommonArguments& common) {
   AddGrid(command, source.grid);
   AddImage(command, source.image);
-}
-
-CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
-  CLI::App& command = *app.add_subcommand(
-      "view", "Make a page to look at a result in a browser, without a network");
-  AddResult(command, arguments.source);
-  command.add_option("-o,--output", arguments.output, "Page to write: .html")
-      ->required()
-      ->option_text("FILE (required)");
-  AddThreads(command, arguments.common, kThreadsHere);
-  AddCommon(command, arguments.common);
+  AddThreads(command, common, kThreadsHere);
+  AddCommon(command, common);
   return command;
 }
 
@@ -223,13 +211,21 @@ struct CommandLine {
   SkeletonizeArguments skeletonize_arguments;
   InfoArguments info_arguments;
   ViewArguments view_arguments;
+  RenderArguments render_arguments;
+  ReconstructArguments reconstruct_arguments;
   GenerateArguments generate_arguments;
   BenchCoreArguments bench_core_arguments;
   CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
   CLI::App& submit = AddSubmit(app, submit_arguments);
   CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
   CLI::App& info = AddInfo(app, info_arguments);
-  CLI::App& view = AddView(app, view_arguments);
+  CLI::App& view =
+      WithGrid(AddView(app, view_arguments), view_arguments.source, view_arguments.common);
+  CLI::App& render =
+      WithGrid(AddRender(app, render_arguments), render_arguments.source, render_arguments.common);
+  CLI::App& reconstruct =
+      WithGrid(AddReconstruct(app, reconstruct_arguments), reconstruct_arguments.source,
+               reconstruct_arguments.common);
   CLI::App& generate = AddGenerate(app, generate_arguments);
   CLI::App& bench = AddBench(app, bench_core_arguments);
 
@@ -251,6 +247,8 @@ struct CommandLine {
     if (skeletonize.parsed()) return skeletonize_arguments;
     if (info.parsed()) return info_arguments;
     if (view.parsed()) return view_arguments;
+    if (render.parsed()) return render_arguments;
+    if (reconstruct.parsed()) return reconstruct_arguments;
     if (generate.parsed()) return generate_arguments;
     return bench_core_arguments;
   }
@@ -319,20 +317,22 @@ Complaint ComplaintAbout(const GenerateArguments& arguments) {
   return VolumeOutputComplaint(arguments.output);
 }
 
-Complaint EndingComplaint(const std::string& path, std::string_view ending) {
-  if (path.ends_with(ending)) return std::nullopt;
-  return path + ": does not end in " + std::string(ending);
-}
-
-Complaint ComplaintAbout(const ViewArguments& arguments) {
-  const ResultArguments& source = arguments.source;
-  if (Complaint c = EndingComplaint(arguments.output, ".html"); c.has_value()) return c;
+Complaint ResultComplaint(const ResultArguments& source, const std::string& output) {
   for (const std::string& input : {source.result, source.object}) {
-    if (Complaint c = OverwriteComplaint(input, arguments.output); c.has_value()) return c;
+    if (Complaint c = OverwriteComplaint(input, output); c.has_value()) return c;
   }
   return ObjectComplaint(source.object, source.grid, source.image);
 }
 
+Complaint ComplaintAbout(const ViewArguments& arguments) {
+  return ResultComplaint(arguments.source, arguments.output);
+}
+Complaint ComplaintAbout(const RenderArguments& arguments) {
+  return ResultComplaint(arguments.source, arguments.output);
+}
+Complaint ComplaintAbout(const ReconstructArguments& arguments) {
+  return ResultComplaint(arguments.source, arguments.output);
+}
 Complaint ComplaintAbout(const InfoArguments& arguments) {
   return ObjectComplaint(arguments.file, {}, arguments.image);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/cli/exit_code.h"
+#include "client/view/render/picture.h"
 #include "client/cli/image_arguments.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
@@ -75,6 +76,19 @@ struct ViewArguments {
   std::string output;
 };
 
+struct RenderArguments {
+  CommonArguments common;
+  ResultArguments source;
+  std::string output;
+  view::PictureOptions picture;
+};
+
+struct ReconstructArguments {
+  CommonArguments common;
+  ResultArguments source;
+  std::string output;
+};
+
 struct GenerateArguments {
   CommonArguments common;
   std::string output;
@@ -92,7 +106,8 @@ struct BenchCoreArguments {
 };
 
 using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments,
-                               ViewArguments, GenerateArguments, BenchCoreArguments>;
+                               ViewArguments, RenderArguments, ReconstructArguments,
+                               GenerateArguments, BenchCoreArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

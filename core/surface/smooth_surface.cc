@@ -33,6 +33,15 @@ SurfaceVertex Cross(const SurfaceVertex& a, const SurfaceVertex& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// A vertex on its way from `start` to `goal`, held back the more the farther it goes; a plain limit
+// would leave kinks where it is met. The way t(1 - t^2 / reach^2) is longest at reach / sqrt(3).
+SurfaceVertex HeldBack(const SurfaceVertex& goal, const SurfaceVertex& start, float reach) {
+  const SurfaceVertex way = Minus(goal, start);
+  const float square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+  const float free = std::max(0.0f, 1 - square / (reach * reach));
+  return {start[0] + free * way[0], start[1] + free * way[1], start[2] + free * way[2]};
+}
+
 }  // namespace
 
 void SmoothSurface(SurfaceMesh& mesh, const SurfaceSmoothing& smoothing) {
@@ -42,11 +51,8 @@ void SmoothSurface(SurfaceMesh& mesh, const SurfaceSmoothing& smoothing) {
   for (int step = 0; step < smoothing.steps; ++step) {
     SumNeighbors(mesh, sums, counts);
     for (size_t n = 0; n < start.size(); ++n) {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        mesh.vertices[n][axis] =
-            std::clamp(sums[n][axis] / counts[n], start[n][axis] - smoothing.reach,
-                       start[n][axis] + smoothing.reach);
-      }
+      for (float& sum : sums[n]) sum /= counts[n];
+      mesh.vertices[n] = HeldBack(sums[n], start[n], smoothing.reach);
     }
   }
 }

@@ -8,14 +8,14 @@
 namespace bccskel {
 
 struct SurfaceSmoothing {
-  int steps = 24;
-  // No coordinate moves farther from where it was, lattice units. Layers of points are 1 apart, so
-  // half of it lays a plane through the stairs. Less than 1 leaves something of a single point.
-  float reach = 0.7f;
+  int steps = 60;
+  // Lattice units. No vertex moves farther than 0.385 of it, which is about a layer of points; more
+  // is smoother, but thins out what is thin.
+  float reach = 3;
 };
 
 // Takes the steps of the lattice off a surface: each vertex goes to the mean of its neighbors, step
-// by step, as far as its reach allows, so thin parts do not shrink away.
+// by step, and the farther it gets the more it is held back, so thin parts do not shrink away.
 // Needs: a closed surface.
 void SmoothSurface(SurfaceMesh& mesh, const SurfaceSmoothing& smoothing);
 

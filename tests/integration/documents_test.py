@@ -9,7 +9,8 @@ import unittest
 import harness
 
 CLI = harness.SOURCES / "client/cli"
-COMMANDS = ("voxelize", "submit", "skeletonize", "info", "view", "generate", "bench core")
+COMMANDS = ("voxelize", "submit", "skeletonize", "info", "view", "render", "reconstruct",
+            "generate", "bench core")
 
 
 def options_of(command):
@@ -93,7 +94,11 @@ class DocumentsTest(harness.TestCase):
                     ("generate", "ball", "-o", self.path("b.exr")),
                     ("skeletonize", self.path("b.exr"), "--local", "-o", self.path("b.json")),
                     ("view", self.path("b.json"), "--object", self.path("b.exr"),
-                     "-o", self.path("b.html"))]
+                     "-o", self.path("b.html")),
+                    ("render", self.path("b.json"), "--object", self.path("b.exr"),
+                     "-o", self.path("b.png")),
+                    ("reconstruct", self.path("b.json"), "--object", self.path("b.exr"),
+                     "-o", self.path("c.exr"))]
         for command in commands:
             for key in self.keys(json.loads(self.succeed(*command, "--json"))):
                 with self.subTest(command=command[0], key=key):

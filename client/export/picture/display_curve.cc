@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace bccskel::exporting {
 namespace {
@@ -27,9 +28,7 @@ DisplayCurve CurveOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
     curve.points.push_back(graph.PositionOf(p));
     curve.radii.push_back(graph.RadiusOf(p));
   }
-  for (int step = 0; step < kSmoothingSteps && !curve.points.empty(); ++step) {
-    SmoothOnce(curve.points);
-  }
+  curve.points = SmoothedForDisplay(std::move(curve.points));
   return curve;
 }
 
@@ -39,6 +38,11 @@ constexpr std::array<Rgb, 5> kRadiusScale = {
     {{46, 16, 101}, {124, 29, 130}, {196, 45, 96}, {235, 94, 40}, {245, 158, 11}}};
 
 }  // namespace
+
+std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points) {
+  for (int step = 0; step < kSmoothingSteps && !points.empty(); ++step) SmoothOnce(points);
+  return points;
+}
 
 std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph) {
   std::vector<DisplayCurve> curves;
@@ -65,14 +69,21 @@ int RadiusColorIndex(double radius, const RadiusRange& range) {
   return std::clamp(static_cast<int>(part * kRadiusColors), 0, kRadiusColors - 1);
 }
 
-std::string RadiusColor(int index) {
-  constexpr std::string_view kHex = "0123456789abcdef";
+std::array<double, 3> RadiusRgb(int index) {
   const double place = static_cast<double>(index) / (kRadiusColors - 1) * (kRadiusScale.size() - 1);
   const size_t stop = std::min(static_cast<size_t>(place), kRadiusScale.size() - 2);
   const double part = place - static_cast<double>(stop);
-  std::string color = "#";
+  Rgb color;
   for (size_t n = 0; n < 3; ++n) {
-    const double value = kRadiusScale[stop][n] * (1 - part) + kRadiusScale[stop + 1][n] * part;
+    color[n] = kRadiusScale[stop][n] * (1 - part) + kRadiusScale[stop + 1][n] * part;
+  }
+  return color;
+}
+
+std::string RadiusColor(int index) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string color = "#";
+  for (const double value : RadiusRgb(index)) {
     const auto byte = static_cast<size_t>(std::lround(value));
     color.push_back(kHex[byte >> 4]);
     color.push_back(kHex[byte & 15]);

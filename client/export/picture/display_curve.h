@@ -17,6 +17,9 @@ struct DisplayCurve {
   std::vector<double> radii;
 };
 
+// A curve without the steps of the lattice; the first and the last point stay.
+std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points);
+
 std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph);
 
 // The radii of a graph's points, nodes included; {0, 0} for an empty graph.
@@ -29,6 +32,7 @@ RadiusRange RadiusRangeOf(const SkeletonGraph& graph);
 // The color of a radius: thin is dark violet, thick is orange.
 inline constexpr int kRadiusColors = 24;
 int RadiusColorIndex(double radius, const RadiusRange& range);  // 0..kRadiusColors - 1
+std::array<double, 3> RadiusRgb(int index);                     // 0..255 each
 std::string RadiusColor(int index);                             // "#rrggbb"
 
 }  // namespace bccskel::exporting

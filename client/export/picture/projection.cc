@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace bccskel::exporting {
 namespace {
@@ -33,7 +34,6 @@ Range RangeAlong(const WorldPoint& v, const Spheres& shown) {
   return range;
 }
 
-// Looks straight at the box's broadest side. Up is +y, or +z when y is the thinnest axis.
 View BroadsideOf(const WorldBox& box) {
   std::array<double, 3> size;
   for (size_t axis = 0; axis < 3; ++axis) size[axis] = box.high[axis] - box.low[axis];
@@ -41,18 +41,6 @@ View BroadsideOf(const WorldBox& box) {
   if (size[0] <= size[1]) return {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
   return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 }
-
-// Walks around the object to the right by a quarter of a right angle or so, then climbs a little.
-View ThreeQuarter(const View& view) {
-  constexpr double kCosTurn = 0.8660254037844386, kSinTurn = 0.5;                   // 30 degrees
-  constexpr double kCosClimb = 0.9659258262890683, kSinClimb = 0.2588190451025208;  // 15 degrees
-  const WorldPoint level = Combine(kCosTurn, view.toward, kSinTurn, view.right);
-  return {Combine(kCosTurn, view.right, -kSinTurn, view.toward),
-          Combine(kCosClimb, view.up, -kSinClimb, level),
-          Combine(kCosClimb, level, kSinClimb, view.up)};
-}
-
-WorldPoint Negated(const WorldPoint& v) { return {-v[0], -v[1], -v[2]}; }
 
 }  // namespace
 
@@ -71,11 +59,31 @@ PanelPoint Projection::Project(const WorldPoint& p) const {
           scale_ * Dot(p, view_.toward)};
 }
 
-std::array<View, 3> ViewsOf(const WorldBox& box) {
+WorldBox BoxOf(std::span<const WorldPoint> points) {
+  if (points.empty()) return {{0, 0, 0}, {0, 0, 0}};
+  WorldBox box = {points.front(), points.front()};
+  for (const WorldPoint& p : points) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], p[axis]);
+      box.high[axis] = std::max(box.high[axis], p[axis]);
+    }
+  }
+  return box;
+}
+
+View ViewFrom(const WorldBox& box, double turn, double climb) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double cos_turn = std::cos(turn * kRadians), sin_turn = std::sin(turn * kRadians);
+  const double cos_climb = std::cos(climb * kRadians), sin_climb = std::sin(climb * kRadians);
   const View front = BroadsideOf(box);
-  const View side = {Negated(front.toward), front.up, front.right};
-  const View above = {front.right, Negated(front.toward), front.up};
-  return {ThreeQuarter(front), side, above};
+  const WorldPoint level = Combine(cos_turn, front.toward, sin_turn, front.right);
+  return {Combine(cos_turn, front.right, -sin_turn, front.toward),
+          Combine(cos_climb, front.up, -sin_climb, level),
+          Combine(cos_climb, level, sin_climb, front.up)};
+}
+
+std::array<View, 3> ViewsOf(const WorldBox& box) {
+  return {ViewFrom(box, 30, 15), ViewFrom(box, 90, 0), ViewFrom(box, 0, 90)};
 }
 
 }  // namespace bccskel::exporting

@@ -59,6 +59,13 @@ class Projection {
   double middle_up_;
 };
 
+// The smallest box around some points; at the origin around none.
+WorldBox BoxOf(std::span<const WorldPoint> points);
+
+// The broadest side of the box, after a walk of `turn` degrees around it to the right and a climb
+// of `climb` degrees. Up is +y, or +z when y is the thinnest axis.
+View ViewFrom(const WorldBox& box, double turn, double climb);
+
 // A three-quarter view on the broadest side of the box, then from its side, then from above.
 std::array<View, 3> ViewsOf(const WorldBox& box);
 

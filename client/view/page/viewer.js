@@ -219,7 +219,7 @@ const tubes = tubeMesh(), nodes = nodeMeshes();
 const marker = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 40, 28), new THREE.MeshPhongMaterial(
   { transparent: true, opacity: 0.35, depthWrite: false }));
 marker.visible = false;
-marker.renderOrder = 5;
+marker.renderOrder = 0.5;  // behind the glass, before its depth
 scene.add(core.group, ghost.group, tubes, ...Object.values(nodes), marker);
 
 let asked = false;
@@ -345,8 +345,8 @@ function tell(event) {
 length <b>${figure(branch.length)}</b>
 radius here <b>${figure(radius)}</b> (${figure(Math.min(...branch.radii))} to ${
   figure(Math.max(...branch.radii))})`;
-    tip.style.left = `${Math.min(event.clientX + 16, window.innerWidth - tip.offsetWidth - 8)}px`;
-    tip.style.top = `${Math.min(event.clientY + 16, window.innerHeight - tip.offsetHeight - 8)}px`;
+    tip.style.left = `${Math.min(event.clientX + 28, window.innerWidth - tip.offsetWidth - 8)}px`;
+    tip.style.top = `${Math.min(event.clientY + 28, window.innerHeight - tip.offsetHeight - 8)}px`;
     marker.position.set(...curves[found.id][found.n]);
     marker.scale.setScalar(Math.max(radius / edge, 1e-6));
     marker.material.color.copy(radiusColor(radius));

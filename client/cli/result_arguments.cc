@@ -1,0 +1,89 @@
+#include "client/cli/result_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_join.h"
+
+namespace bccskel::cli {
+namespace {
+
+void AddOutput(CLI::App& command, std::string& path, const char* what,
+               const std::vector<std::string>& endings) {
+  const std::string choice = absl::StrJoin(endings, " or ");
+  command.add_option("-o,--output", path, std::string(what) + " to write: " + choice)
+      ->required()
+      ->check([endings, choice](const std::string& given) {
+        const auto fits = [&](const std::string& ending) { return given.ends_with(ending); };
+        return std::ranges::any_of(endings, fits) ? "" : given + ": does not end in " + choice;
+      })
+      ->option_text("FILE (required)");
+}
+
+void AddSource(CLI::App& command, ResultArguments& source) {
+  command.add_option("RESULT", source.result, "JSON file of skeletonize or submit")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("--object", source.object, "Mesh, volume or image that the result was made from")
+      ->required()
+      ->option_text("FILE (required)");
+}
+
+void ReadSize(const std::string& text, view::PictureOptions& picture) {
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &picture.width, &picture.height, &end);
+  const auto [low, high] = std::minmax(picture.width, picture.height);
+  if (read == 2 && text.size() == static_cast<size_t>(end) && low >= view::kMinPictureSide &&
+      high <= view::kMaxPictureSide) {
+    return;
+  }
+  throw CLI::ValidationError("--size " + text + ": must be like 1200x900, each number within " +
+                             std::to_string(view::kMinPictureSide) + " and " +
+                             std::to_string(view::kMaxPictureSide));
+}
+
+void AddPicture(CLI::App& command, view::PictureOptions& picture) {
+  command
+      .add_option_function<std::string>(
+          "--size", [&picture](const std::string& text) { ReadSize(text, picture); },
+          "Pixels of the picture (default 1200x900)")
+      ->option_text("WIDTHxHEIGHT");
+  command
+      .add_option("--turn", picture.turn,
+                  "Walk around the object to the right, from its broadest side (default 30)")
+      ->option_text("DEGREES");
+  command.add_option("--climb", picture.climb, "Look from above (default 15)")
+      ->option_text("DEGREES");
+}
+
+}  // namespace
+
+CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
+  CLI::App& command = *app.add_subcommand(
+      "view", "Make a page to look at a result in a browser, without a network");
+  AddSource(command, arguments.source);
+  AddOutput(command, arguments.output, "Page", {".html"});
+  return command;
+}
+
+CLI::App& AddRender(CLI::App& app, RenderArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("render", "Draw a picture of a result");
+  AddSource(command, arguments.source);
+  AddOutput(command, arguments.output, "Picture", {".png"});
+  AddPicture(command, arguments.picture);
+  return command;
+}
+
+CLI::App& AddReconstruct(CLI::App& app, ReconstructArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("reconstruct", "Make a volume of a result's balls and compare it");
+  AddSource(command, arguments.source);
+  AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
+  return command;
+}
+
+}  // namespace bccskel::cli

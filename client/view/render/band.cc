@@ -1,0 +1,84 @@
+#include "client/view/render/band.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bccskel::view {
+namespace {
+
+// The samples of a band that an interval of coordinates covers; sample n lies at n.
+struct Span {
+  int begin;
+  int end;
+};
+Span SpanOf(float low, float high, int first, int count) {
+  const float last = static_cast<float>(first + count - 1);
+  return {static_cast<int>(std::ceil(std::clamp(low, static_cast<float>(first), last + 1))),
+          static_cast<int>(std::floor(std::clamp(high, static_cast<float>(first) - 1, last))) + 1};
+}
+
+}  // namespace
+
+Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows) {
+  const size_t samples = Index(0, rows);
+  near_.assign(samples, {-kNothing, {}});
+  far_.assign(samples, {kNothing, {}});
+  bead_.assign(samples, {-kNothing, {}});
+  bead_color_.assign(samples, {});
+}
+
+void Band::Draw(const Geometry& geometry) {
+  for (const SurfaceTriangle& triangle : geometry.glass.triangles) DrawTriangle(geometry, triangle);
+  for (const Bead& bead : geometry.beads) DrawBead(bead);
+}
+
+void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle) {
+  const SurfaceVertex& a = geometry.glass.vertices[triangle[0]];
+  const SurfaceVertex& b = geometry.glass.vertices[triangle[1]];
+  const SurfaceVertex& c = geometry.glass.vertices[triangle[2]];
+  const Span rows =
+      SpanOf(std::min({-a[1], -b[1], -c[1]}), std::max({-a[1], -b[1], -c[1]}), top_, rows_);
+  const float area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  if (rows.begin >= rows.end || area == 0) return;
+  const Span columns =
+      SpanOf(std::min({a[0], b[0], c[0]}), std::max({a[0], b[0], c[0]}), 0, width_);
+  for (int y = rows.begin; y < rows.end; ++y) {
+    for (int x = columns.begin; x < columns.end; ++x) {
+      const float dx = static_cast<float>(x) - a[0], dy = static_cast<float>(-y) - a[1];
+      const float v = (dx * (c[1] - a[1]) - dy * (c[0] - a[0])) / area;
+      const float w = (dy * (b[0] - a[0]) - dx * (b[1] - a[1])) / area;
+      const float u = 1 - v - w;
+      if (u < 0 || v < 0 || w < 0) continue;
+      Hit hit = {u * a[2] + v * b[2] + w * c[2], {}};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        hit.normal[axis] = u * geometry.normals[triangle[0]][axis] +
+                           v * geometry.normals[triangle[1]][axis] +
+                           w * geometry.normals[triangle[2]][axis];
+      }
+      Hit& nearest = near_[Index(x, y - top_)];
+      Hit& farthest = far_[Index(x, y - top_)];
+      if (hit.depth > nearest.depth) nearest = hit;
+      if (hit.depth < farthest.depth) farthest = hit;
+    }
+  }
+}
+
+void Band::DrawBead(const Bead& bead) {
+  const Span rows = SpanOf(bead.y - bead.radius, bead.y + bead.radius, top_, rows_);
+  const Span columns = SpanOf(bead.x - bead.radius, bead.x + bead.radius, 0, width_);
+  for (int y = rows.begin; y < rows.end; ++y) {
+    for (int x = columns.begin; x < columns.end; ++x) {
+      const float dx = (static_cast<float>(x) - bead.x) / bead.radius;
+      const float dy = (bead.y - static_cast<float>(y)) / bead.radius;
+      const float rest = 1 - dx * dx - dy * dy;
+      if (rest < 0) continue;
+      const float rise = std::sqrt(rest);
+      const size_t at = Index(x, y - top_);
+      if (bead.depth + bead.radius * rise <= bead_[at].depth) continue;
+      bead_[at] = {bead.depth + bead.radius * rise, {dx, dy, rise}};
+      bead_color_[at] = bead.color;
+    }
+  }
+}
+
+}  // namespace bccskel::view

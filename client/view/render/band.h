@@ -1,0 +1,60 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_
+#define BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_
+
+#include <limits>
+#include <vector>
+
+#include "client/view/render/beads.h"
+#include "core/surface/surface_mesh.h"
+
+namespace bccskel::view {
+
+using ViewNormal = std::array<float, 3>;  // to the right, up, to the viewer
+
+// What all bands of a picture show, in sample coordinates.
+struct Geometry {
+  SurfaceMesh glass;  // vertices: x to the right, y up from the top edge (negative), depth
+  std::vector<ViewNormal> normals;  // one per vertex
+  std::vector<Bead> beads;
+};
+
+// A piece of surface behind a sample. Needs care: nothing is there while `depth` is infinite.
+struct Hit {
+  float depth;
+  ViewNormal normal;
+};
+
+// A few rows of samples: the nearest and the farthest glass and the nearest bead of each.
+class Band {
+ public:
+  Band(int width, int top, int rows);
+
+  void Draw(const Geometry& geometry);
+
+  // Needs: 0 <= x < width, 0 <= row < rows.
+  const Hit& near_glass(int x, int row) const { return near_[Index(x, row)]; }
+  const Hit& far_glass(int x, int row) const { return far_[Index(x, row)]; }
+  const Hit& bead(int x, int row) const { return bead_[Index(x, row)]; }
+  const LinearColor& bead_color(int x, int row) const { return bead_color_[Index(x, row)]; }
+
+ private:
+  size_t Index(int x, int row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+  }
+  void DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle);
+  void DrawBead(const Bead& bead);
+
+  int width_;
+  int top_;
+  int rows_;
+  std::vector<Hit> near_;
+  std::vector<Hit> far_;
+  std::vector<Hit> bead_;
+  std::vector<LinearColor> bead_color_;
+};
+
+inline constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_

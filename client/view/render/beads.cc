@@ -1,0 +1,84 @@
+#include "client/view/render/beads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bccskel::view {
+namespace {
+
+using exporting::PanelPoint;
+using exporting::RadiusRange;
+
+LinearColor ColorOf(double radius, const RadiusRange& range) {
+  const auto rgb = exporting::RadiusRgb(exporting::RadiusColorIndex(radius, range));
+  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
+          static_cast<float>(rgb[2] / 255)};
+}
+
+Bead BeadAt(const PanelPoint& p, double radius, const LinearColor& color) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
+          static_cast<float>(radius), color};
+}
+
+PanelPoint Between(const PanelPoint& a, const PanelPoint& b, double part) {
+  return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.depth + part * (b.depth - a.depth)};
+}
+
+class Stringer {
+ public:
+  Stringer(const exporting::Projection& projection, double thickness, const RadiusRange& range)
+      : projection_(projection), thickness_(thickness), range_(range) {}
+
+  void AddEdge(const ResultDocument::Edge& edge) {
+    const std::vector<WorldPoint> curve = exporting::SmoothedForDisplay(edge.points);
+    for (size_t n = 1; n < curve.size(); ++n) {
+      const PanelPoint from = projection_.Project(curve[n - 1]), to = projection_.Project(curve[n]);
+      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y));
+      for (int step = 0; step < steps; ++step) {
+        const double part = static_cast<double>(step) / steps;
+        const double radius = edge.radii[n - 1] + part * (edge.radii[n] - edge.radii[n - 1]);
+        beads_.push_back(BeadAt(Between(from, to, part), thickness_, ColorOf(radius, range_)));
+      }
+    }
+  }
+
+  void AddNode(const ResultDocument::Node& node) {
+    if (node.kind == "loop") return;  // only stands for its curve
+    const LinearColor& color = node.kind == "end"        ? kEndColor
+                               : node.kind == "junction" ? kJunctionColor
+                                                         : kOtherColor;
+    beads_.push_back(BeadAt(projection_.Project(node.position), 1.9 * thickness_, color));
+  }
+
+  std::vector<Bead> Take() && { return std::move(beads_); }
+
+ private:
+  const exporting::Projection& projection_;
+  const double thickness_;
+  const RadiusRange range_;
+  std::vector<Bead> beads_;
+};
+
+}  // namespace
+
+RadiusRange RadiusRangeOf(const ResultDocument& result) {
+  if (result.nodes.empty()) return {0, 0};
+  RadiusRange range = {result.nodes.front().radius, result.nodes.front().radius};
+  const auto include = [&](double radius) {
+    range.low = std::min(range.low, radius);
+    range.high = std::max(range.high, radius);
+  };
+  for (const ResultDocument::Node& node : result.nodes) include(node.radius);
+  for (const ResultDocument::Edge& edge : result.edges) std::ranges::for_each(edge.radii, include);
+  return range;
+}
+
+std::vector<Bead> BeadsOf(const ResultDocument& result, const exporting::Projection& projection,
+                          double thickness) {
+  Stringer stringer(projection, thickness, RadiusRangeOf(result));
+  for (const ResultDocument::Edge& edge : result.edges) stringer.AddEdge(edge);
+  for (const ResultDocument::Node& node : result.nodes) stringer.AddNode(node);
+  return std::move(stringer).Take();
+}
+
+}  // namespace bccskel::view

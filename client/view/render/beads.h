@@ -1,0 +1,38 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_
+#define BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_
+
+#include <array>
+#include <vector>
+
+#include "client/export/picture/display_curve.h"
+#include "client/export/picture/projection.h"
+#include "client/view/result_document.h"
+
+namespace bccskel::view {
+
+using LinearColor = std::array<float, 3>;  // red, green, blue, 0..1
+
+// A ball in sample coordinates: x to the right, y down, a larger depth is nearer to the viewer.
+struct Bead {
+  float x;
+  float y;
+  float depth;
+  float radius;
+  LinearColor color;
+};
+
+exporting::RadiusRange RadiusRangeOf(const ResultDocument& result);
+
+inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
+inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};
+inline constexpr LinearColor kOtherColor = {0.01f, 0.52f, 0.78f};
+
+// The skeleton as strings of beads that overlap so much that they look like tubes, colored by
+// radius, with a larger bead per node.
+// Units: `thickness`, the radius of a tube, in those of the projection.
+std::vector<Bead> BeadsOf(const ResultDocument& result, const exporting::Projection& projection,
+                          double thickness);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_

@@ -1,0 +1,70 @@
+#include "client/view/render/glass_color.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bccskel::view {
+namespace {
+
+// Light that falls on a surface from the upper left, before the viewer.
+struct Light {
+  float diffuse;
+  float gleam;   // the lamp's reflection
+  float facing;  // 1 where the surface faces the viewer, 0 at outlines
+};
+
+Light LightOn(ViewNormal n, float sharpness) {
+  constexpr ViewNormal kLamp = {-0.45f, 0.65f, 0.61f};
+  const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  const float sign = n[2] < 0 ? -1.0f : 1.0f;  // a far side is seen from within
+  if (length > 0) {
+    for (float& part : n) part *= sign / length;
+  }
+  const float along = n[0] * kLamp[0] + n[1] * kLamp[1] + n[2] * kLamp[2];
+  const float mirrored = std::max(0.0f, 2 * along * n[2] - kLamp[2]);
+  return {std::max(0.0f, along), std::pow(mirrored, sharpness), n[2]};
+}
+
+void Cover(LinearColor& below, const LinearColor& above, float opacity) {
+  const float part = std::clamp(opacity, 0.0f, 1.0f);
+  for (size_t n = 0; n < 3; ++n) below[n] += part * (std::min(1.0f, above[n]) - below[n]);
+}
+
+// `body` is how much is seen of glass that faces the viewer.
+void CoverWithGlass(LinearColor& below, const ViewNormal& normal, float body) {
+  constexpr LinearColor kTint = {0.47f, 0.61f, 0.80f};
+  const Light light = LightOn(normal, 30);
+  const float rim = 1 - light.facing;
+  LinearColor color;
+  for (size_t n = 0; n < 3; ++n) {
+    color[n] = kTint[n] * (0.70f + 0.42f * light.diffuse - 0.22f * rim) + 0.28f * light.gleam;
+  }
+  Cover(below, color,
+        body * (0.22f + 0.20f * (1 - light.diffuse)) + 0.80f * std::pow(rim, 1.7f) +
+            0.18f * light.gleam);
+}
+
+LinearColor BeadColor(const LinearColor& color, const ViewNormal& normal) {
+  const Light light = LightOn(normal, 24);
+  LinearColor shaded;
+  for (size_t n = 0; n < 3; ++n) {
+    shaded[n] = color[n] * (0.55f + 0.5f * light.diffuse) + 0.35f * light.gleam;
+  }
+  return shaded;
+}
+
+}  // namespace
+
+LinearColor ColorAt(const Band& band, int x, int row) {
+  LinearColor color = kPaperColor;
+  const Hit &near = band.near_glass(x, row), &far = band.far_glass(x, row);
+  const Hit& bead = band.bead(x, row);
+  if (far.depth < near.depth) CoverWithGlass(color, far.normal, 0.15f);
+  if (bead.depth != -kNothing) {
+    Cover(color, BeadColor(band.bead_color(x, row), bead.normal), 1);
+  }
+  if (near.depth > bead.depth) CoverWithGlass(color, near.normal, 0.8f);
+  return color;
+}
+
+}  // namespace bccskel::view

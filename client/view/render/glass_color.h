@@ -1,0 +1,16 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RENDER_GLASS_COLOR_H_
+#define BCCSKEL_CLIENT_VIEW_RENDER_GLASS_COLOR_H_
+
+#include "client/view/render/band.h"
+
+namespace bccskel::view {
+
+inline constexpr LinearColor kPaperColor = {0.973f, 0.980f, 0.988f};
+
+// What is seen at a sample: paper, the object's far side, the skeleton, the object's near side, one
+// over the other.
+LinearColor ColorAt(const Band& band, int x, int row);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RENDER_GLASS_COLOR_H_

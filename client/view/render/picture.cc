@@ -1,0 +1,220 @@
+#include "client/view/render/picture.h"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "client/export/picture/caption.h"
+#include "client/view/render/band.h"
+#include "client/view/render/beads.h"
+#include "client/view/render/glass_color.h"
+#include "core/surface/smooth_surface.h"
+
+namespace bccskel::view {
+namespace {
+
+constexpr int kSamplesPerPixel = 3;  // along each axis
+constexpr int kBandRows = 16;        // pixels
+
+// Room for the words above and below the object, in units of a font's size.
+constexpr double kWordsAbove = 6, kWordsBelow = 4;
+double FontSize(const PictureOptions& options) {
+  return std::max(11.0, std::min(options.width, options.height) / 56.0);
+}
+
+exporting::Projection ProjectionOf(const DisplaySurface& surface, const PictureOptions& options) {
+  constexpr WorldPoint kOrigin = {0, 0, 0};
+  const exporting::Spheres shown = {surface.vertices.empty()
+                                        ? std::span<const WorldPoint>(&kOrigin, 1)
+                                        : std::span<const WorldPoint>(surface.vertices),
+                                    1e-9};
+  const exporting::WorldBox box = exporting::BoxOf(shown.centers);
+  const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
+  return exporting::Projection(
+      exporting::ViewFrom(box, options.turn, options.climb), shown,
+      {static_cast<double>(kSamplesPerPixel * options.width),
+       kSamplesPerPixel * std::max(options.height - words, options.height / 2.0)},
+      kSamplesPerPixel * FontSize(options));
+}
+
+Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
+                    const PictureOptions& options) {
+  const exporting::Projection projection = ProjectionOf(surface, options);
+  const double above = kSamplesPerPixel * kWordsAbove * FontSize(options);
+  Geometry geometry;
+  geometry.glass.triangles = surface.triangles;
+  for (const WorldPoint& v : surface.vertices) {
+    const exporting::PanelPoint p = projection.Project(v);
+    geometry.glass.vertices.push_back(
+        {static_cast<float>(p.x), static_cast<float>(-p.y - above), static_cast<float>(p.depth)});
+  }
+  geometry.normals = NormalsOf(geometry.glass);
+  const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0;
+  geometry.beads = BeadsOf(result, projection, thickness);
+  for (Bead& bead : geometry.beads) bead.y += static_cast<float>(above);
+  return geometry;
+}
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+// Colors of a pixel's samples, averaged, as Cairo wants them.
+uint32_t PixelAt(const Band& band, int x, int row) {
+  LinearColor sum = {};
+  for (int j = 0; j < kSamplesPerPixel; ++j) {
+    for (int i = 0; i < kSamplesPerPixel; ++i) {
+      const LinearColor color = ColorAt(band, kSamplesPerPixel * x + i, kSamplesPerPixel * row + j);
+      for (size_t n = 0; n < 3; ++n) sum[n] += color[n];
+    }
+  }
+  uint32_t pixel = 0xff;
+  for (const float part : sum) {
+    pixel = pixel << 8 |
+            static_cast<uint32_t>(std::lround(255 * part / (kSamplesPerPixel * kSamplesPerPixel)));
+  }
+  return pixel;
+}
+
+void DrawBand(const Geometry& geometry, int top, int rows, cairo_surface_t* image) {
+  const int width = cairo_image_surface_get_width(image);
+  Band band(kSamplesPerPixel * width, kSamplesPerPixel * top, kSamplesPerPixel * rows);
+  band.Draw(geometry);
+  for (int row = 0; row < rows; ++row) {
+    auto* line = reinterpret_cast<uint32_t*>(cairo_image_surface_get_data(image) +
+                                             static_cast<ptrdiff_t>(top + row) *
+                                                 cairo_image_surface_get_stride(image));
+    for (int x = 0; x < width; ++x) line[x] = PixelAt(band, x, row);
+  }
+}
+
+absl::Status DrawObject(const Geometry& geometry, cairo_surface_t* image,
+                        const exec::Context& context) {
+  const int height = cairo_image_surface_get_height(image);
+  std::atomic<int> next = 0;
+  cairo_surface_flush(image);
+  context.Run([&](int) {
+    for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
+      DrawBand(geometry, top, std::min(kBandRows, height - top), image);
+    }
+  });
+  cairo_surface_mark_dirty(image);
+  return context.StopStatus();
+}
+
+// Words and a legend around the object.
+class Words {
+ public:
+  Words(cairo_t* pen, const PictureOptions& options)
+      : pen_(pen), height_(options.height), size_(FontSize(options)) {}
+
+  void AddTitle(const ResultDocument& result, const std::string& title) {
+    constexpr LinearColor kInk = {0.06f, 0.09f, 0.16f};
+    Write(title, kMargin * size_, 2.4 * size_, 1.5, kInk, CAIRO_FONT_WEIGHT_BOLD);
+    const bool kept = result.certificate.TopologyKept();
+    Write(exporting::GroupedDigits(result.object_points) + " points, " +
+              exporting::BettiPhrase(result.certificate.input) +
+              "; skeleton: " + exporting::GroupedDigits(result.edges.size()) +
+              (kept ? " branches, topology kept" : " branches, TOPOLOGY NOT KEPT"),
+          kMargin * size_, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+  }
+
+  void AddLegend(const exporting::RadiusRange& radii) {
+    const double base = height_ - 1.8 * size_;
+    double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
+    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
+    for (int n = 0; n < exporting::kRadiusColors; ++n) {
+      const auto rgb = exporting::RadiusRgb(n);
+      cairo_set_source_rgb(pen_, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+      cairo_rectangle(pen_, x + 0.45 * size_ * n, base - 0.75 * size_, 0.45 * size_, 0.8 * size_);
+      cairo_fill(pen_);
+    }
+    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_DEFAULT);
+    x = Label(Figure(radii.high), x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
+    x = Dot("end", kEndColor, x + size_, base);
+    x = Dot("junction", kJunctionColor, x + size_, base);
+  }
+
+ private:
+  static constexpr double kMargin = 1.6;  // in font sizes
+  static constexpr LinearColor kSoft = {0.28f, 0.33f, 0.41f};
+
+  // Returns: where the words end.
+  double Write(const std::string& words, double x, double y, double scale, const LinearColor& color,
+               cairo_font_weight_t weight) {
+    cairo_select_font_face(pen_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
+    cairo_set_font_size(pen_, scale * size_);
+    cairo_set_source_rgb(pen_, color[0], color[1], color[2]);
+    cairo_move_to(pen_, x, y);
+    cairo_show_text(pen_, words.c_str());
+    cairo_text_extents_t extents;
+    cairo_text_extents(pen_, words.c_str(), &extents);
+    return x + extents.x_advance;
+  }
+  double Label(const std::string& words, double x, double y) {
+    return Write(words, x, y, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL) + 0.7 * size_;
+  }
+  double Dot(const std::string& words, const LinearColor& color, double x, double y) {
+    cairo_set_source_rgb(pen_, color[0], color[1], color[2]);
+    cairo_arc(pen_, x + 0.4 * size_, y - 0.35 * size_, 0.4 * size_, 0, 2 * std::numbers::pi);
+    cairo_fill(pen_);
+    return Label(words, x + 1.2 * size_, y);
+  }
+  static std::string Figure(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+  }
+
+  cairo_t* pen_;
+  double height_;
+  double size_;
+};
+
+// Cairo gives up on text that is not UTF-8, as file names may be.
+bool CanWrite(cairo_surface_t* image, const std::string& words) {
+  const Pen pen(cairo_create(image), &cairo_destroy);
+  cairo_text_extents_t extents;
+  cairo_text_extents(pen.get(), words.c_str(), &extents);
+  return cairo_status(pen.get()) == CAIRO_STATUS_SUCCESS;
+}
+
+absl::Status CheckCairo(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return absl::OkStatus();
+  return absl::ResourceExhaustedError(std::string("Cairo: ") + cairo_status_to_string(status));
+}
+
+absl::StatusOr<std::string> EncodedPng(cairo_surface_t* image) {
+  std::string png;
+  const auto append = [](void* to, const unsigned char* bytes, unsigned count) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const absl::Status status = CheckCairo(cairo_surface_write_to_png_stream(image, append, &png));
+  if (!status.ok()) return status;
+  return png;
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> RenderPng(const ResultDocument& result, const DisplaySurface& surface,
+                                      const PictureOptions& options, const exec::Context& context) {
+  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, options.width, options.height),
+                      &cairo_surface_destroy);
+  absl::Status status = CheckCairo(cairo_surface_status(image.get()));
+  if (status.ok()) status = DrawObject(GeometryOf(result, surface, options), image.get(), context);
+  if (!status.ok()) return status;
+  const Pen pen(cairo_create(image.get()), &cairo_destroy);
+  Words words(pen.get(), options);
+  words.AddTitle(result, CanWrite(image.get(), options.title) ? options.title : "");
+  words.AddLegend(RadiusRangeOf(result));
+  status = CheckCairo(cairo_status(pen.get()));
+  if (!status.ok()) return status;
+  return EncodedPng(image.get());
+}
+
+}  // namespace bccskel::view

@@ -1,0 +1,69 @@
+#include "core/reconstruct/union_of_balls.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/reconstruct/overlap.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+
+constexpr LatticeExtent kExtent = {40, 9, 11};
+
+std::vector<LatticePoint> PointsIn(const std::vector<OpenBall>& balls) {
+  VolumeBuilder builder(kExtent);
+  for (int32_t z = 0; z < 2 * kExtent.nz; ++z) {
+    for (int32_t y = 0; y < 2 * kExtent.ny; ++y) {
+      for (int32_t x = 0; x < 2 * kExtent.nx; ++x) {
+        for (const auto& [c, radius] : balls) {
+          if (std::hypot(x - c[0], y - c[1], z - c[2]) < radius - 1e-4) builder.Add({x, y, z});
+        }
+      }
+    }
+  }
+  return std::move(builder).Build()->SortedPoints();
+}
+
+TEST(UnionOfBallsTest, HoldsThePointsNearerToACenterThanItsRadius) {
+  const std::vector<OpenBall> cases[] = {
+      {},
+      {{{20, 8, 10}, 0.5}},
+      {{{20, 8, 10}, std::sqrt(3.0)}},  // no neighbor is nearer
+      {{{20, 8, 10}, 2}},
+      {{{33.3, 8.2, 10.9}, 5.7}, {{60, 9, 3}, 4}},
+      {{{-3, 20, -1}, 8}, {{79, 0, 21}, 30}},  // beyond the extent
+  };
+  for (const std::vector<OpenBall>& balls : cases) {
+    const auto volume = UnionOfBalls(balls, kExtent, {}, {});
+    ASSERT_TRUE(volume.ok()) << volume.status();
+    EXPECT_EQ(volume->SortedPoints(), PointsIn(balls));
+  }
+}
+
+TEST(UnionOfBallsTest, APlaceInTheWorldFindsItsWayBack) {
+  const Placement tilted = {.spacing = {1, 2, 0.5},
+                            .origin = {10, -20, 5},
+                            .direction = {0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, -1}};
+  EXPECT_THAT(LatticePlaceOf(tilted.ToWorld(3, 5, -7), tilted),
+              ElementsAre(DoubleNear(3, 1e-9), DoubleNear(5, 1e-9), DoubleNear(-7, 1e-9)));
+}
+
+TEST(OverlapTest, CountsWhatIsInBothAndWhatIsInEither) {
+  const auto a = test::RandomCloud(1, {40, 9, 11}, 0.4), b = test::RandomCloud(2, {40, 9, 11}, 0.2);
+  uint64_t common = 0;
+  const Volume second = VolumeOfPoints(b);
+  for (const LatticePoint p : a) common += second.Contains(p) ? 1u : 0u;
+  const Overlap overlap = MeasureOverlap(VolumeOfPoints(a), second);
+  EXPECT_EQ(overlap, (Overlap{common, a.size() + b.size() - common}));
+  EXPECT_EQ(MeasureOverlap(second, second).Jaccard(), 1);
+  EXPECT_EQ(MeasureOverlap(second, VolumeOfPoints({})).Jaccard(), 0);
+}
+
+}  // namespace
+}  // namespace bccskel
