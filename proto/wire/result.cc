@@ -3,6 +3,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "proto/wire/duration.h"
 #include "proto/wire/placement.h"
 
 namespace bccskel::wire {
@@ -10,17 +11,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr int64_t kNanosPerSecond = 1'000'000'000;
 constexpr int kDigestBytes = 32;
-
-void Set(google::protobuf::Duration* message, nanoseconds duration) {
-  message->set_seconds(duration.count() / kNanosPerSecond);
-  message->set_nanos(static_cast<int32_t>(duration.count() % kNanosPerSecond));
-}
-
-nanoseconds DurationOf(const google::protobuf::Duration& message) {
-  return nanoseconds(message.seconds() * kNanosPerSecond + message.nanos());
-}
 
 void Set(v1::BettiNumbers* message, const BettiNumbers& betti) {
   message->set_components(betti.components);
@@ -33,27 +24,27 @@ BettiNumbers FromMessage(const v1::BettiNumbers& message) {
 }
 
 void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts& facts) {
-  Set(message->mutable_queue(), facts.queued);
-  Set(message->mutable_decode(), facts.decoded);
-  Set(message->mutable_distance(), timings.distance);
-  Set(message->mutable_shells(), timings.shells);
-  Set(message->mutable_thinning(), timings.thinning);
-  Set(message->mutable_cleanup(), timings.cleanup);
-  Set(message->mutable_pruning(), timings.pruning);
-  Set(message->mutable_certificate(), timings.certificate);
-  Set(message->mutable_graph(), timings.graph);
-  Set(message->mutable_total(), timings.total);
+  *message->mutable_queue() = DurationMessage(facts.queued);
+  *message->mutable_decode() = DurationMessage(facts.decoded);
+  *message->mutable_distance() = DurationMessage(timings.distance);
+  *message->mutable_shells() = DurationMessage(timings.shells);
+  *message->mutable_thinning() = DurationMessage(timings.thinning);
+  *message->mutable_cleanup() = DurationMessage(timings.cleanup);
+  *message->mutable_pruning() = DurationMessage(timings.pruning);
+  *message->mutable_certificate() = DurationMessage(timings.certificate);
+  *message->mutable_graph() = DurationMessage(timings.graph);
+  *message->mutable_total() = DurationMessage(timings.total);
 }
 
 StageTimings FromMessage(const v1::StageTimings& message) {
-  return {.distance = DurationOf(message.distance()),
-          .shells = DurationOf(message.shells()),
-          .thinning = DurationOf(message.thinning()),
-          .cleanup = DurationOf(message.cleanup()),
-          .pruning = DurationOf(message.pruning()),
-          .certificate = DurationOf(message.certificate()),
-          .graph = DurationOf(message.graph()),
-          .total = DurationOf(message.total())};
+  return {.distance = NanosecondsOf(message.distance()),
+          .shells = NanosecondsOf(message.shells()),
+          .thinning = NanosecondsOf(message.thinning()),
+          .cleanup = NanosecondsOf(message.cleanup()),
+          .pruning = NanosecondsOf(message.pruning()),
+          .certificate = NanosecondsOf(message.certificate()),
+          .graph = NanosecondsOf(message.graph()),
+          .total = NanosecondsOf(message.total())};
 }
 
 }  // namespace
@@ -83,7 +74,7 @@ v1::ShellProgress ToMessage(const exec::ShellProgress& progress, nanoseconds ela
   message.set_points(progress.points);
   message.set_removed(progress.removed);
   message.set_remaining(progress.remaining);
-  Set(message.mutable_elapsed(), elapsed);
+  *message.mutable_elapsed() = DurationMessage(elapsed);
   return message;
 }
 
@@ -116,8 +107,8 @@ v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& f
 }
 
 JobFacts FactsOf(const v1::SkeletonSummary& message) {
-  return {.queued = DurationOf(message.timings().queue()),
-          .decoded = DurationOf(message.timings().decode()),
+  return {.queued = NanosecondsOf(message.timings().queue()),
+          .decoded = NanosecondsOf(message.timings().decode()),
           .threads = message.threads(),
           .thin_volume_size_bytes = message.thin_volume_size_bytes(),
           .algorithm_version = message.algorithm_version(),

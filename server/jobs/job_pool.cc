@@ -6,6 +6,7 @@
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
+#include "server/jobs/labels_work.h"
 #include "server/jobs/skeletonize_work.h"
 
 namespace bccskel::server {
@@ -37,6 +38,17 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
       Ticket ticket, admission_.Admit(BytesToSkeletonize(request.header, request.size_bytes)));
   const auto deadline = request.deadline;
   return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume, listener),
+                std::move(ticket), deadline, listener);
+}
+
+absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
+                                                    std::shared_ptr<LabelsListener> listener) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
+  const int threads = ThreadsWithin(limits_.threads, request.threads_wanted);
+  BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket,
+                           admission_.Admit(BytesToSkeletonizeLabels(request.header, threads)));
+  const auto deadline = request.deadline;
+  return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
                 std::move(ticket), deadline, listener);
 }
 

@@ -31,6 +31,8 @@ class JobPool : public JobRunner {
 
   absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                              std::shared_ptr<JobListener> listener) override;
+  absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,
+                                             std::shared_ptr<LabelsListener> listener) override;
 
   // New jobs are refused; those that were let in go on.
   void StopAdmitting() { admission_.StopAdmitting(); }

@@ -6,15 +6,25 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
 #include "core/io/volume_header.h"
+#include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
+#include "server/admission/label_demand.h"
 
 namespace bccskel::server {
+
+// Where the time of a job went.
+struct JobTimes {
+  std::chrono::nanoseconds queued{0};    // waiting for threads
+  std::chrono::nanoseconds decoded{0};   // in the decoder
+  std::chrono::nanoseconds computed{0};  // from first to last of each turn
+};
 
 // What a caller wants computed, and the volume it promises to send.
 struct JobRequest {
@@ -58,6 +68,45 @@ class JobListener : public UploadListener {
   virtual void OnEnd(absl::StatusOr<JobResult> result) = 0;
 };
 
+// What a caller wants of a volume of labels.
+struct LabelsRequest {
+  LabelVolumeHeader header;      // as declared, with the worst case for what was not
+  uint64_t size_bytes = 0;       // of the volume as sent
+  std::vector<uint64_t> labels;  // none means all
+  uint64_t min_voxels = 0;
+  SkeletonizeOptions options;
+  int threads_wanted = 0;  // 0 leaves it to the server
+  exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
+};
+
+struct LabelResult {
+  LabelSkeleton skeleton;  // without its thin volume
+  int threads = 1;
+  std::shared_ptr<void> memory;  // let go of with the result; the job may wait for it
+};
+
+struct LabelsResult {
+  uint64_t labels = 0;   // computed
+  uint64_t skipped = 0;  // too small
+  uint64_t absent = 0;   // wanted, but without a voxel
+  uint64_t voxels = 0;
+  uint64_t object_points = 0;
+  uint64_t skeleton_points = 0;
+  int threads = 1;
+  JobTimes times;
+  Ticket ticket;  // for results that are not let go of yet
+};
+
+class LabelsListener : public UploadListener {
+ public:
+  // `elapsed` since the computation began.
+  virtual void OnProgress(uint64_t done, uint64_t total, std::chrono::nanoseconds elapsed) = 0;
+  // By ascending label, each before OnEnd().
+  virtual void OnLabel(LabelResult result) = 0;
+  // Exactly once, whatever happens.
+  virtual void OnEnd(absl::StatusOr<LabelsResult> result) = 0;
+};
+
 // A job that has been let in. No call blocks. A job whose handle is dropped goes on; Cancel() ends
 // it.
 // Threads: safe.
@@ -84,6 +133,8 @@ class JobRunner {
   // Errors: a Refusal (admission/refusal.h).
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                                      std::shared_ptr<JobListener> listener) = 0;
+  virtual absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,
+                                                     std::shared_ptr<LabelsListener> listener) = 0;
 };
 
 }  // namespace bccskel::server

@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_SERVER_JOBS_JOB_WORK_H_
 #define BCCSKEL_SERVER_JOBS_JOB_WORK_H_
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,15 +11,9 @@
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
 #include "server/admission/admission.h"
+#include "server/jobs/job_runner.h"
 
 namespace bccskel::server {
-
-// Where the time of a job went.
-struct JobTimes {
-  std::chrono::nanoseconds queued{0};    // waiting for threads
-  std::chrono::nanoseconds decoded{0};   // in the decoder
-  std::chrono::nanoseconds computed{0};  // from first to last of each turn
-};
 
 // What a job receives and computes: the part of a PoolJob that depends on its kind. The job
 // knows threads, turns, cancellation and memory.

@@ -121,8 +121,9 @@ void PoolJob::Run(int threads) {
   absl::StatusOr<JobWork::Turn> turn =
       OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(threads); });
   times_.computed += Clock::now() - start;
-  if (turn.ok() && *turn == JobWork::Turn::kMore) return WaitForTurn();
-  End(turn.status());
+  if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(turn.status());
+  ticket_.ShrinkTo(work_->BytesToRun());
+  WaitForTurn();
 }
 
 absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(int threads) {

@@ -31,18 +31,13 @@ VolumeIntake::VolumeIntake(const VolumeHeader& declared, uint64_t size_bytes,
 }
 
 absl::Status VolumeIntake::Append(std::string_view bytes) {
-  sha256_.Add(bytes);
+  digest_.Add(bytes);
   return AsCallersError(Decode(bytes));
 }
 
 absl::StatusOr<Volume> VolumeIntake::Finish(const std::optional<Sha256Digest>& expected,
                                             const exec::Context& context) {
-  const Sha256Digest found = sha256_.Finish();
-  if (expected.has_value() && *expected != found) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("the received bytes have the SHA-256 digest %s, the request states %s",
-                        found.Hex(), expected->Hex()));
-  }
+  BCCSKEL_RETURN_IF_ERROR(digest_.Check(expected));
   if (decoder_ == nullptr) BCCSKEL_RETURN_IF_ERROR(AsCallersError(StartDecoder(front_)));
   absl::StatusOr<Volume> volume = decoder_->Finish(context);
   if (!volume.ok()) return AsCallersError(volume.status());

@@ -11,6 +11,7 @@
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
 #include "core/io/volume_decoder.h"
+#include "server/jobs/upload_digest.h"
 
 namespace bccskel::server {
 
@@ -43,7 +44,7 @@ class VolumeIntake {
   const VolumeHeader declared_;
   const uint64_t size_bytes_;
   VolumeLimits limits_;
-  Sha256 sha256_;
+  UploadDigest digest_;
   std::string front_;  // until the header is complete
   std::unique_ptr<VolumeDecoder> decoder_;
 };

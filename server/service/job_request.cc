@@ -8,6 +8,7 @@
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
+#include "server/service/volume_fields.h"
 
 namespace bccskel::server {
 namespace {
@@ -28,20 +29,6 @@ absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std
       return InvalidField(field, "must be set");
     default:
       return InvalidField(field, absl::StrCat("unknown encoding ", int{encoding}));
-  }
-}
-
-absl::StatusOr<VolumeCompression> CompressionOf(const v1::VolumeDeclaration& volume,
-                                                const std::string& field) {
-  switch (volume.compression()) {
-    case v1::VOLUME_COMPRESSION_UNSPECIFIED:
-      return VolumeCompression::kNone;
-    case v1::VOLUME_COMPRESSION_NONE:
-      return VolumeCompression::kNone;
-    case v1::VOLUME_COMPRESSION_ZSTD:
-      return VolumeCompression::kZstd;
-    default:
-      return InvalidField(field, absl::StrCat("unknown compression ", int{volume.compression()}));
   }
 }
 
@@ -82,30 +69,13 @@ absl::Status DeclarationError(absl::Status status) {
   return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
 }
 
-absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
-  switch (adjacency) {
-    case v1::MASK_ADJACENCY_UNSPECIFIED:
-    case v1::MASK_ADJACENCY_OBJECT_26:
-      return MaskAdjacency::k26;
-    case v1::MASK_ADJACENCY_OBJECT_6:
-      return MaskAdjacency::k6;
-    default:
-      return InvalidField(field, absl::StrCat("unknown adjacency ", int{adjacency}));
-  }
-}
-
 // A mask declares its voxels where other encodings declare their lattice.
 absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string& field,
                          VolumeHeader& header) {
-  MaskDeclaration mask = {.grid = {.nx = header.extent.nx,
-                                   .ny = header.extent.ny,
-                                   .nz = header.extent.nz,
-                                   .placement = header.placement}};
+  MaskDeclaration mask;
+  BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement(), field));
   BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency,
                            AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
-  if (absl::Status grid = CheckMaskGrid(mask.grid); !grid.ok()) {
-    return InvalidField(field + ".extent", std::string(grid.message()));
-  }
   header.extent = ExactExtent(mask.grid);
   header.placement = ExactPlacement(mask.grid);
   header.mask = mask;
@@ -118,7 +88,7 @@ absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
   VolumeHeader header;
   BCCSKEL_ASSIGN_OR_RETURN(header.encoding, EncodingOf(volume.encoding(), field + ".encoding"));
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeCompression compression,
-                           CompressionOf(volume, field + ".compression"));
+                           CompressionOf(volume.compression(), field + ".compression"));
   header.compression = ReservedCompression(header.encoding, compression);
   BCCSKEL_ASSIGN_OR_RETURN(header.extent, wire::FromMessage(volume.extent(), field + ".extent"));
   BCCSKEL_ASSIGN_OR_RETURN(header.placement,
@@ -153,9 +123,7 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   request.size_bytes = config.volume().size_bytes();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
-  if (config.threads() < 0) {
-    return InvalidField("config.threads", absl::StrCat(config.threads(), ", must be at least 0"));
-  }
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));
   request.threads_wanted = config.threads();
   return request;
 }

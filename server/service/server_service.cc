@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/version/version.h"
+#include "proto/wire/labels.h"
 #include "server/service/algorithm.h"
 #include "server/service/request_sequence.h"
 
@@ -20,6 +21,7 @@ void Set(v1::ServerLimits& message, const JobPool::Limits& limits) {
   message.set_threads(static_cast<uint32_t>(limits.threads));
   message.set_max_chunk_bytes(kMaxChunkBytes);
   message.set_max_message_bytes(kMaxMessageBytes);
+  message.set_max_decoded_bytes(limits.volume.max_decoded_bytes);
 }
 
 }  // namespace
@@ -36,6 +38,7 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   response->add_encodings(v1::VOLUME_ENCODING_CUBIC_MASK);
   response->add_compressions(v1::VOLUME_COMPRESSION_NONE);
   response->add_compressions(v1::VOLUME_COMPRESSION_ZSTD);
+  for (int bytes : {1, 2, 4, 8}) response->add_label_types(wire::LabelTypeOf(bytes));
   Set(*response->mutable_limits(), limits_);
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   reactor->Finish(grpc::Status::OK);

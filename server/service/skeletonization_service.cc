@@ -1,5 +1,6 @@
 #include "server/service/skeletonization_service.h"
 
+#include "server/service/labels_stream.h"
 #include "server/service/skeletonize_stream.h"
 
 namespace bccskel::server {
@@ -7,6 +8,11 @@ namespace bccskel::server {
 grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>*
 SkeletonizationService::Skeletonize(grpc::CallbackServerContext* context) {
   return StartStream<SkeletonizeStream>(*context, runner_, limits_);
+}
+
+grpc::ServerBidiReactor<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>*
+SkeletonizationService::SkeletonizeLabels(grpc::CallbackServerContext* context) {
+  return StartStream<LabelsStream>(*context, runner_, limits_);
 }
 
 }  // namespace bccskel::server

@@ -14,6 +14,8 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
 
   grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>* Skeletonize(
       grpc::CallbackServerContext* context) override;
+  grpc::ServerBidiReactor<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>*
+  SkeletonizeLabels(grpc::CallbackServerContext* context) override;
 
  private:
   JobRunner& runner_;

@@ -1,0 +1,145 @@
+#include "server/admission/label_demand.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+#include <vector>
+
+#include "core/io/encoded_body.h"
+#include "server/admission/demand.h"
+#include "server/admission/saturating.h"
+
+namespace bccskel::server {
+namespace {
+
+// Memory of a run while its label grows: a vector that doubles holds three times its contents.
+constexpr uint64_t kBytesPerRun = 3 * sizeof(VoxelRun);
+// A label's entry in tables and its part of the allocator's slack.
+constexpr uint64_t kBytesPerLabel = sizeof(LabeledObject) + 128;
+// Stacks, small tables and the allocator's slack of one label at work.
+constexpr uint64_t kFixedBytesPerLabel = 64 * 1024;
+
+// Tubes of four voxels across have a brick for every four voxels, solid blobs for every thirty.
+constexpr uint64_t kVoxelsPerBrick = 4;
+// A label of a few voxels may touch so many bricks.
+constexpr uint64_t kLeastBricks = 32;
+
+uint64_t ValueOr(uint64_t stated, uint64_t worst) {
+  return stated > 0 ? std::min(stated, worst) : worst;
+}
+
+// Numbers that a voxel of so many bytes can hold, without 0.
+uint64_t LabelsOfType(int bytes) {
+  return bytes == 8 ? ~uint64_t{0} : (uint64_t{1} << (8 * bytes)) - 1;
+}
+
+// The columns of blocks of 8 x 2 voxels, over one layer of 4 slices, that an object touches. Blocks
+// are those of RowTube: a voxel belongs to its own block and touches the next one with its far
+// corner.
+class BlockLayer {
+ public:
+  explicit BlockLayer(const VoxelBox& box)
+      : first_x_(box.low[0] / 8),
+        first_y_(box.low[1] / 2),
+        words_per_row_(static_cast<size_t>(box.high[0] / 8 - first_x_) / 64 + 1),
+        bits_(words_per_row_ * static_cast<size_t>(box.high[1] / 2 - first_y_ + 1)) {}
+
+  void Add(const VoxelRun& run) {
+    AddRow(run.y / 2, run);
+    if (run.y % 2 == 1) AddRow(run.y / 2 + 1, run);
+  }
+
+  uint64_t TakeCount() {
+    uint64_t count = 0;
+    for (uint64_t& word : bits_) {
+      count += static_cast<uint64_t>(std::popcount(word));
+      word = 0;
+    }
+    return count;
+  }
+
+ private:
+  void AddRow(int32_t by, const VoxelRun& run) {
+    uint64_t* const row = &bits_[static_cast<size_t>(by - first_y_) * words_per_row_];
+    for (int32_t bx = run.begin / 8; bx <= run.end / 8; ++bx) {
+      const auto bit = static_cast<size_t>(bx - first_x_);
+      row[bit / 64] |= uint64_t{1} << bit % 64;
+    }
+  }
+
+  int32_t first_x_, first_y_;
+  size_t words_per_row_;
+  std::vector<uint64_t> bits_;
+};
+
+}  // namespace
+
+uint64_t LabelVolumeHeader::DecodedBytes() const {
+  return SaturatingMultiply(
+      SaturatingMultiply(grid.VoxelsPerSlice(), static_cast<uint64_t>(grid.nz)),
+      static_cast<uint64_t>(label_bytes));
+}
+
+LabelVolumeHeader WithWorstCase(LabelVolumeHeader header, uint64_t labels_wanted) {
+  const uint64_t voxels = header.DecodedBytes() / static_cast<uint64_t>(header.label_bytes);
+  header.max_voxels = ValueOr(header.max_voxels, voxels);
+  header.max_label_voxels = ValueOr(header.max_label_voxels, header.max_voxels);
+  header.max_runs = ValueOr(header.max_runs, header.max_voxels);
+  header.max_labels =
+      labels_wanted > 0
+          ? labels_wanted
+          : ValueOr(header.max_labels, std::min(header.max_runs, LabelsOfType(header.label_bytes)));
+  return header;
+}
+
+uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads) {
+  const uint64_t at_work =
+      std::min(SaturatingMultiply(declared.max_label_voxels, static_cast<uint64_t>(threads)),
+               declared.max_voxels);
+  const uint64_t bricks =
+      SaturatingAdd(at_work / kVoxelsPerBrick, kLeastBricks * static_cast<uint64_t>(threads));
+  const uint64_t box = BoxBrickCount(ExactExtent(declared.grid));
+  return BytesToComputeLabel(std::min(bricks, std::max(box, kLeastBricks)));
+}
+
+uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads) {
+  const auto label_bytes = static_cast<uint64_t>(declared.label_bytes);
+  const uint64_t slice =
+      SaturatingMultiply(declared.grid.VoxelsPerSlice(), label_bytes + sizeof(uint64_t));
+  // Promises are enforced row by row.
+  const uint64_t runs = SaturatingAdd(declared.max_runs, static_cast<uint64_t>(declared.grid.nx));
+  const uint64_t labels =
+      SaturatingAdd(declared.max_labels, static_cast<uint64_t>(declared.grid.nx));
+  uint64_t bytes = kFixedJobBytes + BodyBufferBytes(declared.compression);
+  bytes = SaturatingAdd(bytes, slice);
+  bytes = SaturatingAdd(bytes, SaturatingMultiply(runs, kBytesPerRun));
+  bytes = SaturatingAdd(bytes, SaturatingMultiply(labels, kBytesPerLabel));
+  return SaturatingAdd(bytes, BytesToComputeLabels(declared, threads));
+}
+
+uint64_t MostBricksOf(const LabeledObject& object) {
+  if (object.runs.empty()) return 0;
+  BlockLayer here(object.box), above(object.box);
+  uint64_t blocks = 0;
+  int32_t bz = object.runs.front().z / 4;
+  for (const VoxelRun& run : object.runs) {
+    while (bz < run.z / 4) {
+      blocks += here.TakeCount();
+      std::swap(here, above);
+      ++bz;
+    }
+    here.Add(run);
+    if (run.z % 4 == 3) above.Add(run);
+  }
+  return 2 * (blocks + here.TakeCount() + above.TakeCount());
+}
+
+uint64_t BytesToComputeLabel(uint64_t bricks) {
+  return SaturatingAdd(SaturatingMultiply(bricks, kPipelineBytesPerBrick), kFixedBytesPerLabel);
+}
+
+uint64_t BytesOf(const LabeledObject& object) {
+  return kBytesPerLabel + object.runs.capacity() * sizeof(VoxelRun);
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_SERVER_JOBS_LABELS_WORK_H_
+#define BCCSKEL_SERVER_JOBS_LABELS_WORK_H_
+
+#include <memory>
+#include <vector>
+
+#include "server/jobs/job_runner.h"
+#include "server/jobs/job_work.h"
+#include "server/jobs/label_intake.h"
+#include "server/jobs/unread_results.h"
+
+namespace bccskel::server {
+
+// A volume of labels, a skeleton for each. A turn takes as many labels as fit into the memory for
+// computing; their results wait in the same memory until they are let go of. So the memory is
+// bounded however slowly the caller reads, and a job that waits for its caller keeps no threads.
+class LabelsWork final : public JobWork {
+ public:
+  // `threads` that it may get at most; memory is reserved for so many.
+  LabelsWork(LabelsRequest request, const VolumeLimits& limits, int threads,
+             std::shared_ptr<LabelsListener> listener);
+
+  absl::Status Append(std::string_view bytes, const exec::Context& context) override;
+  absl::Status Finish(const std::optional<Sha256Digest>& expected,
+                      const exec::Context& context) override;
+  uint64_t BytesToRun() const override;
+  int MostThreads(int threads) const override;
+  bool MayRun() const override;
+  absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
+  void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
+
+ private:
+  using Clock = exec::Context::Clock;
+
+  void Plan();
+  // Memory for computing that no result occupies.
+  uint64_t Room() const;
+  LabeledObjects TakeTurn();
+  void Deliver(LabelSkeleton skeleton, const std::function<void()>& wake);
+  void Report() const;
+
+  const LabelsRequest request_;
+  const VolumeLimits limits_;
+  const int threads_;
+  std::shared_ptr<LabelsListener> listener_;
+  std::unique_ptr<LabelIntake> intake_;
+
+  LabeledObjects labels_;
+  std::vector<uint64_t> demands_;  // bytes to compute each of labels_
+  size_t next_ = 0;                // of labels_; those before have no runs any more
+  uint64_t runs_bytes_ = 0;        // of the runs that are left
+  uint64_t compute_bytes_ = 0;     // for labels at work and results that are not let go of
+  uint64_t bricks_ = 0;            // of all labels
+  std::shared_ptr<UnreadResults> unread_ = std::make_shared<UnreadResults>();
+  Clock::time_point started_;
+  LabelsResult result_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_LABELS_WORK_H_
