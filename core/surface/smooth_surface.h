@@ -9,9 +9,9 @@ namespace bccskel {
 
 struct SurfaceSmoothing {
   int steps = 60;
-  // Lattice units. No vertex moves farther than 0.385 of it, which is about a layer of points; more
-  // is smoother, but thins out what is thin.
-  float reach = 3;
+  // Lattice units. No vertex moves farther than 0.385 of it, about a layer and a half of points;
+  // more is smoother, but thins out what is thin.
+  float reach = 4;
 };
 
 // Takes the steps of the lattice off a surface: each vertex goes to the mean of its neighbors, step

@@ -46,7 +46,7 @@ TEST(SmoothSurfaceTest, SomethingIsLeftOfASinglePoint) {
   const LatticePoint point[] = {{4, 4, 4}};
   SurfaceMesh mesh = *ExtractSurface(VolumeOfPoints(point), {});
   SmoothSurface(mesh, {});
-  for (const auto& [x, y, z] : mesh.vertices) EXPECT_GT(std::hypot(x - 4, y - 4, z - 4), 0.05f);
+  for (const auto& [x, y, z] : mesh.vertices) EXPECT_GT(std::hypot(x - 4, y - 4, z - 4), 0.03f);
 }
 
 // How far normals of a ball's surface are from its radii: the largest sine, squared.
