@@ -9,6 +9,8 @@
 
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
+#include "client/cli/label_files.h"
+#include "client/cli/labels_arguments.h"
 #include "client/cli/load_object.h"
 #include "client/cli/result_arguments.h"
 #include "client/cli/thinning_arguments.h"
@@ -209,6 +211,7 @@ struct CommandLine {
   VoxelizeArguments voxelize_arguments;
   SkeletonizeArguments submit_arguments;
   SkeletonizeArguments skeletonize_arguments;
+  LabelsArguments labels_arguments;
   InfoArguments info_arguments;
   ViewArguments view_arguments;
   RenderArguments render_arguments;
@@ -218,18 +221,20 @@ struct CommandLine {
   CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
   CLI::App& submit = AddSubmit(app, submit_arguments);
   CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
+  CLI::App& labels = AddLabels(app, labels_arguments);
   CLI::App& info = AddInfo(app, info_arguments);
   CLI::App& view =
       WithGrid(AddView(app, view_arguments), view_arguments.source, view_arguments.common);
   CLI::App& render =
       WithGrid(AddRender(app, render_arguments), render_arguments.source, render_arguments.common);
-  CLI::App& reconstruct =
-      WithGrid(AddReconstruct(app, reconstruct_arguments), reconstruct_arguments.source,
-               reconstruct_arguments.common);
+  CLI::App& reconstruct = WithGrid(AddReconstruct(app, reconstruct_arguments),
+                                   reconstruct_arguments.source, reconstruct_arguments.common);
   CLI::App& generate = AddGenerate(app, generate_arguments);
   CLI::App& bench = AddBench(app, bench_core_arguments);
 
   CommandLine() {
+    AddThreads(labels, labels_arguments.common, kThreadsHere);
+    AddCommon(labels, labels_arguments.common);
     app.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
@@ -245,6 +250,7 @@ struct CommandLine {
     if (voxelize.parsed()) return voxelize_arguments;
     if (submit.parsed()) return submit_arguments;
     if (skeletonize.parsed()) return skeletonize_arguments;
+    if (labels.parsed()) return labels_arguments;
     if (info.parsed()) return info_arguments;
     if (view.parsed()) return view_arguments;
     if (render.parsed()) return render_arguments;
@@ -333,6 +339,14 @@ Complaint ComplaintAbout(const RenderArguments& arguments) {
 Complaint ComplaintAbout(const ReconstructArguments& arguments) {
   return ResultComplaint(arguments.source, arguments.output);
 }
+Complaint ComplaintAbout(const LabelsArguments& arguments) {
+  for (const std::string& output : arguments.outputs) {
+    if (Complaint c = IfError(CheckLabelOutput(output)); c.has_value()) return c;
+    if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
+  }
+  return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
+}
+
 Complaint ComplaintAbout(const InfoArguments& arguments) {
   return ObjectComplaint(arguments.file, {}, arguments.image);
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "client/cli/exit_code.h"
-#include "client/view/render/picture.h"
 #include "client/cli/image_arguments.h"
+#include "client/view/render/picture.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
 #include "core/voxelize/voxelize.h"
@@ -54,6 +54,16 @@ struct SkeletonizeArguments {
   std::string server = "127.0.0.1:50051";
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
+};
+
+// The skeleton of every label of an image.
+struct LabelsArguments {
+  CommonArguments common;
+  std::string input;
+  std::vector<std::string> outputs;  // see label_files.h
+  ImageArguments image;              // its labels are those wanted; none: all
+  uint64_t min_voxels = 1;
+  SkeletonizeOptions skeletonize;
 };
 
 struct InfoArguments {
@@ -105,8 +115,8 @@ struct BenchCoreArguments {
   std::string instruction_set;  // empty: the best
 };
 
-using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, InfoArguments,
-                               ViewArguments, RenderArguments, ReconstructArguments,
+using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsArguments,
+                               InfoArguments, ViewArguments, RenderArguments, ReconstructArguments,
                                GenerateArguments, BenchCoreArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text

@@ -11,6 +11,7 @@ namespace bccskel::cli {
 // Each runs one command, prints what it has to say and returns how the program ends.
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop);

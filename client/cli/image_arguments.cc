@@ -32,12 +32,15 @@ CLI::Option* AddTriple(CLI::App& command, const char* name, const char* descript
       ->option_text("X,Y,Z");
 }
 
+CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const char* description) {
+  return command.add_option("--label,--labels", arguments.labels, description)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("LIST");
+}
+
 void AddForeground(CLI::App& command, ImageArguments& arguments) {
-  CLI::Option* labels =
-      command.add_option("--label,--labels", arguments.labels, "Voxels of these labels")
-          ->delimiter(',')
-          ->allow_extra_args(false)
-          ->option_text("LIST");
+  CLI::Option* labels = AddLabelList(command, arguments, "Voxels of these labels");
   CLI::Option* range =
       command
           .add_option("--range", arguments.range, "Voxels from LOW to HIGH; either may be left out")
@@ -125,6 +128,13 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
       ->option_text("N");
 }
 
+// Where the voxels lie, in the file and in the world.
+void AddLayout(CLI::App& command, ImageArguments& arguments) {
+  AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
+                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+  AddRaw(command, arguments);
+}
+
 // An end of a range; open where nothing is said.
 absl::StatusOr<double> EndOf(std::string_view text, double open) {
   if (text.empty()) return open;
@@ -158,10 +168,14 @@ void AddImage(CLI::App& command, ImageArguments& arguments) {
   CLI::Option_group& group = *command.add_option_group(kGroup, "How an image becomes an object");
   AddForeground(group, arguments);
   AddConversion(group, arguments);
-  AddTriple<double>(group, "--voxel-size", "Spacing, instead of the one in the file",
-                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
-  AddRaw(group, arguments);
+  AddLayout(group, arguments);
   group.callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
+}
+
+void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
+  AddLabelList(command, arguments, "Only these labels");
+  AddConversion(command, arguments);
+  AddLayout(command, arguments);
 }
 
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {

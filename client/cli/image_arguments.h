@@ -32,6 +32,9 @@ struct ImageArguments {
 // Adds the options to a command that takes images.
 void AddImage(CLI::App& command, ImageArguments& arguments);
 
+// The same for a command that takes images of labels.
+void AddLabelImage(CLI::App& command, ImageArguments& arguments);
+
 // Errors: INVALID_ARGUMENT, as ForegroundRule's.
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "client/export/node_kind_name.h"
 #include "client/export/text.h"
@@ -24,6 +25,7 @@ constexpr std::string_view kHead =
     "<key id=\"z\" for=\"node\" attr.name=\"z\" attr.type=\"double\"/>\n"
     "<key id=\"radius\" for=\"node\" attr.name=\"radius\" attr.type=\"double\"/>\n"
     "<key id=\"component\" for=\"node\" attr.name=\"component\" attr.type=\"int\"/>\n"
+    "<key id=\"label\" for=\"all\" attr.name=\"label\" attr.type=\"long\"/>\n"
     "<key id=\"loops\" for=\"node\" attr.name=\"loops\" attr.type=\"int\"/>\n"
     "<key id=\"cavities\" for=\"node\" attr.name=\"cavities\" attr.type=\"int\"/>\n"
     "<key id=\"length\" for=\"edge\" attr.name=\"length\" attr.type=\"double\"/>\n"
@@ -39,7 +41,13 @@ void AddData(Text& text, std::string_view key, const Value& value) {
   text.Add("<data key=\"", key, "\">", value, "</data>");
 }
 
-void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component) {
+// The label of row n; nothing where the graph is of one object.
+void AddLabel(Text& text, const std::vector<uint64_t>& labels, size_t n) {
+  if (!labels.empty()) AddData(text, "label", labels[n]);
+}
+
+void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component,
+             const GraphLabels& labels) {
   const SkeletonNode& node = graph.nodes[n];
   const WorldPoint p = graph.PositionOf(node.at);
   text.Add("<node id=\"n", n, "\">");
@@ -49,6 +57,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t componen
   AddData(text, "z", p[2]);
   AddData(text, "radius", graph.RadiusOf(node.at));
   AddData(text, "component", component);
+  AddLabel(text, labels.of_nodes, n);
   if (node.kind == NodeKind::kClosedSurface) {
     AddData(text, "loops", node.loops);
     AddData(text, "cavities", node.cavities);
@@ -67,11 +76,12 @@ void AddPathPoints(Text& text, const SkeletonGraph& graph, std::span<const Skele
   text.Add("</data>");
 }
 
-void AddEdge(Text& text, const SkeletonGraph& graph, size_t n) {
+void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphLabels& labels) {
   const SkeletonEdge& edge = graph.edges[n];
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   text.Add("<edge id=\"e", n, "\" source=\"n", edge.source, "\" target=\"n", edge.target, "\">");
   const EdgeFigures figures = FiguresOf(graph, edge);
+  AddLabel(text, labels.of_edges, n);
   AddData(text, "length", figures.length);
   AddData(text, "mean_radius", figures.mean_radius);
   AddData(text, "min_radius", figures.min_radius);
@@ -83,14 +93,14 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n) {
 
 }  // namespace
 
-std::string GraphMlText(const SkeletonGraph& graph) {
+std::string GraphMlText(const SkeletonGraph& graph, const GraphLabels& labels) {
   Text text;
   text.Add(kHead);
   const GraphComponents components = ComponentsOf(graph);
   for (size_t n = 0; n < graph.nodes.size(); ++n) {
-    AddNode(text, graph, n, components.of_node[n]);
+    AddNode(text, graph, n, components.of_node[n], labels);
   }
-  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n);
+  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, labels);
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();
 }

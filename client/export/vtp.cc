@@ -76,7 +76,15 @@ void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polyl
   text.Add("</DataArray>\n</PointData>\n");
 }
 
-void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
+void AddLabels(Text& text, const GraphLabels& labels, const Polylines& polylines) {
+  AddArray(text, "UInt64", "label", [&] {
+    for (size_t n : polylines.lone_nodes) text.Add(labels.of_nodes[n], '\n');
+    for (uint64_t label : labels.of_edges) text.Add(label, '\n');
+  });
+}
+
+void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polylines,
+                 const GraphLabels& labels) {
   text.Add("<CellData Scalars=\"edge_id\">\n");
   AddArray(text, "Int64", "edge_id", [&] {
     for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("-1\n");
@@ -95,12 +103,13 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
   add("min_radius", [](const EdgeFigures& one) { return one.min_radius; });
   add("max_radius", [](const EdgeFigures& one) { return one.max_radius; });
   add("tortuosity", [](const EdgeFigures& one) { return one.tortuosity.value_or(0); });
+  if (!labels.of_nodes.empty()) AddLabels(text, labels, polylines);
   text.Add("</CellData>\n");
 }
 
 }  // namespace
 
-std::string VtpText(const SkeletonGraph& graph) {
+std::string VtpText(const SkeletonGraph& graph, const GraphLabels& labels) {
   const Polylines polylines = PolylinesOf(graph);
   std::vector<std::vector<size_t>> vertices;
   for (size_t n : polylines.lone_nodes) vertices.push_back({n});
@@ -112,7 +121,7 @@ std::string VtpText(const SkeletonGraph& graph) {
            vertices.size(), "\" NumberOfLines=\"", polylines.lines.size(),
            "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
   AddPointData(text, graph, polylines);
-  AddCellData(text, graph, polylines);
+  AddCellData(text, graph, polylines, labels);
   AddPoints(text, graph, polylines);
   AddCells(text, "Verts", vertices);
   AddCells(text, "Lines", polylines.lines);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "client/export/graph_labels.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
@@ -13,8 +14,8 @@ namespace bccskel::exporting {
 //              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface); smooth (the place on a
 //              smooth curve inside the object).
 // Cell data:   edge_id (-1 for vertices); length, mean_radius, min_radius, max_radius (world
-//              units), tortuosity (0 for closed curves).
-std::string VtpText(const SkeletonGraph& graph);
+//              units), tortuosity (0 for closed curves); label, where labels are given.
+std::string VtpText(const SkeletonGraph& graph, const GraphLabels& labels = {});
 
 }  // namespace bccskel::exporting
 

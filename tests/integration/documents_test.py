@@ -9,7 +9,8 @@ import unittest
 import harness
 
 CLI = harness.SOURCES / "client/cli"
-COMMANDS = ("voxelize", "submit", "skeletonize", "info", "view", "render", "reconstruct",
+SERVER_PAGE = harness.SOURCES / "server/bccskel-server.1"
+COMMANDS = ("voxelize", "submit", "skeletonize", "labels", "info", "view", "render", "reconstruct",
             "generate", "bench core")
 
 
@@ -50,11 +51,19 @@ class DocumentsTest(harness.TestCase):
         for code in re.findall(r"\b(\d+) [a-z]", help_text[help_text.index("Exit codes"):]):
             self.assertRegex(page, rf"\.B {code}\n")
 
+    def test_the_servers_man_page_has_its_options_and_no_others(self):
+        page = SERVER_PAGE.read_text().replace("\\-", "-")
+        done = subprocess.run([harness.SERVER, "--help"], capture_output=True, text=True,
+                              timeout=60, check=True)
+        options = set(re.findall(r"^\s+(?:-\w,)?(--[a-z-]+)", done.stdout, re.M))
+        self.assertEqual(set(re.findall(r"--[a-z][a-z-]+", page)), options)
+
     @unittest.skipIf(shutil.which("groff") is None, "groff is not installed")
-    def test_groff_formats_the_man_page_without_a_warning(self):
-        done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", CLI / "bccskel.1"],
-                              capture_output=True, text=True, timeout=60)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+    def test_groff_formats_the_man_pages_without_a_warning(self):
+        for page in (CLI / "bccskel.1", SERVER_PAGE):
+            done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", page],
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), page)
 
     def test_completions_know_every_command_option_and_shape(self):
         for name in ("bccskel", "_bccskel", "bccskel.fish"):

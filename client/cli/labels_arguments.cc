@@ -1,0 +1,34 @@
+#include "client/cli/labels_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "client/cli/thinning_arguments.h"
+
+namespace bccskel::cli {
+
+CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("labels", "Make a skeleton of every label of an image, on this machine");
+  command.add_option("IMAGE", arguments.input, "Image file of labels")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: with {label} in its path one file per label, in any format but "
+                  "pictures; else all labels in a .vtp, .graphml or .json; may be given several "
+                  "times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+  AddLabelImage(command, arguments.image);
+  command
+      .add_option("--min-voxels", arguments.min_voxels,
+                  "Leave out labels with fewer voxels (default 1)")
+      ->option_text("N");
+  AddDistance(command, arguments.skeletonize.distance);
+  AddPruning(command, arguments.skeletonize.pruning);
+  AddThinning(command, arguments.skeletonize.thinning);
+  return command;
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,17 @@
+#ifndef BCCSKEL_CLIENT_CLI_LABELS_ARGUMENTS_H_
+#define BCCSKEL_CLIENT_CLI_LABELS_ARGUMENTS_H_
+
+#include "client/cli/arguments.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bccskel::cli {
+
+// Adds `labels` without the options that all commands know.
+CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_LABELS_ARGUMENTS_H_

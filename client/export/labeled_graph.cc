@@ -1,0 +1,52 @@
+#include "client/export/labeled_graph.h"
+
+#include <utility>
+
+#include "client/export/atomic_file.h"
+#include "client/export/graphml.h"
+#include "client/export/json.h"
+#include "client/export/vtp.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::exporting {
+
+void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
+  const SkeletonGraph& graph = result.graph;
+  const auto first_node = static_cast<uint32_t>(graph_.nodes.size());
+  const size_t first_point = graph_.points.size();
+  graph_.placement = graph.placement;
+  graph_.nodes.insert(graph_.nodes.end(), graph.nodes.begin(), graph.nodes.end());
+  graph_.points.insert(graph_.points.end(), graph.points.begin(), graph.points.end());
+  for (SkeletonEdge edge : graph.edges) {
+    edge.source += first_node;
+    edge.target += first_node;
+    edge.first_point += first_point;
+    graph_.edges.push_back(edge);
+  }
+  labels_.of_nodes.resize(graph_.nodes.size(), label);
+  labels_.of_edges.resize(graph_.edges.size(), label);
+  json_ += json_.empty() ? "\n" : ",\n";
+  json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
+           ",\"skeleton\":" + JsonText(result) + "}";
+}
+
+bool HoldsManyLabels(SkeletonFormat format) {
+  return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
+         format == SkeletonFormat::kJson;
+}
+
+absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons) {
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
+  switch (format) {
+    case SkeletonFormat::kVtp:
+      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.labels()));
+    case SkeletonFormat::kGraphMl:
+      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.labels()));
+    case SkeletonFormat::kJson:
+      return WriteFileAtomically(path, skeletons.Json());
+    default:
+      return absl::InvalidArgumentError(path + ": this format holds one label");
+  }
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,113 @@
+"""Images of labels: one skeleton for each, in files of their own or in one with all."""
+
+import json
+import xml.etree.ElementTree
+
+import harness
+import networkx
+import numpy
+
+HUGE = 2**40 + 7
+
+
+def touching_labels():
+    """Two bars side by side, a ring around a third, and a speck; index (z, y, x)."""
+    labels = numpy.zeros((9, 20, 30), "<u8")
+    labels[3:6, 2:5, 2:28] = 3
+    labels[3:6, 5:8, 2:28] = HUGE
+    labels[3:6, 10:18, 10:20] = 12
+    labels[3:6, 13:15, 13:17] = 8
+    labels[0, 0, 0] = 1
+    return labels
+
+
+class LabelsTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.image = self.path("labels.npy")
+        numpy.save(self.image, touching_labels())
+
+    def labels(self, *words):
+        return json.loads(self.succeed("labels", self.image, "--json", *words))
+
+    def test_every_label_has_a_skeleton_with_its_own_check(self):
+        summary = self.labels("-o", self.path("all.json"))
+        loops = {label["label"]: label["certificate"]["skeleton"]["loops"]
+                 for label in summary["labels"]}
+        self.assertEqual(loops, {1: 0, 3: 0, 8: 0, 12: 1, HUGE: 0})
+        for label in summary["labels"]:
+            certificate = label["certificate"]
+            self.assertTrue(label["topology_kept"])
+            self.assertEqual(certificate["mask"], certificate["input"])
+            self.assertEqual(certificate["mask"]["components"], 1)
+            self.assertEqual(certificate["simple_points_left"], 0)
+            self.assertEqual(label["voxels"],
+                             int((touching_labels() == label["label"]).sum()))
+
+    def test_a_label_is_skeletonized_as_if_it_were_alone(self):
+        summary = self.labels("-o", self.path("all.json"))
+        for label in summary["labels"]:
+            alone = json.loads(self.succeed(
+                "skeletonize", self.image, "--label", str(label["label"]), "--local", "--json",
+                "-o", self.path("alone.json")))
+            self.assertEqual(alone["sha256"], label["sha256"])
+
+    def test_a_list_and_a_smallest_size_choose(self):
+        summary = self.labels("--label", "1,3,8", "--min-voxels", "2", "-o", self.path("a.vtp"))
+        self.assertEqual([label["label"] for label in summary["labels"]], [3, 8])
+        self.assertEqual(summary["left_out"], 1)
+
+    def test_threads_do_not_matter(self):
+        files = []
+        for threads in ("1", "3"):
+            self.labels("--threads", threads, "-o", self.path("all.graphml"))
+            files.append((self.folder / "all.graphml").read_bytes())
+        self.assertEqual(files[0], files[1])
+
+    def test_a_place_for_the_label_makes_a_file_for_each(self):
+        self.labels("-o", self.path("neuron-{label}.swc"), "-o", self.path("{label}.exr"))
+        for label in (1, 3, 8, 12, HUGE):
+            rows = numpy.loadtxt(self.folder / f"neuron-{label}.swc", ndmin=2)
+            self.assertEqual((rows[:, 6] == -1).sum(), 1)
+            self.assertTrue((self.folder / f"{label}.exr").exists())
+
+    def test_files_of_all_labels_say_which_is_which(self):
+        names = [self.path(name) for name in ("all.vtp", "all.graphml", "all.json")]
+        self.labels(*(word for name in names for word in ("-o", name)))
+        everything = {1, 3, 8, 12, HUGE}
+        root = xml.etree.ElementTree.parse(names[0])
+        column = root.find(".//CellData/DataArray[@Name='label']").text.split()
+        self.assertEqual({int(label) for label in column}, everything)
+        graph = networkx.read_graphml(names[1])
+        for part in networkx.connected_components(graph):
+            self.assertEqual(len({graph.nodes[node]["label"] for node in part}), 1)
+        self.assertEqual({label for _, label in graph.nodes(data="label")}, everything)
+        with open(names[2], encoding="utf-8") as file:
+            document = json.load(file)
+        self.assertEqual([entry["label"] for entry in document["labels"]], sorted(everything))
+        for entry in document["labels"]:
+            self.assertGreater(len(entry["skeleton"]["nodes"]), 0)
+
+    def test_wrong_wishes_are_told(self):
+        for words, code, message in (
+                (("-o", self.path("a.swc")), 2, "{label}"),
+                (("-o", self.path("{label}.svg")), 2, "pictures show one object"),
+                (("-o", self.path("{label}.xyz")), 2, "no output format"),
+                (("--label", "77", "-o", self.path("a.vtp")), 3, "no such label"),
+                (("--label", "0", "-o", self.path("a.vtp")), 3, "background"),
+                (("-o", self.path("missing/{label}.swc")), 8, "missing")):
+            with self.subTest(words):
+                done = harness.bccskel("labels", self.image, *words)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertIn(message, done.stderr)
+
+    def test_values_that_are_no_labels_are_told(self):
+        for values, word in (([0.0, 1.5], "1.5"), ([0.0, -2.0], "-2")):
+            numpy.save(self.image, numpy.array(values).reshape(1, 1, 2))
+            done = harness.bccskel("labels", self.image, "-o", self.path("a.vtp"))
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(word, done.stderr)
+
+
+if __name__ == "__main__":
+    harness.main()
