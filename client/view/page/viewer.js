@@ -438,6 +438,7 @@ async function start() {
   if (wish.has("peel")) slider.value = wish.get("peel");
   if (themes[wish.get("theme")]) dress(wish.get("theme"));
   peel();
-  requestAnimationFrame(() => { root.dataset.state = "ready"; });
+  draw();  // at once: whoever waits for the state finds the picture
+  root.dataset.state = "ready";
 }
 start();
