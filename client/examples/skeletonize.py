@@ -1,15 +1,17 @@
 #!/usr/bin/python3
-"""Sends a numpy volume to a bccskel server and reads its skeleton graph.
+"""Sends a numpy array to a bccskel server and reads its skeleton graph.
 
 Needs numpy, grpcio and the Python code of the interface, which protoc generates from proto/ alone:
 
   protoc -I proto --python_out=stubs --grpc_python_out=stubs \
       --plugin=protoc-gen-grpc_python="$(command -v grpc_python_plugin)" proto/bccskel/v1/*.proto
-  PYTHONPATH=stubs python3 client/examples/skeletonize.py volume.npy --server 127.0.0.1:50051
+  PYTHONPATH=stubs python3 client/examples/skeletonize.py mask.npy --swc mask.swc
 
-(On Debian: python3-grpcio python3-numpy protobuf-compiler protobuf-compiler-grpc.) Without a file
-it makes a torus. A volume is a boolean array cells[s, i, j, k]: whether the lattice point
-(2i, 2j, 2k) for s = 0, or (2i+1, 2j+1, 2k+1) for s = 1, belongs to the object.
+(On Debian: python3-grpcio python3-numpy protobuf-compiler protobuf-compiler-grpc; python3-networkx
+for to_networkx() and write_swc().) Without a file it makes a torus. An array is either
+
+  mask[z, y, x]        a segmented image: voxels that are not 0 belong to the object
+  cells[s, i, j, k]    lattice points: (2i, 2j, 2k) for s = 0, (2i+1, 2j+1, 2k+1) for s = 1
 """
 
 import argparse
@@ -30,12 +32,51 @@ CHUNK_BYTES = 1 << 19
 
 @dataclasses.dataclass
 class Skeleton:
-    kind: list       # per node: skeleton_pb2.SkeletonNodeKind
-    node: np.ndarray         # per node: lattice point, shape (nodes, 3)
-    ends: np.ndarray         # per edge: its source and target node, shape (edges, 2)
-    paths: list      # per edge: its lattice points from source to target, shape (points, 3)
-    radii: list      # per edge: the exact distance of each point to the background, in world units
-    summary: object  # skeleton_pb2.SkeletonSummary: certificate, timings, SHA-256
+    kind: list         # per node: skeleton_pb2.SkeletonNodeKind
+    node: np.ndarray   # per node: lattice point, shape (nodes, 3)
+    ends: np.ndarray   # per edge: its source and target node, shape (edges, 2)
+    paths: list        # per edge: its lattice points from source to target, shape (points, 3)
+    radii: list        # per edge: the distance of each point to the background, in world units
+    summary: object    # skeleton_pb2.SkeletonSummary: certificate, timings, SHA-256
+
+    def world(self, points):
+        """World coordinates of lattice points, shape (points, 3)."""
+        placement = self.summary.placement
+        axes = np.reshape(placement.direction or np.eye(3), (3, 3))
+        scaled = np.asarray(points) * (np.array(placement.spacing or [1, 1, 1]) / 2)
+        return scaled @ axes.T + np.array(placement.origin or [0, 0, 0])
+
+    def to_networkx(self):
+        """A MultiGraph: nodes with `position`, edges with `path` and `radii`, all in the world."""
+        import networkx
+        graph = networkx.MultiGraph()
+        for number, position in enumerate(self.world(self.node)):
+            graph.add_node(number, kind=self.kind[number], position=position)
+        for (source, target), path, radii in zip(self.ends, self.paths, self.radii):
+            path = self.world(path)
+            length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+            graph.add_edge(source, target, path=path, radii=radii, length=length)
+        return graph
+
+    def write_swc(self, name):
+        """Trees of points with radii. SWC knows no loops: each is cut open at one of its steps."""
+        import networkx
+        steps, radius = networkx.Graph(), {}
+        for path, radii in zip(self.paths, self.radii):
+            points = [tuple(point) for point in path]
+            radius.update(zip(points, radii))
+            networkx.add_path(steps, points)
+        steps.add_nodes_from(radius)
+        with open(name, "w", encoding="ascii") as file:
+            number = {}
+            for component in networkx.connected_components(steps):
+                root = min(component)
+                parent = dict((child, at) for at, child in networkx.bfs_edges(steps, root))
+                for point in networkx.bfs_tree(steps, root):
+                    number[point] = len(number) + 1
+                    x, y, z = self.world([point])[0]
+                    file.write(f"{number[point]} 0 {x:.9g} {y:.9g} {z:.9g} {radius[point]:.9g} "
+                               f"{number[parent[point]] if point in parent else -1}\n")
 
 
 def raw_planes(cells):
@@ -47,17 +88,40 @@ def raw_planes(cells):
     return words.transpose(0, 3, 2, 1).tobytes()                         # [s, c, j, i]
 
 
-def requests(cells, spacing, options=None):
+def mask_bricks(mask):
+    """Blocks of 8 x 2 x 4 voxels that hold a voxel, or touch one from above, on two sublattices."""
+    nz, ny, nx = mask.shape
+    padded = np.zeros((nz // 4 * 4 + 8, ny // 2 * 2 + 4, nx // 8 * 8 + 16), dtype=bool)
+    for z, y, x in np.ndindex(2, 2, 2):  # the upper corners of the voxels count, too
+        padded[z:z + nz, y:y + ny, x:x + nx] |= mask
+    z, y, x = padded.shape
+    blocks = padded.reshape(z // 4, 4, y // 2, 2, x // 8, 8).any(axis=(1, 3, 5))
+    return 2 * int(blocks.sum())
+
+
+def declare(array, spacing, origin, direction):
+    """What the server has to know beforehand, and the bytes."""
+    placement = volume_pb2.Placement(spacing=np.broadcast_to(spacing, 3), origin=origin,
+                                     direction=np.ravel(direction))
+    if array.ndim == 3:
+        mask = array != 0
+        data = np.packbits(mask, axis=None, bitorder="little").tobytes()
+        nz, ny, nx = mask.shape
+        encoding, bricks = volume_pb2.VOLUME_ENCODING_CUBIC_MASK, mask_bricks(mask)
+    else:
+        data = raw_planes(array)
+        _, nx, ny, nz = array.shape
+        encoding, bricks = volume_pb2.VOLUME_ENCODING_RAW_PLANES, 0
+    return volume_pb2.VolumeDeclaration(
+        encoding=encoding, extent=volume_pb2.LatticeExtent(nx=nx, ny=ny, nz=nz),
+        placement=placement, size_bytes=len(data), max_bricks=bricks), data
+
+
+def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=None):
     """Config, chunks, finish."""
-    data = raw_planes(cells)
-    _, nx, ny, nz = cells.shape
+    declaration, data = declare(array, spacing, origin, direction)
     yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(
-        volume=volume_pb2.VolumeDeclaration(
-            encoding=volume_pb2.VOLUME_ENCODING_RAW_PLANES,
-            extent=volume_pb2.LatticeExtent(nx=nx, ny=ny, nz=nz),
-            placement=volume_pb2.Placement(spacing=[spacing] * 3),
-            size_bytes=len(data)),
-        options=options))
+        volume=declaration, options=options))
     for offset in range(0, len(data), CHUNK_BYTES):
         yield service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
             offset=offset, data=data[offset:offset + CHUNK_BYTES]))
@@ -65,19 +129,20 @@ def requests(cells, spacing, options=None):
         size_bytes=len(data), sha256=hashlib.sha256(data).digest()))
 
 
-def skeletonize(channel, cells, spacing=1.0, options=None, on_progress=None, timeout=600):
-    """One call. Raises grpc.RpcError; error_reason() takes it apart."""
+def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
+    """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError; error_reason()
+    takes it apart. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
     columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "radius")}
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
-    for reply in stub.Skeletonize(requests(cells, spacing, options), timeout=timeout):
+    for reply in stub.Skeletonize(requests(array, **volume), timeout=timeout):
         if reply.HasField("shell_progress") and on_progress:
             on_progress(reply.shell_progress)
         elif reply.HasField("skeleton_chunk"):
             add(columns, reply.skeleton_chunk)
         elif reply.HasField("summary"):
             summary = reply.summary
-    return assemble(columns, summary, spacing)
+    return assemble(columns, summary)
 
 
 def add(columns, chunk):
@@ -91,10 +156,11 @@ def add(columns, chunk):
     columns["radius"].extend(points.radius)
 
 
-def assemble(columns, summary, spacing):
+def assemble(columns, summary):
     """Each edge owns the next point_count rows of the point table."""
     points = np.array(columns["point"], dtype=np.int32).reshape(-1, 3)
-    radii = np.array(columns["radius"]) * spacing / 2  # of lattice units
+    unit = min(summary.placement.spacing, default=1) / 2  # lattice units are along the shortest axis
+    radii = np.array(columns["radius"]) * unit
     if (len(columns["node"]), len(columns["ends"]), len(points)) != (
             summary.node_count, summary.edge_count, summary.point_count):
         raise ValueError("the summary states other numbers of rows than came")
@@ -132,15 +198,18 @@ def torus(radius=24.0, tube=8.0):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Skeletonizes a numpy volume on a server.")
-    parser.add_argument("volume", nargs="?", help=".npy file, boolean, of shape (2, nx, ny, nz)")
+    parser = argparse.ArgumentParser(description="Skeletonizes a numpy array on a server.")
+    parser.add_argument("array", nargs="?", help=".npy file, of shape (nz, ny, nx) or "
+                        "(2, nx, ny, nz)")
     parser.add_argument("--server", default="127.0.0.1:50051")
-    parser.add_argument("--spacing", type=float, default=1.0, help="edge of the cubic cell")
+    parser.add_argument("--spacing", type=float, nargs="+", default=[1.0],
+                        help="edge of the voxel or cell, one value or one per axis x, y, z")
+    parser.add_argument("--swc", help="write the skeleton to this file")
     arguments = parser.parse_args()
-    cells = np.load(arguments.volume) if arguments.volume else torus()
+    array = np.load(arguments.array) if arguments.array else torus()
     try:
         with grpc.insecure_channel(arguments.server) as channel:
-            skeleton = skeletonize(channel, cells, arguments.spacing)
+            skeleton = skeletonize(channel, array, spacing=arguments.spacing)
     except grpc.RpcError as error:
         sys.exit(f"{error.code().name} ({error_reason(error)}): {error.details()}")
     betti = skeleton.summary.certificate.skeleton
@@ -150,6 +219,8 @@ def main():
     for (source, target), path, radii in zip(skeleton.ends, skeleton.paths, skeleton.radii):
         print(f"edge {source} - {target}: {len(path)} points, radius {radii.min():.3g} to "
               f"{radii.max():.3g}")
+    if arguments.swc:
+        skeleton.write_swc(arguments.swc)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ class OpenCall:
         assert next(self.replies).HasField("accepted")
 
     def requests(self):
-        messages = example.requests(example.torus(), 1.0)
+        messages = example.requests(example.torus())
         yield next(messages)
         self.go_on.wait(server_process.TIMEOUT_S)
         yield from messages
@@ -155,7 +155,7 @@ import grpc
 sys.path[:0] = [sys.argv[2], sys.argv[3]]
 import skeletonize
 def half():
-    for number, message in enumerate(skeletonize.requests(skeletonize.torus(90.0, 30.0), 1.0)):
+    for number, message in enumerate(skeletonize.requests(skeletonize.torus(90.0, 30.0))):
         if number == 2:
             os.kill(os.getpid(), signal.SIGKILL)
         yield message

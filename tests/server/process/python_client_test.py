@@ -89,6 +89,46 @@ class ExampleTest(unittest.TestCase):
         self.assertEqual(fine.summary.sha256, coarse.summary.sha256)
         np.testing.assert_allclose(np.concatenate(coarse.radii), 2 * np.concatenate(fine.radii))
 
+    def ring(self, spacing):
+        """A mask of a ring of radius 20 and thickness 12 around the z axis, in world units."""
+        shape = [int(np.ceil(extent / step)) for extent, step in zip((20, 60, 60), spacing[::-1])]
+        z, y, x = (axis * step + step / 2 for axis, step in zip(np.indices(shape), spacing[::-1]))
+        return (np.hypot(x - 30, y - 30) - 20) ** 2 + (z - 10) ** 2 <= 6 ** 2
+
+    def test_a_mask_keeps_its_loop_and_its_world(self):
+        spacing, origin = np.array([1.0, 0.5, 2.0]), np.array([100.0, -50.0, 7.0])
+        mask = self.ring(spacing)
+        skeleton = self.skeletonize(mask, spacing=spacing, origin=origin)
+        certificate = skeleton.summary.certificate
+        self.assertEqual(certificate.mask, certificate.input)
+        self.assertEqual(certificate.mask, certificate.skeleton)
+        self.assertEqual(certificate.mask.loops, 1)
+        points = skeleton.world(np.concatenate(skeleton.paths)) - origin + spacing / 2
+        self.assertLess(np.abs(np.hypot(points[:, 0] - 30, points[:, 1] - 30) - 20).max(), 2.5)
+        self.assertLess(np.abs(points[:, 2] - 10).max(), 2.5)
+        self.assertAlmostEqual(float(np.median(np.concatenate(skeleton.radii))), 6, delta=1)
+
+    def test_the_bricks_of_a_mask_are_not_underestimated(self):
+        random = np.random.default_rng(5)
+        for shape in ((1, 1, 1), (4, 2, 8), (5, 3, 9), (13, 21, 40)):
+            for share in (0.002, 0.1, 1.0):
+                mask = random.random(shape) < share
+                self.assertEqual(self.skeletonize(mask).summary.certificate.mask.components > 0,
+                                 mask.any())
+
+    def test_a_graph_and_an_swc_file_come_of_a_mask(self):
+        skeleton = self.skeletonize(self.ring(np.array([1.0, 1.0, 1.0])))
+        graph = skeleton.to_networkx()
+        self.assertEqual(graph.number_of_edges() - graph.number_of_nodes(), 0)
+        self.assertAlmostEqual(sum(d["length"] for _, _, d in graph.edges(data=True)),
+                               2 * np.pi * 20, delta=25)
+        with tempfile.NamedTemporaryFile(suffix=".swc") as file:
+            skeleton.write_swc(file.name)
+            rows = np.loadtxt(file.name)
+        self.assertEqual(len(rows), skeleton.summary.skeleton_points)
+        self.assertEqual((rows[:, 6] == -1).sum(), 1)
+        self.assertTrue((rows[1:, 6] < rows[1:, 0]).all(), "a parent comes after its child")
+
     def test_the_reason_of_an_error_can_be_read(self):
         with self.assertRaises(grpc.RpcError) as raised:
             self.skeletonize(example.torus(), spacing=-1.0)
