@@ -146,9 +146,9 @@ absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec:
   exec::UninitializedVector<float> squared((object.brick_count() + 1) * kBrickPoints);
   std::fill(squared.end() - kBrickPoints, squared.end(), 0.0f);  // the padding brick
   BCCSKEL_RETURN_IF_ERROR(EuclideanScan(object, squared).Run(context));
-  const float largest = *std::ranges::max_element(squared);
-  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squared),
-                       DistanceField::RankOf(largest));
+  uint32_t largest = 0;  // whole numbers, which compare many at a time
+  for (const float value : squared) largest = std::max(largest, DistanceField::RankOf(value));
+  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squared), largest);
 }
 
 }  // namespace bccskel

@@ -81,7 +81,7 @@ TEST(GraphMlTest, StatesTheTopologyOfAClosedSurface) {
 TEST(JsonTest, HoldsGraphCertificateAndDigest) {
   SkeletonizeResult result;
   result.graph = Lollipop();
-  result.certificate = {{2, 1, 0}, {2, 1, 0}, 7};
+  result.certificate = {.input = {2, 1, 0}, .skeleton = {2, 1, 0}, .simple_points_left = 7};
   result.object_points = 99;
   result.sha256 = "abc";
   const std::string json = JsonText(result);

@@ -20,7 +20,11 @@ using test::Converse;
 struct OptionsCase {
   const char* name;
   SkeletonizeOptions options;
+  SkeletonizeOptions standard = {};  // what the options are held against
 };
+// Pruning makes up for what stubble policies leave behind.
+constexpr PruningOptions kUnpruned = {PruningRule::kNone, 0, TipPlacement::kAsThinned};
+
 class OptionsTest : public testing::TestWithParam<OptionsCase> {};
 
 std::vector<LatticePoint> Blob() {
@@ -45,7 +49,7 @@ TEST_P(OptionsTest, ReachesThePipeline) {
   const auto found = SkeletonOf(Converse(test::ConnectTo(server->address()), requests));
   ASSERT_TRUE(found.ok()) << found.status();
   const auto expected = Skeletonize(CloudAndBlob(), GetParam().options, exec::Context());
-  const auto standard = Skeletonize(CloudAndBlob(), {}, exec::Context());
+  const auto standard = Skeletonize(CloudAndBlob(), GetParam().standard, exec::Context());
   EXPECT_EQ(found->sha256, expected->sha256);
   EXPECT_NE(found->sha256, standard->sha256) << "this case cannot tell whether the option arrives";
 }
@@ -54,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
     Skeletonize, OptionsTest,
     testing::Values(
         OptionsCase{"StubbleNone", {.thinning = {.stubble = StubblePolicy::kNone}}},
-        OptionsCase{"StubbleLiteral", {.thinning = {.stubble = StubblePolicy::kLiteral}}},
+        OptionsCase{"StubbleLiteral",
+                    {.thinning = {.stubble = StubblePolicy::kLiteral}, .pruning = kUnpruned},
+                    {.pruning = kUnpruned}},
         OptionsCase{
             "CleanupOff",
             {.thinning = {.stubble = StubblePolicy::kNone, .cleanup = ThinnessCleanup::kOff}}},
