@@ -29,6 +29,17 @@ bool HasCurvesToPrune(const SkeletonizeOptions& options) {
   return asked && options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
 }
 
+// Radii of a few points are searched for one by one. A search costs about as much as measuring a
+// whole brick, so for many it is cheaper to measure all; both give the same bits.
+absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceField& distance,
+                          const exec::Context& context) {
+  if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
+  if (thin.PointCount() <= object.brick_count()) return absl::OkStatus();
+  distance = DistanceField(distance.kind(), distance.weights(), DistanceField::Values(), 0);
+  BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, DistanceKind::kEuclidean, context));
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
@@ -44,7 +55,7 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
   result.method = MethodInWords(options.thinning, options.distance);
   result.object_points = object.PointCount();
   exec::StageClock clock;
-  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
+  BCCSKEL_ASSIGN_OR_RETURN(DistanceField distance,
                            ComputeDistance(object, options.distance, context));
   result.timings.distance = clock.Lap();
   BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
@@ -55,6 +66,7 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
   result.timings.thinning = thinned.times.passes;
   result.timings.cleanup = thinned.times.cleanup;
   clock.Lap();
+  BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result.thin, distance, context));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
                            ExactRadii(result.thin, object, distance, context));
   if (HasCurvesToPrune(options)) {

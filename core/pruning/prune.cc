@@ -199,6 +199,7 @@ absl::StatusOr<PrunedSkeleton> Prune(const Volume& thin, std::span<const float> 
                                      std::span<const LatticePoint> keep,
                                      const PruningOptions& options, const exec::Context& context) {
   if (absl::Status checked = CheckPruningOptions(options); !checked.ok()) return checked;
+  if (thin.empty()) return PrunedSkeleton{thin, {}, 0};
   ThinSet set(thin, radii);
   const PointSet kept(keep.begin(), keep.end());
   PrunedSkeleton pruned;

@@ -113,6 +113,13 @@ TEST(PruningOptions, AreChecked) {
             absl::StatusCode::kInvalidArgument);
 }
 
+TEST(Pruning, OfNothingIsNothing) {
+  const auto field = ComputeDistance(Volume(), DistanceKind::kChamfer, {});
+  const auto pruned = Prune(Volume(), {}, Volume(), *field, {}, {}, {});
+  ASSERT_TRUE(pruned.ok()) << pruned.status();
+  EXPECT_TRUE(pruned->thin.empty() && pruned->radii.empty());
+}
+
 TEST(Pruning, StopsWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
