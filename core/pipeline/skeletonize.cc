@@ -29,12 +29,12 @@ bool HasCurvesToPrune(const SkeletonizeOptions& options) {
   return asked && options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
 }
 
-// Radii of a few points are searched for one by one. A search costs about as much as measuring a
-// whole brick, so for many it is cheaper to measure all; both give the same bits.
+// Radii of a few points are searched for one by one. A search costs about as much as measuring
+// eight bricks, so for many it is cheaper to measure all; both give the same bits.
 absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceField& distance,
                           const exec::Context& context) {
   if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
-  if (thin.PointCount() <= object.brick_count()) return absl::OkStatus();
+  if (8 * thin.PointCount() <= object.brick_count()) return absl::OkStatus();
   distance = DistanceField(distance.kind(), distance.weights(), DistanceField::Values(), 0);
   BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, DistanceKind::kEuclidean, context));
   return absl::OkStatus();
