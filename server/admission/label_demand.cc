@@ -21,8 +21,8 @@ constexpr uint64_t kFixedBytesPerLabel = 64 * 1024;
 
 // Tubes of four voxels across have a brick for every four voxels, solid blobs for every thirty.
 constexpr uint64_t kVoxelsPerBrick = 4;
-// A label of a few voxels may touch so many bricks.
-constexpr uint64_t kLeastBricks = 32;
+// For each thread: dozens of small labels, so that a turn is worth its beginning and its end.
+constexpr uint64_t kLeastBricks = 4096;
 
 uint64_t ValueOr(uint64_t stated, uint64_t worst) {
   return stated > 0 ? std::min(stated, worst) : worst;

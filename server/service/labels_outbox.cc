@@ -55,8 +55,9 @@ v1::SkeletonizeLabelsResponse LabelsOutbox::NextOfLabel() {
 
 v1::SkeletonizeLabelsResponse LabelsOutbox::TakeSummary() {
   const LabelResult& label = labels_.front();
-  const wire::JobFacts facts = {
-      .threads = label.threads, .algorithm_version = kAlgorithmVersion, .method = {}};
+  const wire::JobFacts facts = {.threads = label.threads,
+                                .algorithm_version = kAlgorithmVersion,
+                                .method = label.skeleton.result.method};
   v1::SkeletonizeLabelsResponse response;
   v1::LabelSummary& summary = *response.mutable_label_summary();
   summary.set_label(label.skeleton.label);

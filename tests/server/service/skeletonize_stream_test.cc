@@ -51,6 +51,10 @@ class FakeRunner : public JobRunner {
     started_.release();
     return job_;
   }
+  absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest,
+                                             std::shared_ptr<LabelsListener>) override {
+    return absl::UnimplementedError("not needed here");
+  }
   std::shared_ptr<FakeJob> WaitForJob() {
     started_.acquire();
     return job_;

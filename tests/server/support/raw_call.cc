@@ -7,36 +7,32 @@
 #include "proto/wire/skeleton_chunks.h"
 
 namespace bccskel::test {
+namespace {
 
-RawCall::RawCall(const std::shared_ptr<grpc::Channel>& channel, std::chrono::milliseconds timeout)
-    : stub_(v1::SkeletonizationService::NewStub(channel)) {
-  context_.set_deadline(std::chrono::system_clock::now() + timeout);
-  context_.set_wait_for_ready(true);
-  stream_ = stub_->Skeletonize(&context_);
+template <typename Request, typename Response>
+RepliesOf<Response> ConverseBy(RawCallOf<Request, Response>& call,
+                               const std::vector<Request>& requests) {
+  bool open = true;
+  for (const Request& request : requests) open = open && call.Send(request);
+  if (open) call.CloseSending();
+  RepliesOf<Response> replies;
+  while (auto response = call.Receive()) replies.responses.push_back(*std::move(response));
+  replies.status = call.Finish();
+  return replies;
 }
 
-std::optional<v1::SkeletonizeResponse> RawCall::Receive() {
-  v1::SkeletonizeResponse response;
-  if (!stream_->Read(&response)) return std::nullopt;
-  return response;
-}
-
-absl::Status RawCall::Finish() {
-  while (Receive().has_value()) {
-  }
-  return FromGrpcStatus(stream_->Finish());
-}
+}  // namespace
 
 Replies Converse(const std::shared_ptr<grpc::Channel>& channel,
                  const std::vector<v1::SkeletonizeRequest>& requests) {
   RawCall call(channel);
-  bool open = true;
-  for (const v1::SkeletonizeRequest& request : requests) open = open && call.Send(request);
-  if (open) call.CloseSending();
-  Replies replies;
-  while (auto response = call.Receive()) replies.responses.push_back(*std::move(response));
-  replies.status = call.Finish();
-  return replies;
+  return ConverseBy(call, requests);
+}
+
+LabelsReplies Converse(const std::shared_ptr<grpc::Channel>& channel,
+                       const std::vector<v1::SkeletonizeLabelsRequest>& requests) {
+  RawLabelsCall call(channel);
+  return ConverseBy(call, requests);
 }
 
 absl::StatusOr<SkeletonizeResult> SkeletonOf(const Replies& replies) {
@@ -58,6 +54,35 @@ std::string ThinVolumeOf(const Replies& replies) {
     if (response.has_thin_volume_chunk()) bytes += response.thin_volume_chunk().data();
   }
   return bytes;
+}
+
+absl::StatusOr<std::vector<LabelSkeleton>> SkeletonsOf(const LabelsReplies& replies) {
+  BCCSKEL_RETURN_IF_ERROR(replies.status);
+  std::vector<LabelSkeleton> skeletons;
+  wire::SkeletonAssembler assembler;
+  std::optional<uint64_t> label;
+  for (const v1::SkeletonizeLabelsResponse& response : replies.responses) {
+    if (response.has_skeleton_chunk()) {
+      if (label.value_or(response.skeleton_chunk().label()) != response.skeleton_chunk().label()) {
+        return absl::DataLossError("a chunk of another label came before the summary");
+      }
+      label = response.skeleton_chunk().label();
+      BCCSKEL_RETURN_IF_ERROR(assembler.Add(response.skeleton_chunk().chunk()));
+    } else if (response.has_label_summary()) {
+      const v1::LabelSummary& summary = response.label_summary();
+      if (label != summary.label()) return absl::DataLossError("a summary of another label");
+      LabelSkeleton& skeleton = skeletons.emplace_back();
+      skeleton.label = summary.label();
+      skeleton.voxels = summary.voxels();
+      BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
+                               std::exchange(assembler, {}).Finish(summary.summary()));
+      label.reset();
+    }
+  }
+  if (replies.responses.empty() || !replies.responses.back().has_labels_summary()) {
+    return absl::DataLossError("the last reply is no summary");
+  }
+  return skeletons;
 }
 
 absl::Status FromGrpcStatus(const grpc::Status& status) {
