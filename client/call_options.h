@@ -2,10 +2,13 @@
 #define BCCSKEL_CLIENT_CALL_OPTIONS_H_
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <stop_token>
+#include <vector>
 
 #include "core/exec/context.h"
+#include "core/mask/mask_grid.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::client {
@@ -25,6 +28,27 @@ struct CallOptions {
   std::stop_token stop = {};
   // Called between reads on the calling thread; after a retry the shells begin anew.
   std::function<void(const exec::ShellProgress&)> on_shell = {};
+};
+
+// Everything about one call for labels but the volume.
+struct LabelsCallOptions {
+  SkeletonizeOptions skeletonize = {};
+  MaskAdjacency adjacency = MaskAdjacency::k26;
+  std::vector<uint64_t> labels = {};  // none: all but 0, the background
+  uint64_t min_voxels = 0;            // smaller labels are left out
+  // As in CallOptions.
+  int threads = 0;
+  std::chrono::milliseconds timeout = std::chrono::hours(1);
+  std::stop_token stop = {};
+  // Called between reads on the calling thread; after a retry it begins anew.
+  std::function<void(uint64_t done, uint64_t total)> on_progress = {};
+};
+
+// What became of all labels.
+struct LabelsReport {
+  uint64_t labels = 0;   // handed out
+  uint64_t skipped = 0;  // below min_voxels
+  uint64_t absent = 0;   // wanted, but without a voxel
 };
 
 }  // namespace bccskel::client

@@ -1,5 +1,6 @@
 #include "client/connection.h"
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,22 @@ class RetryingConnection : public Connection {
     });
   }
 
+  absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
+                                                 const LabelsCallOptions& options,
+                                                 const LabelConsumer& consume) override {
+    bool delivered = false;
+    const LabelConsumer consume_once = [&](LabelSkeleton&& skeleton) {
+      delivered = true;
+      return consume(std::move(skeleton));
+    };
+    return Retry<LabelsReport>(
+        options.timeout, options.stop,
+        [&](auto deadline) {
+          return stub_->SkeletonizeLabels(volume, options, consume_once, deadline);
+        },
+        [&] { return !delivered; });
+  }
+
   absl::StatusOr<ServerDescription> Describe(milliseconds timeout) override {
     return Retry<ServerDescription>(timeout, {},
                                     [&](auto deadline) { return stub_->Describe(deadline); });
@@ -28,12 +45,14 @@ class RetryingConnection : public Connection {
  private:
   // Attempts share one deadline; a pause that would pass it is not begun.
   template <typename Value, typename Attempt>
-  absl::StatusOr<Value> Retry(milliseconds timeout, const std::stop_token& stop, Attempt attempt) {
+  absl::StatusOr<Value> Retry(
+      milliseconds timeout, const std::stop_token& stop, Attempt attempt,
+      const std::function<bool()>& may_repeat = [] { return true; }) {
     const Stub::Clock::time_point deadline = Stub::Clock::now() + timeout;
     RetryPauses pauses(policy_);
     while (true) {
       absl::StatusOr<Value> result = attempt(deadline);
-      if (result.ok()) return result;
+      if (result.ok() || !may_repeat()) return result;
       const std::optional<milliseconds> pause = pauses.Next(result.status());
       if (!pause.has_value() || Stub::Clock::now() + *pause >= deadline) return result;
       pause_(*pause, stop);

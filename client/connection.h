@@ -7,8 +7,10 @@
 
 #include "absl/status/statusor.h"
 #include "client/call_options.h"
+#include "client/encoded_labels.h"
 #include "client/encoded_volume.h"
 #include "client/retry_policy.h"
+#include "core/labels/skeletonize_labels.h"
 
 // The layers of the client: SkeletonizeClient -> Connection (tries again) -> Stub (one attempt).
 // Tests of programs that use the client replace the Connection; tests of the client the Stub.
@@ -32,6 +34,13 @@ class Connection {
   //         reply is damaged, which includes a skeleton whose digest is not the stated one.
   virtual absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                         const CallOptions& options) = 0;
+  // Hands each label to `consume`, by ascending label, while the server computes the next ones; the
+  // server waits for a slow consumer. An error of the consumer ends the call and is its result.
+  // Errors: as Skeletonize(). After the first label nothing is tried again, so that no label comes
+  //         twice.
+  virtual absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
+                                                         const LabelsCallOptions& options,
+                                                         const LabelConsumer& consume) = 0;
   virtual absl::StatusOr<ServerDescription> Describe(std::chrono::milliseconds timeout) = 0;
 };
 
@@ -45,6 +54,10 @@ class Stub {
   virtual absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                         const CallOptions& options,
                                                         Clock::time_point deadline) = 0;
+  virtual absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
+                                                         const LabelsCallOptions& options,
+                                                         const LabelConsumer& consume,
+                                                         Clock::time_point deadline) = 0;
   virtual absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) = 0;
 };
 

@@ -1,9 +1,6 @@
 #include <grpcpp/grpcpp.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -11,7 +8,8 @@
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "client/connection.h"
 #include "client/grpc_status.h"
-#include "core/digest/sha256.h"
+#include "client/labels_call.h"
+#include "client/upload_call.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
 #include "proto/wire/options.h"
@@ -19,15 +17,10 @@
 #include "proto/wire/result.h"
 #include "proto/wire/skeleton_chunks.h"
 
-// The only file of the client that speaks gRPC.
+// The only place where the client's calls meet gRPC's channels.
 
 namespace bccskel::client {
 namespace {
-
-using SkeletonizeStream =
-    grpc::ClientReaderWriterInterface<v1::SkeletonizeRequest, v1::SkeletonizeResponse>;
-
-constexpr size_t kChunkBytes = 512 * 1024;
 
 v1::VolumeEncoding ToMessage(VolumeEncoding encoding) {
   switch (encoding) {
@@ -59,61 +52,20 @@ v1::SkeletonizeRequest ConfigRequest(const EncodedVolume& volume, const CallOpti
   return request;
 }
 
-// One Skeletonize call from its first to its last message, on the calling thread.
-class SkeletonizeCall {
+// One attempt at a Skeletonize call.
+class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::SkeletonizeResponse> {
  public:
-  SkeletonizeCall(grpc::ClientContext& context, SkeletonizeStream& stream,
-                  const EncodedVolume& volume, const CallOptions& options)
-      : context_(context), stream_(stream), volume_(volume), options_(options) {}
+  SkeletonizeCall(grpc::ClientContext& context, Stream& stream, const CallOptions& options)
+      : UploadCall(context, stream), options_(options) {}
 
-  absl::StatusOr<SkeletonizeResult> Run() {
-    // A write that fails means that the call has ended; Finish() knows why.
-    const bool sent = stream_.Write(ConfigRequest(volume_, options_)) && ReadAccepted() &&
-                      SendVolume() && stream_.WritesDone();
-    if (sent) ReadReplies();
-    const grpc::Status ended = stream_.Finish();
-    BCCSKEL_RETURN_IF_ERROR(reply_error_);
-    if (!ended.ok()) return FromGrpcStatus(ended);
+  absl::StatusOr<SkeletonizeResult> Run(const EncodedVolume& volume) {
+    BCCSKEL_RETURN_IF_ERROR(Converse(ConfigRequest(volume, options_), volume.bytes));
     if (!summary_.has_value()) return absl::DataLossError("the server ended without a summary");
     return Assemble();
   }
 
  private:
-  bool ReadAccepted() {
-    v1::SkeletonizeResponse response;
-    if (!stream_.Read(&response)) return false;
-    if (!response.has_accepted()) {
-      reply_error_ = absl::DataLossError("the server's first reply does not accept the job");
-      context_.TryCancel();  // such a server may wait for the volume until the deadline
-      return false;
-    }
-    chunk_bytes_ = std::min<size_t>(kChunkBytes, response.accepted().max_chunk_bytes());
-    return true;
-  }
-
-  bool SendVolume() {
-    v1::SkeletonizeRequest request;
-    const std::string& bytes = volume_.bytes;
-    for (size_t offset = 0; offset < bytes.size() && chunk_bytes_ > 0; offset += chunk_bytes_) {
-      request.mutable_chunk()->set_offset(offset);
-      request.mutable_chunk()->set_data(bytes.substr(offset, chunk_bytes_));
-      if (!stream_.Write(request)) return false;
-    }
-    const Sha256Digest digest = Sha256Of(bytes);
-    request.mutable_finish()->set_size_bytes(bytes.size());
-    request.mutable_finish()->set_sha256(digest.bytes.data(), digest.bytes.size());
-    return stream_.Write(request);
-  }
-
-  void ReadReplies() {
-    v1::SkeletonizeResponse response;
-    while (stream_.Read(&response)) {
-      // The rest is read all the same, so that the server can end the call.
-      if (reply_error_.ok()) reply_error_ = Take(response);
-    }
-  }
-
-  absl::Status Take(v1::SkeletonizeResponse& response) {
+  absl::Status Take(v1::SkeletonizeResponse& response) override {
     switch (response.response_case()) {
       case v1::SkeletonizeResponse::kShellProgress:
         if (options_.on_shell) options_.on_shell(wire::FromMessage(response.shell_progress()));
@@ -154,15 +106,10 @@ class SkeletonizeCall {
     return result;
   }
 
-  grpc::ClientContext& context_;
-  SkeletonizeStream& stream_;
-  const EncodedVolume& volume_;
   const CallOptions& options_;
-  size_t chunk_bytes_ = kChunkBytes;
   wire::SkeletonAssembler assembler_;
   std::string thin_bytes_;
   std::optional<v1::SkeletonSummary> summary_;
-  absl::Status reply_error_;
 };
 
 class GrpcStub : public Stub {
@@ -174,12 +121,20 @@ class GrpcStub : public Stub {
   absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) override {
-    if (options.stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
-    grpc::ClientContext context;
-    context.set_deadline(deadline);
-    const std::stop_callback cancel(options.stop, [&context] { context.TryCancel(); });
-    const auto stream = skeletonization_->Skeletonize(&context);
-    return SkeletonizeCall(context, *stream, volume, options).Run();
+    return Attempt<SkeletonizeResult>(options.stop, deadline, [&](grpc::ClientContext& context) {
+      const auto stream = skeletonization_->Skeletonize(&context);
+      return SkeletonizeCall(context, *stream, options).Run(volume);
+    });
+  }
+
+  absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
+                                                 const LabelsCallOptions& options,
+                                                 const LabelConsumer& consume,
+                                                 Clock::time_point deadline) override {
+    return Attempt<LabelsReport>(options.stop, deadline, [&](grpc::ClientContext& context) {
+      const auto stream = skeletonization_->SkeletonizeLabels(&context);
+      return LabelsCall(context, *stream, options, consume).Run(volume);
+    });
   }
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
@@ -192,6 +147,16 @@ class GrpcStub : public Stub {
   }
 
  private:
+  template <typename Value, typename Call>
+  static absl::StatusOr<Value> Attempt(const std::stop_token& stop, Clock::time_point deadline,
+                                       Call call) {
+    if (stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
+    grpc::ClientContext context;
+    context.set_deadline(deadline);
+    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+    return call(context);
+  }
+
   std::unique_ptr<v1::SkeletonizationService::StubInterface> skeletonization_;
   std::unique_ptr<v1::ServerService::StubInterface> server_;
 };

@@ -11,4 +11,12 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeClient::Skeletonize(const Volume& o
   return connection_->Skeletonize(encoded, options);
 }
 
+absl::StatusOr<LabelsReport> SkeletonizeClient::SkeletonizeLabels(const LabelVolume& volume,
+                                                                  const LabelsCallOptions& options,
+                                                                  const LabelConsumer& consume) {
+  BCCSKEL_ASSIGN_OR_RETURN(const EncodedLabels encoded,
+                           EncodeForSending(volume, options.labels, options.stop));
+  return connection_->SkeletonizeLabels(encoded, options, consume);
+}
+
 }  // namespace bccskel::client

@@ -25,6 +25,13 @@ class SkeletonizeClient {
   // Errors: see Connection::Skeletonize().
   absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object, const CallOptions& options);
 
+  // The skeleton of every label of a segmented image, as core/labels makes them on this machine
+  // (without `thin`), each handed to `consume` as soon as it is there.
+  // Errors: INVALID_ARGUMENT (volume); see Connection::SkeletonizeLabels().
+  absl::StatusOr<LabelsReport> SkeletonizeLabels(const LabelVolume& volume,
+                                                 const LabelsCallOptions& options,
+                                                 const LabelConsumer& consume);
+
  private:
   std::shared_ptr<Connection> connection_;
 };

@@ -20,6 +20,7 @@ using testing::Le;
 // What a scripted stub was asked.
 struct Attempts {
   std::vector<Stub::Clock::time_point> deadlines;
+  int labels_first = 0;  // that are delivered before the first attempt's end
 };
 
 // Fails with each status of a script in turn, then succeeds.
@@ -35,6 +36,18 @@ class ScriptedStub : public Stub {
     SkeletonizeResult result;
     result.object_points = 42;
     return result;
+  }
+
+  absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels&, const LabelsCallOptions&,
+                                                 const LabelConsumer& consume,
+                                                 Clock::time_point deadline) override {
+    for (; attempts_.labels_first > 0; --attempts_.labels_first) {
+      const absl::Status consumed = consume({});
+      if (!consumed.ok()) return consumed;
+    }
+    const absl::Status status = Next(deadline);
+    if (!status.ok()) return status;
+    return LabelsReport{.labels = 2};
   }
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
@@ -133,6 +146,22 @@ TEST_F(ConnectionTest, AStopDuringAPauseIsTheEnd) {
                              });
   const auto result = connection->Skeletonize({}, {.stop = source.get_token()});
   EXPECT_TRUE(absl::IsCancelled(result.status())) << result.status();
+  EXPECT_EQ(attempts_.deadlines.size(), 1);
+}
+
+absl::Status TakeAll(LabelSkeleton&&) { return absl::OkStatus(); }
+
+TEST_F(ConnectionTest, LabelsAreTriedAgainBeforeTheFirstOne) {
+  const auto report = ConnectionTo({kGone, kGone})->SkeletonizeLabels({}, {}, TakeAll);
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_EQ(report->labels, 2u);
+  EXPECT_EQ(attempts_.deadlines.size(), 3);
+}
+
+TEST_F(ConnectionTest, NothingIsTriedAgainAfterTheFirstLabel) {
+  attempts_.labels_first = 1;
+  const auto report = ConnectionTo({kGone})->SkeletonizeLabels({}, {}, TakeAll);
+  EXPECT_EQ(report.status(), kGone);
   EXPECT_EQ(attempts_.deadlines.size(), 1);
 }
 

@@ -1,0 +1,88 @@
+#ifndef BCCSKEL_CLIENT_UPLOAD_CALL_H_
+#define BCCSKEL_CLIENT_UPLOAD_CALL_H_
+
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "absl/status/status.h"
+#include "client/grpc_status.h"
+#include "core/digest/sha256.h"
+
+namespace bccskel::client {
+
+// One call that uploads a volume, from its first to its last message, on the calling thread.
+template <typename Request, typename Response>
+class UploadCall {
+ public:
+  using Stream = grpc::ClientReaderWriterInterface<Request, Response>;
+
+  // Needs: both outlive the call.
+  UploadCall(grpc::ClientContext& context, Stream& stream) : context_(context), stream_(stream) {}
+  virtual ~UploadCall() = default;
+
+ protected:
+  // Errors: the server's; DATA_LOSS; those of Take(), which cancel the call.
+  absl::Status Converse(const Request& config, const std::string& bytes) {
+    // A write that fails means that the call has ended; Finish() knows why.
+    const bool sent =
+        stream_.Write(config) && ReadAccepted() && SendVolume(bytes) && stream_.WritesDone();
+    if (sent) ReadReplies();
+    const grpc::Status ended = stream_.Finish();
+    return reply_error_.ok() ? FromGrpcStatus(ended) : reply_error_;
+  }
+
+  // One reply after the first.
+  virtual absl::Status Take(Response& response) = 0;
+
+ private:
+  bool ReadAccepted() {
+    Response response;
+    if (!stream_.Read(&response)) return false;
+    if (!response.has_accepted()) {
+      // Such a server may wait for the volume until the deadline.
+      return Fail(absl::DataLossError("the server's first reply does not accept the job"));
+    }
+    constexpr size_t kChunkBytes = 512 * 1024;
+    chunk_bytes_ = std::min<size_t>(kChunkBytes, response.accepted().max_chunk_bytes());
+    return true;
+  }
+
+  bool SendVolume(const std::string& bytes) {
+    Request request;
+    for (size_t offset = 0; offset < bytes.size() && chunk_bytes_ > 0; offset += chunk_bytes_) {
+      request.mutable_chunk()->set_offset(offset);
+      request.mutable_chunk()->set_data(bytes.substr(offset, chunk_bytes_));
+      if (!stream_.Write(request)) return false;
+    }
+    const Sha256Digest digest = Sha256Of(bytes);
+    request.mutable_finish()->set_size_bytes(bytes.size());
+    request.mutable_finish()->set_sha256(digest.bytes.data(), digest.bytes.size());
+    return stream_.Write(request);
+  }
+
+  void ReadReplies() {
+    Response response;
+    while (reply_error_.ok() && stream_.Read(&response)) {
+      if (absl::Status taken = Take(response); !taken.ok()) Fail(taken);
+    }
+  }
+
+  bool Fail(const absl::Status& status) {
+    reply_error_ = status;
+    context_.TryCancel();
+    return false;
+  }
+
+  grpc::ClientContext& context_;
+  Stream& stream_;
+  size_t chunk_bytes_ = 0;
+  absl::Status reply_error_;
+};
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_UPLOAD_CALL_H_
