@@ -64,11 +64,10 @@ def generate_stubs(folder):
     sys.path.insert(0, str(folder))
 
 
-def example():
-    """client/examples/skeletonize.py as a module. Needs the stubs."""
-    spec = importlib.util.spec_from_file_location("skeletonize",
-                                                  SOURCE / "client/examples/skeletonize.py")
+def example(name="skeletonize"):
+    """A file of client/examples as a module. Needs the stubs."""
+    spec = importlib.util.spec_from_file_location(name, SOURCE / f"client/examples/{name}.py")
     module = importlib.util.module_from_spec(spec)
-    sys.modules["skeletonize"] = module
+    sys.modules[name] = module
     spec.loader.exec_module(module)
     return module
