@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -74,17 +75,25 @@ class LabelWork {
     });
   }
 
-  // False when the work is over.
+  // False when the work is over. Workers must not throw: memory that cannot be had ends the work.
   bool RunOne(size_t n, const exec::Context& context) {
-    if (!delivery_.WaitForTurn(n, context)) return false;
-    const LabeledObject& object = labels_.objects[n];
-    absl::StatusOr<LabelSkeleton> skeleton = SkeletonOf(labels_.grid, object, options_, context);
-    if (skeleton.ok()) {
-      delivery_.Add(n, *std::move(skeleton));
-    } else {
-      delivery_.Fail(WithLabel(skeleton.status(), object.label));
+    const uint64_t label = labels_.objects[n].label;
+    try {
+      const absl::Status status = ComputeOne(n, context);
+      if (!status.ok()) delivery_.Fail(WithLabel(status, label));
+      return status.ok();
+    } catch (const std::bad_alloc&) {
+      delivery_.Fail(WithLabel(absl::ResourceExhaustedError("out of memory"), label));
+      return false;
     }
-    return skeleton.ok();
+  }
+
+  absl::Status ComputeOne(size_t n, const exec::Context& context) {
+    if (!delivery_.WaitForTurn(n, context)) return delivery_.status();
+    BCCSKEL_ASSIGN_OR_RETURN(LabelSkeleton skeleton,
+                             SkeletonOf(labels_.grid, labels_.objects[n], options_, context));
+    delivery_.Add(n, std::move(skeleton));
+    return absl::OkStatus();
   }
 
   const LabeledObjects& labels_;

@@ -100,6 +100,9 @@ TEST(LabelCollector, SaysWhatIsWrongWithItsInput) {
   EXPECT_THAT(StatusOfSlices({2, 1, 2, {}}, {}, {{1, 2}}).message(), HasSubstr("1 of 2 slices"));
   EXPECT_EQ(StatusOfSlices({3, 1, 1, {}}, {.max_runs = 2}, {{1, 2, 1}}).code(),
             absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(StatusOfSlices({3, 1, 1, {}}, {.max_labels = 1}, {{1, 0, 2}}).code(),
+            absl::StatusCode::kResourceExhausted);
+  EXPECT_TRUE(StatusOfSlices({3, 1, 1, {}}, {.labels = {1, 2}, .max_labels = 1}, {{1, 0, 2}}).ok());
 }
 
 TEST(ConvertLabel, GivesTheObjectThatTheLabelAsAMaskGives) {

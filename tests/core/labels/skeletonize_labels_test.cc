@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -122,6 +123,17 @@ TEST(SkeletonizeLabels, NamesTheLabelThatFails) {
       SkeletonizeLabels(Objects(), options, [](LabelSkeleton&&) { return absl::OkStatus(); }, {});
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_THAT(std::string(status.message()), HasSubstr("label "));
+}
+
+TEST(SkeletonizeLabels, EndsWithAnErrorWhenAWorkerFindsNoMemory) {
+  for (int threads : {1, 2}) {
+    exec::WorkerTeam team(threads);
+    exec::Context context;
+    context.team = &team;
+    const absl::Status status = SkeletonizeLabels(
+        Objects(), {}, [](LabelSkeleton&&) -> absl::Status { throw std::bad_alloc(); }, context);
+    EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+  }
 }
 
 TEST(SkeletonizeLabels, OfNothingDeliversNothing) {

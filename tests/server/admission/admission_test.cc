@@ -53,6 +53,19 @@ TEST(Admission, APartOfATicketCanBeGivenBack) {
   EXPECT_EQ(admission.usage(), Usage());
 }
 
+TEST(Admission, ATicketGrowsWhileThereIsRoom) {
+  Admission admission({.bytes = 100, .places = 2});
+  Ticket ticket = *admission.Admit(10);
+  const Ticket other = *admission.Admit(50);
+  EXPECT_TRUE(ticket.ResizeTo(50).ok());
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
+  EXPECT_EQ(RefusalOf(ticket.ResizeTo(51)), Refusal::kMemoryBusy);
+  EXPECT_EQ(RefusalOf(ticket.ResizeTo(101)), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ticket.bytes(), 50u) << "a refused ticket stays as it was";
+  EXPECT_TRUE(ticket.ResizeTo(5).ok());
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 55, .places = 2}));
+}
+
 TEST(Admission, RefusesForGoodWhatCanNeverFit) {
   Admission admission({.bytes = 100, .places = 1});
   const absl::Status status = admission.Admit(101).status();
