@@ -35,8 +35,10 @@ v1::SkeletonizeResponse Progress() {
 
 }  // namespace
 
-FakeServer::FakeServer(Script script)
-    : folder_(NewFolder()), address_("unix:" + folder_ + "/socket"), service_(std::move(script)) {
+FakeServer::FakeServer(Script script, LabelsScript labels_script)
+    : folder_(NewFolder()),
+      address_("unix:" + folder_ + "/socket"),
+      service_(std::move(script), std::move(labels_script)) {
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address_, grpc::InsecureServerCredentials());
   builder.RegisterService(&service_);

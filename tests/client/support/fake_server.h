@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
@@ -19,7 +20,12 @@ class FakeServer {
   using Stream = grpc::ServerReaderWriter<v1::SkeletonizeResponse, v1::SkeletonizeRequest>;
   using Script = std::function<grpc::Status(grpc::ServerContext&, Stream&)>;
 
-  explicit FakeServer(Script script);
+  using LabelsStream =
+      grpc::ServerReaderWriter<v1::SkeletonizeLabelsResponse, v1::SkeletonizeLabelsRequest>;
+  using LabelsScript = std::function<grpc::Status(LabelsStream&)>;
+
+  explicit FakeServer(Script script) : FakeServer(std::move(script), nullptr) {}
+  explicit FakeServer(LabelsScript script) : FakeServer(nullptr, std::move(script)) {}
   ~FakeServer();
 
   const std::string& address() const { return address_; }
@@ -27,14 +33,21 @@ class FakeServer {
  private:
   class Service : public v1::SkeletonizationService::Service {
    public:
-    explicit Service(Script script) : script_(std::move(script)) {}
+    Service(Script script, LabelsScript labels_script)
+        : script_(std::move(script)), labels_script_(std::move(labels_script)) {}
     grpc::Status Skeletonize(grpc::ServerContext* context, Stream* stream) override {
       return script_(*context, *stream);
+    }
+    grpc::Status SkeletonizeLabels(grpc::ServerContext*, LabelsStream* stream) override {
+      return labels_script_(*stream);
     }
 
    private:
     Script script_;
+    LabelsScript labels_script_;
   };
+
+  FakeServer(Script script, LabelsScript labels_script);
 
   std::string folder_;
   std::string address_;
