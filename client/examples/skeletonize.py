@@ -54,7 +54,7 @@ class Skeleton:
             graph.add_node(number, kind=self.kind[number], position=position)
         for (source, target), path, radii in zip(self.ends, self.paths, self.radii):
             path = self.world(path)
-            length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+            length = np.linalg.norm(np.diff(smoothed(path), axis=0), axis=1).sum()
             graph.add_edge(source, target, path=path, radii=radii, length=length)
         return graph
 
@@ -77,6 +77,13 @@ class Skeleton:
                     x, y, z = self.world([point])[0]
                     file.write(f"{number[point]} 0 {x:.9g} {y:.9g} {z:.9g} {radius[point]:.9g} "
                                f"{number[parent[point]] if point in parent else -1}\n")
+
+
+def smoothed(path):
+    """Each point's mean with up to four neighbors on either side: steps of a lattice make a straight
+    line longer than it is. Ends stay."""
+    reach = np.minimum(np.minimum(np.arange(len(path)), np.arange(len(path))[::-1]), 4)
+    return np.array([path[n - r:n + r + 1].mean(axis=0) for n, r in enumerate(reach)])
 
 
 def raw_planes(cells):

@@ -17,7 +17,8 @@
 namespace bccskel {
 
 struct SkeletonizeOptions {
-  ThinningOptions thinning = {};
+  // The symmetric method puts curves closer to the center than the paper's directions do.
+  ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
   DistanceKind distance = DistanceKind::kChamfer;  // that makes the shells
   // Not done where thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};

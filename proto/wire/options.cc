@@ -88,6 +88,7 @@ v1::ThinningMethod ToMessage(ThinningMethod method) {
 absl::StatusOr<ThinningMethod> FromMessage(v1::ThinningMethod method, const std::string& field) {
   switch (method) {
     case v1::THINNING_METHOD_UNSPECIFIED:
+      return SkeletonizeOptions().thinning.method;
     case v1::THINNING_METHOD_DIRECTIONAL:
       return ThinningMethod::kDirectional;
     case v1::THINNING_METHOD_DIRECTIONAL_ALTERNATING:

@@ -19,6 +19,7 @@ namespace {
 
 constexpr uint64_t kSizes[] = {10'000, 100'000, 850'000, 8'000'000, 64'000'000};
 constexpr int kThreads[] = {1, 2};
+const SkeletonizeOptions kPaper = {.thinning = {.method = ThinningMethod::kDirectional}};
 
 struct Row {
   std::string object;
@@ -61,9 +62,9 @@ absl::Status Measure(const Row& row, benchmark::State& state) {
   exec::WorkerTeam team(row.threads);
   exec::Context context;
   context.team = &team;
-  absl::StatusOr<SkeletonizeResult> result = Skeletonize(*object, {}, context);
+  absl::StatusOr<SkeletonizeResult> result = Skeletonize(*object, kPaper, context);
   for (auto _ : state) {
-    if (result.ok()) result = Skeletonize(*object, {}, context);
+    if (result.ok()) result = Skeletonize(*object, kPaper, context);
     const auto timings = result.ok() ? result->timings : StageTimings();
     state.SetIterationTime(std::chrono::duration<double>(cli::CoreTime(timings)).count());
   }

@@ -13,15 +13,15 @@ namespace bccskel::test {
 
 absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
   VolumeBuilder builder(object.extent(), object.placement());
-  for (const LatticePoint p : ReferenceThin(object, {})) builder.Add(p);
+  for (const LatticePoint p : ReferenceThin(object, {.method = ThinningMethod::kDirectional}))
+    builder.Add(p);
   BCCSKEL_ASSIGN_OR_RETURN(const Volume thin, std::move(builder).Build());
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                            ComputeDistance(object, DistanceKind::kChamfer, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, ExactRadii(thin, object, distance, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
                            Prune(thin, radii, object, distance, {}, {}, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph,
-                           TraceSkeleton(pruned.thin, pruned.radii, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
   return SkeletonDigest(graph);
 }
 

@@ -53,7 +53,8 @@ TEST(ArgumentsTest, SkeletonizeTakesMethodsAndKinds) {
     words.insert(words.begin(), {"skeletonize", "a.off", "-o", "a.swc"});
     return Parse(words).as<SkeletonizeArguments>().skeletonize.thinning;
   };
-  EXPECT_EQ(thinning({}).method, ThinningMethod::kDirectional);
+  EXPECT_EQ(thinning({}).method, ThinningMethod::kSymmetric);
+  EXPECT_EQ(thinning({"--method", "directional"}).method, ThinningMethod::kDirectional);
   EXPECT_EQ(thinning({"--method", "directional-alternating"}).method,
             ThinningMethod::kDirectionalAlternating);
   const ThinningOptions surface = thinning({"--method", "symmetric", "--kind", "surface"});
@@ -65,7 +66,8 @@ TEST(ArgumentsTest, SkeletonizeTakesMethodsAndKinds) {
 }
 
 TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
-  const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc", "--kind", "surface"});
+  const Parsed parsed = Parse(
+      {"skeletonize", "a.off", "-o", "a.swc", "--method", "directional", "--kind", "surface"});
   EXPECT_EQ(parsed.code(), ExitCode::kUsage);
   EXPECT_THAT(parsed.err, HasSubstr("symmetric"));
 }
@@ -154,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"no_command",
               {},
-              "a command is required: voxelize, submit, skeletonize, info, generate"},
+              "a command is required: voxelize, submit, skeletonize, labels, info, view"},
         Wrong{"unknown_command", {"dance"}, "dance"},
         Wrong{"unknown_option", {"info", "a.off", "--loud"}, "--loud"},
         Wrong{"no_input", {"skeletonize", "-o", "a.swc"}, "INPUT is required"},

@@ -53,7 +53,7 @@ TEST(InputKindTest, FollowsFromTheNameInCapitalsOrNot) {
   EXPECT_EQ(*InputKindOf("a.stl.gz"), InputKind::kMesh);
   EXPECT_EQ(*InputKindOf("a.exr"), InputKind::kVolume);
   EXPECT_EQ(*InputKindOf("a.bccb"), InputKind::kVolume);
-  EXPECT_TRUE(absl::IsUnimplemented(InputKindOf("a.nii.gz").status()));
+  EXPECT_EQ(*InputKindOf("a.nii.gz"), InputKind::kImage);
   EXPECT_TRUE(absl::IsInvalidArgument(InputKindOf("a.docx").status()));
 }
 

@@ -69,12 +69,13 @@ std::string NameOf(const ::testing::TestParamInfo<RealMesh>& info) {
   return name;
 }
 
-SkeletonizeResult SkeletonOf(const Volume& object, int threads) {
+SkeletonizeResult SkeletonOf(const Volume& object, int threads,
+                             const SkeletonizeOptions& options = {}) {
   exec::WorkerTeam team(threads);
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto result = Skeletonize(object, {}, context);
+  auto result = Skeletonize(object, options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
@@ -134,7 +135,13 @@ TEST_P(RealMeshes, At850000PointsTheSkeletonHasTheTopologyOfTheMesh) {
 
 TEST_P(RealMeshes, At40000PointsTheEngineAgreesWithTheSlowReference) {
   const Volume object = Voxelized(40000).volume;
-  EXPECT_EQ(SkeletonOf(object, 2).thin.SortedPoints(), test::ReferenceThin(object, {}));
+  for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
+    const SkeletonizeOptions options = {
+        .thinning = {.method = method},
+        .pruning = {.rule = PruningRule::kNone, .tips = TipPlacement::kAsThinned}};
+    EXPECT_EQ(SkeletonOf(object, 2, options).thin.SortedPoints(),
+              test::ReferenceThin(object, options.thinning));
+  }
 }
 
 TEST(RealOpenMesh, IsFilledByWindingNumberWithoutHolesOrCavities) {

@@ -62,6 +62,7 @@ TEST(OptionsRoundTrip, KeepsTheMethodAndTheKindOfSkeleton) {
 
 TEST(Options, RefusesAKindThatTheMethodDoesNotGive) {
   v1::SkeletonizeOptions message;
+  message.set_method(v1::THINNING_METHOD_DIRECTIONAL);
   message.set_kind(v1::SKELETON_KIND_SURFACE);
   const absl::Status refused = FromMessage(message, "options").status();
   EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
@@ -89,7 +90,7 @@ TEST(Options, RefusePruningByNoLength) {
 TEST(Options, AnEmptyMessageMeansTheDefaults) {
   const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
   ASSERT_TRUE(options.ok()) << options.status();
-  const ThinningOptions defaults;
+  const ThinningOptions defaults = SkeletonizeOptions().thinning;
   EXPECT_EQ(options->thinning.stubble, defaults.stubble);
   EXPECT_EQ(options->thinning.cleanup, defaults.cleanup);
   EXPECT_EQ(options->thinning.method, defaults.method);

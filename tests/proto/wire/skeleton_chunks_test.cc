@@ -20,7 +20,8 @@ SkeletonGraph Chain(uint32_t edges, uint64_t length) {
   SkeletonGraph graph;
   graph.placement.origin = {1, 2, 3};
   const auto point = [](uint32_t n) {
-    return SkeletonPoint{{kFar - static_cast<int32_t>(n % 1000), kFar, kFar}, kLargest - n};
+    return SkeletonPoint{{kFar - static_cast<int32_t>(n % 1000), kFar, kFar},
+                         static_cast<float>(kLargest - n)};
   };
   for (uint32_t n = 0; n <= edges; ++n) {
     graph.nodes.push_back({NodeKind::kJunction, point(n), kLargest - n, kLargest});
@@ -132,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                      c[0].mutable_edges()->set_point_count(0, uint64_t{1} << 63);
                      c[0].mutable_edges()->set_point_count(1, (uint64_t{1} << 63) + 10);
                    }},
-        DamageCase{"OtherDistance", [](auto& c) { c[0].mutable_points()->set_distance(2, 1); }}),
+        DamageCase{"OtherRadius", [](auto& c) { c[0].mutable_points()->set_radius(2, 1); }}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

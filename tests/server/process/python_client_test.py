@@ -121,7 +121,7 @@ class ExampleTest(unittest.TestCase):
         graph = skeleton.to_networkx()
         self.assertEqual(graph.number_of_edges() - graph.number_of_nodes(), 0)
         self.assertAlmostEqual(sum(d["length"] for _, _, d in graph.edges(data=True)),
-                               2 * np.pi * 20, delta=25)
+                               2 * np.pi * 20, delta=6)
         with tempfile.NamedTemporaryFile(suffix=".swc") as file:
             skeleton.write_swc(file.name)
             rows = np.loadtxt(file.name)

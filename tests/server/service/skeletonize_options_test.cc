@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         OptionsCase{
             "CleanupOff",
             {.thinning = {.stubble = StubblePolicy::kNone, .cleanup = ThinnessCleanup::kOff}}},
-        OptionsCase{"Symmetric", {.thinning = {.method = ThinningMethod::kSymmetric}}},
+        OptionsCase{"Directional", {.thinning = {.method = ThinningMethod::kDirectional}}},
         OptionsCase{"Alternating",
                     {.thinning = {.method = ThinningMethod::kDirectionalAlternating}}},
         OptionsCase{
