@@ -150,12 +150,12 @@ void WaitForIdle(const JobPool& pool) {
 
 TEST(LabelsJob, PausesWithoutThreadsWhileItsResultsFillItsMemory) {
   JobPool pool(OneThread());
-  const Started started = StartAndUpload(pool, Nets(200));
+  const Started started = StartAndUpload(pool, Nets(160));
   const uint64_t admitted_bytes = pool.admission_usage().bytes;
   started.listener->WaitForLabel();
   WaitForIdle(pool);
   EXPECT_FALSE(started.listener->ended());
-  EXPECT_LT(started.listener->labels(), 200u);
+  EXPECT_LT(started.listener->labels(), 160u);
   EXPECT_EQ(pool.admission_usage().places, 1);
   EXPECT_LE(pool.admission_usage().bytes, admitted_bytes);
   while (!started.listener->ended()) {
@@ -164,13 +164,13 @@ TEST(LabelsJob, PausesWithoutThreadsWhileItsResultsFillItsMemory) {
   }
   const auto& end = started.listener->WaitForEnd();
   ASSERT_TRUE(end.ok()) << end.status();
-  EXPECT_EQ(end->labels, 200u);
-  EXPECT_EQ(started.listener->labels(), 200u);
+  EXPECT_EQ(end->labels, 160u);
+  EXPECT_EQ(started.listener->labels(), 160u);
 }
 
 TEST(LabelsJob, CancelWhilePausedEndsIt) {
   JobPool pool(OneThread());
-  const Started started = StartAndUpload(pool, Nets(200));
+  const Started started = StartAndUpload(pool, Nets(160));
   started.listener->WaitForLabel();
   WaitForIdle(pool);
   started.job->Cancel();
@@ -184,8 +184,8 @@ TEST(LabelsJob, CancelAtAnyMomentEndsItExactlyOnce) {
   JobPool::Limits limits = OneThread();
   limits.threads = 2;
   JobPool pool(limits);
-  const Volume8 nets = Nets(120);
-  for (int n = 0; n < 20; ++n) {
+  const Volume8 nets = Nets(60);
+  for (int n = 0; n < 8; ++n) {
     const Started started = StartAndUpload(pool, nets);
     const std::jthread reader([&](std::stop_token stop) {
       while (!stop.stop_requested()) {
@@ -193,7 +193,7 @@ TEST(LabelsJob, CancelAtAnyMomentEndsItExactlyOnce) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(3 * n));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 * n));
     started.job->Cancel();
     const auto& end = started.listener->WaitForEnd();
     EXPECT_TRUE(end.ok() || absl::IsCancelled(end.status())) << end.status();
