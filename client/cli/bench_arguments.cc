@@ -43,8 +43,8 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
   core.add_option("--isa", arguments.instruction_set, "Instruction set (default the first)")
       ->check(OneOf(sets, "instruction set"))
       ->option_text(absl::StrJoin(sets, "|"));
-  AddChoice<ThinningMethod>(core, "--method", arguments.method,
-                            "How to thin (default directional)", MethodWords());
+  AddChoice<ThinningMethod>(core, "--method", arguments.method, "How to thin (default directional)",
+                            MethodWords());
 }
 
 }  // namespace

@@ -34,8 +34,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
-                            "How points are chosen for removal (default symmetric)",
-                            MethodWords());
+                            "How points are chosen for removal (default symmetric)", MethodWords());
   AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
                           "What to keep; all but curve (default) need the symmetric method",
                           {{"curve", SkeletonKind::kCurve},

@@ -104,7 +104,11 @@ TEST(Server, StatesItsLimits) {
   EXPECT_EQ(response.limits().threads(), 2u);
   EXPECT_EQ(response.limits().max_chunk_bytes(), 1u << 20);
   EXPECT_EQ(response.limits().max_message_bytes(), 4u << 20);
+  EXPECT_EQ(response.limits().max_decoded_bytes(), uint64_t{4} << 30);
   EXPECT_EQ(response.encodings_size(), 4);
+  EXPECT_THAT(response.label_types(),
+              testing::ElementsAre(v1::LABEL_TYPE_UINT8, v1::LABEL_TYPE_UINT16,
+                                   v1::LABEL_TYPE_UINT32, v1::LABEL_TYPE_UINT64));
   EXPECT_THAT(response.api_versions(), testing::ElementsAre("v1"));
   EXPECT_FALSE(response.server_version().empty());
 }

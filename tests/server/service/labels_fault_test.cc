@@ -188,5 +188,18 @@ INSTANTIATE_TEST_SUITE_P(Declaration, LabelsFault, testing::ValuesIn(Declaration
 INSTANTIATE_TEST_SUITE_P(Promise, LabelsFault, testing::ValuesIn(BrokenPromises()), NameOf);
 INSTANTIATE_TEST_SUITE_P(Size, LabelsFault, testing::ValuesIn(SizeFaults()), NameOf);
 
+TEST(LabelsTooLarge, ALabelWithMoreBricksThanTheServerTakesIsNamed) {
+  server::ServerConfig config = test::SmallServer();
+  config.limits.volume.max_bricks = 20;
+  const auto server = test::StartServer(config);
+  const auto replies =
+      Converse(test::ConnectTo(server->address()), RequestsFor(Declare(test::FiveLabels())));
+  EXPECT_EQ(replies.status.code(), StatusCode::kResourceExhausted) << replies.status;
+  EXPECT_EQ(replies.status.message().find("label 3: "), 0u) << replies.status;
+  const auto quota = wire::QuotaFailureOf(replies.status);
+  ASSERT_TRUE(quota.has_value());
+  EXPECT_EQ(quota->violations(0).subject(), "max_bricks");
+}
+
 }  // namespace
 }  // namespace bccskel
