@@ -10,9 +10,11 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.4;         // of the way from the anchor
-constexpr double kAnchorRadii = 3;     // how far back the anchor lies, in radii
-constexpr double kAnchorMargin = 5;    // and in lattice units
+constexpr double kSlope = 0.4;       // of the way from the anchor
+constexpr double kAnchorRadii = 3;   // how far back the anchor lies, in radii
+constexpr double kAnchorMargin = 5;  // and in lattice units
+constexpr double kCutRadii = 1.75;   // a cut takes the way into a cap or a corner at most, in radii
+constexpr double kCutMargin = 4;     // and in lattice units
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
@@ -77,7 +79,19 @@ class TipPlacer {
     }
   }
 
-  void Trim() { CutAfter(BestFrom(0)); }
+  // Position in the path of the first point that may become the tip. What is cut off must lie in
+  // the cap that the new tip is the center of: a body behind a short limb has a larger distance
+  // than the limb, but the limb is no part of it.
+  size_t FirstCut() const {
+    double length = 0;
+    for (size_t n = path_.size() - 1; n > 0; --n) {
+      length += set_.Between(path_[n], path_[n - 1]);
+      if (length > kCutRadii * set_.RadiusOf(path_[n - 1]) + kCutMargin) return n;
+    }
+    return 0;
+  }
+
+  void Trim() { CutAfter(BestFrom(FirstCut())); }
 
   void Extend() {
     const size_t old_size = path_.size();

@@ -61,6 +61,26 @@ TEST(Tips, LieWhereTheAxisOfACapsuleEnds) {
   }
 }
 
+// Along the branch of a leg the distance falls from that of the body to that of the leg.
+TEST(Tips, OfAShortLegStayOutsideTheBody) {
+  const std::array<double, 3> center = {30, 30, 30}, above = {30, 30, 30.5}, foot = {30, 30, 66};
+  const Volume body = Capsule(center, above, 24, {1, 1, 1});
+  const Volume leg = Capsule(center, foot, 7, {1, 1, 1});
+  VolumeBuilder builder({60, 60, 80});
+  body.ForEachPoint([&](LatticePoint p) { builder.Add(p); });
+  leg.ForEachPoint([&](LatticePoint p) { builder.Add(p); });
+  for (ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
+    const auto result =
+        Skeletonize(*VolumeBuilder(builder).Build(), {.thinning = {.method = method}}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    double gap = 1000;
+    for (const SkeletonNode& node : result->graph.nodes) {
+      gap = std::min(gap, Gap(result->graph.PositionOf(node.at), foot));
+    }
+    EXPECT_LT(gap, 3);
+  }
+}
+
 // One cylinder, sampled alike along all axes and five times coarser along z.
 TEST(UnequalSpacing, GivesTheSameCenterLineAndRadius) {
   const std::array<double, 3> a = {14, 14, 20}, b = {30, 44, 100};
