@@ -144,6 +144,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddOutputs(command, arguments.outputs);
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
+  AddSkeletonImages(command, arguments.images);
   CLI::Option* server = AddServer(command, arguments);
   command
       .add_flag_callback(
@@ -296,6 +297,18 @@ Complaint ObjectComplaint(const std::string& input, const VoxelizeOptions& grid,
   return "--label, --range, --threshold and the like are for images" + is;
 }
 
+Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
+  if (!arguments.images.wanted()) return std::nullopt;
+  for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
+    if (!path.empty() && !path.ends_with(".nrrd")) return path + ": does not end in .nrrd";
+    if (Complaint c = OverwriteComplaint(arguments.input, path); c.has_value()) return c;
+  }
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  if (!kind.ok() || *kind == InputKind::kImage) return std::nullopt;
+  return "--branch-image and --curve-image are for images; " + arguments.input + " is " +
+         std::string(InputKindPhrase(*kind));
+}
+
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
   for (const std::string& output : arguments.outputs) {
     if (Complaint c = IfError(exporting::SkeletonFormatOf(output).status()); c.has_value())
@@ -306,6 +319,7 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
       c.has_value()) {
     return c;
   }
+  if (Complaint c = ImagesComplaint(arguments); c.has_value()) return c;
   return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
 }
 
@@ -344,7 +358,7 @@ Complaint ComplaintAbout(const LabelsArguments& arguments) {
     if (Complaint c = IfError(CheckLabelOutput(output)); c.has_value()) return c;
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
-  return IfError(CheckThinningOptions(arguments.skeletonize.thinning));
+  return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
 }
 
 Complaint ComplaintAbout(const InfoArguments& arguments) {

@@ -49,6 +49,7 @@ struct SkeletonizeArguments {
   std::vector<std::string> outputs;
   VoxelizeOptions grid;  // of a mesh
   ImageArguments image;
+  SkeletonImages images;
   SkeletonizeOptions skeletonize;
   Place place = Place::kServer;
   std::string server = "127.0.0.1:50051";

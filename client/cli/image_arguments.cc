@@ -178,6 +178,17 @@ void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
   AddLayout(command, arguments);
 }
 
+void AddSkeletonImages(CLI::App& command, SkeletonImages& images) {
+  command
+      .add_option("--branch-image", images.branches,
+                  "Of an image: write which branch is nearest to each voxel of the object (.nrrd)")
+      ->option_text("FILE");
+  command
+      .add_option("--curve-image", images.curves,
+                  "Of an image: write the voxels that the curves run through (.nrrd)")
+      ->option_text("FILE");
+}
+
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {
   BCCSKEL_ASSIGN_OR_RETURN(ForegroundRule rule, UprightRule(arguments));
   return arguments.invert ? rule.Inverted() : rule;

@@ -29,11 +29,21 @@ struct ImageArguments {
   bool given = false;  // any of these options
 };
 
+// Images, on the grid of the one that was read, that show its skeleton. Empty: none.
+struct SkeletonImages {
+  std::string branches;  // the nearest branch of every voxel of the object
+  std::string curves;    // the voxels that curves run through
+
+  bool wanted() const { return !branches.empty() || !curves.empty(); }
+};
+
 // Adds the options to a command that takes images.
 void AddImage(CLI::App& command, ImageArguments& arguments);
 
 // The same for a command that takes images of labels.
 void AddLabelImage(CLI::App& command, ImageArguments& arguments);
+
+void AddSkeletonImages(CLI::App& command, SkeletonImages& images);
 
 // Errors: INVALID_ARGUMENT, as ForegroundRule's.
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);

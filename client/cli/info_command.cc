@@ -33,7 +33,7 @@ ExitCode AboutMesh(const InfoArguments& arguments) {
 ExitCode AboutImage(const InfoArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<ImageObject> object =
-      ConvertImageFile(arguments.file, arguments.image, team.context());
+      ConvertImageFile(arguments.file, arguments.image, KeptVoxels::kNone, team.context());
   if (!object.ok()) return Fail(object.status());
   if (arguments.common.summary == SummaryStyle::kText) return Print(ImageText(object->image));
   return Print(Wrapped(arguments, "image", ImageJson(object->image)));

@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
 #define BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
@@ -9,6 +11,7 @@
 #include "core/certificate/certificate.h"
 #include "core/exec/context.h"
 #include "core/image/image_info.h"
+#include "core/labels/voxel_runs.h"
 #include "core/volume/volume.h"
 
 namespace bccskel::cli {
@@ -23,12 +26,15 @@ struct ImageStage {
 struct ImageObject {
   Volume volume;
   ImageStage image;
+  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if wanted
 };
+
+enum class KeptVoxels : uint8_t { kNone, kAll };
 
 // Reads an image slice by slice and converts its foreground.
 // Errors: as OpenImage(), ForegroundOf() and MaskConverter; every message names the path.
 absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
-                                             const ImageArguments& arguments,
+                                             const ImageArguments& arguments, KeptVoxels kept,
                                              const exec::Context& context);
 
 // OK where the object has the topology of the mask that it was made from. A sampling may change

@@ -16,8 +16,8 @@ absl::StatusOr<Volume> LoadObject(const ResultArguments& arguments, const exec::
   BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.object, arguments.image));
   if (kind == InputKind::kVolume) return ReadVolumeFile(arguments.object, {}, context);
   if (kind == InputKind::kImage) {
-    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
-                             ConvertImageFile(arguments.object, arguments.image, context));
+    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImageFile(arguments.object, arguments.image,
+                                                                  KeptVoxels::kNone, context));
     return std::move(object.volume);
   }
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,

@@ -12,6 +12,8 @@
 #include "client/skeletonize_client.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
+#include "core/labels/edge_image.h"
+#include "core/labels/nrrd_writer.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::cli {
@@ -24,6 +26,7 @@ struct Object {
   Volume volume;
   std::optional<MeshStage> mesh = std::nullopt;
   std::optional<ImageStage> image = std::nullopt;
+  std::optional<LabeledObjects> voxels = std::nullopt;  // where images are wanted
 };
 
 absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
@@ -43,9 +46,11 @@ absl::StatusOr<Object> FromVolume(const SkeletonizeArguments& arguments,
 
 absl::StatusOr<Object> FromImage(const SkeletonizeArguments& arguments,
                                  const exec::Context& context) {
+  const KeptVoxels kept = arguments.images.wanted() ? KeptVoxels::kAll : KeptVoxels::kNone;
   BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
-                           ConvertImageFile(arguments.input, arguments.image, context));
-  return Object{std::move(object.volume), std::nullopt, std::move(object.image)};
+                           ConvertImageFile(arguments.input, arguments.image, kept, context));
+  return Object{std::move(object.volume), std::nullopt, std::move(object.image),
+                std::move(object.voxels)};
 }
 
 absl::StatusOr<Object> Load(const SkeletonizeArguments& arguments, const exec::Context& context) {
@@ -116,6 +121,29 @@ absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments
   return files;
 }
 
+// Writes the images of the skeleton and adds them to the files.
+absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& object,
+                         const SkeletonGraph& graph, const exec::Context& context,
+                         std::vector<WrittenFile>& files) {
+  const SkeletonImages& images = arguments.images;
+  if (!images.wanted() || object.voxels->objects.empty()) return absl::OkStatus();
+  const MaskGrid& grid = object.voxels->grid;
+  const LabeledObject& voxels = object.voxels->objects.front();
+  if (!images.branches.empty()) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const SparseImage branches,
+        NearestEdges(grid, voxels, graph, arguments.image.mask.adjacency, context));
+    BCCSKEL_RETURN_IF_ERROR(WriteNrrd(images.branches, grid, branches));
+    files.push_back({images.branches, "every voxel's nearest branch: its index in the graph + 1"});
+  }
+  if (!images.curves.empty()) {
+    BCCSKEL_ASSIGN_OR_RETURN(const SparseImage curves, DrawSkeleton(grid, voxels, graph));
+    BCCSKEL_RETURN_IF_ERROR(WriteNrrd(images.curves, grid, curves));
+    files.push_back({images.curves, "the voxels of each branch: its index in the graph + 1"});
+  }
+  return absl::OkStatus();
+}
+
 ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (arguments.place == Place::kLocal) return Fail(error);
   const std::string message(error.message());
@@ -154,6 +182,8 @@ ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop)
   if (!kept.ok()) return Fail(kept);
   absl::StatusOr<std::vector<WrittenFile>> files = WriteOutputs(arguments, *object, *result);
   if (!files.ok()) return FailWriting(arguments, files.status());
+  const absl::Status shown = WriteImages(arguments, *object, result->graph, team.context(), *files);
+  if (!shown.ok()) return FailWith(ExitCode::kOutput, shown);
   const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,
                                          object->image, *std::move(files), SecondsSince(start)});
   return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;

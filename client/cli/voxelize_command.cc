@@ -58,8 +58,8 @@ absl::StatusOr<Voxelized> FromMesh(const VoxelizeArguments& arguments,
 
 absl::StatusOr<Voxelized> FromImage(const VoxelizeArguments& arguments,
                                     const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
-                           ConvertImageFile(arguments.input, arguments.image, context));
+  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImageFile(arguments.input, arguments.image,
+                                                                KeptVoxels::kNone, context));
   BCCSKEL_ASSIGN_OR_RETURN(const BettiNumbers betti, CountBettiNumbers(object.volume, context));
   BCCSKEL_RETURN_IF_ERROR(
       CheckConversion(arguments.input, arguments.image, object.image.mask, betti));

@@ -128,6 +128,27 @@ class ImagesTest(harness.TestCase):
         self.assertEqual(direct["certificate"]["mask"], direct["certificate"]["skeleton"])
         self.succeed("view", self.path("s.json"), "--object", ring_file, "-o", self.path("v.html"))
 
+    def test_images_show_the_branch_of_every_voxel_and_the_voxels_of_the_curves(self):
+        ring_file = self.write_ring()
+        summary = self.skeletonize(ring_file, "--branch-image", self.path("b.nrrd"),
+                                   "--curve-image", self.path("c.nrrd"))
+        branches, curves = (self.read_nrrd(name) for name in ("b.nrrd", "c.nrrd"))
+        inside = ring() > 0
+        self.assertTrue(((branches > 0) == inside).all())
+        self.assertTrue((inside[curves > 0]).all())
+        self.assertGreater((curves > 0).sum(), 10)
+        self.assertLess((curves > 0).sum(), inside.sum())
+        self.assertTrue((branches[curves > 0] == curves[curves > 0]).all())
+        self.assertLessEqual(branches.max(), summary["edges"])
+        header = (self.folder / "b.nrrd").read_bytes().split(b"\n\n")[0].decode()
+        self.assertIn("space origin: (100,200,300)", header)
+
+    def read_nrrd(self, name):
+        """Index (z, y, x)."""
+        header, data = (self.folder / name).read_bytes().split(b"\n\n", 1)
+        self.assertIn(b"sizes: 9 8 7", header)
+        return numpy.frombuffer(gzip.decompress(data), "<u4").reshape(7, 8, 9)
+
     def test_the_readme_names_every_key_of_an_image(self):
         readme = (harness.SOURCES / "client/README.md").read_text()
         info = json.loads(self.succeed("info", self.write_ring(), "--json"))
@@ -136,6 +157,8 @@ class ImagesTest(harness.TestCase):
 
     def test_options_of_images_are_for_images(self):
         wrong = [("are for images", "a.off", "--label", 1),
+                 ("are for images", "a.off", "--branch-image", "b.nrrd"),
+                 ("does not end in .nrrd", "a.nii", "--curve-image", "b.tif"),
                  ("are for meshes", "a.nii", "--points", 9),
                  ("excludes", "a.nii", "--label", 1, "--below", 0),
                  ("holds no number", "a.nii", "--range", "3,2"),

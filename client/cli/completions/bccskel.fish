@@ -41,6 +41,8 @@ __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-header -d 'Bytes in front of raw voxels'
 __bccskel_option labels -x -l min-voxels -d 'Leave out smaller labels'
 __bccskel_option 'submit skeletonize' -x -l server -a '127.0.0.1:50051 unix:' -d 'Where the server is'
+__bccskel_option skeletonize -r -l branch-image -d 'Nearest branch of each voxel'
+__bccskel_option skeletonize -r -l curve-image -d 'Voxels of the curves'
 __bccskel_option skeletonize -f -l local -d 'Compute on this machine'
 __bccskel_option 'submit skeletonize labels' -x -l method -a 'directional directional-alternating symmetric' -d 'How points are chosen for removal'
 __bccskel_option 'submit skeletonize labels' -x -l kind -a 'curve surface kernel isthmus-curve' -d 'What to keep'
