@@ -1,0 +1,37 @@
+#ifndef BCCSKEL_SERVER_DURABLE_DURABLE_OPTIONS_H_
+#define BCCSKEL_SERVER_DURABLE_DURABLE_OPTIONS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "server/durable/records.h"
+
+namespace bccskel::server {
+
+struct DurableOptions {
+  // Made where it does not exist; one process at a time owns it. Empty: nothing is durable, and
+  // there is no ledger.
+  std::string data_directory;
+
+  // Uploads count with their declared size. 0: no limit.
+  uint64_t max_disk_bytes = 0;
+  uint64_t max_tenant_disk_bytes = 0;
+
+  std::chrono::seconds keep_uploads = std::chrono::hours(24);  // unfinished, since the last byte
+  std::chrono::seconds keep_results = std::chrono::hours(24 * 7);  // and their jobs, since the end
+  std::chrono::seconds keep_volumes = std::chrono::hours(24);      // since the last use
+  std::chrono::milliseconds clean_up_interval = std::chrono::minutes(1);
+
+  int max_unfinished_jobs = 10'000;  // all tenants together
+  int max_runs = 4;                  // at the runner at the same time, besides one-call jobs
+  uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
+
+  std::string algorithm_version;  // results of another one are not found again
+  std::function<Time()> now = [] { return std::chrono::system_clock::now(); };
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_DURABLE_OPTIONS_H_

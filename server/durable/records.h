@@ -1,0 +1,108 @@
+#ifndef BCCSKEL_SERVER_DURABLE_RECORDS_H_
+#define BCCSKEL_SERVER_DURABLE_RECORDS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+
+namespace bccskel::server {
+
+// What callers see of uploads, volumes and jobs that outlive the server's process. Every name
+// belongs to one tenant; for any other it does not exist.
+
+using Time = std::chrono::system_clock::time_point;
+
+enum class JobState {
+  kReceiving,  // its volume is still being uploaded
+  kQueued,
+  kRunning,
+  kSucceeded,  // this and what follows never changes
+  kFailed,
+  kCancelled,
+};
+inline bool IsTerminal(JobState state) { return state >= JobState::kSucceeded; }
+
+// `declaration` and `options` are bytes that the ledger keeps and compares but does not read: see
+// JobCodec. Equal bytes mean the same thing.
+struct UploadInfo {
+  std::string name;  // uploads/...
+  std::string declaration;
+  uint64_t size_bytes = 0;       // as declared
+  uint64_t committed_bytes = 0;  // go on from here
+  std::string volume;            // its name, once the upload is finished; else empty
+  std::string job;               // that waits for it; empty without one
+};
+
+struct VolumeInfo {
+  std::string name;  // volumes/...
+  std::string declaration;
+  std::string blob_digest;    // SHA-256 of the bytes as sent, 64 lower case hexadecimal digits
+  std::string volume_digest;  // core/io/volume_digest.h; empty until a first job has decoded it
+  uint64_t size_bytes = 0;
+  Time created;
+};
+
+struct JobInfo {
+  std::string name;    // jobs/...
+  std::string volume;  // empty while it is received
+  std::string upload;  // that it came with; empty for a job made from a volume
+  std::string request_id;
+  std::string options;
+  int priority = 0;
+  JobState state = JobState::kQueued;
+  absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
+  int attempts = 0;       // begun so far
+  uint64_t sequence = 0;  // of its last stored event
+  uint64_t result_records = 0;  // of a job that succeeded
+  uint64_t result_bytes = 0;
+  Time created;
+  std::optional<Time> started;  // the last attempt
+  std::optional<Time> ended;
+};
+
+struct JobPage {
+  std::vector<JobInfo> jobs;  // newest first
+  std::string next_token;     // empty after the last page
+};
+
+// One thing that happened to a job. Sequence numbers of a job grow, also over restarts; numbers may
+// be left out.
+struct JobEvent {
+  struct StateChange {
+    JobState state = JobState::kQueued;
+    int attempt = 0;
+    absl::Status error;  // of a failed job
+  };
+  struct Progress {
+    exec::ShellProgress shell;
+    std::chrono::nanoseconds elapsed{0};  // since the computation began
+  };
+
+  uint64_t sequence = 0;  // from 1
+  Time time;
+  std::variant<StateChange, Progress> what;
+
+  // The last event of a job.
+  bool IsCompleted() const {
+    const auto* change = std::get_if<StateChange>(&what);
+    return change != nullptr && IsTerminal(change->state);
+  }
+};
+
+// A result is a list of records: the chunks of the skeleton, then those of the thinned volume, then
+// the summary. So record n is skeleton chunk n.
+struct ResultRecord {
+  enum class Kind : uint8_t { kSkeletonChunk = 1, kThinVolumeChunk = 2, kSummary = 3 };
+  Kind kind = Kind::kSkeletonChunk;
+  std::string bytes;  // the serialized message of that name
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_RECORDS_H_
