@@ -59,7 +59,7 @@ std::string AddressOf(const std::string& listen, int port) {
 class Server::Listener {
  public:
   Listener(JobPool& jobs, const JobPool::Limits& limits)
-      : skeletonization_(jobs, limits.volume), server_service_(limits) {}
+      : skeletonization_(gate_, jobs, limits.volume), server_service_(gate_, limits) {}
 
   // The port, 1 for a Unix socket, 0 where the address cannot be listened on.
   int Listen(const std::string& address) {
@@ -90,6 +90,7 @@ class Server::Listener {
   }
 
  private:
+  CallGate gate_;
   SkeletonizationService skeletonization_;
   ServerService server_service_;
   std::unique_ptr<grpc::Server> server_;

@@ -20,7 +20,8 @@ struct CallFacts {
 
   Clock::time_point started = Clock::now();
   Clock::time_point deadline = Clock::time_point::max();
-  std::string trace;  // the caller's traceparent, for the log
+  std::string trace;               // the caller's traceparent, for the log
+  std::string tenant = "default";  // whose call it is; "default" for all without tokens
 
   // Why gRPC says that the call is over.
   absl::Status CancelStatus() const;

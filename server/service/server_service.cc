@@ -29,6 +29,8 @@ void Set(v1::ServerLimits& message, const JobPool::Limits& limits) {
 grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerContext* context,
                                                          const v1::GetCapabilitiesRequest*,
                                                          v1::GetCapabilitiesResponse* response) {
+  const absl::StatusOr<CallFacts> facts = gate_.Enter(*context);
+  if (!facts.ok()) return EndUnary(*context, facts.status());
   response->set_server_version(std::string(Version()));
   response->set_algorithm_version(kAlgorithmVersion);
   response->add_api_versions("v1");
@@ -40,9 +42,7 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   response->add_compressions(v1::VOLUME_COMPRESSION_ZSTD);
   for (int bytes : {1, 2, 4, 8}) response->add_label_types(wire::LabelTypeOf(bytes));
   Set(*response->mutable_limits(), limits_);
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(grpc::Status::OK);
-  return reactor;
+  return EndUnary(*context, absl::OkStatus());
 }
 
 }  // namespace bccskel::server

@@ -3,6 +3,7 @@
 
 #include "bccskel/v1/server_service.grpc.pb.h"
 #include "server/jobs/job_pool.h"
+#include "server/service/call_gate.h"
 
 namespace bccskel::server {
 
@@ -10,13 +11,16 @@ inline constexpr int kMaxMessageBytes = 4 << 20;
 
 class ServerService final : public v1::ServerService::CallbackService {
  public:
-  explicit ServerService(const JobPool::Limits& limits) : limits_(limits) {}
+  // Needs: `gate` outlives the service's calls.
+  ServerService(const CallGate& gate, const JobPool::Limits& limits)
+      : gate_(gate), limits_(limits) {}
 
   grpc::ServerUnaryReactor* GetCapabilities(grpc::CallbackServerContext* context,
                                             const v1::GetCapabilitiesRequest* request,
                                             v1::GetCapabilitiesResponse* response) override;
 
  private:
+  const CallGate& gate_;
   const JobPool::Limits limits_;
 };
 

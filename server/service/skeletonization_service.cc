@@ -7,12 +7,12 @@ namespace bccskel::server {
 
 grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>*
 SkeletonizationService::Skeletonize(grpc::CallbackServerContext* context) {
-  return StartStream<SkeletonizeStream>(*context, runner_, limits_);
+  return StartStream<SkeletonizeStream>(*context, gate_, runner_, limits_);
 }
 
 grpc::ServerBidiReactor<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>*
 SkeletonizationService::SkeletonizeLabels(grpc::CallbackServerContext* context) {
-  return StartStream<LabelsStream>(*context, runner_, limits_);
+  return StartStream<LabelsStream>(*context, gate_, runner_, limits_);
 }
 
 }  // namespace bccskel::server

@@ -3,14 +3,15 @@
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "server/jobs/job_runner.h"
+#include "server/service/call_gate.h"
 
 namespace bccskel::server {
 
 class SkeletonizationService final : public v1::SkeletonizationService::CallbackService {
  public:
-  // Needs: `runner` outlives the service's calls.
-  SkeletonizationService(JobRunner& runner, const VolumeLimits& limits)
-      : runner_(runner), limits_(limits) {}
+  // Needs: `gate` and `runner` outlive the service's calls.
+  SkeletonizationService(const CallGate& gate, JobRunner& runner, const VolumeLimits& limits)
+      : gate_(gate), runner_(runner), limits_(limits) {}
 
   grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>* Skeletonize(
       grpc::CallbackServerContext* context) override;
@@ -18,6 +19,7 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
   SkeletonizeLabels(grpc::CallbackServerContext* context) override;
 
  private:
+  const CallGate& gate_;
   JobRunner& runner_;
   const VolumeLimits limits_;
 };

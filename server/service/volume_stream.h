@@ -13,7 +13,7 @@
 #include "absl/status/status.h"
 #include "core/exec/status_macros.h"
 #include "server/jobs/job_runner.h"
-#include "server/service/call_facts.h"
+#include "server/service/call_gate.h"
 #include "server/service/request_sequence.h"
 #include "server/status_mapping.h"
 
@@ -41,10 +41,9 @@ class VolumeStream
   using Response = typename Call::Response;
   using Result = typename Call::Result;
 
-  // Needs: `context` and `runner` outlive the call.
-  VolumeStream(const grpc::CallbackServerContext& context, JobRunner& runner,
-               const VolumeLimits& limits)
-      : runner_(runner), limits_(limits), facts_(FactsOf(context)) {}
+  // Needs: `runner` outlives the call.
+  VolumeStream(CallFacts facts, JobRunner& runner, const VolumeLimits& limits)
+      : runner_(runner), limits_(limits), facts_(std::move(facts)) {}
 
   // From here on the stream owns itself, until gRPC is done with it and the job has ended.
   void Begin() {
@@ -220,11 +219,24 @@ void VolumeStream<Call>::OnDone() {
   outbox_ = typename Call::Outbox();
 }
 
-// Starts a call's handler. Needs: as VolumeStream().
+// A call that the gate has refused.
+template <typename Request, typename Response>
+class RefusedStream final : public grpc::ServerBidiReactor<Request, Response> {
+ public:
+  explicit RefusedStream(const absl::Status& why) { this->Finish(ToGrpcStatus(why)); }
+  void OnDone() override { delete this; }
+};
+
+// Starts a call's handler. Needs: `runner` outlives the call.
 template <typename Stream>
-Stream* StartStream(const grpc::CallbackServerContext& context, JobRunner& runner,
-                    const VolumeLimits& limits) {
-  const auto stream = std::make_shared<Stream>(context, runner, limits);
+grpc::ServerBidiReactor<typename Stream::Request, typename Stream::Response>* StartStream(
+    const grpc::CallbackServerContext& context, const CallGate& gate, JobRunner& runner,
+    const VolumeLimits& limits) {
+  absl::StatusOr<CallFacts> facts = gate.Enter(context);
+  if (!facts.ok()) {
+    return new RefusedStream<typename Stream::Request, typename Stream::Response>(facts.status());
+  }
+  const auto stream = std::make_shared<Stream>(*std::move(facts), runner, limits);
   stream->Begin();
   return stream.get();
 }

@@ -1,0 +1,26 @@
+#ifndef BCCSKEL_SERVER_SERVICE_CALL_GATE_H_
+#define BCCSKEL_SERVER_SERVICE_CALL_GATE_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include "absl/status/statusor.h"
+#include "server/service/call_facts.h"
+
+namespace bccskel::server {
+
+// Where every call of every service comes in: whose is it? A handler learns the tenant here and
+// nowhere else.
+// Threads: safe.
+class CallGate {
+ public:
+  // Errors: UNAUTHENTICATED for a missing or wrong token.
+  absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context) const;
+};
+
+// Ends a unary call: with OK, or with the error and its details.
+grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
+                                   const absl::Status& status);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SERVICE_CALL_GATE_H_
