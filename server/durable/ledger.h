@@ -73,6 +73,9 @@ class Ledger {
   // ---- Uploads. Chunks have at most 1 MiB.
 
   struct NewUpload {
+    // "uploads/" and 1 to 64 of a-z, A-Z, 0-9, '-', '_'; empty: the ledger makes one up. The same
+    // again, with the same declaration and job, yields the upload as it is.
+    std::string name;
     std::string declaration;
     // A job that is to run as soon as the volume is complete: the one-call path. It is in state
     // kReceiving from the moment of `done`; its volume is decoded while it comes, when the runner
@@ -80,10 +83,12 @@ class Ledger {
     struct ThenJob {
       std::string options;
       int priority = 0;
+      int threads = 0;  // wanted; 0 leaves it to the server
     };
     std::optional<ThenJob> then_job;
   };
-  // Errors: INVALID_ARGUMENT; RESOURCE_EXHAUSTED for a quota; with a job the runner's Refusal.
+  // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name that was used with something else;
+  //         RESOURCE_EXHAUSTED for a quota; with a job the runner's Refusal.
   virtual void CreateUpload(const std::string& tenant, const NewUpload& upload,
                             Done<UploadInfo> done) = 0;
   // Yields the committed size. `done` comes when there is room for more. Without `crc32c` (of
@@ -130,6 +135,7 @@ class Ledger {
     std::string volume;
     std::string options;
     int priority = 0;  // larger ones first, within the tenant
+    int threads = 0;   // wanted; 0 leaves it to the server
     Mode mode = Mode::kCreate;
   };
   // With kValidateOnly the job that would be made, without a name.
@@ -138,9 +144,13 @@ class Ledger {
   //         can never be admitted; kQueueFull.
   virtual void CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) = 0;
   virtual void GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) = 0;
-  // Errors: INVALID_ARGUMENT for a token that is none of ours.
-  virtual void ListJobs(const std::string& tenant, int page_size, const std::string& page_token,
-                        Done<JobPage> done) = 0;
+  struct JobQuery {
+    int page_size = 50;            // at most; 1..1000
+    std::string page_token;        // empty for the first page
+    std::vector<JobState> states;  // only these; none means all
+  };
+  // Errors: INVALID_ARGUMENT for a token that did not come with these states.
+  virtual void ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done) = 0;
   // Yields the job as it is then: cancelled, unless it had ended before.
   virtual void CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) = 0;
   // Erases the job, its upload if unfinished, and its result unless another job has the same. A job

@@ -37,6 +37,7 @@ struct UploadInfo {
   uint64_t committed_bytes = 0;  // go on from here
   std::string volume;            // its name, once the upload is finished; else empty
   std::string job;               // that waits for it; empty without one
+  Time expires;                  // unless bytes come
 };
 
 struct VolumeInfo {
@@ -46,6 +47,12 @@ struct VolumeInfo {
   std::string volume_digest;  // core/io/volume_digest.h; empty until a first job has decoded it
   uint64_t size_bytes = 0;
   Time created;
+  Time expires;  // unless it is used
+};
+
+struct JobProgress {
+  exec::ShellProgress shell;
+  std::chrono::nanoseconds elapsed{0};  // since the computation began
 };
 
 struct JobInfo {
@@ -55,15 +62,19 @@ struct JobInfo {
   std::string request_id;
   std::string options;
   int priority = 0;
+  int threads = 0;  // wanted; 0 leaves it to the server
   JobState state = JobState::kQueued;
   absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
   int attempts = 0;       // begun so far
   uint64_t sequence = 0;  // of its last stored event
   uint64_t result_records = 0;  // of a job that succeeded
   uint64_t result_bytes = 0;
+  std::string summary;                  // its last record; empty in lists
+  std::optional<JobProgress> progress;  // of a running job, once there is one; not in lists
   Time created;
   std::optional<Time> started;  // the last attempt
   std::optional<Time> ended;
+  std::optional<Time> expires;  // once it has ended
 };
 
 struct JobPage {
@@ -79,14 +90,9 @@ struct JobEvent {
     int attempt = 0;
     absl::Status error;  // of a failed job
   };
-  struct Progress {
-    exec::ShellProgress shell;
-    std::chrono::nanoseconds elapsed{0};  // since the computation began
-  };
-
   uint64_t sequence = 0;  // from 1
   Time time;
-  std::variant<StateChange, Progress> what;
+  std::variant<StateChange, JobProgress> what;
 
   // The last event of a job.
   bool IsCompleted() const {
