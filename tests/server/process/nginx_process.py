@@ -1,0 +1,59 @@
+"""nginx as docker/nginx configures it, in front of a server that listens on a Unix socket."""
+
+import contextlib
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import time
+
+NGINX = shutil.which("nginx", path=os.environ.get("PATH", "") + ":/usr/sbin")
+CONFIGURATION = pathlib.Path(__file__).resolve().parents[3] / "docker" / "nginx"
+TIMEOUT_S = 60
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def configure(folder, server_socket, port):
+    """The committed files, with this site's listener and upstream."""
+    site = folder / "nginx"
+    shutil.copytree(CONFIGURATION, site)
+    (site / "listeners" / "plain.conf").write_text(f"listen 127.0.0.1:{port} http2;\n")
+    upstream = site / "upstreams" / "socket.conf"
+    text = upstream.read_text()
+    assert "/run/bccskel/server.sock" in text
+    upstream.write_text(text.replace("/run/bccskel/server.sock", server_socket))
+    # Two of them at a time must not share the files that nginx writes.
+    main = site / "nginx.conf"
+    main.write_text(main.read_text().replace("/tmp/nginx", f"{folder}/written"))
+    return site
+
+
+def wait_for(port, process):
+    end = time.monotonic() + TIMEOUT_S
+    while time.monotonic() < end and process.poll() is None:
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)):
+            return
+        time.sleep(0.02)
+    raise RuntimeError("nginx does not listen")
+
+
+@contextlib.contextmanager
+def nginx_in_front(folder, server_socket):
+    """The address to call while nginx runs. `folder` is a pathlib.Path of our own."""
+    port = free_port()
+    site = configure(folder, server_socket, port)
+    user = " user root;" if os.geteuid() == 0 else ""  # who may open the socket
+    process = subprocess.Popen([NGINX, "-p", site, "-c", site / "nginx.conf", "-g",
+                                f"daemon off;{user}"], stderr=subprocess.DEVNULL)
+    try:
+        wait_for(port, process)
+        yield f"127.0.0.1:{port}"
+    finally:
+        process.terminate()
+        process.wait(TIMEOUT_S)

@@ -1,0 +1,82 @@
+"""The service through nginx, as docker/nginx sets it up: same results, and errors that clients
+understand."""
+
+import pathlib
+import tempfile
+import unittest
+
+import grpc
+import numpy as np
+
+import nginx_process
+import server_process
+from nginx_process import nginx_in_front
+from server_process import ServerProcess
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+
+
+@unittest.skipIf(nginx_process.NGINX is None, "nginx is not installed")
+class NginxTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        self.socket = f"{self.path}/server.sock"
+
+    def front(self):
+        front = nginx_in_front(self.path, self.socket)
+        address = front.__enter__()
+        self.addCleanup(front.__exit__, None, None, None)
+        return address
+
+    def channel(self, address):
+        channel = grpc.insecure_channel(address)
+        self.addCleanup(channel.close)
+        return channel
+
+    def test_the_skeleton_is_the_same_as_without_nginx(self):
+        front = self.front()
+        with ServerProcess(listen=f"unix:{self.socket}"):
+            ways = [example.skeletonize(self.channel(address), example.torus()).summary.sha256
+                    for address in (front, f"unix:{self.socket}")]
+        self.assertEqual(ways[0], ways[1])
+
+    def test_a_volume_of_megabytes_passes(self):
+        """nginx by itself stops at 1 MiB."""
+        noise = np.random.default_rng(1).random((2, 200, 200, 200)) < 0.5
+        noise[:, 1:-1, 1:-1, 1:-1] = True  # one component with a rough surface
+        front = self.front()
+        with ServerProcess(listen=f"unix:{self.socket}"):
+            skeleton = example.skeletonize(self.channel(front), noise)
+        self.assertEqual(skeleton.summary.object_points, int(noise.sum()))
+
+    def test_an_error_keeps_its_code_and_details(self):
+        front = self.front()
+        with ServerProcess("--max-volume-bytes", "1000", listen=f"unix:{self.socket}"):
+            with self.assertRaises(grpc.RpcError) as caught:
+                example.skeletonize(self.channel(front), example.torus())
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.RESOURCE_EXHAUSTED)
+        self.assertIn("limit is 1000", caught.exception.details())
+        trailers = dict(caught.exception.trailing_metadata())
+        self.assertIn(b"VOLUME_TOO_LARGE", trailers["grpc-status-details-bin"])
+
+    def test_without_a_server_callers_hear_that_they_may_try_again(self):
+        with self.assertRaises(grpc.RpcError) as caught:
+            example.skeletonize(self.channel(self.front()), example.torus())
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAVAILABLE)
+
+    def test_other_services_stay_inside(self):
+        front = self.front()
+        with ServerProcess(listen=f"unix:{self.socket}"):
+            call = self.channel(front).unary_unary(
+                "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")
+            with self.assertRaises(grpc.RpcError) as caught:
+                call(b"", timeout=60)
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED)
+
+
+if __name__ == "__main__":
+    unittest.main()
