@@ -78,21 +78,30 @@ void BackgroundGaps::ForEachNodeOfRow(BrickCoordinates first, int32_t last_x, si
   }
 }
 
-int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hints,
-                                UnionFind& sets) const {
+std::optional<BackgroundGaps::Gap> BackgroundGaps::GapBefore(size_t place) const {
   const bool odd = place >= rows_[0].size();
   const Sublattice sublattice = odd ? Sublattice::kOdd : Sublattice::kEven;
   const Places& places = rows_[odd ? 1 : 0];
   const size_t n = odd ? place - rows_[0].size() : place;
-  if (!IsGapBefore(places, n)) return 0;
-  const size_t node = NodeBefore(sublattice, n, RowOf(places[n]));
-  const BrickCoordinates brick = BrickAtPlace(places[n - 1] + 1, sublattice);
-  const int32_t last_x = BrickAtPlace(places[n], sublattice).bx - 1;
+  if (!IsGapBefore(places, n)) return std::nullopt;
+  return Gap{BrickAtPlace(places[n - 1] + 1, sublattice),
+             BrickAtPlace(places[n], sublattice).bx - 1,
+             NodeBefore(sublattice, n, RowOf(places[n]))};
+}
+
+int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hints,
+                                UnionFind& sets) const {
+  const std::optional<Gap> gap = GapBefore(place);
+  if (!gap.has_value()) return 0;
+  const BrickCoordinates brick = gap->first;
+  const int32_t last_x = gap->last_x;
+  const Sublattice sublattice = brick.sublattice;
+  const bool odd = sublattice == Sublattice::kOdd;
   int64_t joined = 0;
   int row = 0;
   const auto link = [&](BrickCoordinates first, int32_t last) {
     ForEachNodeOfRow(first, last, hints.of(brick, row++), [&](size_t other) {
-      joined += sets.Unite(first_member + node, first_member + other) ? 1 : 0;
+      joined += sets.Unite(first_member + gap->node, first_member + other) ? 1 : 0;
     });
   };
   for (const auto& [dy, dz] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,11 +45,23 @@ class BackgroundGaps {
   // Cost:  a few steps when `place`, taken from the last call, is not far off.
   size_t NodeAt(BrickCoordinates missing, size_t& place) const;
 
-  // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
-  // touch it in the eight neighboring rows. Node g is member first_member + g of the sets. Returns
-  // how many sets it joined.
+  // The missing bricks of one row from `first` to `last_x`.
+  struct Gap {
+    BrickCoordinates first;
+    int32_t last_x = 0;
+    size_t node = 0;
+
+    uint64_t BrickCount() const { return static_cast<uint64_t>(last_x - first.bx) + 1; }
+  };
+  // The gap before stored brick `place`, if there is one.
   // Needs: place < place_count().
   size_t place_count() const { return rows_[0].size() + rows_[1].size(); }
+  std::optional<Gap> GapBefore(size_t place) const;
+
+  // Unites that gap, if there is one, with the gaps and the outside that touch it in the eight
+  // neighboring rows. Node g is member first_member + g of the sets. Returns how many sets it
+  // joined.
+  // Needs: place < place_count().
   int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places, UnionFind& sets) const;
 
  private:

@@ -17,6 +17,8 @@ class UnionFind {
     for (size_t n = 0; n < size; ++n) parents_[n].store(n, std::memory_order_relaxed);
   }
 
+  size_t size() const { return parents_.size(); }
+
   // The set's smallest member. Relaxed order is enough: a parent that is read late is still an
   // ancestor, and only a root's parent is ever decided on, by compare and exchange.
   size_t Find(size_t n) {

@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_CORE_CERTIFICATE_COMPONENT_SETS_H_
+#define BCCSKEL_CORE_CERTIFICATE_COMPONENT_SETS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/certificate/background_gaps.h"
+#include "core/certificate/phase_components.h"
+#include "core/certificate/union_find.h"
+#include "core/exec/context.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// The connected components of an object, or of its background, the outside being one of those.
+// Which points belong together does not depend on threads; the names of the sets do.
+class ComponentSets {
+ public:
+  // Unfinished when the context says stop. `object` must outlive it.
+  ComponentSets(const Volume& object, Phase phase, const exec::Context& context);
+
+  int64_t count() const { return count_; }
+  const PhaseComponents& pieces() const { return pieces_; }
+  // The component of a piece: of a brick's main component or of a fragment.
+  size_t SetOf(size_t piece) { return sets_.Find(piece); }
+  // Component names are below this.
+  size_t name_limit() const { return sets_.size(); }
+
+  // Of the background: where no bricks are stored.
+  const BackgroundGaps& gaps() const { return *gaps_; }
+  size_t SetOfGap(size_t node) { return sets_.Find(pieces_.number_limit() + node); }
+  bool IsOutside(size_t set) { return set == SetOfGap(BackgroundGaps::kOutside); }
+
+  // The points of brick n whose component passes.
+  template <typename Passes>
+  BrickBits PointsWhere(BrickIndex n, Passes passes) {
+    BrickBits found;
+    if (!pieces_.HasPoints(n)) return found;
+    if (passes(SetOf(n))) found = pieces_.mains()[n];
+    if (const BrickFragments* split = pieces_.fragments(n); split != nullptr) {
+      split->fragments.ForEachSetBit([&](int bit) {
+        if (passes(SetOf(pieces_.NumberOf(n, bit)))) found.Set(bit);
+      });
+    }
+    return found;
+  }
+
+ private:
+  int64_t LinkGaps(const exec::Context& context);
+  int64_t LinkBricks(const Volume& object, const exec::Context& context);
+
+  PhaseComponents pieces_;
+  std::optional<BackgroundGaps> gaps_;
+  UnionFind sets_;  // pieces, then gaps
+  int64_t count_ = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_CERTIFICATE_COMPONENT_SETS_H_

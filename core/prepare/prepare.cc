@@ -1,0 +1,99 @@
+#include "core/prepare/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/prepare/denoise.h"
+#include "core/prepare/fill_cavities.h"
+#include "core/prepare/keep_components.h"
+
+namespace bccskel {
+namespace {
+
+// The least number of points that fill the volume. A cubic cell holds two points.
+uint64_t PointsIn(double volume, const Placement& placement) {
+  const double point = placement.spacing[0] * placement.spacing[1] * placement.spacing[2] / 2;
+  constexpr double kAllPoints = 0x1p63;
+  return static_cast<uint64_t>(std::min(std::ceil(volume / point), kAllPoints));
+}
+
+class Preparation {
+ public:
+  Preparation(const Volume& object, const PreparingOptions& options, const exec::Context& context)
+      : options_(options), context_(context) {
+    prepared_.object = object;
+  }
+
+  absl::StatusOr<PreparedObject> Run() && {
+    BCCSKEL_ASSIGN_OR_RETURN(prepared_.before, CountBettiNumbers(prepared_.object, context_));
+    if (options_.denoise_passes > 0) BCCSKEL_RETURN_IF_ERROR(RunDenoise());
+    if (options_.cavities == CavityFilling::kOn) {
+      BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kFillCavities,
+                                   FillCavities(prepared_.object, options_.max_bricks, context_)));
+    }
+    const uint64_t least =
+        std::max(options_.min_component_points,
+                 PointsIn(options_.min_component_volume, prepared_.object.placement()));
+    if (least > 0) {
+      BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kDropSmallComponents,
+                                   DropSmallComponents(prepared_.object, least, context_)));
+    }
+    if (options_.components == KeptComponents::kLargest) {
+      BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kKeepLargestComponent,
+                                   KeepLargestComponent(prepared_.object, context_)));
+    }
+    return std::move(prepared_);
+  }
+
+ private:
+  absl::Status RunDenoise() {
+    PreparingStep step = {.kind = PreparingStepKind::kDenoise};
+    for (int32_t pass = 0; pass < options_.denoise_passes; ++pass) {
+      BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume changed, Denoise(prepared_.object, context_));
+      if (changed.points_added + changed.points_removed == 0) break;
+      ++step.count;
+      step.points_added += changed.points_added;
+      step.points_removed += changed.points_removed;
+      prepared_.object = std::move(changed.object);
+    }
+    prepared_.steps.push_back(step);
+    return absl::OkStatus();
+  }
+
+  absl::Status Take(PreparingStepKind kind, absl::StatusOr<ChangedVolume> changed) {
+    if (!changed.ok()) return changed.status();
+    prepared_.object = std::move(changed->object);
+    prepared_.steps.push_back(
+        {kind, changed->count, changed->points_added, changed->points_removed});
+    return absl::OkStatus();
+  }
+
+  const PreparingOptions& options_;
+  const exec::Context& context_;
+  PreparedObject prepared_;
+};
+
+}  // namespace
+
+absl::Status CheckPreparingOptions(const PreparingOptions& options) {
+  if (options.denoise_passes < 0 || options.denoise_passes > kMaxDenoisePasses) {
+    return absl::InvalidArgumentError(absl::StrFormat("%d denoising passes: must be 0 to %d",
+                                                      options.denoise_passes, kMaxDenoisePasses));
+  }
+  if (!(options.min_component_volume >= 0 && std::isfinite(options.min_component_volume))) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("least volume of a component %g: must be 0 or more, and finite",
+                        options.min_component_volume));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
+                                       const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options));
+  return Preparation(object, options, context).Run();
+}
+
+}  // namespace bccskel

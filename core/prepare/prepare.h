@@ -1,0 +1,80 @@
+#ifndef BCCSKEL_CORE_PREPARE_PREPARE_H_
+#define BCCSKEL_CORE_PREPARE_PREPARE_H_
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+enum class CavityFilling : uint8_t { kOff, kOn };
+enum class KeptComponents : uint8_t { kAll, kLargest };
+
+// What is done to an object before it is thinned, in this order. Each step may change its topology.
+struct PreparingOptions {
+  // How often every point is set to the majority of itself and its 14 neighbors, up to
+  // kMaxDenoisePasses. Destroys what is one or two lattice units thick.
+  int32_t denoise_passes = 0;
+  // Makes object of all background that does not reach the outside.
+  CavityFilling cavities = CavityFilling::kOff;
+  // Components of fewer points are dropped.
+  uint64_t min_component_points = 0;
+  // The same by volume, in cubic world units; 0 drops none.
+  double min_component_volume = 0;
+  // Of two largest components the one stays that has the first point in brick order.
+  KeptComponents components = KeptComponents::kAll;
+
+  // A larger object is not made: cavities may hold far more bricks than the object.
+  uint64_t max_bricks = std::numeric_limits<uint32_t>::max() - 1;
+
+  // Whether anything is to be done.
+  bool Wanted() const {
+    return denoise_passes > 0 || cavities == CavityFilling::kOn || min_component_points > 0 ||
+           min_component_volume > 0 || components == KeptComponents::kLargest;
+  }
+  friend bool operator==(const PreparingOptions&, const PreparingOptions&) = default;
+};
+inline constexpr int32_t kMaxDenoisePasses = 16;
+
+// Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::Status CheckPreparingOptions(const PreparingOptions& options);
+
+enum class PreparingStepKind : uint8_t {
+  kDenoise,
+  kFillCavities,
+  kDropSmallComponents,
+  kKeepLargestComponent,
+};
+
+// What a step did.
+struct PreparingStep {
+  PreparingStepKind kind = PreparingStepKind::kDenoise;
+  // Passes that changed something, cavities filled, or components dropped.
+  uint64_t count = 0;
+  uint64_t points_added = 0;
+  uint64_t points_removed = 0;
+
+  friend bool operator==(const PreparingStep&, const PreparingStep&) = default;
+};
+
+struct PreparedObject {
+  Volume object;
+  BettiNumbers before;               // of the object as given
+  std::vector<PreparingStep> steps;  // those that were wanted, in their order
+};
+
+// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), CANCELLED,
+//         DEADLINE_EXCEEDED.
+// Threads: uses all of the context's; the result is the same for any number.
+absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
+                                       const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PREPARE_PREPARE_H_
