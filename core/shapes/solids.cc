@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bccskel::shapes {
 namespace {
@@ -89,6 +90,8 @@ class RoundConeRow {
   Span span_;
 };
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 struct SpansOnRow {
   double y;
   double z;
@@ -119,8 +122,23 @@ struct SpansOnRow {
                        SymmetricSpan(shell.inner_radius * shell.inner_radius - off_axis));
   }
   RowSpans operator()(const Block& block) const {
-    if (std::abs(y) > block.half_edges.y || std::abs(z) > block.half_edges.z) return {};
-    return {Span{-block.half_edges.x, block.half_edges.x}, Span{}};
+    Span span = {-kUnbounded, kUnbounded};
+    CutSlab(block.first, block.half_edges.x, span);
+    CutSlab(block.second, block.half_edges.y, span);
+    CutSlab(block.third(), block.half_edges.z, span);
+    return {span, Span{}};
+  }
+
+ private:
+  // Leaves the part of the span that is no farther than `half` from the plane through the origin.
+  void CutSlab(Vector normal, double half, Span& span) const {
+    const double height = y * normal.y + z * normal.z;
+    if (normal.x == 0) {
+      if (std::abs(height) > half) span = {};
+      return;
+    }
+    const double a = (-half - height) / normal.x, b = (half - height) / normal.x;
+    span = {std::max(span.low, std::min(a, b)), std::min(span.high, std::max(a, b))};
   }
 };
 
@@ -145,7 +163,16 @@ struct BoundsOfSolid {
     return Around({}, {outer, outer, torus.tube_radius});
   }
   Bounds operator()(const BallShell& shell) const { return AroundBall({}, shell.outer_radius); }
-  Bounds operator()(const Block& block) const { return Around({}, block.half_edges); }
+  Bounds operator()(const Block& block) const {
+    const Vector third = block.third();
+    const auto half = [&](double a, double b, double c) {
+      return block.half_edges.x * std::abs(a) + block.half_edges.y * std::abs(b) +
+             block.half_edges.z * std::abs(c);
+    };
+    return Around({}, {half(block.first.x, block.second.x, third.x),
+                       half(block.first.y, block.second.y, third.y),
+                       half(block.first.z, block.second.z, third.z)});
+  }
 };
 
 }  // namespace

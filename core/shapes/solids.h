@@ -53,6 +53,11 @@ struct BallShell {
 // Centered at the origin.
 struct Block {
   Vector half_edges;
+  // Where its edges point; of length 1 and normal to each other, the third edge to both.
+  Vector first = {1, 0, 0};
+  Vector second = {0, 1, 0};
+
+  Vector third() const { return Cross(first, second); }
 };
 using Solid = std::variant<Spheroid, RoundCone, Torus, BallShell, Block>;
 

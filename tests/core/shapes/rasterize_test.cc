@@ -37,8 +37,9 @@ struct Depth {
     return std::min(shell.outer_radius - Length(p), Length(p) - shell.inner_radius);
   }
   double operator()(const Block& block) const {
-    return std::min({block.half_edges.x - std::abs(p.x), block.half_edges.y - std::abs(p.y),
-                     block.half_edges.z - std::abs(p.z)});
+    return std::min({block.half_edges.x - std::abs(Dot(p, block.first)),
+                     block.half_edges.y - std::abs(Dot(p, block.second)),
+                     block.half_edges.z - std::abs(Dot(p, block.third()))});
   }
 };
 
@@ -87,6 +88,12 @@ TEST(Rasterize, FillsSolidsWithHoles) {
 }
 
 TEST(Rasterize, FillsBlocks) { ExpectExactRaster(Block{{3, 2, 1}}, 4.3); }
+
+TEST(Rasterize, FillsTurnedBlocks) {
+  const Vector first = Unit({1, 2, -2}), second = Unit(Cross(first, {0, 0, 1}));
+  ExpectExactRaster(Block{{3, 2, 1}, first, second}, 4.3);
+  ExpectExactRaster(Block{{3, 2, 1}, {0, 0.6, 0.8}, {1, 0, 0}}, 4.3);
+}
 
 TEST(Rasterize, FillsTheUnion) {
   const Solid a = Spheroid{{0, 0, 0}, {0, 0, 1}, 1, 1};
