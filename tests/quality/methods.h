@@ -1,0 +1,35 @@
+#ifndef BCCSKEL_TESTS_QUALITY_METHODS_H_
+#define BCCSKEL_TESTS_QUALITY_METHODS_H_
+
+#include <array>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel::quality {
+
+struct Method {
+  const char* name;
+  ThinningMethod thinning;
+  DistanceKind distance;
+};
+inline constexpr std::array<Method, 6> kMethods = {{
+    {"symmetric, chamfer", ThinningMethod::kSymmetric, DistanceKind::kChamfer},
+    {"symmetric, Euclidean", ThinningMethod::kSymmetric, DistanceKind::kEuclidean},
+    {"directional-alternating, chamfer", ThinningMethod::kDirectionalAlternating,
+     DistanceKind::kChamfer},
+    {"directional-alternating, Euclidean", ThinningMethod::kDirectionalAlternating,
+     DistanceKind::kEuclidean},
+    {"directional, chamfer", ThinningMethod::kDirectional, DistanceKind::kChamfer},
+    {"directional, Euclidean", ThinningMethod::kDirectional, DistanceKind::kEuclidean},
+}};
+
+inline absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Method& method, const Volume& object) {
+  return Skeletonize(object, {.thinning = {.method = method.thinning}, .distance = method.distance},
+                     exec::Context());
+}
+
+}  // namespace bccskel::quality
+
+#endif  // BCCSKEL_TESTS_QUALITY_METHODS_H_
