@@ -6,7 +6,8 @@ set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB zstd OpenEXR TIFF hwy)
 # What a program needs besides that links our client.
 set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC meshoptimizer nlohmann_json)
 
-set(bccskel_packages ${BCCSKEL_CORE_PACKAGES})
+# The server keeps its jobs in SQLite; the sanitizers build that part without gRPC, too.
+set(bccskel_packages ${BCCSKEL_CORE_PACKAGES} SQLite3)
 if(BCCSKEL_BUILD_SERVER OR BCCSKEL_BUILD_CLIENT)
   list(APPEND bccskel_packages ${BCCSKEL_CLIENT_PACKAGES} CLI11)
 endif()

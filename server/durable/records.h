@@ -10,23 +10,12 @@
 
 #include "absl/status/status.h"
 #include "core/exec/context.h"
+#include "server/store/rows.h"
 
 namespace bccskel::server {
 
 // What callers see of uploads, volumes and jobs that outlive the server's process. Every name
 // belongs to one tenant; for any other it does not exist.
-
-using Time = std::chrono::system_clock::time_point;
-
-enum class JobState {
-  kReceiving,  // its volume is still being uploaded
-  kQueued,
-  kRunning,
-  kSucceeded,  // this and what follows never changes
-  kFailed,
-  kCancelled,
-};
-inline bool IsTerminal(JobState state) { return state >= JobState::kSucceeded; }
 
 // `declaration` and `options` are bytes that the ledger keeps and compares but does not read: see
 // JobCodec. Equal bytes mean the same thing.

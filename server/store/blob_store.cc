@@ -1,0 +1,117 @@
+#include "server/store/blob_store.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "absl/strings/str_cat.h"
+#include "core/digest/sha256.h"
+#include "core/exec/status_macros.h"
+#include "server/store/file_io.h"
+
+namespace bccskel::server {
+namespace {
+
+// Names that callers choose never become file names.
+std::string SafeName(const std::string& name) { return Sha256Of(name).Hex(); }
+
+}  // namespace
+
+std::string BlobStore::FolderOf(const std::string& tenant, const char* kind) const {
+  return absl::StrCat(folder_, "/tenants/", SafeName(tenant), "/", kind);
+}
+
+std::string BlobStore::UploadPath(const std::string& tenant, const std::string& upload) const {
+  return absl::StrCat(FolderOf(tenant, "uploads"), "/", SafeName(upload));
+}
+
+std::string BlobStore::PathOfBlob(const std::string& tenant, const std::string& digest) const {
+  return absl::StrCat(FolderOf(tenant, "blobs"), "/", digest);
+}
+
+std::string BlobStore::PathOfResult(const std::string& tenant, const std::string& digest) const {
+  return absl::StrCat(FolderOf(tenant, "results"), "/", digest);
+}
+
+std::string BlobStore::NewResultPath(const std::string& tenant, const std::string& name) const {
+  return absl::StrCat(FolderOf(tenant, "results"), "/", SafeName(name), ".new");
+}
+
+std::set<std::string> BlobStore::PathsOfUpload(const std::string& tenant,
+                                               const std::string& upload) const {
+  const std::string path = UploadPath(tenant, upload);
+  return {UploadFile::BytesPath(path), UploadFile::ChunksPath(path)};
+}
+
+absl::StatusOr<std::unique_ptr<UploadFile>> BlobStore::OpenUpload(const std::string& tenant,
+                                                                  const std::string& upload) const {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "uploads")));
+  return UploadFile::Open(UploadPath(tenant, upload));
+}
+
+absl::Status BlobStore::RemoveUpload(const std::string& tenant, const std::string& upload) const {
+  return UploadFile::Remove(UploadPath(tenant, upload));
+}
+
+absl::Status BlobStore::PublishBlob(const std::string& tenant, const std::string& upload,
+                                    const std::string& digest) const {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "blobs")));
+  const std::string blob = PathOfBlob(tenant, digest);
+  const std::string bytes = UploadFile::BytesPath(UploadPath(tenant, upload));
+  // A file of this name may be there and damaged: it is replaced.
+  const std::string fresh = blob + ".new";
+  BCCSKEL_RETURN_IF_ERROR(RemoveFile(fresh));
+  if (link(bytes.c_str(), fresh.c_str()) != 0) {
+    return SystemError(absl::StrCat("cannot link ", bytes), errno);
+  }
+  BCCSKEL_RETURN_IF_ERROR(RenameDurably(fresh, blob));
+  // rename() does nothing where both are the same file already.
+  return RemoveFile(fresh);
+}
+
+absl::StatusOr<CheckedFile> BlobStore::OpenBlob(const std::string& tenant,
+                                                const std::string& digest) const {
+  return CheckedFile::Open(PathOfBlob(tenant, digest), digest);
+}
+
+absl::Status BlobStore::RemoveBlob(const std::string& tenant, const std::string& digest) const {
+  return RemoveFile(PathOfBlob(tenant, digest));
+}
+
+absl::StatusOr<ResultWriter> BlobStore::NewResult(const std::string& tenant,
+                                                  const std::string& name) const {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "results")));
+  return ResultWriter::Create(NewResultPath(tenant, name));
+}
+
+absl::Status BlobStore::PublishResult(const std::string& tenant, const std::string& name,
+                                      const std::string& digest) const {
+  return RenameDurably(NewResultPath(tenant, name), PathOfResult(tenant, digest));
+}
+
+absl::Status BlobStore::DropResult(const std::string& tenant, const std::string& name) const {
+  return RemoveFile(NewResultPath(tenant, name));
+}
+
+absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant,
+                                                 const std::string& digest) const {
+  return ResultFile::Open(PathOfResult(tenant, digest), digest);
+}
+
+absl::Status BlobStore::RemoveResult(const std::string& tenant, const std::string& digest) const {
+  return RemoveFile(PathOfResult(tenant, digest));
+}
+
+absl::StatusOr<int> BlobStore::Sweep(const std::set<std::string>& keep) const {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolder(folder_ + "/tenants"));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<std::string> files, FilesBelow(folder_ + "/tenants"));
+  int removed = 0;
+  for (const std::string& file : files) {
+    if (keep.count(file) > 0) continue;
+    BCCSKEL_RETURN_IF_ERROR(RemoveFile(file));
+    ++removed;
+  }
+  return removed;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,64 @@
+#ifndef BCCSKEL_SERVER_STORE_BLOB_STORE_H_
+#define BCCSKEL_SERVER_STORE_BLOB_STORE_H_
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/store/checked_file.h"
+#include "server/store/result_file.h"
+#include "server/store/upload_file.h"
+
+namespace bccskel::server {
+
+// The files of all tenants, each in a folder of its own:
+//
+//   tenants/<SHA-256 of the tenant's name>/uploads/<SHA-256 of the upload's name>.part, .chunks
+//                                          blobs/<SHA-256 of the bytes>
+//                                          results/<SHA-256 of the bytes>, <a job's>.new
+//
+// A file in blobs or results is whole: it gets its name when it is on the disk.
+// Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.
+// Threads: safe, as long as each file is used by one at a time.
+class BlobStore {
+ public:
+  explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
+
+  absl::StatusOr<std::unique_ptr<UploadFile>> OpenUpload(const std::string& tenant,
+                                                         const std::string& upload) const;
+  absl::Status RemoveUpload(const std::string& tenant, const std::string& upload) const;
+  // Gives the sealed bytes of the upload their lasting name, besides the one that they have.
+  absl::Status PublishBlob(const std::string& tenant, const std::string& upload,
+                           const std::string& digest) const;
+  absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) const;
+  absl::Status RemoveBlob(const std::string& tenant, const std::string& digest) const;
+
+  // `name` tells results at work apart.
+  absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
+  absl::Status PublishResult(const std::string& tenant, const std::string& name,
+                             const std::string& digest) const;
+  absl::Status DropResult(const std::string& tenant, const std::string& name) const;
+  absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& digest) const;
+  absl::Status RemoveResult(const std::string& tenant, const std::string& digest) const;
+
+  // The paths of what is to stay, for Sweep().
+  std::set<std::string> PathsOfUpload(const std::string& tenant, const std::string& upload) const;
+  std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
+  std::string PathOfResult(const std::string& tenant, const std::string& digest) const;
+  // Removes all files but these. Yields how many it removed.
+  absl::StatusOr<int> Sweep(const std::set<std::string>& keep) const;
+
+ private:
+  std::string FolderOf(const std::string& tenant, const char* kind) const;
+  std::string UploadPath(const std::string& tenant, const std::string& upload) const;
+  std::string NewResultPath(const std::string& tenant, const std::string& name) const;
+
+  const std::string folder_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_BLOB_STORE_H_

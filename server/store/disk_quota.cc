@@ -1,0 +1,72 @@
+#include "server/store/disk_quota.h"
+
+#include <algorithm>
+
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr char kPayloadUrl[] = "bccskel.server/disk-quota";
+
+absl::Status Full(const char* limit, const std::string& message) {
+  absl::Status status = absl::ResourceExhaustedError(message);
+  status.SetPayload(kPayloadUrl, absl::Cord(limit));
+  return status;
+}
+
+bool Exceeds(uint64_t used, uint64_t bytes, uint64_t limit) {
+  return limit > 0 && (used > limit || bytes > limit - used);
+}
+
+}  // namespace
+
+absl::Status DiskQuota::Take(const std::string& tenant, uint64_t bytes) {
+  std::lock_guard lock(mutex_);
+  const auto found = used_of_.find(tenant);
+  const uint64_t own = found == used_of_.end() ? 0 : found->second;
+  if (Exceeds(own, bytes, most_of_tenant_)) {
+    return Full("max_tenant_disk_bytes",
+                absl::StrCat(bytes, " more bytes on disk: ", own, " are in use, the limit is ",
+                             most_of_tenant_));
+  }
+  if (Exceeds(used_, bytes, most_)) {
+    // What is in use belongs to other tenants, too, and is none of the caller's business.
+    return Full("max_disk_bytes", absl::StrCat(bytes, " more bytes on disk are over the server's ",
+                                               "limit of ", most_, " for all"));
+  }
+  Add(tenant, bytes);
+  return absl::OkStatus();
+}
+
+void DiskQuota::Count(const std::string& tenant, uint64_t bytes) {
+  std::lock_guard lock(mutex_);
+  Add(tenant, bytes);
+}
+
+void DiskQuota::Add(const std::string& tenant, uint64_t bytes) {
+  used_ += bytes;
+  used_of_[tenant] += bytes;
+}
+
+void DiskQuota::GiveBack(const std::string& tenant, uint64_t bytes) {
+  std::lock_guard lock(mutex_);
+  used_ -= std::min(bytes, used_);
+  const auto found = used_of_.find(tenant);
+  if (found == used_of_.end()) return;
+  found->second -= std::min(bytes, found->second);
+  if (found->second == 0) used_of_.erase(found);
+}
+
+uint64_t DiskQuota::used() const {
+  std::lock_guard lock(mutex_);
+  return used_;
+}
+
+std::string ExceededQuota(const absl::Status& status) {
+  const auto payload = status.GetPayload(kPayloadUrl);
+  return payload.has_value() ? std::string(*payload) : std::string();
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,144 @@
+#include "server/store/file_io.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr int kOwnerFile = 0600;
+
+absl::Status Failed(const char* what, const std::string& path) {
+  return SystemError(absl::StrCat("cannot ", what, " ", path), errno);
+}
+
+std::string FolderOf(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
+}
+
+}  // namespace
+
+absl::Status SystemError(const std::string& what, int number) {
+  const std::string message = absl::StrCat(what, ": ", std::strerror(number));
+  switch (number) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return absl::ResourceExhaustedError(message);
+    case ENOENT:
+      return absl::NotFoundError(message);
+    default:
+      return absl::InternalError(message);
+  }
+}
+
+File::~File() {
+  if (fd_ >= 0) close(fd_);
+}
+
+File& File::operator=(File&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(fd_, other.fd_);
+  return *this;
+}
+
+absl::StatusOr<File> File::Open(const std::string& path, int flags) {
+  const int fd = open(path.c_str(), flags | O_CLOEXEC, kOwnerFile);
+  if (fd < 0) return Failed("open", path);
+  return File(path, fd);
+}
+
+absl::StatusOr<File> File::OpenToRead(const std::string& path) { return Open(path, O_RDONLY); }
+
+absl::StatusOr<File> File::OpenToWrite(const std::string& path) {
+  return Open(path, O_RDWR | O_CREAT);
+}
+
+absl::StatusOr<uint64_t> File::Size() const {
+  struct stat facts = {};
+  if (fstat(fd_, &facts) != 0) return Failed("measure", path_);
+  return static_cast<uint64_t>(facts.st_size);
+}
+
+absl::StatusOr<std::string> File::ReadAt(uint64_t offset, size_t size) const {
+  std::string bytes(size, '\0');
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t got =
+        pread(fd_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return Failed("read", path_);
+    if (got == 0) break;
+    done += static_cast<size_t>(got);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+absl::Status File::WriteAt(uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return Failed("write", path_);
+    bytes.remove_prefix(static_cast<size_t>(put));
+    offset += static_cast<uint64_t>(put);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status File::Truncate(uint64_t size) {
+  return ftruncate(fd_, static_cast<off_t>(size)) == 0 ? absl::OkStatus() : Failed("cut", path_);
+}
+
+absl::Status File::Sync() { return fsync(fd_) == 0 ? absl::OkStatus() : Failed("sync", path_); }
+
+absl::Status MakeFolder(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::create_directories(path, error)) {
+    fs::permissions(path, fs::perms::owner_all, error);
+    return SyncFolder(FolderOf(path));
+  }
+  return error ? SystemError(absl::StrCat("cannot make ", path), error.value()) : absl::OkStatus();
+}
+
+absl::Status SyncFolder(const std::string& path) {
+  const int fd = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return Failed("open", path);
+  const int failed = fsync(fd);
+  const int error = errno;
+  close(fd);
+  return failed == 0 ? absl::OkStatus() : SystemError(absl::StrCat("cannot sync ", path), error);
+}
+
+absl::Status RenameDurably(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) != 0) return Failed("rename", from);
+  return SyncFolder(FolderOf(to));
+}
+
+absl::Status RemoveFile(const std::string& path) {
+  return unlink(path.c_str()) == 0 || errno == ENOENT ? absl::OkStatus() : Failed("remove", path);
+}
+
+absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  std::error_code error;
+  for (auto entry = fs::recursive_directory_iterator(path, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->is_regular_file()) files.push_back(entry->path().string());
+  }
+  if (error) return SystemError(absl::StrCat("cannot list ", path), error.value());
+  return files;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,65 @@
+#ifndef BCCSKEL_SERVER_STORE_FILE_IO_H_
+#define BCCSKEL_SERVER_STORE_FILE_IO_H_
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace bccskel::server {
+
+// The system's error `number` while doing `what`.
+// RESOURCE_EXHAUSTED when disk or quota are full; NOT_FOUND; else INTERNAL.
+absl::Status SystemError(const std::string& what, int number);
+
+// An open file. Errors of all: see SystemError().
+// Threads: one at a time.
+class File {
+ public:
+  File() = default;
+  ~File();
+  File(File&& other) noexcept : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
+  File& operator=(File&& other) noexcept;
+
+  static absl::StatusOr<File> OpenToRead(const std::string& path);
+  // Readable and writable by the owner only; made where it does not exist.
+  static absl::StatusOr<File> OpenToWrite(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  int fd() const { return fd_; }
+  bool is_open() const { return fd_ >= 0; }
+
+  absl::StatusOr<uint64_t> Size() const;
+  // Fewer bytes at the end of the file only.
+  absl::StatusOr<std::string> ReadAt(uint64_t offset, size_t size) const;
+  absl::Status WriteAt(uint64_t offset, std::string_view bytes);
+  absl::Status Truncate(uint64_t size);
+  // Returns when everything is on the disk.
+  absl::Status Sync();
+
+ private:
+  File(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  static absl::StatusOr<File> Open(const std::string& path, int flags);
+
+  std::string path_;
+  int fd_ = -1;
+};
+
+// With what is above it; only the owner may enter.
+absl::Status MakeFolder(const std::string& path);
+// Entries of the folder are on the disk when it returns.
+absl::Status SyncFolder(const std::string& path);
+// Replaces `to`. The name is on the disk when it returns. Needs: both in the same folder.
+absl::Status RenameDurably(const std::string& from, const std::string& to);
+// OK also where there is none.
+absl::Status RemoveFile(const std::string& path);
+// All files below, with their paths.
+absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_FILE_IO_H_

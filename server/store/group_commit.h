@@ -1,0 +1,65 @@
+#ifndef BCCSKEL_SERVER_STORE_GROUP_COMMIT_H_
+#define BCCSKEL_SERVER_STORE_GROUP_COMMIT_H_
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "server/store/job_store.h"
+
+namespace bccskel::server {
+
+// The one thread that touches a job store. What waits while a transaction is written shares the
+// next one, so that the number of changes a second is not that of the disk's flushes.
+// Threads: safe.
+class GroupCommit {
+ public:
+  // Runs within the shared transaction. An error takes back what it did, and nothing else.
+  using Change = std::function<absl::Status(JobStore& store)>;
+  // Runs after the transaction is on disk, with the change's error, or that of the transaction.
+  using Done = std::function<void(absl::Status)>;
+
+  explicit GroupCommit(std::unique_ptr<JobStore> store);
+  ~GroupCommit();  // does what was posted, also by what it does, then joins
+  GroupCommit(const GroupCommit&) = delete;
+  GroupCommit& operator=(const GroupCommit&) = delete;
+
+  // Changes and their ends come in the order of posting. Neither may throw or block for long.
+  void Post(Change change, Done done);
+  // Without a change.
+  void Post(std::function<void()> task);
+  // Needs: called from within a change or its end.
+  JobStore& store() { return *store_; }
+
+  uint64_t commits() const { return commits_; }
+
+ private:
+  struct Entry {
+    Change change;  // null: none
+    Done done;
+    absl::Status status = absl::OkStatus();
+  };
+
+  void Serve(std::stop_token stop);
+  void Write(std::vector<Entry>& batch);
+  absl::Status RunStep(Entry& entry);
+  absl::Status WriteAll(std::vector<Entry>& batch);
+
+  const std::unique_ptr<JobStore> store_;
+  std::atomic<uint64_t> commits_ = 0;
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::vector<Entry> waiting_;  // guarded by mutex_
+  std::jthread thread_;         // last: joined before the rest is destroyed
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_GROUP_COMMIT_H_

@@ -1,0 +1,87 @@
+#ifndef BCCSKEL_SERVER_STORE_JOB_STORE_H_
+#define BCCSKEL_SERVER_STORE_JOB_STORE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/store/rows.h"
+
+namespace bccskel::server {
+
+// Tables of uploads, volumes, jobs, their events and results. Changes are made within Begin() and
+// Commit(); what Commit() has confirmed survives the process and the machine.
+// Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file; INTERNAL.
+// Looking for what is not there is no error.
+// Threads: one at a time.
+class JobStore {
+ public:
+  virtual ~JobStore() = default;
+
+  virtual absl::Status Begin() = 0;
+  // After an error nothing since Begin() has happened.
+  virtual absl::Status Commit() = 0;
+  virtual void Rollback() = 0;
+  // Steps within a transaction, each of which can be taken back alone.
+  virtual absl::Status BeginStep() = 0;
+  virtual absl::Status KeepStep() = 0;
+  virtual absl::Status UndoStep() = 0;
+
+  virtual absl::Status InsertUpload(const UploadRow& row) = 0;
+  virtual absl::Status UpdateUpload(const UploadRow& row) = 0;  // its volume and last use
+  virtual absl::Status DeleteUpload(const std::string& tenant, const std::string& name) = 0;
+  virtual absl::StatusOr<std::optional<UploadRow>> FindUpload(const std::string& tenant,
+                                                              const std::string& name) = 0;
+  virtual absl::StatusOr<std::vector<UploadRow>> AllUploads() = 0;
+
+  // Replaces a row of the same name.
+  virtual absl::Status PutVolume(const VolumeRow& row) = 0;
+  virtual absl::Status DeleteVolume(const std::string& tenant, const std::string& name) = 0;
+  virtual absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,
+                                                              const std::string& name) = 0;
+  // By blob or volume digest.
+  virtual absl::StatusOr<std::vector<VolumeRow>> FindVolumesOf(const std::string& tenant,
+                                                               const std::string& digest) = 0;
+  virtual absl::StatusOr<std::vector<VolumeRow>> AllVolumes() = 0;
+
+  // Yields its number.
+  virtual absl::StatusOr<int64_t> InsertJob(const JobRow& row) = 0;
+  // False, and nothing happens, when the stored job has ended already or is gone.
+  virtual absl::StatusOr<bool> UpdateJob(const JobRow& row) = 0;
+  // With its events.
+  virtual absl::Status DeleteJob(int64_t number) = 0;
+  virtual absl::StatusOr<std::optional<JobRow>> FindJob(const std::string& tenant,
+                                                        const std::string& name) = 0;
+  virtual absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
+                                                                 const std::string& request_id) = 0;
+  // With numbers below `before`, in one of the states (a bit each, by number), newest first.
+  virtual absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant, int64_t before,
+                                                       uint32_t states, int most) = 0;
+  virtual absl::StatusOr<std::vector<JobRow>> UnfinishedJobs() = 0;  // oldest first
+  virtual absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time) = 0;
+  // The name of an unfinished job that needs the volume.
+  virtual absl::StatusOr<std::optional<std::string>> UserOfVolume(const std::string& tenant,
+                                                                  const std::string& volume) = 0;
+
+  virtual absl::Status InsertEvent(const EventRow& row) = 0;
+  virtual absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence) = 0;
+
+  // Yields its number, or that of the result which already has this key: then `row` is not stored.
+  virtual absl::StatusOr<int64_t> InsertResult(const ResultRow& row) = 0;
+  virtual absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number) = 0;
+  virtual absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
+                                                                const std::string& key) = 0;
+  // Deletes results that no job has, and yields them.
+  virtual absl::StatusOr<std::vector<ResultRow>> TakeUnusedResults() = 0;
+  virtual absl::StatusOr<std::vector<ResultRow>> AllResults() = 0;
+
+  // What was deleted is then nowhere in the store's files any more.
+  virtual absl::Status Forget() = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_JOB_STORE_H_

@@ -1,0 +1,96 @@
+#ifndef BCCSKEL_SERVER_STORE_ROWS_H_
+#define BCCSKEL_SERVER_STORE_ROWS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace bccskel::server {
+
+// What the job store keeps. Names are unique within their tenant; digests are 64 lower case
+// hexadecimal digits. Times have microseconds.
+
+using Time = std::chrono::system_clock::time_point;
+
+// The numbers are stored: they never change.
+enum class JobState {
+  kReceiving = 0,  // its volume is still being uploaded
+  kQueued = 1,
+  kRunning = 2,
+  kSucceeded = 3,  // this and what follows never changes
+  kFailed = 4,
+  kCancelled = 5,
+};
+constexpr bool IsTerminal(JobState state) { return state >= JobState::kSucceeded; }
+
+struct UploadRow {
+  std::string tenant;
+  std::string name;
+  std::string declaration;
+  uint64_t size_bytes = 0;  // as declared
+  std::string job;          // that waits for it; empty without one
+  std::string volume;       // what it has become; empty before
+  Time used;                // last
+};
+
+struct VolumeRow {
+  std::string tenant;
+  std::string name;
+  std::string declaration;
+  std::string blob_digest;
+  std::string volume_digest;  // empty before it is known
+  uint64_t size_bytes = 0;
+  Time created;
+  Time used;  // last
+};
+
+struct ResultRow {
+  int64_t number = 0;  // given by the store
+  std::string tenant;
+  std::string key;          // what it is the result of; unique within the tenant
+  std::string file_digest;  // SHA-256 of the file's bytes, and its name
+  uint64_t bytes = 0;
+  uint64_t records = 0;
+  std::string summary;
+};
+
+struct JobRow {
+  int64_t number = 0;  // given by the store; later jobs have larger ones
+  std::string tenant;
+  std::string name;
+  std::string request_id;  // empty: none
+  std::string body;        // what was asked for, to tell a repeat from a reuse
+  std::string upload;      // that it came with
+  std::string options;
+  int priority = 0;
+  int threads = 0;
+  Time created;
+
+  // From here on what changes.
+  std::string volume;  // empty while it is received
+  JobState state = JobState::kQueued;
+  int attempts = 0;       // begun
+  int crashes = 0;        // of the server while it ran
+  uint64_t sequence = 0;  // of the last event that was stored
+  std::string owner;      // the process that runs it; empty when none does
+  absl::Status error;
+  int64_t result = 0;  // a ResultRow's number
+  std::optional<Time> started;
+  std::optional<Time> ended;
+};
+
+struct EventRow {
+  int64_t job = 0;  // a JobRow's number
+  uint64_t sequence = 0;
+  Time time;
+  JobState state = JobState::kQueued;
+  int attempt = 0;
+  absl::Status error;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_ROWS_H_

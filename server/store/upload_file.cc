@@ -1,0 +1,85 @@
+#include "server/store/upload_file.h"
+
+#include <utility>
+
+#include "core/digest/crc32c.h"
+#include "core/exec/status_macros.h"
+#include "server/store/little_endian.h"
+
+namespace bccskel::server {
+namespace {
+
+// A chunk's entry: its length, its CRC, and the CRC of these two.
+constexpr size_t kCheckedBytes = sizeof(uint32_t) + sizeof(uint32_t);
+constexpr size_t kEntryBytes = kCheckedBytes + sizeof(uint32_t);
+
+std::string EntryOf(std::string_view bytes) {
+  std::string entry;
+  AppendNumber(static_cast<uint32_t>(bytes.size()), entry);
+  AppendNumber(Crc32c(bytes), entry);
+  AppendNumber(Crc32c(entry), entry);
+  return entry;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<UploadFile>> UploadFile::Open(const std::string& path) {
+  BCCSKEL_ASSIGN_OR_RETURN(File bytes, File::OpenToWrite(BytesPath(path)));
+  BCCSKEL_ASSIGN_OR_RETURN(File chunks, File::OpenToWrite(ChunksPath(path)));
+  std::unique_ptr<UploadFile> upload(new UploadFile(std::move(bytes), std::move(chunks)));
+  BCCSKEL_RETURN_IF_ERROR(upload->Recover());
+  return upload;
+}
+
+absl::Status UploadFile::Recover() {
+  bool whole = true;
+  while (whole) {
+    BCCSKEL_ASSIGN_OR_RETURN(whole, RecoverChunk());
+  }
+  BCCSKEL_RETURN_IF_ERROR(bytes_.Truncate(size_));
+  return chunks_.Truncate(chunks_size_);
+}
+
+absl::StatusOr<bool> UploadFile::RecoverChunk() {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string entry, chunks_.ReadAt(chunks_size_, kEntryBytes));
+  if (entry.size() < kEntryBytes) return false;
+  const std::string_view checked = std::string_view(entry).substr(0, kCheckedBytes);
+  if (NumberAt<uint32_t>(entry, kCheckedBytes) != Crc32c(checked)) return false;
+  const size_t length = NumberAt<uint32_t>(entry, 0);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string chunk, bytes_.ReadAt(size_, length));
+  if (chunk.size() < length || Crc32c(chunk) != NumberAt<uint32_t>(entry, sizeof(uint32_t))) {
+    return false;
+  }
+  sha256_.Add(chunk);
+  size_ += length;
+  chunks_size_ += kEntryBytes;
+  return true;
+}
+
+absl::Status UploadFile::Append(std::string_view bytes) {
+  absl::Status status = bytes_.WriteAt(size_, bytes);
+  if (status.ok()) status = chunks_.WriteAt(chunks_size_, EntryOf(bytes));
+  if (!status.ok()) {
+    // Best done now, on a full disk; Recover() would do it, too.
+    bytes_.Truncate(size_).IgnoreError();
+    chunks_.Truncate(chunks_size_).IgnoreError();
+    return status;
+  }
+  sha256_.Add(bytes);
+  size_ += bytes.size();
+  chunks_size_ += kEntryBytes;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Sha256Digest> UploadFile::Seal() {
+  BCCSKEL_RETURN_IF_ERROR(bytes_.Sync());
+  if (!digest_.has_value()) digest_ = sha256_.Finish();
+  return *digest_;
+}
+
+absl::Status UploadFile::Remove(const std::string& path) {
+  BCCSKEL_RETURN_IF_ERROR(RemoveFile(BytesPath(path)));
+  return RemoveFile(ChunksPath(path));
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,53 @@
+#ifndef BCCSKEL_SERVER_STORE_UPLOAD_FILE_H_
+#define BCCSKEL_SERVER_STORE_UPLOAD_FILE_H_
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+#include "server/store/file_io.h"
+
+namespace bccskel::server {
+
+// The bytes of an unfinished upload, PATH.part, and beside them length and CRC-32C of every chunk,
+// PATH.chunks. What was appended survives the process; after a crash of the machine the chunks that
+// reached the disk whole are what is left.
+// Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.
+// Threads: one at a time.
+class UploadFile {
+ public:
+  // Makes the files or goes on with those that are there: reads them and cuts off what is damaged.
+  static absl::StatusOr<std::unique_ptr<UploadFile>> Open(const std::string& path);
+
+  uint64_t size() const { return size_; }
+  // After an error the upload is as it was before.
+  absl::Status Append(std::string_view bytes);
+  // Brings all to the disk. Yields the digest of all bytes. Nothing is appended after it.
+  absl::StatusOr<Sha256Digest> Seal();
+
+  static absl::Status Remove(const std::string& path);
+  static std::string BytesPath(const std::string& path) { return path + ".part"; }
+  static std::string ChunksPath(const std::string& path) { return path + ".chunks"; }
+
+ private:
+  UploadFile(File bytes, File chunks) : bytes_(std::move(bytes)), chunks_(std::move(chunks)) {}
+  absl::Status Recover();
+  // False for a chunk that is not whole.
+  absl::StatusOr<bool> RecoverChunk();
+
+  File bytes_;
+  File chunks_;
+  uint64_t size_ = 0;
+  uint64_t chunks_size_ = 0;
+  Sha256 sha256_;
+  std::optional<Sha256Digest> digest_;  // once sealed
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_UPLOAD_FILE_H_
