@@ -29,12 +29,8 @@ std::string BlobStore::PathOfBlob(const std::string& tenant, const std::string& 
   return absl::StrCat(FolderOf(tenant, "blobs"), "/", digest);
 }
 
-std::string BlobStore::PathOfResult(const std::string& tenant, const std::string& digest) const {
-  return absl::StrCat(FolderOf(tenant, "results"), "/", digest);
-}
-
-std::string BlobStore::NewResultPath(const std::string& tenant, const std::string& name) const {
-  return absl::StrCat(FolderOf(tenant, "results"), "/", SafeName(name), ".new");
+std::string BlobStore::PathOfResult(const std::string& tenant, const std::string& name) const {
+  return absl::StrCat(FolderOf(tenant, "results"), "/", name);
 }
 
 std::set<std::string> BlobStore::PathsOfUpload(const std::string& tenant,
@@ -81,25 +77,16 @@ absl::Status BlobStore::RemoveBlob(const std::string& tenant, const std::string&
 absl::StatusOr<ResultWriter> BlobStore::NewResult(const std::string& tenant,
                                                   const std::string& name) const {
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "results")));
-  return ResultWriter::Create(NewResultPath(tenant, name));
+  return ResultWriter::Create(PathOfResult(tenant, name));
 }
 
-absl::Status BlobStore::PublishResult(const std::string& tenant, const std::string& name,
-                                      const std::string& digest) const {
-  return RenameDurably(NewResultPath(tenant, name), PathOfResult(tenant, digest));
-}
-
-absl::Status BlobStore::DropResult(const std::string& tenant, const std::string& name) const {
-  return RemoveFile(NewResultPath(tenant, name));
-}
-
-absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant,
+absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant, const std::string& name,
                                                  const std::string& digest) const {
-  return ResultFile::Open(PathOfResult(tenant, digest), digest);
+  return ResultFile::Open(PathOfResult(tenant, name), digest);
 }
 
-absl::Status BlobStore::RemoveResult(const std::string& tenant, const std::string& digest) const {
-  return RemoveFile(PathOfResult(tenant, digest));
+absl::Status BlobStore::RemoveResult(const std::string& tenant, const std::string& name) const {
+  return RemoveFile(PathOfResult(tenant, name));
 }
 
 absl::StatusOr<int> BlobStore::Sweep(const std::set<std::string>& keep) const {

@@ -18,9 +18,9 @@ namespace bccskel::server {
 //
 //   tenants/<SHA-256 of the tenant's name>/uploads/<SHA-256 of the upload's name>.part, .chunks
 //                                          blobs/<SHA-256 of the bytes>
-//                                          results/<SHA-256 of the bytes>, <a job's>.new
+//                                          results/<name>
 //
-// A file in blobs or results is whole: it gets its name when it is on the disk.
+// A file in blobs is whole: it gets its name when it is on the disk.
 // Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.
 // Threads: safe, as long as each file is used by one at a time.
 class BlobStore {
@@ -36,25 +36,22 @@ class BlobStore {
   absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) const;
   absl::Status RemoveBlob(const std::string& tenant, const std::string& digest) const;
 
-  // `name` tells results at work apart.
   absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
-  absl::Status PublishResult(const std::string& tenant, const std::string& name,
-                             const std::string& digest) const;
-  absl::Status DropResult(const std::string& tenant, const std::string& name) const;
-  absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& digest) const;
-  absl::Status RemoveResult(const std::string& tenant, const std::string& digest) const;
+  // Errors: DATA_LOSS for a file that is missing or has another digest.
+  absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& name,
+                                        const std::string& digest) const;
+  absl::Status RemoveResult(const std::string& tenant, const std::string& name) const;
 
   // The paths of what is to stay, for Sweep().
   std::set<std::string> PathsOfUpload(const std::string& tenant, const std::string& upload) const;
   std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
-  std::string PathOfResult(const std::string& tenant, const std::string& digest) const;
+  std::string PathOfResult(const std::string& tenant, const std::string& name) const;
   // Removes all files but these. Yields how many it removed.
   absl::StatusOr<int> Sweep(const std::set<std::string>& keep) const;
 
  private:
   std::string FolderOf(const std::string& tenant, const char* kind) const;
   std::string UploadPath(const std::string& tenant, const std::string& upload) const;
-  std::string NewResultPath(const std::string& tenant, const std::string& name) const;
 
   const std::string folder_;
 };

@@ -120,6 +120,8 @@ absl::Status SyncFolder(const std::string& path) {
   return failed == 0 ? absl::OkStatus() : SystemError(absl::StrCat("cannot sync ", path), error);
 }
 
+absl::Status SyncFolderOf(const std::string& file_path) { return SyncFolder(FolderOf(file_path)); }
+
 absl::Status RenameDurably(const std::string& from, const std::string& to) {
   if (std::rename(from.c_str(), to.c_str()) != 0) return Failed("rename", from);
   return SyncFolder(FolderOf(to));

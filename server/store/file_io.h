@@ -53,6 +53,7 @@ class File {
 absl::Status MakeFolder(const std::string& path);
 // Entries of the folder are on the disk when it returns.
 absl::Status SyncFolder(const std::string& path);
+absl::Status SyncFolderOf(const std::string& file_path);
 // Replaces `to`. The name is on the disk when it returns. Needs: both in the same folder.
 absl::Status RenameDurably(const std::string& from, const std::string& to);
 // OK also where there is none.

@@ -74,8 +74,8 @@ class JobStore {
   virtual absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number) = 0;
   virtual absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
                                                                 const std::string& key) = 0;
-  // Deletes results that no job has, and yields them.
-  virtual absl::StatusOr<std::vector<ResultRow>> TakeUnusedResults() = 0;
+  // Deletes the result when no job has it any more, and then yields it.
+  virtual absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number) = 0;
   virtual absl::StatusOr<std::vector<ResultRow>> AllResults() = 0;
 
   // What was deleted is then nowhere in the store's files any more.

@@ -51,6 +51,7 @@ absl::StatusOr<Sha256Digest> ResultWriter::Finish() {
   AppendNumber(uint64_t{positions_.size()}, footer);
   BCCSKEL_RETURN_IF_ERROR(Write(footer));
   BCCSKEL_RETURN_IF_ERROR(file_.Sync());
+  BCCSKEL_RETURN_IF_ERROR(SyncFolderOf(file_.path()));
   return sha256_.Finish();
 }
 

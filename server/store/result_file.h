@@ -26,7 +26,8 @@ class ResultWriter {
   absl::Status Add(uint8_t kind, std::string_view bytes);
   // What Finish() adds besides.
   uint64_t FooterBytes() const;
-  // Everything is on the disk. Yields the digest of the file. Nothing is added after it.
+  // Everything, the file's name included, is on the disk. Yields the digest of the file. Nothing is
+  // added after it.
   absl::StatusOr<Sha256Digest> Finish();
 
   uint64_t bytes() const { return bytes_; }

@@ -51,7 +51,8 @@ struct ResultRow {
   int64_t number = 0;  // given by the store
   std::string tenant;
   std::string key;          // what it is the result of; unique within the tenant
-  std::string file_digest;  // SHA-256 of the file's bytes, and its name
+  std::string file;         // its name
+  std::string file_digest;  // SHA-256 of the file's bytes
   uint64_t bytes = 0;
   uint64_t records = 0;
   std::string summary;

@@ -26,7 +26,7 @@ CREATE INDEX volumes_by_blob ON volumes(tenant, blob_digest);
 CREATE INDEX volumes_by_volume ON volumes(tenant, volume_digest);
 CREATE TABLE results(
   number INTEGER PRIMARY KEY AUTOINCREMENT, tenant TEXT NOT NULL, key TEXT NOT NULL,
-  file_digest TEXT NOT NULL, bytes INTEGER NOT NULL, records INTEGER NOT NULL,
+  file TEXT NOT NULL, file_digest TEXT NOT NULL, bytes INTEGER NOT NULL, records INTEGER NOT NULL,
   summary BLOB NOT NULL, UNIQUE(tenant, key));
 CREATE TABLE jobs(
   number INTEGER PRIMARY KEY AUTOINCREMENT, tenant TEXT NOT NULL, name TEXT NOT NULL,

@@ -48,6 +48,7 @@ void Read(SqliteQuery& query, ResultRow& row) {
   row = {.number = query.Number(),
          .tenant = query.Text(),
          .key = query.Text(),
+         .file = query.Text(),
          .file_digest = query.Text(),
          .bytes = static_cast<uint64_t>(query.Number()),
          .records = static_cast<uint64_t>(query.Number()),
@@ -91,7 +92,7 @@ void Read(SqliteQuery& query, std::string& text) { text = query.Text(); }
 #define BCCSKEL_UPLOAD_COLUMNS "tenant, name, declaration, size_bytes, job, volume, used"
 #define BCCSKEL_VOLUME_COLUMNS \
   "tenant, name, declaration, blob_digest, volume_digest, size_bytes, created, used"
-#define BCCSKEL_RESULT_COLUMNS "number, tenant, key, file_digest, bytes, records, summary"
+#define BCCSKEL_RESULT_COLUMNS "number, tenant, key, file, file_digest, bytes, records, summary"
 #define BCCSKEL_JOB_COLUMNS                                                              \
   "number, tenant, name, request_id, body, upload, options, priority, threads, created," \
   "volume, state, attempts, crashes, sequence, owner, error, result, started, ended"
@@ -236,9 +237,9 @@ class SqliteJobStore final : public JobStore {
                              FindResultOf(row.tenant, row.key));
     if (found.has_value()) return found->number;
     BCCSKEL_RETURN_IF_ERROR(
-        Run("INSERT INTO results(tenant, key, file_digest, bytes, records, summary)"
-            " VALUES(?, ?, ?, ?, ?, ?)",
-            row.tenant, row.key, row.file_digest, Number(row.bytes), Number(row.records),
+        Run("INSERT INTO results(tenant, key, file, file_digest, bytes, records, summary)"
+            " VALUES(?, ?, ?, ?, ?, ?, ?)",
+            row.tenant, row.key, row.file, row.file_digest, Number(row.bytes), Number(row.records),
             Blob{row.summary}));
     return database_->LastRow();
   }
@@ -251,11 +252,12 @@ class SqliteJobStore final : public JobStore {
     return One<ResultRow>(
         "SELECT " BCCSKEL_RESULT_COLUMNS " FROM results WHERE tenant = ? AND key = ?", tenant, key);
   }
-  absl::StatusOr<std::vector<ResultRow>> TakeUnusedResults() override {
-    return All<ResultRow>(
-        "DELETE FROM results WHERE number NOT IN"
-        " (SELECT result FROM jobs WHERE result != 0)"
-        " RETURNING " BCCSKEL_RESULT_COLUMNS);
+  absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number) override {
+    return One<ResultRow>(
+        "DELETE FROM results WHERE number = ?1 AND NOT EXISTS"
+        " (SELECT 1 FROM jobs WHERE result = ?1 AND result != 0)"
+        " RETURNING " BCCSKEL_RESULT_COLUMNS,
+        number);
   }
   absl::StatusOr<std::vector<ResultRow>> AllResults() override {
     return All<ResultRow>("SELECT " BCCSKEL_RESULT_COLUMNS " FROM results");

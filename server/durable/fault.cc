@@ -1,0 +1,45 @@
+#include "server/durable/fault.h"
+
+#include <cstdlib>
+#include <vector>
+
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "server/durable/ledger.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr char kPayloadUrl[] = "bccskel.server/fault";
+constexpr char kCommittedSize[] = "committed_size";
+
+}  // namespace
+
+absl::Status WithFault(absl::Status status, const Fault& fault) {
+  status.SetPayload(kPayloadUrl,
+                    absl::Cord(absl::StrCat(fault.reason, "\n", fault.key, "\n", fault.value)));
+  return status;
+}
+
+std::optional<Fault> FaultOf(const absl::Status& status) {
+  const auto payload = status.GetPayload(kPayloadUrl);
+  if (!payload.has_value()) return std::nullopt;
+  const std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
+  if (parts.size() != 3) return std::nullopt;
+  return Fault{.reason = parts[0], .key = parts[1], .value = parts[2]};
+}
+
+absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {
+  return WithFault(
+      absl::OutOfRangeError(message),
+      {.reason = "CHUNK_OFFSET", .key = kCommittedSize, .value = absl::StrCat(committed_bytes)});
+}
+
+std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {
+  const std::optional<Fault> fault = FaultOf(status);
+  if (!fault.has_value() || fault->key != kCommittedSize) return std::nullopt;
+  return std::strtoull(fault->value.c_str(), nullptr, 10);
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,60 @@
+#include "server/durable/names.h"
+
+#include <algorithm>
+#include <random>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/digest/sha256.h"
+#include "server/durable/fault.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr char kUploads[] = "uploads/";
+constexpr size_t kMostUploadNameBytes = 64;
+constexpr size_t kIdDigits = 32;
+
+bool IsNameCharacter(char c) {
+  return absl::ascii_isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+}
+
+}  // namespace
+
+std::string RandomId() {
+  std::random_device device;
+  std::string id;
+  while (id.size() < kIdDigits) absl::StrAppendFormat(&id, "%08x", device());
+  return id;
+}
+
+std::string RandomName(const std::string& kind) { return absl::StrCat(kind, "/", RandomId()); }
+
+std::string VolumeName(const std::string& declaration, const std::string& blob_digest) {
+  return absl::StrCat("volumes/", KeyOf({declaration, blob_digest}).substr(0, kIdDigits));
+}
+
+absl::Status CheckUploadName(const std::string& name) {
+  const size_t front = std::size(kUploads) - 1;
+  if (name.compare(0, front, kUploads) == 0 && name.size() > front &&
+      name.size() <= front + kMostUploadNameBytes &&
+      std::all_of(name.begin() + static_cast<ptrdiff_t>(front), name.end(), IsNameCharacter)) {
+    return absl::OkStatus();
+  }
+  return WithFault(absl::InvalidArgumentError(absl::StrCat(
+                       "upload: must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
+                       " letters, digits, '-' and '_', not ", name.size(), " bytes of others")),
+                   {.reason = "FIELD_INVALID", .key = {}, .value = {}});
+}
+
+std::string KeyOf(std::initializer_list<std::string> parts) {
+  Sha256 sha256;
+  for (const std::string& part : parts) {
+    sha256.AddUint64(part.size());
+    sha256.Add(part);
+  }
+  return sha256.Finish().Hex();
+}
+
+}  // namespace bccskel::server
