@@ -29,17 +29,27 @@ int64_t CountEulerCharacteristic(const Volume& object, const exec::Context& cont
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<BettiNumbers> CountBettiNumbers(const Volume& object, const exec::Context& context);
 
-// Points that satisfy Conditions 1 and 2: simple and not an end point.
-uint64_t CountSimpleNonEndPoints(const Volume& object, const exec::Context& context);
+// Which simple points (Condition 1) count: all, or those that are no end points (Condition 2).
+enum class SimplePoints : uint8_t { kAll, kNonEnd };
+
+// How many points that count are not in `spared`.
+uint64_t CountSimplePoints(const Volume& object, SimplePoints which, const Volume& spared,
+                           const exec::Context& context);
 
 // The proof that comes with every result.
 struct Certificate {
   // Of the cubic mask that the object was made from, counted on the cubic grid, where there is one.
   std::optional<BettiNumbers> mask = std::nullopt;
-  BettiNumbers input;
+  // Of the object as it was given, where it was prepared before thinning.
+  std::optional<BettiNumbers> unprepared = std::nullopt;
+  BettiNumbers input;  // of the object that was thinned
   BettiNumbers skeleton;
-  uint64_t simple_points_left = 0;  // simple and not an end point
+  // Points that could still go: simple, and nothing that the kind of skeleton keeps. 0 where
+  // thinning went to its end.
+  uint64_t simple_points_left = 0;
 
+  // Of the object as it was given.
+  const BettiNumbers& Given() const { return unprepared.has_value() ? *unprepared : input; }
   bool TopologyKept() const { return input == skeleton; }
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };

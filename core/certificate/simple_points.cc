@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "core/certificate/brick_sum.h"
 #include "core/certificate/certificate.h"
@@ -19,9 +20,10 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-// Points that may satisfy Conditions 1 and 2. More than one neighbor in one component means that
-// two neighbors are adjacent to each other; one background component, that one is missing.
-HWY_INLINE Plane PossiblySimple(const Plane& own, const Plane (&planes)[kNeighborCount]) {
+// Points that may count. A simple point lacks a neighbor, and one that is no end point has two that
+// are adjacent to each other.
+HWY_INLINE Plane PossiblySimple(SimplePoints which, const Plane& own,
+                                const Plane (&planes)[kNeighborCount]) {
   Plane adjacent_pair = AndNot(own, own), all = own;
   for (size_t a = 0; a < kNeighborCount; ++a) {
     for (size_t b = 0; b < a; ++b) {
@@ -30,25 +32,28 @@ HWY_INLINE Plane PossiblySimple(const Plane& own, const Plane (&planes)[kNeighbo
     }
     all = And(all, planes[a]);
   }
-  return AndNot(all, And(own, adjacent_pair));
+  return AndNot(all, which == SimplePoints::kAll ? own : And(own, adjacent_pair));
 }
 
-HWY_INLINE int64_t CountAmong(const Plane& candidates, const Plane (&planes)[kNeighborCount]) {
-  if (IsEmpty(candidates)) return 0;
+HWY_INLINE int64_t CountAmong(const Plane& candidates, SimplePoints which, const BrickBits* spared,
+                              const Plane (&planes)[kNeighborCount]) {
   BrickBits rest;
   StorePlane(candidates, rest);
+  for (size_t k = 0; spared != nullptr && k < 8; ++k) rest.words[k] &= ~spared->words[k];
   std::array<BrickBits, kNeighborCount> neighbors;
   for (size_t d = 0; d < kNeighborCount; ++d) StorePlane(planes[d], neighbors[d]);
   int64_t count = 0;
   rest.ForEachSetBit([&](int bit) {
     unsigned mask = 0;
     for (size_t d = 0; d < kNeighborCount; ++d) mask |= (neighbors[d].Test(bit) ? 1u : 0u) << d;
-    count += IsSimpleNonEnd(static_cast<NeighborMask>(mask)) ? 1 : 0;
+    const auto around = static_cast<NeighborMask>(mask);
+    count += (which == SimplePoints::kAll ? IsSimple(around) : IsSimpleNonEnd(around)) ? 1 : 0;
   });
   return count;
 }
 
-int64_t CountInBricksTarget(const Volume& object, exec::Share share) {
+int64_t CountInBricksTarget(const Volume& object, SimplePoints which, const Volume& spared,
+                            exec::Share share) {
   const BrickBits* bricks = object.padded_bricks().data();
   const BrickNeighborhood* neighbors = object.neighbors().data();
   int64_t count = 0;
@@ -60,7 +65,11 @@ int64_t CountInBricksTarget(const Volume& object, exec::Share share) {
     } else {
       AllPlanes<Sublattice::kOdd>(bricks, neighbors[n], own, planes);
     }
-    count += CountAmong(PossiblySimple(own, planes), planes);
+    const Plane candidates = PossiblySimple(which, own, planes);
+    if (IsEmpty(candidates)) continue;
+    const std::optional<BrickIndex> at = spared.Find(object.keys()[n]);
+    count +=
+        CountAmong(candidates, which, at.has_value() ? &spared.bricks()[*at] : nullptr, planes);
   }
   return count;
 }
@@ -74,10 +83,11 @@ namespace bccskel {
 
 HWY_EXPORT(CountInBricksTarget);
 
-uint64_t CountSimpleNonEndPoints(const Volume& object, const exec::Context& context) {
+uint64_t CountSimplePoints(const Volume& object, SimplePoints which, const Volume& spared,
+                           const exec::Context& context) {
   return static_cast<uint64_t>(
       SumOverBricks(context, object.brick_count(), [&](int, exec::Share batch) {
-        return HWY_DYNAMIC_DISPATCH(CountInBricksTarget)(object, batch);
+        return HWY_DYNAMIC_DISPATCH(CountInBricksTarget)(object, which, spared, batch);
       }));
 }
 

@@ -1,32 +1,66 @@
 #include "core/pipeline/skeletonize.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_format.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
+#include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/method_in_words.h"
 
 namespace bccskel {
 namespace {
 
-absl::StatusOr<Certificate> Certify(const Volume& object, const Volume& thin,
-                                    const exec::Context& context) {
-  Certificate certificate;
+// The points that stay though they may be simple: isthmuses, and those that the caller keeps.
+Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses,
+                    const std::vector<LatticePoint>& keep) {
+  VolumeBuilder spared(thin.extent(), thin.placement());
+  for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
+  for (LatticePoint p : keep) spared.Add(p);
+  absl::StatusOr<Volume> volume = std::move(spared).Build();
+  return volume.ok() ? *std::move(volume) : Volume();  // an empty extent has no points
+}
+
+SimplePoints ThatMayGo(SkeletonKind kind) {
+  const bool ends_stay = kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface;
+  return ends_stay ? SimplePoints::kNonEnd : SimplePoints::kAll;
+}
+
+absl::Status Certify(const Volume& object, const Volume& thin, const exec::Context& context,
+                     Certificate& certificate) {
   BCCSKEL_ASSIGN_OR_RETURN(certificate.input, CountBettiNumbers(object, context));
   BCCSKEL_ASSIGN_OR_RETURN(certificate.skeleton, CountBettiNumbers(thin, context));
-  certificate.simple_points_left = CountSimpleNonEndPoints(thin, context);
-  if (certificate.TopologyKept()) return certificate;
+  if (certificate.TopologyKept()) return absl::OkStatus();
   const BettiNumbers &in = certificate.input, &out = certificate.skeleton;
   return absl::InternalError(absl::StrFormat(
       "thinning changed the topology: components %d -> %d, loops %d -> %d, cavities %d -> %d",
       in.components, out.components, in.loops, out.loops, in.cavities, out.cavities));
 }
 
-bool HasCurvesToPrune(const SkeletonizeOptions& options) {
-  const bool asked = options.pruning.rule != PruningRule::kNone ||
-                     options.pruning.tips != TipPlacement::kAsThinned;
-  return asked && options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
+bool HasCurves(const SkeletonizeOptions& options) {
+  return options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
+}
+
+// An edge is there as long as a part of it is.
+void SetPruningLevels(const PruningLevels& levels, SkeletonGraph& graph) {
+  for (SkeletonEdge& edge : graph.edges) {
+    double level = -1;
+    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+      const auto found = levels.find(p.point);
+      if (found != levels.end()) level = std::max(level, found->second);
+    }
+    if (level >= 0) edge.pruning_level = level;
+  }
+}
+
+Volume PointsOnlyIn(const Volume& more, const Volume& less) {
+  VolumeBuilder builder(more.extent(), more.placement());
+  more.ForEachPoint([&](LatticePoint p) {
+    if (!less.Contains(p)) builder.Add(p);
+  });
+  return *std::move(builder).Build();
 }
 
 // Radii of a few points are searched for one by one. A search costs about as much as measuring
@@ -40,51 +74,114 @@ absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceFiel
   return absl::OkStatus();
 }
 
+// The stages, in their order, and what they hand to each other.
+class Pipeline {
+ public:
+  Pipeline(const SkeletonizeOptions& options, const exec::Context& context,
+           const OnShellPoints& on_points)
+      : options_(options), context_(context), on_points_(on_points) {
+    result_.options = options;
+    result_.options.thinning.keep.clear();
+    result_.method = MethodInWords(options.thinning, options.distance);
+    result_.algorithm_version = std::string(kAlgorithmVersion);
+  }
+
+  absl::StatusOr<SkeletonizeResult> Run(const Volume& given) && {
+    if (!options_.preparing.Wanted()) {
+      BCCSKEL_RETURN_IF_ERROR(RunFrom(given));
+    } else {
+      BCCSKEL_ASSIGN_OR_RETURN(const Volume object, PrepareObject(given));
+      BCCSKEL_RETURN_IF_ERROR(RunFrom(object));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  absl::StatusOr<Volume> PrepareObject(const Volume& given) {
+    BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared, Prepare(given, options_.preparing, context_));
+    result_.certificate.unprepared = prepared.before;
+    result_.preparing = std::move(prepared.steps);
+    result_.timings.preparing = clock_.Lap();
+    return std::move(prepared.object);
+  }
+
+  absl::Status RunFrom(const Volume& object) {
+    result_.object_points = object.PointCount();
+    BCCSKEL_ASSIGN_OR_RETURN(DistanceField distance,
+                             ComputeDistance(object, options_.distance, context_));
+    result_.timings.distance = clock_.Lap();
+    BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
+    BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
+    result_.certificate.simple_points_left =
+        CountSimplePoints(result_.thin, ThatMayGo(options_.thinning.kind),
+                          SparedPoints(result_.thin, isthmuses_, options_.thinning.keep), context_);
+    result_.timings.certificate = clock_.Lap();
+    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, context_));
+    SetPruningLevels(levels_, result_.graph);
+    result_.sha256 = SkeletonDigest(result_.graph);
+    result_.timings.graph = clock_.Lap();
+    result_.timings.total = clock_.Total();
+    return absl::OkStatus();
+  }
+
+  absl::Status Thin(const Volume& object, const DistanceField& distance) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ThinningResult thinned,
+        ThinToCurve(object, distance, options_.thinning, context_, on_points_));
+    result_.thin = std::move(thinned.thin);
+    result_.last_shell = thinned.last_shell;
+    result_.timings.shells = thinned.times.shells;
+    result_.timings.thinning = thinned.times.passes;
+    result_.timings.cleanup = thinned.times.cleanup;
+    isthmuses_ = std::move(thinned.isthmuses);
+    clock_.Lap();
+    return absl::OkStatus();
+  }
+
+  // Returns the radii of the points that stay.
+  absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
+                                                     DistanceField& distance) {
+    BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
+                             ExactRadii(result_.thin, object, distance, context_));
+    if (HasCurves(options_)) {
+      BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
+                               Prune(result_.thin, radii, object, distance, options_.thinning.keep,
+                                     options_.pruning, context_));
+      if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, pruned.thin));
+      result_.thin = std::move(pruned.thin);
+      radii = std::move(pruned.radii);
+      levels_ = std::move(pruned.levels);
+    }
+    result_.skeleton_points = result_.thin.PointCount();
+    result_.timings.pruning = clock_.Lap();
+    return radii;
+  }
+
+  const SkeletonizeOptions& options_;
+  const exec::Context& context_;
+  const OnShellPoints& on_points_;
+  exec::StageClock clock_;
+  std::vector<IsthmusBirth> isthmuses_;
+  PruningLevels levels_;
+  SkeletonizeResult result_;
+};
+
 }  // namespace
 
 absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
+  BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options.preparing));
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
   return CheckPruningOptions(options.pruning);
 }
 
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
-                                              const exec::Context& context) {
+                                              const exec::Context& context,
+                                              const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  SkeletonizeResult result;
-  result.method = MethodInWords(options.thinning, options.distance);
-  result.object_points = object.PointCount();
-  exec::StageClock clock;
-  BCCSKEL_ASSIGN_OR_RETURN(DistanceField distance,
-                           ComputeDistance(object, options.distance, context));
-  result.timings.distance = clock.Lap();
-  BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                           ThinToCurve(object, distance, options.thinning, context));
-  result.thin = std::move(thinned.thin);
-  result.last_shell = thinned.last_shell;
-  result.timings.shells = thinned.times.shells;
-  result.timings.thinning = thinned.times.passes;
-  result.timings.cleanup = thinned.times.cleanup;
-  clock.Lap();
-  BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result.thin, distance, context));
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
-                           ExactRadii(result.thin, object, distance, context));
-  if (HasCurvesToPrune(options)) {
-    BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
-                             Prune(result.thin, radii, object, distance, options.thinning.keep,
-                                   options.pruning, context));
-    result.thin = std::move(pruned.thin);
-    radii = std::move(pruned.radii);
-  }
-  result.skeleton_points = result.thin.PointCount();
-  result.timings.pruning = clock.Lap();
-  BCCSKEL_ASSIGN_OR_RETURN(result.certificate, Certify(object, result.thin, context));
-  result.timings.certificate = clock.Lap();
-  BCCSKEL_ASSIGN_OR_RETURN(result.graph, TraceSkeleton(result.thin, radii, context));
-  result.sha256 = SkeletonDigest(result.graph);
-  result.timings.graph = clock.Lap();
-  result.timings.total = clock.Total();
-  return result;
+  return Pipeline(options, context, on_points).Run(object);
 }
 
 }  // namespace bccskel

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/pipeline/stage_timings.h"
+#include "core/prepare/prepare.h"
 #include "core/pruning/prune.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/thinning/thinning.h"
@@ -17,6 +19,7 @@
 namespace bccskel {
 
 struct SkeletonizeOptions {
+  PreparingOptions preparing = {};
   // The symmetric method puts curves closer to the center than the paper's directions do.
   ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
   DistanceKind distance = DistanceKind::kChamfer;  // that makes the shells
@@ -32,20 +35,35 @@ struct SkeletonizeResult {
   Volume thin;
   Certificate certificate;
   StageTimings timings;
-  uint64_t object_points = 0;
+  SkeletonizeOptions options;            // as they were asked for, without the points to keep
+  std::vector<PreparingStep> preparing;  // what was done to the object before thinning
+  uint64_t object_points = 0;            // after that
   uint64_t skeleton_points = 0;
   int32_t last_shell = 0;
-  std::string method;  // MethodInWords()
-  std::string sha256;  // SkeletonDigest(graph)
+  std::string method;             // MethodInWords()
+  std::string algorithm_version;  // kAlgorithmVersion of whoever made this
+  std::string sha256;             // SkeletonDigest(graph)
+
+  // A curve skeleton of an object with cavities: they leave closed surfaces, which no curve can
+  // replace.
+  bool HasSurfacesAmongCurves() const {
+    const SkeletonKind kind = options.thinning.kind;
+    const bool curves = kind == SkeletonKind::kCurve || kind == SkeletonKind::kIsthmusCurve;
+    return curves && certificate.input.cavities > 0;
+  }
 };
 
-// The straight path of an object: distance, shells, thinning, pruning, certificate, graph.
-// An empty object gives an empty graph.
-// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate
-//         shows that topology was lost, which would be a defect of this library.
+// The straight path of an object: preparing, distance, shells, thinning, pruning, certificate,
+// graph. An empty object gives an empty graph. `on_points`, where given, hears of all points that
+// do not stay; those that pruning takes come after the shells. A tip that is moved on may take
+// points back. Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an
+// object),
+//         CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost,
+//         which would be a defect of this library.
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
-                                              const exec::Context& context);
+                                              const exec::Context& context,
+                                              const OnShellPoints& on_points = nullptr);
 
 }  // namespace bccskel
 

@@ -9,6 +9,7 @@ namespace bccskel {
 // Wall time of each stage of the pipeline.
 struct StageTimings {
   using Duration = std::chrono::nanoseconds;
+  Duration preparing{0};
   Duration distance{0};
   Duration shells{0};
   Duration thinning{0};  // until stable
@@ -27,7 +28,8 @@ struct Stage {
 };
 
 // In the order in which they run. Everything that shows or sends times goes by this list.
-inline constexpr std::array<Stage, 7> kStages = {{
+inline constexpr std::array<Stage, 8> kStages = {{
+    {"preparing", &StageTimings::preparing},
     {"distance", &StageTimings::distance},
     {"shells", &StageTimings::shells},
     {"thinning", &StageTimings::thinning},

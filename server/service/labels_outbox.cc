@@ -1,8 +1,8 @@
 #include "server/service/labels_outbox.h"
 
+#include "core/pipeline/algorithm_version.h"
 #include "proto/wire/duration.h"
 #include "proto/wire/result.h"
-#include "server/service/algorithm.h"
 
 namespace bccskel::server {
 namespace {

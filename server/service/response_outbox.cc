@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/pipeline/algorithm_version.h"
 #include "proto/wire/result.h"
-#include "server/service/algorithm.h"
 #include "server/service/request_sequence.h"
 
 namespace bccskel::server {

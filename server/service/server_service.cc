@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
 #include "proto/wire/labels.h"
-#include "server/service/algorithm.h"
 #include "server/service/request_sequence.h"
 
 namespace bccskel::server {

@@ -5,13 +5,14 @@
 #include "core/exec/worker_team.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
+#include "tests/support/reference_conditions.h"
 #include "tests/support/reference_point_set.h"
 
 namespace bccskel {
 namespace {
 
 uint64_t Count(const std::vector<LatticePoint>& points) {
-  return CountSimpleNonEndPoints(VolumeOfPoints(points), {});
+  return CountSimplePoints(VolumeOfPoints(points), SimplePoints::kNonEnd, {}, {});
 }
 
 TEST(SimpleNonEndPoints, AreNotTheEndsOfALineButTheCornersOfATriangle) {
@@ -32,15 +33,32 @@ TEST(SimpleNonEndPointsLaw, AgreeWithFloodFillOfNeighborhoods) {
   }
 }
 
+TEST(SimplePointsLaw, CountEndPointsWhereAskedAndNeverThoseSpared) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const auto points = test::RandomCloud(seed, {19, 6, 11}, static_cast<double>(seed) / 19.0);
+    const auto spared = test::RandomSubset(seed, points, 0.3);
+    const test::ReferencePointSet object(points), kept(spared);
+    uint64_t all = 0, non_end = 0;
+    for (LatticePoint p : points) {
+      if (!test::ReferenceCondition1(object.NeighborsOf(p)) || kept.Contains(p)) continue;
+      ++all;
+      non_end += test::ReferenceCondition2(object.NeighborsOf(p)) ? 1 : 0;
+    }
+    const Volume volume = VolumeOfPoints(points), left_out = VolumeOfPoints(spared);
+    ASSERT_EQ(CountSimplePoints(volume, SimplePoints::kAll, left_out, {}), all) << seed;
+    ASSERT_EQ(CountSimplePoints(volume, SimplePoints::kNonEnd, left_out, {}), non_end) << seed;
+  }
+}
+
 TEST(SimpleNonEndPoints, AreAsManyForAnyNumberOfThreads) {
   const Volume object = VolumeOfPoints(test::RandomCloud(5, {64, 32, 32}, 0.3));
-  const uint64_t expected = CountSimpleNonEndPoints(object, {});
+  const uint64_t expected = CountSimplePoints(object, SimplePoints::kNonEnd, {}, {});
   for (int threads : {2, 3, 8}) {
     exec::WorkerTeam team(threads);
     exec::Context context;
     context.team = &team;
     context.min_bricks_per_worker = 1;
-    EXPECT_EQ(CountSimpleNonEndPoints(object, context), expected);
+    EXPECT_EQ(CountSimplePoints(object, SimplePoints::kNonEnd, {}, context), expected);
   }
 }
 
