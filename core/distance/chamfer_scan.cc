@@ -47,7 +47,8 @@ class DistanceScan {
       JoinAll(0, team);
     } else {
       context.Run([&](int worker) {
-        if (worker < team.size()) JoinAll(worker, team);
+        if (worker >= team.size()) return;
+        team.Guard([&] { JoinAll(worker, team); });
       });
     }
     return context.StopStatus();
@@ -68,6 +69,10 @@ class DistanceScan {
         : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
 
     int size() const { return size_; }
+    template <typename Part>
+    void Guard(Part part) {
+      barrier_.Guard(part);
+    }
     // How many are still at it.
     int present() const { return alone_ ? 1 : size_; }
 

@@ -1,5 +1,7 @@
 #include "core/exec/worker_team.h"
 
+#include <utility>
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -44,9 +46,19 @@ void WorkerTeam::Run(const std::function<void(int)>& work) {
     ++generation_;
   }
   wake_.notify_all();
-  work(0);
+  Try(work, 0);
   std::unique_lock lock(mutex_);
   done_.wait(lock, [this] { return running_ == 0; });
+  if (thrown_ != nullptr) std::rethrow_exception(std::exchange(thrown_, nullptr));
+}
+
+void WorkerTeam::Try(const std::function<void(int)>& work, int worker) {
+  try {
+    work(worker);
+  } catch (...) {
+    std::lock_guard lock(mutex_);
+    if (thrown_ == nullptr) thrown_ = std::current_exception();
+  }
 }
 
 void WorkerTeam::Serve(std::stop_token stop, int worker) {
@@ -59,7 +71,7 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
       seen = generation_;
       work = work_;
     }
-    (*work)(worker);
+    Try(*work, worker);
     std::lock_guard lock(mutex_);
     if (--running_ == 0) done_.notify_one();
   }
@@ -83,16 +95,30 @@ bool Barrier::SpinUntilPast(uint32_t phase) const {
 Barrier::Duration Barrier::Wait() {
   if (size_ == 1) return {};
   const uint32_t phase = phase_.load(std::memory_order_acquire);
+  CheckWhole();
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
     arrived_.store(0, std::memory_order_relaxed);
     phase_.fetch_add(1, std::memory_order_acq_rel);
     phase_.notify_all();
     return {};
   }
-  if (SpinUntilPast(phase)) return {};
+  if (SpinUntilPast(phase)) {
+    CheckWhole();
+    return {};
+  }
   const Clock::time_point start = Clock::now();
   phase_.wait(phase, std::memory_order_acquire);
+  CheckWhole();
   return Clock::now() - start;
+}
+
+// A new phase lets go of everyone who waits; whoever comes later sees that the barrier is broken.
+void Barrier::Break(std::exception_ptr cause) {
+  if (breaking_.exchange(true)) return;
+  cause_ = std::move(cause);
+  broken_.store(true, std::memory_order_release);
+  phase_.fetch_add(1, std::memory_order_acq_rel);
+  phase_.notify_all();
 }
 
 }  // namespace bccskel::exec

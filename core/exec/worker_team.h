@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -26,11 +27,13 @@ class WorkerTeam {
   int size() const { return size_; }
 
   // Calls `work(worker)` for worker = 0..size()-1 at the same time and returns when all are done.
-  // `work` must not throw.
+  // What one of them throws, such as std::bad_alloc, is thrown again here once all are done; work
+  // that meets at a Barrier must see to it that the others come to an end (Barrier::Guard()).
   void Run(const std::function<void(int worker)>& work);
 
  private:
   void Serve(std::stop_token stop, int worker);
+  void Try(const std::function<void(int)>& work, int worker);
 
   const int size_;
   std::mutex mutex_;
@@ -39,6 +42,7 @@ class WorkerTeam {
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_
   uint64_t generation_ = 0;                         // guarded by mutex_
   int running_ = 0;                                 // guarded by mutex_
+  std::exception_ptr thrown_;                       // guarded by mutex_; the first of a run
   std::vector<std::jthread> threads_;               // last: joined before the rest is destroyed
 };
 
@@ -50,14 +54,34 @@ class Barrier {
 
   explicit Barrier(int size) : size_(size) {}
   // Returns: for how long the caller was blocked; zero when the others came while it was spinning.
+  // Throws what broke the barrier: a worker that will never come.
   Duration Wait();
+
+  // Runs a worker's part. Whatever it throws ends the others' parts at their next meeting, too, so
+  // that nobody waits for ever; the barrier is of no further use.
+  template <typename Part>
+  void Guard(Part part) {
+    try {
+      part();
+    } catch (...) {
+      Break(std::current_exception());
+      throw;
+    }
+  }
 
  private:
   bool SpinUntilPast(uint32_t phase) const;
+  void Break(std::exception_ptr cause);
+  void CheckWhole() const {
+    if (broken_.load(std::memory_order_acquire)) std::rethrow_exception(cause_);
+  }
 
   const int size_;
   std::atomic<int> arrived_{0};
   std::atomic<uint32_t> phase_{0};
+  std::atomic<bool> breaking_{false};
+  std::atomic<bool> broken_{false};
+  std::exception_ptr cause_;  // written before broken_ is set, once
 };
 
 // Tells when a team is slower than one worker: where the machine does not let its members run at

@@ -41,6 +41,7 @@ class ShellSweep {
       : shells_(plan.shells),
         last_(plan.last),
         stubble_(plan.stubble),
+        after_shell_(plan.after_shell),
         rule_(rule),
         context_(context),
         state_(state),
@@ -59,7 +60,8 @@ class ShellSweep {
 
   absl::StatusOr<SweepTotals> Run() {
     context_.Run([this](int index) {
-      if (static_cast<size_t>(index) < workers_.size()) Work(index);
+      if (static_cast<size_t>(index) >= workers_.size()) return;
+      barrier_.Guard([&] { Work(index); });
     });
     if (stopped_) return context_.StopStatus();
     return SweepTotals{TotalRemoved(), passes_};
@@ -263,11 +265,13 @@ class ShellSweep {
                      .points = points,
                      .removed = removed,
                      .remaining = points_at_start_ - removed});
+    if (after_shell_) after_shell_(shell);
   }
 
   const Shells& shells_;
   const int32_t last_;
   const StubblePolicy stubble_;
+  const std::function<void(int32_t)>& after_shell_;
   PassRule& rule_;
   const exec::Context& context_;
   ThinningState& state_;

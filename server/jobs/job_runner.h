@@ -19,6 +19,13 @@
 
 namespace bccskel::server {
 
+// Who asks, and how urgently: decides on turns and caps, never on results.
+enum class JobPriority { kLow, kNormal, kHigh };  // among the jobs of one tenant
+struct JobOrigin {
+  std::string tenant;  // "": the one that all callers without a name share
+  JobPriority priority = JobPriority::kNormal;
+};
+
 // Where the time of a job went.
 struct JobTimes {
   std::chrono::nanoseconds queued{0};    // waiting for threads
@@ -28,6 +35,7 @@ struct JobTimes {
 
 // What a caller wants computed, and the volume it promises to send.
 struct JobRequest {
+  JobOrigin origin;
   VolumeHeader header;      // as declared and completed; not yet compared with the bytes
   uint64_t size_bytes = 0;  // of the encoded volume
   SkeletonizeOptions options;
@@ -62,6 +70,8 @@ class UploadListener {
 
 class JobListener : public UploadListener {
  public:
+  // The volume is complete and decoded; from here on the job waits for threads.
+  virtual void OnVolume(const Volume&) {}
   // `elapsed` since the computation began.
   virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
   // Exactly once, whatever happens.
@@ -70,6 +80,7 @@ class JobListener : public UploadListener {
 
 // What a caller wants of a volume of labels.
 struct LabelsRequest {
+  JobOrigin origin;
   LabelVolumeHeader header;      // as declared, with the worst case for what was not
   uint64_t size_bytes = 0;       // of the volume as sent
   std::vector<uint64_t> labels;  // none means all

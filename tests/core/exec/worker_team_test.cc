@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <new>
 #include <set>
 #include <thread>
 #include <vector>
@@ -93,6 +95,42 @@ TEST(Barrier, WaitsForAWorkerThatSleeps) {
     if (worker == 0) seen = written;
   });
   EXPECT_EQ(seen, 7);
+}
+
+TEST(WorkerTeam, ThrowsWhatOneOfItsWorkersThrowsAndGoesOn) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    for (int thrower = 0; thrower < std::min(size, 4); ++thrower) {
+      std::atomic<int> others{0};
+      const auto work = [&](int worker) {
+        if (worker == thrower) throw std::bad_alloc();
+        ++others;
+      };
+      EXPECT_THROW(team.Run(work), std::bad_alloc) << "worker " << thrower << " of " << size;
+      EXPECT_EQ(others, size - 1);
+    }
+    team.Run([](int) {});
+  }
+}
+
+TEST(Barrier, GuardedPartsEndTogetherWhenOneThrows) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    for (int thrower = 0; thrower < std::min(size, 4); ++thrower) {
+      Barrier barrier(size);
+      std::atomic<int> ended{0};
+      const auto part = [&](int worker) {
+        for (int phase = 0; phase < 10; ++phase) {
+          if (phase == 5 && worker == thrower) throw std::bad_alloc();
+          barrier.Wait();
+        }
+        ++ended;
+      };
+      const auto work = [&](int worker) { barrier.Guard([&] { part(worker); }); };
+      EXPECT_THROW(team.Run(work), std::bad_alloc) << "worker " << thrower << " of " << size;
+      EXPECT_EQ(ended, 0);
+    }
+  }
 }
 
 TEST(ShareOf, CoversAllItemsOnceInOrderAndEvenly) {

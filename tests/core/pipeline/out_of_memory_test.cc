@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "core/exec/context.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/shapes/shapes.h"
+
+// The allocator of this program fails on demand, for all but the words of messages: Abseil ends the
+// process where it cannot have those.
+
+namespace {
+
+constexpr size_t kWordsOfAMessage = 200;
+constexpr long kNever = std::numeric_limits<long>::max();
+enum class Victim { kMainThread, kOtherThreads };
+std::atomic<long> allocations_left{kNever};
+std::atomic<Victim> victim{Victim::kOtherThreads};
+thread_local bool is_main_thread = false;
+
+void* AllocateOrThrow(size_t bytes) {
+  const bool counted =
+      bytes > kWordsOfAMessage && is_main_thread == (victim == Victim::kMainThread);
+  if (counted && allocations_left != kNever && --allocations_left == 0) throw std::bad_alloc();
+  void* const memory = std::malloc(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(size_t bytes) { return AllocateOrThrow(bytes); }
+void* operator new[](size_t bytes) { return AllocateOrThrow(bytes); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+
+namespace bccskel {
+namespace {
+
+enum class End { kDone, kOutOfMemory };
+
+End SkeletonizeWith(const Volume& object, const SkeletonizeOptions& options, long allocations) {
+  exec::WorkerTeam team(3);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  allocations_left = allocations;
+  End end = End::kDone;
+  try {
+    EXPECT_TRUE(Skeletonize(object, options, context).ok());
+  } catch (const std::bad_alloc&) {
+    end = End::kOutOfMemory;
+  }
+  allocations_left = kNever;
+  return end;
+}
+
+// Every few allocations, up to the first that is not reached any more.
+int FailuresOf(Victim which, const SkeletonizeOptions& options) {
+  is_main_thread = true;
+  victim = which;
+  const Volume torus = *GenerateShape(Shape::kTorus, {.points = 5'000});
+  int failures = 0;
+  for (long n = 1; SkeletonizeWith(torus, options, n) == End::kOutOfMemory; ++n) {
+    ++failures;
+  }
+  return failures;
+}
+
+TEST(OutOfMemory, InAWorkerEndsTheComputationAndNotTheProcess) {
+  EXPECT_GT(FailuresOf(Victim::kOtherThreads, {}), 4);
+}
+
+TEST(OutOfMemory, InTheCallersThreadEndsTheComputationAndNotTheProcess) {
+  EXPECT_GT(FailuresOf(Victim::kMainThread, {}), 20);
+}
+
+}  // namespace
+}  // namespace bccskel
