@@ -33,6 +33,7 @@ absl::Status SkeletonizeWork::Finish(const std::optional<Sha256Digest>& expected
   BCCSKEL_ASSIGN_OR_RETURN(volume_, intake_->Finish(expected, context));
   mask_topology_ = intake_->mask_topology();
   intake_.reset();
+  listener_->OnVolume(*volume_);
   return absl::OkStatus();
 }
 
