@@ -1,6 +1,7 @@
 #include "client/export/json.h"
 
 #include <chrono>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -52,6 +53,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge) {
   text.Add(",\"length\":", figures.length, ",\"mean_radius\":", figures.mean_radius,
            ",\"min_radius\":", figures.min_radius, ",\"max_radius\":", figures.max_radius);
   if (figures.tortuosity.has_value()) text.Add(",\"tortuosity\":", *figures.tortuosity);
+  if (std::isfinite(edge.pruning_level)) text.Add(",\"pruning_level\":", edge.pruning_level);
   text.Add('}');
 }
 

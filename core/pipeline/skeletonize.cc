@@ -56,6 +56,7 @@ void SetPruningLevels(const PruningLevels& levels, SkeletonGraph& graph) {
 }
 
 Volume PointsOnlyIn(const Volume& more, const Volume& less) {
+  if (more.empty()) return more;
   VolumeBuilder builder(more.extent(), more.placement());
   more.ForEachPoint([&](LatticePoint p) {
     if (!less.Contains(p)) builder.Add(p);

@@ -11,6 +11,7 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
+#include "core/pruning/thin_set.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -43,10 +44,15 @@ struct PruningOptions {
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 
+// For each point of a branch, the threshold of the slope rule above which it goes; infinity where
+// it never does. Points at junctions and tips that have grown have none.
+using PruningLevels = absl::flat_hash_map<LatticePoint, double, LatticePointHash>;
+
 struct PrunedSkeleton {
   Volume thin;
   std::vector<float> radii;  // of its points, lattice units, in the order of ForEachPoint()
   uint64_t branches_removed = 0;
+  PruningLevels levels;  // as pruned, before tips were placed
 };
 
 // Removes spurious branches and places the tips of the others. Points go and come one by one, each

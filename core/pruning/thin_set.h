@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_PRUNING_THIN_SET_H_
 #define BCCSKEL_CORE_PRUNING_THIN_SET_H_
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -42,6 +43,14 @@ class ThinSet {
 
   // End points, in lattice order.
   std::vector<LatticePoint> Ends() const;
+
+  // Calls visit(LatticePoint) for the points on plain curves and ends, in any order.
+  template <typename Visit>
+  void ForEachBranchPoint(Visit visit) const {
+    for (const auto& [p, entry] : points_) {
+      if (std::popcount(static_cast<unsigned>(entry.neighbors)) <= 2) visit(p);
+    }
+  }
 
   // Straight distance in lattice units.
   double Between(LatticePoint a, LatticePoint b) const {

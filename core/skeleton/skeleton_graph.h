@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ struct SkeletonEdge {
   uint64_t first_point =
       0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
+  // The threshold of pruning by slope, in lattice units, above which the edge goes: with branches
+  // that end, one after the other. Edges on loops, and one path of a tree, never do.
+  double pruning_level = std::numeric_limits<double>::infinity();
 
   friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
 };
@@ -85,7 +89,7 @@ struct SkeletonGraph {
 };
 
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
-// topology) in canonical order. Placement is not part of it. The byte layout is stated at the
+// topology) in canonical order. Placement and pruning levels are not part of it. The byte layout is stated at the
 // definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 

@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_THINNING_SHELL_SWEEP_H_
 
 #include <cstdint>
+#include <functional>
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
@@ -16,6 +17,8 @@ struct SweepPlan {
   const Shells& shells;
   int32_t last = 0;  // shell
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
+  // Called on worker 0 after each shell, while nobody removes anything.
+  std::function<void(int32_t shell)> after_shell = nullptr;
 };
 
 struct SweepTotals {

@@ -1,12 +1,14 @@
 #include "core/thinning/thinning.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/thinning/cleanup.h"
 #include "core/thinning/direction_rule.h"
+#include "core/thinning/peeled_points.h"
 #include "core/thinning/shell_sweep.h"
 #include "core/thinning/symmetric_rule.h"
 
@@ -36,11 +38,12 @@ namespace {
 class Thinning {
  public:
   Thinning(const Volume& object, const DistanceField& distance, const ThinningOptions& options,
-           const exec::Context& context)
+           const exec::Context& context, const OnShellPoints& on_points)
       : object_(object),
         distance_(distance),
         options_(options),
         context_(context),
+        on_points_(on_points),
         state_(object, options.keep) {}
 
   absl::StatusOr<ThinningResult> Run() {
@@ -52,6 +55,7 @@ class Thinning {
     // A symmetric pass removes something as long as anything is simple.
     if (options_.cleanup == ThinnessCleanup::kOn && !symmetric) {
       BCCSKEL_ASSIGN_OR_RETURN(result_.removed_by_cleanup, CleanUpThinness(context_, state_));
+      if (peeled_.has_value()) on_points_(shells.last() + 1, peeled_->Take(state_.object));
     }
     result_.times.cleanup = clock_.Lap();
     result_.thin = std::move(state_).ToVolume(object_);
@@ -79,7 +83,11 @@ class Thinning {
     const int32_t last =
         options_.last_shell == 0 ? shells.last() : std::min(options_.last_shell, shells.last());
     const bool has_stubble = EndPointsOf(options_.kind) == EndPoints::kStay;
-    const SweepPlan plan = {shells, last, has_stubble ? options_.stubble : StubblePolicy::kNone};
+    SweepPlan plan = {shells, last, has_stubble ? options_.stubble : StubblePolicy::kNone};
+    if (on_points_) {
+      peeled_.emplace(object_);
+      plan.after_shell = [this](int32_t shell) { on_points_(shell, peeled_->Take(state_.object)); };
+    }
     BCCSKEL_ASSIGN_OR_RETURN(const SweepTotals totals, SweepShells(plan, rule, context_, state_));
     result_.removed = totals.removed;
     result_.passes = totals.passes;
@@ -91,6 +99,8 @@ class Thinning {
   const DistanceField& distance_;
   const ThinningOptions& options_;
   const exec::Context& context_;
+  const OnShellPoints& on_points_;
+  std::optional<PeeledPoints> peeled_;
   exec::StageClock clock_;
   ThinningState state_;
   ThinningResult result_;
@@ -100,9 +110,10 @@ class Thinning {
 
 absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
                                            const ThinningOptions& options,
-                                           const exec::Context& context) {
+                                           const exec::Context& context,
+                                           const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  return Thinning(object, distance, options, context).Run();
+  return Thinning(object, distance, options, context, on_points).Run();
 }
 
 }  // namespace bccskel

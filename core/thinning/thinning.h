@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -99,12 +100,19 @@ struct ThinningResult {
   ThinningTimes times;
 };
 
+// Hears which points of the object went while a shell was thinned: once for each shell, in order,
+// also where none did; and, as shell `last_shell + 1`, those that went after the shells. Called on
+// worker 0 while the others go on, so the sooner it returns the better.
+using OnShellPoints = std::function<void(int32_t shell, Volume points)>;
+
 // Parallel thinning with shells: section 5, by the method and to the kind of skeleton wanted.
-// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
-// Threads: uses all of the context's; the result is the same for any number.
+// Cost:   where `on_points` is given, a copy of the object and a look at all bricks after each
+// shell. Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED. Threads: uses all of the
+// context's; the result is the same for any number.
 absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
                                            const ThinningOptions& options,
-                                           const exec::Context& context);
+                                           const exec::Context& context,
+                                           const OnShellPoints& on_points = nullptr);
 
 }  // namespace bccskel
 

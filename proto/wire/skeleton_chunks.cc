@@ -11,9 +11,10 @@
 namespace bccskel::wire {
 namespace {
 
-// Most bytes of a row: 5 for each 32-bit varint, 4 for a float, 10 for a 64-bit one, 1 for a kind.
+// Most bytes of a row: 5 for each 32-bit varint, 4 for a float, 8 for a double, 10 for a
+// 64-bit one, 1 for a kind.
 constexpr size_t kNodeRowBytes = 1 + 6 * 5;
-constexpr size_t kEdgeRowBytes = 2 * 5 + 10;
+constexpr size_t kEdgeRowBytes = 2 * 5 + 10 + 8;
 constexpr size_t kPointRowBytes = 4 * 5;
 // Tags and lengths of the tables and their columns, and the sequence number.
 constexpr size_t kFramingBytes = 256;
@@ -98,6 +99,12 @@ absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph)
   return absl::OkStatus();
 }
 
+// An older server sends no levels.
+absl::Status CheckEdgeColumns(const v1::SkeletonEdgeColumns& c) {
+  const int levels = c.pruning_level_size() == 0 ? c.source_size() : c.pruning_level_size();
+  return CheckColumns("edge", {c.source_size(), c.target_size(), c.point_count_size(), levels});
+}
+
 absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
   BCCSKEL_RETURN_IF_ERROR(
       CheckColumns("point", {c.x_size(), c.y_size(), c.z_size(), c.radius_size()}));
@@ -122,6 +129,9 @@ absl::Status CheckEdge(const SkeletonGraph& graph, size_t n) {
       points.back().point != graph.nodes[edge.target].at.point) {
     return absl::DataLossError(
         absl::StrCat("the points of edge ", n, " do not run from its source to its target"));
+  }
+  if (!(edge.pruning_level >= 0)) {
+    return absl::DataLossError(absl::StrCat("edge ", n, " has pruning level ", edge.pruning_level));
   }
   return absl::OkStatus();
 }
@@ -184,6 +194,7 @@ void SkeletonChunkPager::AddEdges(size_t& budget_bytes, v1::SkeletonEdgeColumns&
     columns.add_source(edge.source);
     columns.add_target(edge.target);
     columns.add_point_count(edge.point_count);
+    columns.add_pruning_level(edge.pruning_level);
   }
 }
 
@@ -207,8 +218,7 @@ absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
   ++chunks_;
   const v1::SkeletonEdgeColumns& edges = chunk.edges();
   BCCSKEL_RETURN_IF_ERROR(AppendNodes(chunk.nodes(), graph_));
-  BCCSKEL_RETURN_IF_ERROR(
-      CheckColumns("edge", {edges.source_size(), edges.target_size(), edges.point_count_size()}));
+  BCCSKEL_RETURN_IF_ERROR(CheckEdgeColumns(edges));
   for (int row = 0; row < edges.source_size(); ++row) {
     if (edges.point_count(row) > kMaxEdgePoints - edge_points_) {
       return absl::DataLossError(absl::StrCat("an edge of ", edges.point_count(row),
@@ -217,6 +227,9 @@ absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
     }
     graph_.edges.push_back(
         {edges.source(row), edges.target(row), edge_points_, edges.point_count(row)});
+    if (edges.pruning_level_size() > 0) {
+      graph_.edges.back().pruning_level = edges.pruning_level(row);
+    }
     edge_points_ += edges.point_count(row);
   }
   return AppendPoints(chunk.points(), graph_);

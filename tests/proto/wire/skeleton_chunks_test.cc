@@ -27,7 +27,7 @@ SkeletonGraph Chain(uint32_t edges, uint64_t length) {
     graph.nodes.push_back({NodeKind::kJunction, point(n), kLargest - n, kLargest});
   }
   for (uint32_t n = 0; n < edges; ++n) {
-    graph.edges.push_back({n, n + 1, graph.points.size(), length});
+    graph.edges.push_back({n, n + 1, graph.points.size(), length, n / 8.0});
     for (uint64_t step = 0; step + 1 < length; ++step) {
       graph.points.push_back(point(n + static_cast<uint32_t>(step % 7) * (step > 0)));
     }

@@ -1,0 +1,69 @@
+#ifndef BCCSKEL_CORE_PRUNING_BRANCH_PRUNER_H_
+#define BCCSKEL_CORE_PRUNING_BRANCH_PRUNER_H_
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/exec/context.h"
+#include "core/pruning/branch_walk.h"
+#include "core/pruning/prune.h"
+#include "core/pruning/thin_set.h"
+#include "core/pruning/tips.h"
+
+namespace bccskel {
+
+// Does:  takes spurious branches away, the least first, and looks again at what is left of the
+//        junction: two branches that remain of three become one.
+// Why it is right: a branch is removed from its end on, and an end point is simple; then points at
+//   the junction that have become simple go one after the other. So nothing but branches with a
+//   free end can vanish, and of a path with two ends nothing does.
+// A branch is worth the number that the rule compares with the threshold. So what a threshold takes
+// is what every larger one takes first: the results of all thresholds are nested.
+// Cost:  follows the points of the branches that end; each removal looks at one junction.
+class BranchPruner {
+ public:
+  // A point that went, and what its branch was worth.
+  using OnRemoved = std::function<void(LatticePoint, double)>;
+
+  // `threshold` in the rule's unit: lattice units, or radii of the junction.
+  // The arguments must outlive the pruner.
+  BranchPruner(ThinSet& set, PruningRule rule, double threshold, const PointSet& keep,
+               const exec::Context& context)
+      : set_(set), rule_(rule), threshold_(threshold), keep_(keep), context_(context) {}
+
+  // Returns how many branches went. Stops early when the context says so.
+  uint64_t Run(const OnRemoved& on_removed = [](LatticePoint, double) {});
+
+ private:
+  bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
+  void Judge(LatticePoint end);
+  void JudgeAround(LatticePoint p);
+  void JudgeBeyond(LatticePoint p);
+
+  std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
+  std::optional<double> WorthBySlope(const FreeBranch& branch, LatticePoint junction,
+                                     float ball) const;
+  double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
+  std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
+
+  std::vector<LatticePoint> Remove(const FreeBranch& branch);
+  std::vector<LatticePoint> CleanUpAround(LatticePoint junction,
+                                          std::vector<LatticePoint>& removed);
+
+  using Turn = std::pair<double, LatticePoint>;
+
+  ThinSet& set_;
+  const PruningRule rule_;
+  const double threshold_;
+  const PointSet& keep_;
+  const exec::Context& context_;
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_BRANCH_PRUNER_H_

@@ -1,0 +1,23 @@
+#include "core/pruning/pruning_levels.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/pruning/branch_pruner.h"
+
+namespace bccskel {
+
+PruningLevels PruningLevelsOf(ThinSet set, const PointSet& keep, const exec::Context& context) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  PruningLevels levels;
+  set.ForEachBranchPoint([&](LatticePoint p) { levels.emplace(p, kNever); });
+  double level = 0;
+  const auto record = [&](LatticePoint p, double worth) {
+    level = std::max(level, worth);
+    if (const auto found = levels.find(p); found != levels.end()) found->second = level;
+  };
+  BranchPruner(set, PruningRule::kSlope, kNever, keep, context).Run(record);
+  return levels;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,41 @@
+#ifndef BCCSKEL_CORE_THINNING_PEELED_POINTS_H_
+#define BCCSKEL_CORE_THINNING_PEELED_POINTS_H_
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Tells which points of an object have gone since it was last asked.
+class PeeledPoints {
+ public:
+  // `object` must outlive this.
+  explicit PeeledPoints(const Volume& object)
+      : object_(object), before_(object.bricks().begin(), object.bricks().end()) {}
+
+  // Shapes: `now` in the brick order of the object, padding or not; a part of what it was before.
+  Volume Take(std::span<const BrickBits> now) {
+    std::vector<BrickKey> keys;
+    std::vector<BrickBits> gone;
+    for (size_t n = 0; n < before_.size(); ++n) {
+      if (before_[n] == now[n]) continue;
+      keys.push_back(object_.keys()[n]);
+      BrickBits& bits = gone.emplace_back(before_[n]);
+      for (size_t w = 0; w < bits.words.size(); ++w) bits.words[w] &= ~now[n].words[w];
+      before_[n] = now[n];
+    }
+    return Volume::FromSortedBricks(object_.extent(), object_.placement(), std::move(keys),
+                                    std::move(gone));
+  }
+
+ private:
+  const Volume& object_;
+  std::vector<BrickBits> before_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_PEELED_POINTS_H_

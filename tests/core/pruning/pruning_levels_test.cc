@@ -1,0 +1,116 @@
+#include "core/pruning/pruning_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/distance/exact_radius.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/shapes/shapes.h"
+#include "tests/core/pruning/simple_noise.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+// What thinning leaves, before anything is pruned.
+struct Raw {
+  explicit Raw(Volume whole)
+      : object(std::move(whole)),
+        field(*ComputeDistance(object, DistanceKind::kEuclidean, {})),
+        thin(ThinToCurve(object, field, {.method = ThinningMethod::kSymmetric}, {})->thin),
+        radii(*ExactRadii(thin, object, field, {})) {}
+
+  PrunedSkeleton PrunedBy(PruningRule rule, double threshold) const {
+    const PruningOptions options = {rule, threshold, TipPlacement::kAsThinned};
+    return *Prune(thin, radii, object, field, {}, options, {});
+  }
+
+  Volume object;
+  DistanceField field;
+  Volume thin;
+  std::vector<float> radii;
+};
+
+std::vector<Raw> Objects() {
+  std::vector<Raw> objects;
+  for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot, Shape::kHollowBall}) {
+    const Volume clean = *GenerateShape(shape, {.points = 30'000});
+    objects.emplace_back(clean);
+    objects.emplace_back(test::WithSimpleNoise(clean, 0.1, 7));
+  }
+  for (uint64_t seed : {1, 2, 3}) {
+    objects.emplace_back(VolumeOfPoints(test::RandomCloud(seed, {20, 20, 20}, 0.6)));
+  }
+  return objects;
+}
+
+// Thresholds at, just below and just above levels of the object, and between.
+std::vector<double> ThresholdsFor(const PruningLevels& levels) {
+  std::vector<double> all = {0.25, 1, 4, 1000};
+  for (const auto& [p, level] : levels) {
+    if (std::isfinite(level) && level > 0) all.push_back(level);
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<double> some;
+  for (size_t n = 0; n < all.size(); n += 1 + all.size() / 12) {
+    some.insert(some.end(), {std::nextafter(all[n], 0), all[n], std::nextafter(all[n], 1e9)});
+  }
+  return some;
+}
+
+TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
+  size_t kept = 0, gone = 0;
+  for (const Raw& raw : Objects()) {
+    const PruningLevels levels = raw.PrunedBy(PruningRule::kNone, 0).levels;
+    ASSERT_FALSE(levels.empty());
+    for (double threshold : ThresholdsFor(levels)) {
+      SCOPED_TRACE(threshold);
+      const Volume pruned = raw.PrunedBy(PruningRule::kSlope, threshold).thin;
+      for (const auto& [p, level] : levels) {
+        ASSERT_EQ(pruned.Contains(p), level >= threshold);
+        ++(level >= threshold ? kept : gone);
+      }
+    }
+  }
+  EXPECT_GT(kept, 0u);
+  EXPECT_GT(gone, 0u);
+}
+
+TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
+  for (const Raw& raw : Objects()) {
+    const PruningLevels before = raw.PrunedBy(PruningRule::kNone, 0).levels;
+    const PrunedSkeleton pruned = raw.PrunedBy(PruningRule::kSlope, 3);
+    for (const auto& [p, level] : pruned.levels) {
+      EXPECT_GE(level, 3);
+      const auto found = before.find(p);
+      if (found == before.end()) continue;  // a branch point now, a junction before
+      EXPECT_EQ(found->second, level);
+    }
+  }
+}
+
+TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
+  for (Shape shape : {Shape::kTorus, Shape::kKnot, Shape::kTree}) {
+    const Raw raw(test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7));
+    const PrunedSkeleton pruned = raw.PrunedBy(PruningRule::kSlope, 1e9);
+    EXPECT_FALSE(pruned.levels.empty());
+    for (const auto& [p, level] : pruned.levels) EXPECT_EQ(level, HUGE_VAL);
+    EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(raw.object, {}));
+  }
+}
+
+TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
+  const Raw raw(*GenerateShape(Shape::kTree, {.points = 30'000}));
+  const std::vector<LatticePoint> ends = ThinSet(raw.thin, raw.radii).Ends();
+  const PointSet keep(ends.begin(), ends.end());
+  for (const auto& [p, level] : PruningLevelsOf(ThinSet(raw.thin, raw.radii), keep, {})) {
+    EXPECT_EQ(level, HUGE_VAL);
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
