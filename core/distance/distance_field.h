@@ -33,8 +33,9 @@ enum class DistanceKind : uint8_t {
 //         brick.
 class DistanceField {
  public:
-  // Chamfer distances are counts, in 16 bits unless some distance needs more; Euclidean ones are
-  // squared lattice units, whole numbers where the spacing is the same along all axes.
+  // Chamfer distances are counts, in 16 bits unless some distance needs more. Euclidean ones are
+  // squared lattice units: 16 bits where the spacing is the same along all axes and no distance
+  // needs more, else floats.
   using Values =
       std::variant<exec::UninitializedVector<uint16_t>, exec::UninitializedVector<uint32_t>,
                    exec::UninitializedVector<float>>;
@@ -47,8 +48,8 @@ class DistanceField {
   const ChamferWeights& weights() const { return weights_; }
   const Values& values() const { return values_; }
 
-  // A number that grows with the distance: its counts, or the bits of the float that holds the
-  // squared distance. Equal if and only if the distances are.
+  // A number that grows with the distance: its counts, its square, or the bits of the float that
+  // holds the square. Equal if and only if the distances are.
   uint32_t At(BrickIndex brick, int bit) const {
     const size_t n = size_t{brick} * kBrickPoints + static_cast<size_t>(bit);
     return std::visit([n](const auto& v) { return RankOf(v[n]); }, values_);
@@ -57,8 +58,9 @@ class DistanceField {
 
   // `rank` as from At().
   double ToLatticeUnits(uint32_t rank) const {
-    return kind_ == DistanceKind::kEuclidean ? std::sqrt(double{std::bit_cast<float>(rank)})
-                                             : rank / weights_.counts_per_unit;
+    if (kind_ != DistanceKind::kEuclidean) return rank / weights_.counts_per_unit;
+    const bool is_float = std::holds_alternative<exec::UninitializedVector<float>>(values_);
+    return std::sqrt(is_float ? std::bit_cast<float>(rank) : static_cast<double>(rank));
   }
 
   static uint32_t RankOf(uint16_t counts) { return counts; }

@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_DISTANCE_EUCLIDEAN_ROWS_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,8 +10,11 @@
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 
-// The inner loops of the Euclidean distance, for rows of 16 points at a time; compiled for every
-// instruction set and picked at run time. See euclidean_scan.cc for what they add up to.
+// The inner loops of the Euclidean distance, for one or two rows of 16 points at a time; compiled
+// for every instruction set and picked at run time. See euclidean_scan.cc for what they add up to.
+//
+// Squares are of type T: uint16_t, whole squared lattice units with saturation, where the spacing
+// is the same along all axes and the object is not too deep, else float.
 
 namespace bccskel {
 
@@ -18,25 +22,31 @@ namespace bccskel {
 inline constexpr size_t kLayerPoints = kBrickX * kBrickY;
 inline constexpr size_t kLayersBeside = kBrickZ + 1;
 
+// In 16 bits, lengths along a row are cut off at the root of this, and so squares from here on may
+// be too small. Those below are right: they are sums of lengths that were not cut off.
+inline constexpr uint16_t kFirstUnsureSquare = 255 * 255;
+
 // What the loops work on. Squared distances in lattice units.
+template <typename T>
 struct EuclideanView {
   const BrickBits* object = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
   BrickIndex padding = 0;  // the brick that stands for those not stored
   // Shapes: kBrickPoints per brick. First within the layer, to background of the same sublattice;
   //         in the end to all background.
-  float* own = nullptr;
+  T* own = nullptr;
   // Shapes: kLayersBeside * kLayerPoints per brick. From the places above (even brick) or below
   //         (odd brick) its points, within the layer of the other sublattice that lies there, to
   //         that layer's background. The last layer is the one on the other side of the brick.
-  float* beside = nullptr;
+  T* beside = nullptr;
 };
 
 // Squared lengths along the axes.
+template <typename T>
 struct SquaredLengths {
-  float x = 1;           // of one unit along x
-  std::vector<float> y;  // of n units along y, as many as the longest stack needs
-  std::vector<float> z;  // of n units along z
+  T x = 1;           // of one unit along x
+  std::vector<T> y;  // of n units along y, as many as the longest stack needs
+  std::vector<T> z;  // of n units along z
 };
 
 // A stack of stored bricks of one sublattice, each the next one's neighbor along an axis.
@@ -45,12 +55,18 @@ using BrickStack = std::span<const BrickIndex>;
 // Distances within the layers of a stack along y: `own` of its bricks, `beside` of the bricks of
 // the other sublattice that lie at the same place.
 // Shapes: `runs` of the slab whose first brick is `first`.
-void ScanLayers(const EuclideanView& view, const SquaredLengths& lengths, Sublattice sublattice,
-                BrickStack stack, const SideRuns<uint32_t>& runs, BrickIndex first);
+void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                BrickIndex first);
+void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                BrickIndex first);
 
 // From distances within layers to distances in space: `own` of a stack along z.
 // Needs: ScanLayers() for all stacks.
-void ScanAcrossLayers(const EuclideanView& view, const SquaredLengths& lengths,
+void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
+                      Sublattice sublattice, BrickStack stack);
+void ScanAcrossLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
                       Sublattice sublattice, BrickStack stack);
 
 }  // namespace bccskel

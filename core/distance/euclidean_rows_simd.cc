@@ -16,133 +16,176 @@ namespace bccskel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, kBrickX>;
-using Ints = hn::RebindToSigned<Floats>;
-using Vector = hn::Vec<Floats>;
+// A vector of 64 bytes at most: a row of floats, or two rows of whole numbers.
+template <typename T>
+using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
+template <typename T>
+using Vector = hn::Vec<Tag<T>>;
+// Rows that are looked at together have as many points.
+template <typename T>
+inline constexpr size_t kBandPoints = 64 / sizeof(T);
 
-// Runs of object points that end at, and begin at, the points of a row, in points; one more at the
-// side that the row's places between points need.
-struct PointRuns {
-  alignas(64) std::array<int32_t, kBrickX + 1> leftward;   // [i + 1] of point i
-  alignas(64) std::array<int32_t, kBrickX + 1> rightward;  // [i] of point i
-};
+// Rows of background on either side of a stack. Two rows look outward together, two steps at a
+// time: one of them may look three rows past the first of background.
+inline constexpr size_t kBorderRows = 4;
 
-HWY_INLINE void FindPointRuns(uint32_t bits, uint32_t left, uint32_t right, PointRuns& runs) {
-  if (bits == 0xffff) {  // most rows of a thick object
-    for (uint32_t i = 0; i <= kBrickX; ++i) {
-      runs.leftward[i] = static_cast<int32_t>(left + i);
-      runs.rightward[i] = static_cast<int32_t>(right + kBrickX - i);
-    }
-    return;
-  }
-  auto run = static_cast<int32_t>(left);
-  runs.leftward[0] = run;
-  for (size_t i = 0; i < kBrickX; ++i) {
-    run = (bits >> i & 1) != 0 ? run + 1 : 0;
-    runs.leftward[i + 1] = run;
-  }
-  run = static_cast<int32_t>(right);
-  runs.rightward[kBrickX] = run;
-  for (size_t i = kBrickX; i-- > 0;) {
-    run = (bits >> i & 1) != 0 ? run + 1 : 0;
-    runs.rightward[i] = run;
-  }
+HWY_INLINE Vector<float> Sum(Vector<float> a, Vector<float> b) { return hn::Add(a, b); }
+HWY_INLINE Vector<uint16_t> Sum(Vector<uint16_t> a, Vector<uint16_t> b) {
+  return hn::SaturatedAdd(a, b);
 }
 
-// The squared length of `units` lattice units along x.
-HWY_INLINE Vector SquareAlongX(hn::Vec<Ints> units, Vector unit_square) {
-  const auto length = hn::ConvertTo(Floats(), units);
-  return hn::Mul(hn::Mul(length, length), unit_square);
+using RunTag = hn::CappedTag<int32_t, kBrickX>;
+using Run = hn::Vec<RunTag>;
+
+// The bits 0..i of 16, for i from -1 to 15.
+alignas(64) constexpr std::array<int32_t, kBrickX + 1> kBitsUpTo = {
+    0x0000, 0x0001, 0x0003, 0x0007, 0x000f, 0x001f, 0x003f, 0x007f, 0x00ff,
+    0x01ff, 0x03ff, 0x07ff, 0x0fff, 0x1fff, 0x3fff, 0x7fff, 0xffff};
+
+// The highest bit, or `none` where there is none: whole numbers of 16 bits are exact as floats,
+// whose exponent tells. Without branches, since rows at a boundary come in all kinds.
+HWY_INLINE Run HighestBit(Run bits, int32_t none) {
+  const RunTag ints;
+  const auto exponent =
+      hn::ShiftRight<23>(hn::BitCast(ints, hn::ConvertTo(hn::RebindToFloat<RunTag>(), bits)));
+  return hn::IfThenElse(hn::Eq(bits, hn::Zero(ints)), hn::Set(ints, none),
+                        hn::Sub(exponent, hn::Set(ints, 127)));
+}
+
+// A row's background, and how far the object goes on beside it, in points.
+struct RowEnds {
+  int32_t background;  // a bit per point
+  int32_t left;
+  int32_t right;
+
+  // How many object points there are in a row: up to point i, and from point i on.
+  HWY_INLINE Run UpTo(int32_t i) const {
+    const RunTag ints;
+    const auto bits =
+        hn::And(hn::Set(ints, background), hn::LoadU(ints, &kBitsUpTo[Position(i + 1)]));
+    return hn::Sub(hn::Iota(ints, i), HighestBit(bits, -1 - left));
+  }
+  HWY_INLINE Run From(int32_t i) const {
+    const RunTag ints;
+    const auto bits =
+        hn::AndNot(hn::LoadU(ints, &kBitsUpTo[Position(i)]), hn::Set(ints, background));
+    const auto lowest = hn::And(bits, hn::Neg(bits));
+    return hn::Sub(HighestBit(lowest, kBrickX + right), hn::Iota(ints, i));
+  }
+  static size_t Position(int32_t i) { return static_cast<size_t>(i); }
+};
+
+// Stores the squared lengths of `units` lattice units along x.
+HWY_INLINE void StoreSquares(Run units, float unit_square, float* to) {
+  const hn::RebindToFloat<RunTag> tag;
+  const auto length = hn::ConvertTo(tag, units);
+  hn::StoreU(hn::Mul(hn::Mul(length, length), hn::Set(tag, unit_square)), tag, to);
+}
+HWY_INLINE void StoreSquares(Run units, uint16_t, uint16_t* to) {
+  const hn::Rebind<uint16_t, RunTag> tag;
+  const auto length = hn::Min(units, hn::Set(RunTag(), 255));
+  hn::StoreU(hn::DemoteTo(tag, hn::Mul(length, length)), tag, to);
 }
 
 // Squared distances along x to the background of a row: at its points, and at the places between
 // them, which lie to the right of even points and to the left of odd ones.
-HWY_INLINE void MeasureRow(const PointRuns& runs, Sublattice sublattice, float unit_square,
-                           float* own, float* between) {
-  const Ints ints;
-  const auto unit = hn::Set(Floats(), unit_square);
-  const int32_t* left = runs.leftward.data();
-  const int32_t* right = runs.rightward.data();
-  const size_t beside = sublattice == Sublattice::kEven ? 1 : 0;
-  for (size_t i = 0; i < kBrickX; i += hn::Lanes(ints)) {
-    const auto points = hn::Min(hn::LoadU(ints, left + i + 1), hn::LoadU(ints, right + i));
-    const auto between_points =
-        hn::Min(hn::LoadU(ints, left + i + beside), hn::LoadU(ints, right + i + beside));
-    hn::StoreU(SquareAlongX(hn::Add(points, points), unit), Floats(), own + i);
-    const auto odd = hn::Add(hn::Add(between_points, between_points), hn::Set(ints, 1));
-    hn::StoreU(SquareAlongX(odd, unit), Floats(), between + i);
+template <typename T>
+HWY_INLINE void MeasureRow(const RowEnds& row, Sublattice sublattice, T unit_square, T* own,
+                           T* between) {
+  const RunTag ints;
+  const bool even = sublattice == Sublattice::kEven;
+  for (int32_t i = 0; i < kBrickX; i += static_cast<int32_t>(hn::Lanes(ints))) {
+    const auto up_to = row.UpTo(i), from = row.From(i);
+    const auto run = hn::Min(up_to, from);
+    const auto run_between =
+        even ? hn::Min(up_to, row.From(i + 1)) : hn::Min(row.UpTo(i - 1), from);
+    StoreSquares(hn::Add(run, run), unit_square, own + i);
+    const auto odd = hn::Add(hn::Add(run_between, run_between), hn::Set(ints, 1));
+    StoreSquares(odd, unit_square, between + i);
   }
 }
 
 // The least of `best` and of what rows ever farther to both sides add to the squares of their
-// distances: the n-th pair of rows lies squares[n * kStride] away. Rows hold at least `least`.
-template <size_t kStride>
-HWY_INLINE Vector LookOutward(Vector best, const float* before, const float* after,
-                              const float* squares, float least) {
-  const Floats tag;
-  for (size_t n = 0;; ++n) {
-    const auto square = hn::Set(tag, squares[n * kStride]);
-    if (hn::AllFalse(tag, hn::Gt(best, hn::Add(square, hn::Set(tag, least))))) return best;
-    const auto nearer =
-        hn::Min(hn::LoadU(tag, before - n * kBrickX), hn::LoadU(tag, after + n * kBrickX));
-    best = hn::Min(best, hn::Add(nearer, square));
+// distances: the n-th pair of rows, kPitch values apart, lies squares[n * kStride] away. Rows hold
+// at least `least`.
+template <size_t kStride, size_t kPitch, typename T>
+HWY_INLINE Vector<T> LookOutward(Vector<T> best, const T* before, const T* after, const T* squares,
+                                 T least) {
+  const Tag<T> tag;
+  const auto nearest = hn::Set(tag, least);
+  const auto look = [&](Vector<T> square) HWY_ATTR {
+    best = hn::Min(best, Sum(hn::Min(hn::LoadU(tag, before), hn::LoadU(tag, after)), square));
+    before -= kPitch;
+    after += kPitch;
+  };
+  for (;; squares += 2 * kStride) {
+    const auto square = hn::Set(tag, squares[0]);
+    if (hn::AllFalse(tag, hn::Gt(best, Sum(square, nearest)))) return best;
+    look(square);
+    look(hn::Set(tag, squares[kStride]));
   }
 }
 
-// The rows of one layer of a stack along y, with a row of background before and after.
+// The rows of one layer of a stack along y, with rows of background before and after.
+template <typename T>
 struct LayerRows {
-  explicit LayerRows(size_t bricks)
-      : own((4 * bricks + 2) * kBrickX), between((4 * bricks + 2) * kBrickX) {}
-  std::vector<float> own;
-  std::vector<float> between;
+  LayerRows(size_t bricks, T unit_square)
+      : own((kBrickY * bricks + 2 * kBorderRows) * kBrickX),
+        between((kBrickY * bricks + 2 * kBorderRows) * kBrickX, unit_square) {}
+  std::vector<T> own;
+  std::vector<T> between;
 };
 
-HWY_INLINE void ReadLayer(const EuclideanView& view, float unit_square, BrickStack stack, size_t k,
+template <typename T>
+HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStack stack, size_t k,
                           const SideRuns<uint32_t>& runs, BrickIndex first, Sublattice sublattice,
-                          LayerRows& rows) {
-  PointRuns points;
-  std::fill_n(rows.between.begin(), kBrickX, unit_square);
-  std::fill_n(rows.between.end() - kBrickX, kBrickX, unit_square);
-  size_t at = kBrickX;
+                          LayerRows<T>& rows) {
+  size_t at = kBorderRows * kBrickX;
   for (BrickIndex brick : stack) {
     for (size_t row = 4 * k; row < 4 * k + 4; ++row, at += kBrickX) {
       const uint16_t bits = RowBits(view.object[brick], row);
       if (bits == 0) {
-        std::fill_n(rows.own.begin() + static_cast<ptrdiff_t>(at), kBrickX, 0.0f);
+        std::fill_n(rows.own.begin() + static_cast<ptrdiff_t>(at), kBrickX, T{0});
         std::fill_n(rows.between.begin() + static_cast<ptrdiff_t>(at), kBrickX, unit_square);
         continue;
       }
-      FindPointRuns(bits, runs.left[brick - first][row], runs.right[brick - first][row], points);
-      MeasureRow(points, sublattice, unit_square, rows.own.data() + at, rows.between.data() + at);
+      const RowEnds ends = {bits ^ 0xffff, static_cast<int32_t>(runs.left[brick - first][row]),
+                            static_cast<int32_t>(runs.right[brick - first][row])};
+      MeasureRow(ends, sublattice, unit_square, rows.own.data() + at, rows.between.data() + at);
     }
   }
 }
 
-HWY_INLINE void WriteOwnRow(const SquaredLengths& lengths, const float* row, float* to) {
-  const Floats tag;
-  for (size_t i = 0; i < kBrickX; i += hn::Lanes(tag)) {
-    const float* at = row + i;
-    const auto best =
-        LookOutward<2>(hn::LoadU(tag, at), at - kBrickX, at + kBrickX, lengths.y.data() + 2, 0);
+// A brick's rows of a layer.
+template <typename T>
+HWY_INLINE void WriteOwnRows(const SquaredLengths<T>& lengths, const T* rows, T* to) {
+  const Tag<T> tag;
+  for (size_t i = 0; i < kLayerPoints; i += hn::Lanes(tag)) {
+    const T* at = rows + i;
+    const auto best = LookOutward<2, kBrickX, T>(hn::LoadU(tag, at), at - kBrickX, at + kBrickX,
+                                                 lengths.y.data() + 2, 0);
     hn::StoreU(best, tag, to + i);
   }
 }
 
-// The places between a row and the next one.
-HWY_INLINE void WriteBetween(const SquaredLengths& lengths, const float* row, float* to) {
-  const Floats tag;
-  for (size_t i = 0; i < kBrickX; i += hn::Lanes(tag)) {
-    const float* at = row + i;
+// The places between those rows and the next ones.
+template <typename T>
+HWY_INLINE void WriteBetween(const SquaredLengths<T>& lengths, const T* rows, T* to) {
+  const Tag<T> tag;
+  for (size_t i = 0; i < kLayerPoints; i += hn::Lanes(tag)) {
+    const T* at = rows + i;
     const auto nearest = hn::Min(hn::LoadU(tag, at), hn::LoadU(tag, at + kBrickX));
-    const auto best = LookOutward<2>(hn::Add(nearest, hn::Set(tag, lengths.y[1])), at - kBrickX,
-                                     at + 2 * kBrickX, lengths.y.data() + 3, lengths.x);
+    const auto best =
+        LookOutward<2, kBrickX, T>(Sum(nearest, hn::Set(tag, lengths.y[1])), at - kBrickX,
+                                   at + 2 * kBrickX, lengths.y.data() + 3, lengths.x);
     hn::StoreU(best, tag, to + i);
   }
 }
 
 // Where the distances between the points of layer k of a brick go; null if nobody needs them.
-HWY_INLINE float* BesideLayer(const EuclideanView& view, BrickIndex brick, Sublattice sublattice,
-                              size_t k) {
+template <typename T>
+HWY_INLINE T* BesideLayer(const EuclideanView<T>& view, BrickIndex brick, Sublattice sublattice,
+                          size_t k) {
   const BrickNeighborhood& near = view.neighbors[brick];
   const auto layer = [&](BrickIndex n, size_t which) {
     return view.beside + (size_t{n} * kLayersBeside + which) * kLayerPoints;
@@ -152,40 +195,40 @@ HWY_INLINE float* BesideLayer(const EuclideanView& view, BrickIndex brick, Subla
   return is_outermost && near[4] != view.padding ? layer(near[4], kBrickZ) : nullptr;
 }
 
-void ScanLayersTarget(const EuclideanView& view, const SquaredLengths& lengths,
-                      Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                      BrickIndex first) {
-  LayerRows rows(stack.size());
+template <typename T>
+HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
+                             Sublattice sublattice, BrickStack stack,
+                             const SideRuns<uint32_t>& runs, BrickIndex first) {
+  LayerRows<T> rows(stack.size(), lengths.x);
   // The place that belongs to a row lies after it for even points, before it for odd ones.
   const size_t back = sublattice == Sublattice::kEven ? 0 : kBrickX;
   for (size_t k = 0; k < kBrickZ; ++k) {
     ReadLayer(view, lengths.x, stack, k, runs, first, sublattice, rows);
-    for (size_t n = 0; n < stack.size(); ++n) {
-      float* own = view.own + size_t{stack[n]} * kBrickPoints + k * kLayerPoints;
-      float* beside = BesideLayer(view, stack[n], sublattice, k);
-      for (size_t j = 0; j < kBrickY; ++j) {
-        const size_t at = (4 * n + j + 1) * kBrickX;
-        WriteOwnRow(lengths, rows.own.data() + at, own + j * kBrickX);
-        if (beside == nullptr) continue;
-        WriteBetween(lengths, rows.between.data() + at - back, beside + j * kBrickX);
-      }
+    size_t at = kBorderRows * kBrickX;
+    for (size_t n = 0; n < stack.size(); ++n, at += kLayerPoints) {
+      T* own = view.own + size_t{stack[n]} * kBrickPoints + k * kLayerPoints;
+      WriteOwnRows(lengths, rows.own.data() + at, own);
+      T* beside = BesideLayer(view, stack[n], sublattice, k);
+      if (beside != nullptr) WriteBetween(lengths, rows.between.data() + at - back, beside);
     }
   }
 }
 
-// Row j of all layers of a stack along z, those of the other sublattice in between, and background
-// below and above.
-HWY_INLINE void ReadColumn(const EuclideanView& view, BrickStack stack, Sublattice sublattice,
-                           size_t j, std::vector<float>& column) {
+// A band of rows in all layers of a stack along z, those of the other sublattice in between, and
+// background below and above.
+template <typename T>
+HWY_INLINE void ReadColumn(const EuclideanView<T>& view, BrickStack stack, Sublattice sublattice,
+                           size_t first, std::vector<T>& column) {
+  constexpr size_t kBand = kBandPoints<T>;
   const bool even = sublattice == Sublattice::kEven;
   const auto beside = [&](BrickIndex brick, size_t layer) {
-    return view.beside + (size_t{brick} * kLayersBeside + layer) * kLayerPoints + j * kBrickX;
+    return view.beside + (size_t{brick} * kLayersBeside + layer) * kLayerPoints + first;
   };
-  float* to = column.data() + kBrickX;
-  const auto add = [&to](const float* row) { to = std::copy_n(row, kBrickX, to); };
+  T* to = column.data() + (kBorderRows - 1) * kBand;
+  const auto add = [&to](const T* rows) { to = std::copy_n(rows, kBand, to); };
   if (even) add(beside(stack.front(), kBrickZ));
   for (BrickIndex brick : stack) {
-    const float* own = view.own + size_t{brick} * kBrickPoints + j * kBrickX;
+    const T* own = view.own + size_t{brick} * kBrickPoints + first;
     for (size_t k = 0; k < kBrickZ; ++k, own += kLayerPoints) {
       if (even) {
         add(own);
@@ -199,25 +242,47 @@ HWY_INLINE void ReadColumn(const EuclideanView& view, BrickStack stack, Sublatti
   if (!even) add(beside(stack.back(), kBrickZ));
 }
 
-void ScanAcrossLayersTarget(const EuclideanView& view, const SquaredLengths& lengths,
-                            Sublattice sublattice, BrickStack stack) {
-  const Floats tag;
-  std::vector<float> column((2 * kBrickZ * stack.size() + 3) * kBrickX);
-  for (size_t j = 0; j < kBrickY; ++j) {
-    ReadColumn(view, stack, sublattice, j, column);
-    const float* row = column.data() + 2 * kBrickX;
+template <typename T>
+HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
+                                   Sublattice sublattice, BrickStack stack) {
+  const Tag<T> tag;
+  constexpr size_t kBand = kBandPoints<T>;
+  std::vector<T> column((2 * kBrickZ * stack.size() + 2 * kBorderRows) * kBand);
+  for (size_t first = 0; first < kLayerPoints; first += kBand) {
+    ReadColumn(view, stack, sublattice, first, column);
+    const T* row = column.data() + kBorderRows * kBand;
     for (BrickIndex brick : stack) {
-      float* own = view.own + size_t{brick} * kBrickPoints + j * kBrickX;
-      for (size_t k = 0; k < kBrickZ; ++k, own += kLayerPoints, row += 2 * kBrickX) {
-        for (size_t i = 0; i < kBrickX; i += hn::Lanes(tag)) {
-          const float* at = row + i;
-          hn::StoreU(LookOutward<1>(hn::LoadU(tag, at), at - kBrickX, at + kBrickX,
-                                    lengths.z.data() + 1, 0),
+      T* own = view.own + size_t{brick} * kBrickPoints + first;
+      for (size_t k = 0; k < kBrickZ; ++k, own += kLayerPoints, row += 2 * kBand) {
+        for (size_t i = 0; i < kBand; i += hn::Lanes(tag)) {
+          const T* at = row + i;
+          hn::StoreU(LookOutward<1, kBand, T>(hn::LoadU(tag, at), at - kBand, at + kBand,
+                                              lengths.z.data() + 1, 0),
                      tag, own + i);
         }
       }
     }
   }
+}
+
+void ScanLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
+                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                     BrickIndex first) {
+  ScanLayersOf(view, lengths, sublattice, stack, runs, first);
+}
+void ScanLayersWhole(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
+                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                     BrickIndex first) {
+  ScanLayersOf(view, lengths, sublattice, stack, runs, first);
+}
+void ScanAcrossLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
+                           Sublattice sublattice, BrickStack stack) {
+  ScanAcrossLayersOf(view, lengths, sublattice, stack);
+}
+void ScanAcrossLayersWhole(const EuclideanView<uint16_t>& view,
+                           const SquaredLengths<uint16_t>& lengths, Sublattice sublattice,
+                           BrickStack stack) {
+  ScanAcrossLayersOf(view, lengths, sublattice, stack);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -226,16 +291,28 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace bccskel {
-HWY_EXPORT(ScanLayersTarget);
-HWY_EXPORT(ScanAcrossLayersTarget);
+HWY_EXPORT(ScanLayersFloat);
+HWY_EXPORT(ScanLayersWhole);
+HWY_EXPORT(ScanAcrossLayersFloat);
+HWY_EXPORT(ScanAcrossLayersWhole);
 
-void ScanLayers(const EuclideanView& view, const SquaredLengths& lengths, Sublattice sublattice,
-                BrickStack stack, const SideRuns<uint32_t>& runs, BrickIndex first) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersTarget)(view, lengths, sublattice, stack, runs, first);
+void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                BrickIndex first) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, runs, first);
 }
-void ScanAcrossLayers(const EuclideanView& view, const SquaredLengths& lengths,
+void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
+                BrickIndex first) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, runs, first);
+}
+void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                       Sublattice sublattice, BrickStack stack) {
-  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersTarget)(view, lengths, sublattice, stack);
+  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersFloat)(view, lengths, sublattice, stack);
+}
+void ScanAcrossLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
+                      Sublattice sublattice, BrickStack stack) {
+  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersWhole)(view, lengths, sublattice, stack);
 }
 
 }  // namespace bccskel

@@ -1,9 +1,10 @@
 #include "core/distance/euclidean_scan.h"
 
 #include <algorithm>
-#include <atomic>
+#include <limits>
 #include <vector>
 
+#include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_rows.h"
 #include "core/exec/status_macros.h"
 
@@ -17,9 +18,10 @@
 //   Bricks that are not stored are background: beside them the nearest background of a layer is one
 //   step away along both axes. A scan ends at the first background point of its own column, where
 //   everything farther is farther.
-// Cost:  4.25 bytes per point besides the result. Rows of 16 points look outward together, until
-//   no point can find anything nearer: about a step per lattice unit of distance, each some cycles
-//   for all 16.
+// Cost:  as much memory again as the result, and an eighth. One or two rows of 16 points look
+// outward
+//   together, until no point can find anything nearer: about a step per lattice unit of distance,
+//   each two or three cycles for all of them.
 
 namespace bccskel {
 namespace {
@@ -30,9 +32,10 @@ struct Slab {
   BrickIndex last = 0;
 };
 
+template <typename T>
 class EuclideanScan {
  public:
-  EuclideanScan(const Volume& object, std::span<float> own)
+  EuclideanScan(const Volume& object, std::span<T> own)
       : object_(object),
         beside_(object.brick_count() * kLayersBeside * kLayerPoints),
         view_{object.padded_bricks().data(), object.neighbors().data(),
@@ -62,6 +65,8 @@ class EuclideanScan {
   // Positions in a BrickNeighborhood.
   static constexpr size_t kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
+  // Some steps more than to the end of a stack: see kBorderRows of the loops.
+  static constexpr size_t kFartherThanStack = 16;
 
   // Splits the items among the workers.
   template <typename Work>
@@ -97,24 +102,27 @@ class EuclideanScan {
   // Squares for the longest stacks: no scan looks farther than its stack is long.
   void MeasureSteps() {
     const AxisScale scale = AxisScaleOf(object_.placement());
-    lengths_.x = static_cast<float>(scale[0] * scale[0]);
-    lengths_.y = Squares(scale[1], 2 * kBrickY * LongestStack(kBelowY, kAboveY) + 4);
-    lengths_.z = Squares(scale[2], 2 * kBrickZ * LongestStack(kBelowZ, kAboveZ) + 4);
+    lengths_.x = Square(scale[0]);
+    lengths_.y =
+        Squares(scale[1], 2 * kBrickY * LongestStack(kBelowY, kAboveY) + kFartherThanStack);
+    lengths_.z =
+        Squares(scale[2], 2 * kBrickZ * LongestStack(kBelowZ, kAboveZ) + kFartherThanStack);
   }
 
-  static std::vector<float> Squares(double unit, size_t count) {
-    std::vector<float> squares(count);
-    for (size_t n = 0; n < count; ++n) {
-      const double length = unit * static_cast<double>(n);
-      squares[n] = static_cast<float>(length * length);
-    }
+  static T Square(double length) {
+    const double most = static_cast<double>(std::numeric_limits<T>::max());
+    return static_cast<T>(std::min(length * length, most));
+  }
+  static std::vector<T> Squares(double unit, size_t count) {
+    std::vector<T> squares(count);
+    for (size_t n = 0; n < count; ++n) squares[n] = Square(unit * static_cast<double>(n));
     return squares;
   }
 
   // Places beside which no brick of the other sublattice will write.
   void FillBeside(size_t brick) const {
-    const float nearest = lengths_.x + lengths_.y[1];
-    float* layers = view_.beside + brick * kLayersBeside * kLayerPoints;
+    const T nearest = static_cast<T>(lengths_.x + lengths_.y[1]);
+    T* layers = view_.beside + brick * kLayersBeside * kLayerPoints;
     if (view_.neighbors[brick][kSamePlace] == view_.padding) {
       std::fill_n(layers, kBrickZ * kLayerPoints, nearest);
     }
@@ -133,22 +141,37 @@ class EuclideanScan {
   }
 
   const Volume& object_;
-  exec::UninitializedVector<float> beside_;
-  const EuclideanView view_;
+  exec::UninitializedVector<T> beside_;
+  const EuclideanView<T> view_;
   std::vector<Slab> slabs_;
   std::vector<BrickIndex> stack_feet_;  // the lowest brick of every stack along z
-  SquaredLengths lengths_;
+  SquaredLengths<T> lengths_;
 };
+
+uint32_t LargestRank(std::span<const uint16_t> squares) { return LargestOf(squares); }
+uint32_t LargestRank(std::span<const float> squares) {
+  uint32_t largest = 0;  // whole numbers, which compare many at a time
+  for (const float square : squares) largest = std::max(largest, DistanceField::RankOf(square));
+  return largest;
+}
+
+template <typename T>
+absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context& context) {
+  exec::UninitializedVector<T> squares((object.brick_count() + 1) * kBrickPoints);
+  std::fill(squares.end() - kBrickPoints, squares.end(), T{0});  // the padding brick
+  BCCSKEL_RETURN_IF_ERROR(EuclideanScan<T>(object, squares).Run(context));
+  const uint32_t largest = LargestRank(squares);
+  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squares), largest);
+}
 
 }  // namespace
 
 absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec::Context& context) {
-  exec::UninitializedVector<float> squared((object.brick_count() + 1) * kBrickPoints);
-  std::fill(squared.end() - kBrickPoints, squared.end(), 0.0f);  // the padding brick
-  BCCSKEL_RETURN_IF_ERROR(EuclideanScan(object, squared).Run(context));
-  uint32_t largest = 0;  // whole numbers, which compare many at a time
-  for (const float value : squared) largest = std::max(largest, DistanceField::RankOf(value));
-  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squared), largest);
+  if (AxisScaleOf(object.placement()) == kIsotropic) {
+    absl::StatusOr<DistanceField> whole = Measure<uint16_t>(object, context);
+    if (!whole.ok() || whole->largest() < kFirstUnsureSquare) return whole;
+  }
+  return Measure<float>(object, context);
 }
 
 }  // namespace bccskel

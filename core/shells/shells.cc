@@ -51,17 +51,22 @@ class Slicer {
   }
 
  private:
+  template <typename T>
+  Shells::Range SliceSquares(const T* squares, ShellPlanes& planes) const {
+    const SquaredRange range = SliceBrick(euclidean_, squares, planes);
+    return {euclidean_(range.smallest), euclidean_(range.largest)};
+  }
+  Shells::Range Slice(size_t, const float* squares, ShellPlanes& planes) const {
+    return SliceSquares(squares, planes);
+  }
   Shells::Range Slice(size_t brick, const uint16_t* distances, ShellPlanes& planes) const {
+    if (distance_.kind() == DistanceKind::kEuclidean) return SliceSquares(distances, planes);
     if (!fast_.exact) return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
     const DistanceRange range = SliceBrick(fast_.rule, distances, planes);
     return {chamfer_(range.smallest), chamfer_(range.largest)};
   }
   Shells::Range Slice(size_t brick, const uint32_t* distances, ShellPlanes& planes) const {
     return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
-  }
-  Shells::Range Slice(size_t, const float* squared, ShellPlanes& planes) const {
-    const SquaredRange range = SliceBrick(euclidean_, squared, planes);
-    return {euclidean_(range.smallest), euclidean_(range.largest)};
   }
 
   const Volume& object_;

@@ -79,23 +79,33 @@ DistanceRange SliceBrickTarget(const FloatShellRule& rule, const uint16_t* dista
   return RangeOf(distances);
 }
 
+using Floats = hn::CappedTag<float, 16>;
+HWY_INLINE hn::Vec<Floats> LoadSquares(const float* squared) {
+  return hn::LoadU(Floats(), squared);
+}
+HWY_INLINE hn::Vec<Floats> LoadSquares(const uint16_t* squared) {
+  const hn::RebindToSigned<Floats> i32;
+  const hn::Rebind<uint16_t, Floats> u16;
+  return hn::ConvertTo(Floats(), hn::PromoteTo(i32, hn::LoadU(u16, squared)));
+}
+
 // The same for squared distances.
-HWY_INLINE void WriteShellBytes(const EuclideanShellRule& rule, const float* squared,
-                                uint8_t* shells) {
-  const hn::CappedTag<float, 16> f32;
+template <typename T>
+HWY_INLINE void WriteShellBytes(const EuclideanShellRule& rule, const T* squared, uint8_t* shells) {
+  const Floats f32;
   const hn::RebindToSigned<decltype(f32)> i32;
   const hn::Rebind<uint8_t, decltype(f32)> u8;
   const auto width = hn::Set(f32, rule.width()), half = hn::Set(f32, 0.5f);
   const auto one = hn::Set(i32, 1), modulo = hn::Set(i32, 63);
   for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
-    const auto distance = hn::Sqrt(hn::LoadU(f32, squared + n));
+    const auto distance = hn::Sqrt(LoadSquares(squared + n));
     const auto shell = hn::ConvertTo(i32, hn::Add(hn::Div(distance, width), half));
     hn::Store(hn::DemoteTo(u8, hn::And(hn::Max(shell, one), modulo)), u8, shells + n);
   }
 }
 
-HWY_INLINE SquaredRange RangeOf(const float* squared) {
-  const hn::CappedTag<float, 16> f32;
+HWY_INLINE SquaredRange RangeOfSquares(const float* squared) {
+  const Floats f32;
   const auto far = hn::Set(f32, std::numeric_limits<float>::infinity()), zero = hn::Zero(f32);
   auto smallest = far, largest = zero;
   for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
@@ -114,12 +124,26 @@ HWY_INLINE SquaredRange RangeOf(const float* squared) {
   return range;
 }
 
-SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squared,
-                                ShellPlanes& planes) {
+HWY_INLINE SquaredRange RangeOfSquares(const uint16_t* squared) {
+  const DistanceRange range = RangeOf(squared);
+  return {static_cast<float>(range.smallest), static_cast<float>(range.largest)};
+}
+
+template <typename T>
+HWY_INLINE SquaredRange SliceSquares(const EuclideanShellRule& rule, const T* squared,
+                                     ShellPlanes& planes) {
   alignas(64) uint8_t shells[kBrickPoints];
   WriteShellBytes(rule, squared, shells);
   WritePlanes(shells, planes);
-  return RangeOf(squared);
+  return RangeOfSquares(squared);
+}
+SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squared,
+                                ShellPlanes& planes) {
+  return SliceSquares(rule, squared, planes);
+}
+SquaredRange SliceWholeSquaredTarget(const EuclideanShellRule& rule, const uint16_t* squared,
+                                     ShellPlanes& planes) {
+  return SliceSquares(rule, squared, planes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -140,6 +164,7 @@ int32_t Apply(const FloatShellRule& rule, uint32_t distance) {
 
 HWY_EXPORT(SliceBrickTarget);
 HWY_EXPORT(SliceSquaredTarget);
+HWY_EXPORT(SliceWholeSquaredTarget);
 
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes) {
@@ -148,6 +173,11 @@ DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
 
 SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes) {
   return HWY_DYNAMIC_DISPATCH(SliceSquaredTarget)(rule, squared, planes);
+}
+
+SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
+                        ShellPlanes& planes) {
+  return HWY_DYNAMIC_DISPATCH(SliceWholeSquaredTarget)(rule, squared, planes);
 }
 
 CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest) {

@@ -77,6 +77,8 @@ struct SquaredRange {
   float largest;
 };
 SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes);
+SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
+                        ShellPlanes& planes);
 
 }  // namespace bccskel
 

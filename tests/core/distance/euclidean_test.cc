@@ -57,13 +57,14 @@ void ExpectNearestBackground(const Volume& object, const exec::Context& context)
       const LatticePoint p = PointOf(object.keys()[n].coordinates(), bit);
       double nearest = std::numeric_limits<double>::infinity();
       for (LatticePoint q : border) nearest = std::min(nearest, SquaredDistance(p, q, scale));
-      const auto squared = std::bit_cast<float>(field->At(n, bit));
+      const double distance = field->ToLatticeUnits(field->At(n, bit));
+      const double squared = distance * distance;
       if (scale == kIsotropic) {
-        ASSERT_EQ(squared, nearest) << p.x << " " << p.y << " " << p.z;
+        ASSERT_EQ(std::round(squared), nearest) << p.x << " " << p.y << " " << p.z;
       } else {
         ASSERT_NEAR(squared / nearest, 1, 1e-6) << p.x << " " << p.y << " " << p.z;
       }
-      EXPECT_NEAR(field->ToLatticeUnits(field->At(n, bit)), std::sqrt(nearest), 1e-4);
+      EXPECT_NEAR(distance, std::sqrt(nearest), 1e-4);
       largest = std::max(largest, field->At(n, bit));
     }
   }
@@ -105,8 +106,41 @@ TEST(Euclidean, IsExactWhereBricksEnd) {
   }
 }
 
+// Of full bricks: 256 cells wide and deep, as many high as said.
+Volume Slab(int32_t height) {
+  VolumeBuilder builder({256, height, 256});
+  for (Sublattice sublattice : kSublattices) {
+    for (int32_t bz = 0; bz < 256 / kBrickZ; ++bz) {
+      for (int32_t by = 0; by < height / kBrickY; ++by) {
+        for (int32_t bx = 0; bx < 256 / kBrickX; ++bx) {
+          builder.Brick(BrickKey({bx, by, bz, sublattice})).words.fill(~uint64_t{0});
+        }
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {
+  for (const int32_t height : {252, 256}) {
+    const Volume slab = Slab(height);
+    const auto field = ComputeDistance(slab, DistanceKind::kEuclidean, exec::Context());
+    ASSERT_TRUE(field.ok()) << field.status();
+    const BrickAddress middle = AddressOf({256, height, 256});
+    const uint32_t rank = field->At(*slab.Find(BrickKey(middle.brick)), middle.bit);
+    EXPECT_EQ(field->ToLatticeUnits(rank), height);
+    EXPECT_EQ(field->largest(), rank);
+  }
+}
+
+void ExpectTheSameEverywhere(const Volume& object);
+
 TEST(Euclidean, IsTheSameForAnyThreadCountAndInstructionSet) {
-  const Volume object = Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7});
+  ExpectTheSameEverywhere(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7}));
+  ExpectTheSameEverywhere(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.0, 1.0}));
+}
+
+void ExpectTheSameEverywhere(const Volume& object) {
   const auto expected = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
   for (const std::string& name : exec::SupportedInstructionSets()) {
     SCOPED_TRACE(name);

@@ -95,10 +95,13 @@ void ExpectEuclideanShells(const Volume& object, double wanted) {
   const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
   const Shells shells = BuildShells(object, *distance, wanted, exec::Context());
   const EuclideanShellRule rule(width);
+  const bool whole =
+      std::holds_alternative<exec::UninitializedVector<uint16_t>>(distance->values());
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     Shells::Range range = {INT32_MAX, 0};
     object.bricks()[n].ForEachSetBit([&](int bit) {
-      const int32_t shell = rule(std::bit_cast<float>(distance->At(n, bit)));
+      const uint32_t rank = distance->At(n, bit);
+      const int32_t shell = rule(whole ? static_cast<float>(rank) : std::bit_cast<float>(rank));
       range.first = std::min(range.first, shell);
       range.last = std::max(range.last, shell);
       int32_t sliced = 0;
