@@ -64,7 +64,8 @@ class Ledger {
   //         directory of a newer version; RESOURCE_EXHAUSTED; DATA_LOSS for a damaged job store.
   static absl::StatusOr<std::unique_ptr<Ledger>> Open(const DurableOptions& options,
                                                       JobRunner& runner, const JobCodec& codec);
-  // Stops: running jobs go back to the queue, without an attempt lost; watches end.
+  // Stops: running jobs go back to the queue, without an attempt lost; watches end. Waits for what
+  // is under way. Needs: no call any more, readers and handles of watches included.
   virtual ~Ledger() = default;
 
   // New uploads and jobs are refused as kDraining; no further job begins to run.

@@ -39,6 +39,7 @@ class JobStore {
 
   // Replaces a row of the same name.
   virtual absl::Status PutVolume(const VolumeRow& row) = 0;
+  // With the finished uploads that it came with.
   virtual absl::Status DeleteVolume(const std::string& tenant, const std::string& name) = 0;
   virtual absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,
                                                               const std::string& name) = 0;

@@ -145,6 +145,8 @@ class SqliteJobStore final : public JobStore {
                Number(row.size_bytes), Micros(row.created), Micros(row.used));
   }
   absl::Status DeleteVolume(const std::string& tenant, const std::string& name) override {
+    BCCSKEL_RETURN_IF_ERROR(
+        Run("DELETE FROM uploads WHERE tenant = ? AND volume = ? AND volume != ''", tenant, name));
     return Run("DELETE FROM volumes WHERE tenant = ? AND name = ?", tenant, name);
   }
   absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,

@@ -1,0 +1,234 @@
+#include "server/durable/durable_ledger.h"
+
+#include <algorithm>
+#include <future>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/admission/demand.h"
+#include "server/admission/refusal.h"
+#include "server/durable/names.h"
+#include "server/store/sqlite_job_store.h"
+
+namespace bccskel::server {
+namespace {
+
+// Reading and writing files overlaps with decoding and flushing.
+constexpr int kFileThreads = 2;
+constexpr std::chrono::milliseconds kTick(100);
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Ledger>> Ledger::Open(const DurableOptions& options,
+                                                     JobRunner& runner, const JobCodec& codec) {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolder(options.data_directory));
+  BCCSKEL_ASSIGN_OR_RETURN(FolderLock lock, FolderLock::Take(options.data_directory));
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store,
+                           OpenSqliteJobStore(options.data_directory + "/jobs.db"));
+  auto ledger =
+      std::make_unique<DurableLedger>(options, runner, codec, std::move(lock), std::move(store));
+  BCCSKEL_RETURN_IF_ERROR(ledger->Recover());
+  return ledger;
+}
+
+DurableLedger::DurableLedger(const DurableOptions& options, JobRunner& runner,
+                             const JobCodec& codec, FolderLock lock,
+                             std::unique_ptr<JobStore> store)
+    : options_(options),
+      runner_(runner),
+      codec_(codec),
+      lock_(std::move(lock)),
+      blobs_(options.data_directory),
+      quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
+      journal_(RandomId(), options.now),
+      loop_(std::move(store)),
+      files_(kFileThreads) {}
+
+DurableLedger::~DurableLedger() {
+  admitting_ = false;
+  ticker_.request_stop();
+  if (ticker_.joinable()) ticker_.join();
+  OnLoop([this] {
+    stopping_ = true;
+    retries_.clear();
+    for (const auto& [run, active] : runs_) run->Cancel();
+  });
+  operations_.WaitForAll();
+  OnLoop([this] { watches_.EndAll(absl::UnavailableError("the server stops")); });
+}
+
+void DurableLedger::OnLoop(std::function<void()> task) {
+  std::promise<void> done;
+  loop_.Post([&] {
+    task();
+    done.set_value();
+  });
+  done.get_future().wait();
+}
+
+absl::Status DurableLedger::Recover() {
+  std::promise<absl::Status> recovered;
+  loop_.Post([this](JobStore& store) { return RecoverStore(store); },
+             [this, &recovered](absl::Status status) {
+               if (status.ok()) CleanUp();
+               if (status.ok()) Schedule();
+               recovered.set_value(std::move(status));
+             });
+  absl::Status status = recovered.get_future().get();
+  if (status.ok()) ticker_ = std::jthread([this](std::stop_token stop) { Tick(stop); });
+  return status;
+}
+
+absl::Status DurableLedger::RecoverStore(JobStore& store) {
+  std::set<std::string> keep;
+  BCCSKEL_RETURN_IF_ERROR(RecoverUploads(store, keep));
+  BCCSKEL_RETURN_IF_ERROR(RecoverFiles(store, keep));
+  BCCSKEL_RETURN_IF_ERROR(blobs_.Sweep(keep).status());
+  return RecoverJobs(store);
+}
+
+absl::Status DurableLedger::RecoverUploads(JobStore& store, std::set<std::string>& keep) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+  for (const UploadRow& row : uploads) {
+    if (!row.volume.empty()) continue;
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
+                             blobs_.OpenUpload(row.tenant, row.name));
+    quota_.Count(row.tenant, row.size_bytes);
+    keep.merge(blobs_.PathsOfUpload(row.tenant, row.name));
+    // Nobody could send while there was no server.
+    AddSession(std::make_shared<UploadSession>(row, std::move(file), Now()));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status DurableLedger::RecoverFiles(JobStore& store, std::set<std::string>& keep) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
+  for (const VolumeRow& row : volumes) {
+    // Several volumes may have the same bytes.
+    if (keep.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest)).second) {
+      quota_.Count(row.tenant, row.size_bytes);
+    }
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.AllResults());
+  for (const ResultRow& row : results) {
+    keep.insert(blobs_.PathOfResult(row.tenant, row.file));
+    quota_.Count(row.tenant, row.bytes);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status DurableLedger::RecoverJobs(JobStore& store) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<JobRow> jobs, store.UnfinishedJobs());
+  for (JobRow& job : jobs) {
+    BCCSKEL_RETURN_IF_ERROR(RecoverJob(store, job));
+    Apply(Step{.job = job, .event = std::nullopt});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status DurableLedger::RecoverJob(JobStore& store, JobRow& job) {
+  if (job.state == JobState::kRunning) return journal_.RecoverRunning(store, job);
+  if (job.state != JobState::kReceiving || FindSession(job.tenant, job.upload) != nullptr) {
+    return absl::OkStatus();
+  }
+  return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"))
+      .status();
+}
+
+void DurableLedger::Tick(std::stop_token stop) {
+  std::unique_lock lock(tick_mutex_);
+  while (!stop.stop_requested()) {
+    tick_.wait_for(lock, stop, kTick, [] { return false; });
+    if (!retry_wanted_.exchange(false) && Now() < next_clean_up_) continue;
+    loop_.Post([this] {
+      for (const auto& task : std::exchange(retries_, {})) task();
+      if (Now() >= next_clean_up_) CleanUp();
+      Schedule();
+    });
+  }
+}
+
+JobRequest DurableLedger::RunnerRequest(JobRequest request, const JobRow& job) {
+  request.origin.tenant = job.tenant;
+  request.origin.priority = job.priority < 0   ? JobPriority::kLow
+                            : job.priority > 0 ? JobPriority::kHigh
+                                               : JobPriority::kNormal;
+  request.threads_wanted = job.threads;
+  return request;
+}
+
+absl::Status DurableLedger::CheckAdmitting() const {
+  if (admitting_) return absl::OkStatus();
+  return Refuse(Refusal::kDraining, "the server is about to stop");
+}
+
+absl::Status DurableLedger::CheckFits(const JobRequest& request) const {
+  const uint64_t bytes = BytesToSkeletonize(request.header, request.size_bytes);
+  if (options_.max_job_bytes == 0 || bytes <= options_.max_job_bytes) return absl::OkStatus();
+  return Refuse(Refusal::kTooMuchMemory,
+                absl::StrCat("the job needs ", bytes, " bytes of memory, the limit is ",
+                             options_.max_job_bytes));
+}
+
+absl::Status DurableLedger::CheckRoomForJob() const {
+  if (active_.size() < static_cast<size_t>(options_.max_unfinished_jobs)) return absl::OkStatus();
+  return Refuse(Refusal::kQueueFull,
+                absl::StrCat("all ", options_.max_unfinished_jobs, " places for jobs are taken"));
+}
+
+void DurableLedger::Apply(const Step& step) {
+  const JobRow& row = step.job;
+  if (const auto found = active_.find(row.number); found != active_.end()) {
+    --jobs_in_state_[static_cast<size_t>(found->second.row.state)];
+    queue_.Remove(found->second.row);
+  }
+  if (IsTerminal(row.state)) {
+    Detach(row.number);
+    active_.erase(row.number);
+    journal_.Forget(row.number);
+  } else {
+    active_[row.number].row = row;
+    ++jobs_in_state_[static_cast<size_t>(row.state)];
+    if (row.state == JobState::kQueued) {
+      Detach(row.number);
+      queue_.Add(row);
+    }
+  }
+  if (step.event.has_value()) watches_.Tell(row.number, EventOf(*step.event));
+}
+
+void DurableLedger::Apply(const Erased& erased) {
+  for (const Step& step : erased.steps) Apply(step);
+  for (const UploadRow& row : erased.uploads) {
+    DropSession(row);
+    quota_.GiveBack(row.tenant, row.size_bytes);
+  }
+  for (const ResultRow& row : erased.results) RemoveResult(row, blobs_, quota_);
+  for (const VolumeRow& row : erased.blobs) {
+    // The same bytes may have come again in the meantime.
+    const auto others = loop_.store().FindVolumesOf(row.tenant, row.blob_digest);
+    if (!others.ok() || std::ranges::any_of(*others, [&](const VolumeRow& other) {
+          return other.blob_digest == row.blob_digest;
+        })) {
+      continue;
+    }
+    blobs_.RemoveBlob(row.tenant, row.blob_digest).IgnoreError();
+    quota_.GiveBack(row.tenant, row.size_bytes);
+  }
+  if (erased.traces == Erased::Traces::kErase) loop_.store().Forget().IgnoreError();
+}
+
+Ledger::Usage DurableLedger::usage() const {
+  std::lock_guard lock(sessions_mutex_);
+  const auto count = [this](JobState state) {
+    return jobs_in_state_[static_cast<size_t>(state)].load();
+  };
+  return {.disk_bytes = quota_.used(),
+          .uploads = static_cast<int>(sessions_.size()),
+          .queued = count(JobState::kQueued),
+          .running = count(JobState::kRunning),
+          .commits = loop_.commits(),
+          .cached = cached_};
+}
+
+}  // namespace bccskel::server

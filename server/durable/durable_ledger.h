@@ -1,0 +1,294 @@
+#ifndef BCCSKEL_SERVER_DURABLE_DURABLE_LEDGER_H_
+#define BCCSKEL_SERVER_DURABLE_DURABLE_LEDGER_H_
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "server/durable/job_journal.h"
+#include "server/durable/ledger.h"
+#include "server/durable/operations.h"
+#include "server/durable/run.h"
+#include "server/durable/run_queue.h"
+#include "server/durable/stored_result.h"
+#include "server/durable/upload_session.h"
+#include "server/durable/watch_board.h"
+#include "server/jobs/task_threads.h"
+#include "server/store/blob_store.h"
+#include "server/store/disk_quota.h"
+#include "server/store/folder_lock.h"
+#include "server/store/group_commit.h"
+
+namespace bccskel::server {
+
+// The Ledger on a JobStore and a BlobStore.
+//
+// What is remembered here, but for uploads, belongs to the loop: the thread of the job store. A
+// step is posted to it as a change, which alone writes the store, and an end, which runs once the
+// change is on disk and alone changes what is remembered. Bytes of files are read and written on
+// other threads.
+//
+// durable_ledger.cc opens and closes; ledger_uploads.cc, ledger_finish.cc, ledger_volumes.cc and
+// ledger_jobs.cc answer callers; ledger_runs.cc and ledger_results.cc compute; ledger_expiry.cc
+// cleans up.
+class DurableLedger final : public Ledger, public RunObserver {
+ public:
+  DurableLedger(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,
+                FolderLock lock, std::unique_ptr<JobStore> store);
+  ~DurableLedger() override;
+
+  // Finishes what a crash has left, and goes on. Needs: called once, before all else.
+  absl::Status Recover();
+
+  void StopAdmitting() override { admitting_ = false; }
+  void CreateUpload(const std::string& tenant, const NewUpload& upload,
+                    Done<UploadInfo> done) override;
+  void Append(const std::string& tenant, const std::string& upload, uint64_t offset,
+              std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done) override;
+  void SenderGone(const std::string& tenant, const std::string& upload) override;
+  void GetUpload(const std::string& tenant, const std::string& upload,
+                 Done<UploadInfo> done) override;
+  void FinishUpload(const std::string& tenant, const std::string& upload, uint64_t size_bytes,
+                    std::optional<Sha256Digest> sha256, Done<VolumeInfo> done) override;
+  void DeleteUpload(const std::string& tenant, const std::string& upload, DoneStatus done) override;
+
+  void FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
+                   Done<std::vector<VolumeInfo>> done) override;
+  void GetVolume(const std::string& tenant, const std::string& volume,
+                 Done<VolumeInfo> done) override;
+  void DeleteVolume(const std::string& tenant, const std::string& volume, DoneStatus done) override;
+
+  void CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) override;
+  void GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) override;
+  void ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done) override;
+  void CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) override;
+  void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) override;
+  std::unique_ptr<WatchHandle> WatchJob(const std::string& tenant, const std::string& job,
+                                        uint64_t after_sequence,
+                                        std::shared_ptr<JobWatcher> watcher) override;
+  void OpenResult(const std::string& tenant, const std::string& job, uint64_t first_record,
+                  Done<std::shared_ptr<ResultReader>> done) override;
+  Usage usage() const override;
+
+ private:
+  using UploadKey = std::pair<std::string, std::string>;  // tenant, name
+  using Session = std::shared_ptr<UploadSession>;
+
+  // An unfinished job. Its row is what the store has.
+  struct ActiveJob {
+    JobRow row;
+    Run* run = nullptr;  // that computes it, or decodes its volume while it comes
+  };
+  // A computation. Jobs that want the same share it.
+  struct ActiveRun {
+    enum class Source { kUpload, kFile };
+    std::shared_ptr<Run> run;
+    Source source = Source::kFile;
+    std::string tenant;
+    std::string options;
+    std::string volume;         // its name; empty while it is received
+    std::string volume_digest;  // empty until it is decoded
+    std::set<int64_t> jobs;
+    bool alone = false;   // beside nothing else from a file
+    bool ending = false;  // nobody joins any more
+  };
+  // A job's new state, and the event that tells it; none where the job had ended before.
+  struct Step {
+    JobRow job;
+    std::optional<EventRow> event;
+  };
+  // What a change has deleted, for its end.
+  struct Erased {
+    std::vector<Step> steps;
+    std::vector<UploadRow> uploads;  // unfinished ones
+    std::vector<ResultRow> results;
+    std::vector<VolumeRow> blobs;  // whose bytes no volume has any more
+    enum class Traces { kMayStay, kErase } traces = Traces::kMayStay;  // in the store's files
+  };
+  struct Opening;
+  struct Finishing;
+  struct Creating;
+  struct Storing;
+
+  // ---- Opening and closing
+  absl::Status RecoverStore(JobStore& store);
+  absl::Status RecoverUploads(JobStore& store, std::set<std::string>& keep);
+  absl::Status RecoverFiles(JobStore& store, std::set<std::string>& keep);
+  absl::Status RecoverJobs(JobStore& store);
+  absl::Status RecoverJob(JobStore& store, JobRow& job);
+  void Tick(std::stop_token stop);
+  void OnLoop(std::function<void()> task);  // returns when it was run
+
+  // Counts the operation until `done` was called.
+  template <typename Done>
+  Done Track(Done done) {
+    return [done = std::move(done), token = operations_.Begin()](auto value) {
+      done(std::move(value));
+    };
+  }
+  template <typename Value>
+  void Answer(Done<Value> done, absl::StatusOr<Value> value) {
+    files_.Post({}, [done = std::move(done), value = std::move(value)]() mutable {
+      done(std::move(value));
+    });
+  }
+  // A change that yields a value.
+  template <typename Value>
+  void Read(std::function<absl::StatusOr<Value>(JobStore&)> read, Done<Value> done) {
+    const auto value = std::make_shared<std::optional<Value>>();
+    loop_.Post(
+        [read = std::move(read), value](JobStore& store) -> absl::Status {
+          absl::StatusOr<Value> found = read(store);
+          if (found.ok()) *value = *std::move(found);
+          return found.status();
+        },
+        [value, done = Track(std::move(done))](absl::Status status) {
+          if (!status.ok()) return done(std::move(status));
+          done(**std::move(value));
+        });
+  }
+  // As the runner is to be asked.
+  static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
+  absl::Status CheckAdmitting() const;
+  absl::Status CheckFits(const JobRequest& request) const;
+  absl::Status CheckRoomForJob() const;
+  Time Now() const { return options_.now(); }
+
+  // ---- Uploads
+  Session FindSession(const std::string& tenant, const std::string& upload) const;
+  void AddSession(const Session& session);
+  // Removes the files, too; the bytes stay counted.
+  void DropSession(const UploadRow& row);
+  absl::Status PrepareUpload(const NewUpload& upload, Opening& opening);
+  absl::Status StoreUpload(JobStore& store, Opening& opening);
+  absl::Status CheckSameUpload(JobStore& store, const Opening& opening) const;
+  absl::Status StoreReceivingJob(JobStore& store, Opening& opening);
+  void UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status);
+  void OpenFile(const std::shared_ptr<Opening>& opening);
+  absl::Status NotWritable(JobStore& store, const std::string& tenant,
+                           const std::string& upload) const;
+  void AppendNow(const Session& session, std::string bytes, std::optional<uint32_t> crc32c,
+                 const Done<uint64_t>& done);
+  absl::StatusOr<UploadRow> FindUploadRow(JobStore& store, const std::string& tenant,
+                                          const std::string& upload) const;
+  UploadInfo InfoOf(const UploadRow& row) const;
+  // Takes an unfinished upload away, and ends the job that waits for it.
+  void EndUpload(const std::string& tenant, const std::string& upload, JobState state,
+                 const absl::Status& error, std::function<void(absl::Status)> then);
+  absl::Status EraseUpload(JobStore& store, const UploadRow& row, JobState state,
+                           const absl::Status& error, Erased& erased);
+  void FinishAgain(const std::string& tenant, const std::string& upload, Done<VolumeInfo> done);
+  void Seal(const std::shared_ptr<Finishing>& finishing);
+  absl::Status StoreVolume(JobStore& store, Finishing& finishing);
+  absl::Status StoreVolumeOfJob(JobStore& store, Finishing& finishing);
+  void VolumeStored(Finishing& finishing, absl::Status status);
+
+  // ---- Volumes
+  VolumeInfo InfoOf(const VolumeRow& row) const;
+  absl::StatusOr<VolumeRow> FindVolumeRow(JobStore& store, const std::string& tenant,
+                                          const std::string& volume) const;
+  absl::Status EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased);
+
+  // ---- Jobs
+  absl::StatusOr<JobInfo> InfoOf(JobStore& store, const JobRow& row) const;
+  JobInfo PlainInfoOf(const JobRow& row) const;
+  absl::Status StoreJob(JobStore& store, Creating& creating);
+  absl::Status InsertJob(JobStore& store, JobRow job, Creating& creating);
+  absl::Status CheckJob(JobStore& store, Creating& creating);
+  absl::StatusOr<JobRow> FindJobRow(JobStore& store, const std::string& tenant,
+                                    const std::string& job) const;
+  absl::Status CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased);
+  absl::Status EraseJob(JobStore& store, const JobRow& job, Erased& erased);
+
+  // ---- What follows a change; on the loop
+  void Apply(const Step& step);
+  void Apply(const Erased& erased);
+
+  // ---- Runs; on the loop
+  std::string ResultKey(const std::string& volume_digest, const std::string& options) const;
+  // Brings the stored job into a state.
+  absl::Status EnterState(JobStore& store, int64_t job, JobState state, const absl::Status& error,
+                          int64_t result, std::vector<Step>& steps);
+  // The same for jobs that are remembered, as a change of its own; repeated until the disk takes
+  // it.
+  void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
+                  std::function<void()> then);
+  void Schedule();
+  enum class Begun { kYes, kNothingNow };
+  Begun BeginNext();
+  Begun BeginJob(const JobRow& job);
+  Begun StartRun(const JobRow& job, const VolumeRow& volume);
+  ActiveRun* EqualRun(const JobRow& job, const VolumeRow& volume);
+  std::map<std::string, int> RunsOfTenants() const;
+  ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
+  void Attach(ActiveRun& run, int64_t job);
+  void Detach(int64_t job);
+  void Feed(Run* run, const VolumeRow& volume);
+  void RunEnded(Run* run, const absl::StatusOr<ResultRow>& result);
+  void StoreResult(Run* run, const ResultRow& row);
+  absl::Status StoreResultOf(JobStore& store, Storing& storing);
+  void RunFailed(Run* run, const absl::Status& error);
+  void ReceivingFailed(int64_t job, const absl::Status& error);
+  void ForgetRun(Run* run);
+  void VolumeKnown(Run* run, const std::string& digest);
+  void JoinEqual(Run* run);
+  void GiveStoredResult(Run* run, int64_t result);
+  void TellProgress(const std::shared_ptr<Run>& run);
+  void RetryLater(std::function<void()> task);
+
+  void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) override;
+  void OnRunProgress(std::shared_ptr<Run> run) override;
+  void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
+
+  // ---- Expiry; on the loop
+  void CleanUp();
+  void ExpireUploads();
+  void ExpireJobs();
+  void ExpireVolumes();
+
+  const DurableOptions options_;
+  JobRunner& runner_;
+  const JobCodec& codec_;
+  const FolderLock lock_;
+  const BlobStore blobs_;
+  DiskQuota quota_;
+  std::atomic<bool> admitting_ = true;
+  std::array<std::atomic<int>, 6> jobs_in_state_ = {};  // unfinished ones, by JobState
+  std::atomic<uint64_t> cached_ = 0;
+
+  mutable std::mutex sessions_mutex_;
+  std::map<UploadKey, Session> sessions_;  // guarded by sessions_mutex_
+
+  // These belong to the loop.
+  JobJournal journal_;
+  RunQueue queue_;
+  WatchBoard watches_;
+  std::map<int64_t, ActiveJob> active_;
+  std::map<Run*, ActiveRun> runs_;
+  std::vector<std::function<void()>> retries_;
+  bool stopping_ = false;
+  Time next_clean_up_{};
+
+  Operations operations_;
+  GroupCommit loop_;
+  TaskThreads files_;
+  std::atomic<bool> retry_wanted_ = false;
+  std::mutex tick_mutex_;
+  std::condition_variable_any tick_;
+  std::jthread ticker_;  // last: it uses all of these
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_DURABLE_LEDGER_H_

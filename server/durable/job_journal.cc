@@ -1,0 +1,76 @@
+#include "server/durable/job_journal.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/fault.h"
+
+namespace bccskel::server {
+namespace {
+
+// More events than a job tells between two that are stored.
+constexpr uint64_t kLeap = uint64_t{1} << 32;
+
+absl::Status Poisoned(int crashes) {
+  return WithFault(absl::InternalError(absl::StrCat(
+                       "the server ended ", crashes,
+                       " times while it ran this job, so it does not run it again; please report")),
+                   {.reason = "POISONED", .key = "attempts", .value = absl::StrCat(crashes)});
+}
+
+}  // namespace
+
+uint64_t JobJournal::NextSequence(int64_t job, uint64_t stored) {
+  uint64_t& last = sequences_[job];
+  last = std::max(last, stored) + 1;
+  return last;
+}
+
+absl::StatusOr<EventRow> JobJournal::AddEvent(JobStore& store, const JobRow& job, Time time) {
+  EventRow event = {.job = job.number,
+                    .sequence = job.sequence,
+                    .time = time,
+                    .state = job.state,
+                    .attempt = job.attempts,
+                    .error = job.error};
+  BCCSKEL_RETURN_IF_ERROR(store.InsertEvent(event));
+  return event;
+}
+
+absl::StatusOr<EventRow> JobJournal::Insert(JobStore& store, JobRow& job) {
+  job.sequence = 1;
+  job.created = now_();
+  if (IsTerminal(job.state)) job.ended = job.created;
+  BCCSKEL_ASSIGN_OR_RETURN(job.number, store.InsertJob(job));
+  return AddEvent(store, job, job.created);
+}
+
+absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRow& job,
+                                                          JobState state, absl::Status error) {
+  const Time time = now_();
+  job.state = state;
+  job.error = std::move(error);
+  job.sequence = NextSequence(job.number, job.sequence);
+  job.owner = state == JobState::kRunning ? owner_ : std::string();
+  if (state == JobState::kRunning) {
+    ++job.attempts;
+    job.started = time;
+  }
+  if (IsTerminal(state)) job.ended = time;
+  BCCSKEL_ASSIGN_OR_RETURN(const bool changed, store.UpdateJob(job));
+  if (!changed) return std::nullopt;
+  BCCSKEL_ASSIGN_OR_RETURN(EventRow event, AddEvent(store, job, time));
+  return std::optional(std::move(event));
+}
+
+absl::Status JobJournal::RecoverRunning(JobStore& store, JobRow& job) {
+  ++job.crashes;
+  sequences_[job.number] = (job.sequence / kLeap + 1) * kLeap;
+  const bool poisoned = job.crashes >= kCrashesToPoison;
+  const absl::Status error = poisoned ? Poisoned(job.crashes) : absl::OkStatus();
+  return Enter(store, job, poisoned ? JobState::kFailed : JobState::kQueued, error).status();
+}
+
+}  // namespace bccskel::server

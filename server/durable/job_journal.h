@@ -1,0 +1,54 @@
+#ifndef BCCSKEL_SERVER_DURABLE_JOB_JOURNAL_H_
+#define BCCSKEL_SERVER_DURABLE_JOB_JOURNAL_H_
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/store/job_store.h"
+
+namespace bccskel::server {
+
+// Crashes of the server that one job may survive; with the next one it has FAILED.
+inline constexpr int kCrashesToPoison = 3;
+
+// The only place where jobs change their states: the row, and an event that tells it.
+// Threads: one at a time, the store's.
+class JobJournal {
+ public:
+  // `owner`: this process, among all that ever owned the store.
+  JobJournal(std::string owner, std::function<Time()> now)
+      : owner_(std::move(owner)), now_(std::move(now)) {}
+
+  // Stores a new job in its state.
+  absl::StatusOr<EventRow> Insert(JobStore& store, JobRow& job);
+
+  // Brings the job into the state and stores it with all else that `job` says. Entering kRunning
+  // counts an attempt. Nothing happens when the stored job has ended already.
+  // Needs: `job` as it was found in the same transaction.
+  absl::StatusOr<std::optional<EventRow>> Enter(JobStore& store, JobRow& job, JobState state,
+                                                absl::Status error = absl::OkStatus());
+
+  // After a crash: a job that ran waits again, or has failed when it was there too often. Its
+  // sequence leaps over what was told and not stored.
+  absl::Status RecoverRunning(JobStore& store, JobRow& job);
+
+  // The next number of an event, stored or not.
+  uint64_t NextSequence(int64_t job, uint64_t stored);
+  void Forget(int64_t job) { sequences_.erase(job); }
+
+ private:
+  absl::StatusOr<EventRow> AddEvent(JobStore& store, const JobRow& job, Time time);
+
+  const std::string owner_;
+  const std::function<Time()> now_;
+  std::map<int64_t, uint64_t> sequences_;  // the last one of each unfinished job
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_JOB_JOURNAL_H_

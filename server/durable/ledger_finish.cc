@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_ledger.h"
+#include "server/durable/fault.h"
+#include "server/durable/names.h"
+
+namespace bccskel::server {
+
+// An upload on its way to become a volume.
+struct DurableLedger::Finishing {
+  Session session;
+  std::optional<Sha256Digest> expected;
+  VolumeRow volume;
+  bool new_blob = true;        // nothing had these bytes before
+  std::shared_ptr<Run> along;  // that has decoded all of it
+  std::optional<Step> step;    // of the job that waits for it
+  Done<VolumeInfo> done;
+};
+
+void DurableLedger::FinishUpload(const std::string& tenant, const std::string& upload,
+                                 uint64_t size_bytes, std::optional<Sha256Digest> sha256,
+                                 Done<VolumeInfo> done) {
+  done = Track(std::move(done));
+  const Session session = FindSession(tenant, upload);
+  if (session == nullptr) return FinishAgain(tenant, upload, std::move(done));
+  absl::Status status = session->BeginFinish(size_bytes);
+  if (!status.ok()) return Answer<VolumeInfo>(std::move(done), std::move(status));
+  const auto finishing = std::make_shared<Finishing>();
+  finishing->session = session;
+  finishing->expected = sha256;
+  finishing->done = std::move(done);
+  files_.Post({.tenant = tenant}, [this, finishing] { Seal(finishing); });
+}
+
+void DurableLedger::FinishAgain(const std::string& tenant, const std::string& upload,
+                                Done<VolumeInfo> done) {
+  Read<VolumeInfo>(
+      [this, tenant, upload](JobStore& store) -> absl::StatusOr<VolumeInfo> {
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, FindVolumeRow(store, tenant, row.volume));
+        return InfoOf(volume);
+      },
+      std::move(done));
+}
+
+void DurableLedger::Seal(const std::shared_ptr<Finishing>& finishing) {
+  UploadSession& session = *finishing->session;
+  const absl::StatusOr<Sha256Digest> digest = session.file().Seal();
+  if (!digest.ok()) {
+    session.EndWriting(Now());
+    return finishing->done(digest.status());
+  }
+  if (finishing->expected.has_value() && *finishing->expected != *digest) {
+    const absl::Status error =
+        WithFault(absl::InvalidArgumentError(
+                      absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
+                                   ", the request states ", finishing->expected->Hex())),
+                  {.reason = "VOLUME_INVALID", .key = {}, .value = {}});
+    return EndUpload(session.row().tenant, session.row().name, JobState::kFailed, error,
+                     [finishing, error](const absl::Status&) { finishing->done(error); });
+  }
+  const UploadRow& row = session.row();
+  finishing->volume = {.tenant = row.tenant,
+                       .name = VolumeName(row.declaration, digest->Hex()),
+                       .declaration = row.declaration,
+                       .blob_digest = digest->Hex(),
+                       .volume_digest = {},
+                       .size_bytes = row.size_bytes,
+                       .created = Now(),
+                       .used = Now()};
+  finishing->along = session.TakeAlong();
+  loop_.Post(
+      [this, finishing](JobStore& store) { return StoreVolume(store, *finishing); },
+      [this, finishing](absl::Status status) { VolumeStored(*finishing, std::move(status)); });
+}
+
+absl::Status DurableLedger::StoreVolume(JobStore& store, Finishing& finishing) {
+  VolumeRow& volume = finishing.volume;
+  BCCSKEL_ASSIGN_OR_RETURN(UploadRow upload,
+                           FindUploadRow(store, volume.tenant, finishing.session->row().name));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> others,
+                           store.FindVolumesOf(volume.tenant, volume.blob_digest));
+  for (const VolumeRow& other : others) {
+    if (other.blob_digest == volume.blob_digest) finishing.new_blob = false;
+    if (other.name != volume.name) continue;
+    volume.volume_digest = other.volume_digest;
+    volume.created = other.created;
+  }
+  BCCSKEL_RETURN_IF_ERROR(blobs_.PublishBlob(volume.tenant, upload.name, volume.blob_digest));
+  BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
+  upload.volume = volume.name;
+  upload.used = volume.used;
+  BCCSKEL_RETURN_IF_ERROR(store.UpdateUpload(upload));
+  return upload.job.empty() ? absl::OkStatus() : StoreVolumeOfJob(store, finishing);
+}
+
+absl::Status DurableLedger::StoreVolumeOfJob(JobStore& store, Finishing& finishing) {
+  const UploadRow& upload = finishing.session->row();
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(upload.tenant, upload.job));
+  if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
+  job->volume = finishing.volume.name;
+  const bool runs = runs_.count(finishing.along.get()) > 0;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const auto event, journal_.Enter(store, *job, runs ? JobState::kRunning : JobState::kQueued));
+  finishing.step = Step{.job = *job, .event = event};
+  return absl::OkStatus();
+}
+
+void DurableLedger::VolumeStored(Finishing& finishing, absl::Status status) {
+  UploadSession& session = *finishing.session;
+  if (!status.ok()) {
+    session.set_along(finishing.along);
+    session.EndWriting(Now());
+    return finishing.done(std::move(status));
+  }
+  DropSession(session.row());
+  if (!finishing.new_blob) quota_.GiveBack(session.row().tenant, session.row().size_bytes);
+  if (finishing.step.has_value()) Apply(*finishing.step);
+  const auto run = runs_.find(finishing.along.get());
+  if (run != runs_.end()) {
+    run->second.volume = finishing.volume.name;
+    finishing.along->FinishVolume();
+  } else if (finishing.step.has_value() && finishing.step->job.state == JobState::kRunning) {
+    // The run has ended while this was stored.
+    EnterState({finishing.step->job.number}, JobState::kQueued, absl::OkStatus(), 0, nullptr);
+  }
+  finishing.done(InfoOf(finishing.volume));
+  Schedule();
+}
+
+}  // namespace bccskel::server

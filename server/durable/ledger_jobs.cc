@@ -1,0 +1,326 @@
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_ledger.h"
+#include "server/durable/fault.h"
+#include "server/durable/names.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr int kMostPerPage = 1000;
+constexpr uint32_t kAllStates = 0x3F;
+
+uint32_t BitsOf(const std::vector<JobState>& states) {
+  uint32_t bits = 0;
+  for (const JobState state : states) bits |= uint32_t{1} << static_cast<int>(state);
+  return states.empty() ? kAllStates : bits;
+}
+
+std::string TokenOf(int64_t last, uint32_t states) { return absl::StrCat(last, "-", states); }
+
+absl::StatusOr<int64_t> PositionOf(const std::string& token, uint32_t states) {
+  if (token.empty()) return std::numeric_limits<int64_t>::max();
+  const std::vector<std::string> parts = absl::StrSplit(token, '-');
+  int64_t last = 0;
+  if (parts.size() == 2 && absl::SimpleAtoi(parts[0], &last) && TokenOf(last, states) == token) {
+    return last;
+  }
+  return absl::InvalidArgumentError("page_token: did not come with a page of these states");
+}
+
+// What makes two requests the same.
+std::string BodyOf(const Ledger::NewJob& job) {
+  return KeyOf({job.volume, job.options, absl::StrCat(job.priority), absl::StrCat(job.threads)});
+}
+
+absl::Status WithReason(absl::Status status, const char* reason) {
+  return WithFault(std::move(status), {.reason = reason, .key = {}, .value = {}});
+}
+
+class BoardWatch final : public WatchHandle {
+ public:
+  explicit BoardWatch(std::shared_ptr<Watch> watch) : watch_(std::move(watch)) {}
+  ~BoardWatch() override { watch_->Stop(); }
+
+ private:
+  const std::shared_ptr<Watch> watch_;
+};
+
+}  // namespace
+
+// A job on its way into the store.
+struct DurableLedger::Creating {
+  std::string tenant;
+  NewJob wanted;
+  VolumeRow volume;
+  std::optional<Step> step;  // of a job that is new
+  std::optional<JobInfo> info;
+};
+
+JobInfo DurableLedger::PlainInfoOf(const JobRow& row) const {
+  JobInfo info;
+  info.name = row.name;
+  info.volume = row.volume;
+  info.upload = row.upload;
+  info.request_id = row.request_id;
+  info.options = row.options;
+  info.priority = row.priority;
+  info.threads = row.threads;
+  info.state = row.state;
+  info.error = row.error;
+  info.attempts = row.attempts;
+  info.sequence = row.sequence;
+  info.created = row.created;
+  info.started = row.started;
+  info.ended = row.ended;
+  if (row.ended.has_value()) info.expires = *row.ended + options_.keep_results;
+  return info;
+}
+
+absl::StatusOr<JobInfo> DurableLedger::InfoOf(JobStore& store, const JobRow& row) const {
+  JobInfo info = PlainInfoOf(row);
+  if (row.state == JobState::kRunning) info.progress = watches_.ProgressOf(row.number);
+  if (row.result == 0) return info;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> result, store.FindResult(row.result));
+  if (!result.has_value()) return info;
+  info.result_records = result->records;
+  info.result_bytes = result->bytes;
+  info.summary = result->summary;
+  return info;
+}
+
+absl::StatusOr<JobRow> DurableLedger::FindJobRow(JobStore& store, const std::string& tenant,
+                                                 const std::string& job) const {
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> row, store.FindJob(tenant, job));
+  if (row.has_value()) return *std::move(row);
+  return absl::NotFoundError(absl::StrCat("there is no job ", job));
+}
+
+void DurableLedger::CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) {
+  done = Track(std::move(done));
+  if (absl::Status status = CheckAdmitting(); !status.ok()) {
+    return Answer<JobInfo>(std::move(done), std::move(status));
+  }
+  const auto creating = std::make_shared<Creating>();
+  creating->tenant = tenant;
+  creating->wanted = job;
+  loop_.Post([this, creating](JobStore& store) { return StoreJob(store, *creating); },
+             [this, creating, done = std::move(done)](absl::Status status) {
+               if (!status.ok()) return done(std::move(status));
+               if (creating->step.has_value()) {
+                 Apply(*creating->step);
+                 if (IsTerminal(creating->step->job.state)) ++cached_;
+               }
+               done(*creating->info);
+               Schedule();
+             });
+}
+
+absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
+  const NewJob& wanted = creating.wanted;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
+                           store.FindJobOfRequest(creating.tenant, wanted.request_id));
+  if (found.has_value()) {
+    if (found->body != BodyOf(wanted)) {
+      return WithReason(absl::AlreadyExistsError(absl::StrCat("request_id ", wanted.request_id,
+                                                              " was used for something else")),
+                        "REQUEST_ID_REUSED");
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, *found));
+    return absl::OkStatus();
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckJob(store, creating));
+  JobRow job;
+  job.tenant = creating.tenant;
+  job.request_id = wanted.request_id;
+  job.body = BodyOf(wanted);
+  job.options = wanted.options;
+  job.priority = wanted.priority;
+  job.threads = wanted.threads;
+  job.volume = wanted.volume;
+  if (wanted.mode == NewJob::Mode::kValidateOnly) {
+    creating.info = PlainInfoOf(job);
+    return absl::OkStatus();
+  }
+  job.name = RandomName("jobs");
+  return InsertJob(store, std::move(job), creating);
+}
+
+absl::Status DurableLedger::CheckJob(JobStore& store, Creating& creating) {
+  const absl::StatusOr<VolumeRow> volume =
+      FindVolumeRow(store, creating.tenant, creating.wanted.volume);
+  if (absl::IsNotFound(volume.status())) {
+    return WithReason(absl::FailedPreconditionError(volume.status().message()), "VOLUME_MISSING");
+  }
+  BCCSKEL_RETURN_IF_ERROR(volume.status());
+  creating.volume = *volume;
+  BCCSKEL_ASSIGN_OR_RETURN(const JobRequest request,
+                           codec_.RequestOf(volume->declaration, creating.wanted.options));
+  BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
+  return CheckRoomForJob();
+}
+
+absl::Status DurableLedger::InsertJob(JobStore& store, JobRow job, Creating& creating) {
+  VolumeRow& volume = creating.volume;
+  volume.used = Now();
+  BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
+  if (!volume.volume_digest.empty()) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const std::optional<ResultRow> result,
+        store.FindResultOf(job.tenant, ResultKey(volume.volume_digest, job.options)));
+    if (result.has_value()) {
+      job.state = JobState::kSucceeded;
+      job.result = result->number;
+    }
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(EventRow event, journal_.Insert(store, job));
+  BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, job));
+  creating.step = Step{.job = std::move(job), .event = std::move(event)};
+  return absl::OkStatus();
+}
+
+void DurableLedger::GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
+  Read<JobInfo>(
+      [this, tenant, job](JobStore& store) -> absl::StatusOr<JobInfo> {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        return InfoOf(store, row);
+      },
+      std::move(done));
+}
+
+void DurableLedger::ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done) {
+  Read<JobPage>(
+      [this, tenant, query](JobStore& store) -> absl::StatusOr<JobPage> {
+        const int size = std::clamp(query.page_size, 1, kMostPerPage);
+        const uint32_t states = BitsOf(query.states);
+        BCCSKEL_ASSIGN_OR_RETURN(const int64_t before, PositionOf(query.page_token, states));
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> rows,
+                                 store.ListJobs(tenant, before, states, size + 1));
+        JobPage page;
+        for (const JobRow& row : rows) {
+          if (page.jobs.size() == static_cast<size_t>(size)) break;
+          page.next_token = TokenOf(row.number, states);
+          page.jobs.push_back(PlainInfoOf(row));
+        }
+        if (rows.size() <= static_cast<size_t>(size)) page.next_token.clear();
+        return page;
+      },
+      std::move(done));
+}
+
+void DurableLedger::CancelJob(const std::string& tenant, const std::string& job,
+                              Done<JobInfo> done) {
+  const auto erased = std::make_shared<Erased>();
+  const auto info = std::make_shared<JobInfo>();
+  loop_.Post(
+      [this, tenant, job, erased, info](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, *erased));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(*info, InfoOf(store, now));
+        return absl::OkStatus();
+      },
+      [this, erased, info, done = Track(std::move(done))](absl::Status status) {
+        if (!status.ok()) return done(std::move(status));
+        Apply(*erased);
+        done(*info);
+        Schedule();
+      });
+}
+
+absl::Status DurableLedger::CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased) {
+  if (IsTerminal(job.state)) return absl::OkStatus();
+  if (job.state == JobState::kReceiving) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto upload, store.FindUpload(job.tenant, job.upload));
+    if (upload.has_value()) {
+      return EraseUpload(store, *upload, JobState::kCancelled, absl::OkStatus(), erased);
+    }
+  }
+  JobRow row = job;
+  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, row, JobState::kCancelled));
+  erased.steps.push_back({.job = row, .event = event});
+  return absl::OkStatus();
+}
+
+void DurableLedger::DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) {
+  const auto erased = std::make_shared<Erased>();
+  loop_.Post(
+      [this, tenant, job, erased](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        return EraseJob(store, row, *erased);
+      },
+      [this, erased, done = Track(std::move(done))](absl::Status status) {
+        if (status.ok()) Apply(*erased);
+        done(std::move(status));
+        Schedule();
+      });
+}
+
+absl::Status DurableLedger::EraseJob(JobStore& store, const JobRow& job, Erased& erased) {
+  erased.traces = Erased::Traces::kErase;
+  BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, job, erased));
+  BCCSKEL_RETURN_IF_ERROR(store.DeleteJob(job.number));
+  if (job.result == 0) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.TakeResultIfUnused(job.result));
+  if (result.has_value()) erased.results.push_back(*result);
+  return absl::OkStatus();
+}
+
+std::unique_ptr<WatchHandle> DurableLedger::WatchJob(const std::string& tenant,
+                                                     const std::string& job,
+                                                     uint64_t after_sequence,
+                                                     std::shared_ptr<JobWatcher> watcher) {
+  struct Found {
+    JobRow job;
+    std::vector<EventRow> events;
+  };
+  const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
+  const auto found = std::make_shared<Found>();
+  loop_.Post(
+      [this, tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(found->job, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(found->events,
+                                 store.EventsAfter(found->job.number, after_sequence));
+        return absl::OkStatus();
+      },
+      [this, found, watch, token = operations_.Begin()](const absl::Status& status) {
+        if (!status.ok()) return watch->End(status);
+        for (const EventRow& event : found->events) watch->Tell(EventOf(event));
+        // A caller who knew the last event already hears of nothing but the end.
+        if (IsTerminal(found->job.state)) return watch->End(absl::OkStatus());
+        watches_.Add(found->job.number, watch);
+      });
+  return std::make_unique<BoardWatch>(watch);
+}
+
+void DurableLedger::OpenResult(const std::string& tenant, const std::string& job,
+                               uint64_t first_record, Done<std::shared_ptr<ResultReader>> done) {
+  const auto found = std::make_shared<ResultRow>();
+  done = Track(std::move(done));
+  loop_.Post(
+      [this, tenant, job, found](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
+        if (row.state != JobState::kSucceeded || !result.has_value()) {
+          return WithReason(absl::FailedPreconditionError(absl::StrCat(job, " has no result")),
+                            "JOB_NOT_SUCCEEDED");
+        }
+        *found = *result;
+        return absl::OkStatus();
+      },
+      [this, found, first_record, done](absl::Status status) {
+        if (!status.ok()) return done(std::move(status));
+        files_.Post({.tenant = found->tenant}, [this, found, first_record, done] {
+          done(OpenStoredResult(*found, first_record, blobs_, files_));
+        });
+      });
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,178 @@
+#include <utility>
+
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_ledger.h"
+
+namespace bccskel::server {
+
+// A result on its way into the store.
+struct DurableLedger::Storing {
+  Run* run = nullptr;
+  ResultRow row;
+  int64_t number = 0;  // of the result with this key
+  std::vector<Step> steps;
+  bool needless = false;  // nobody wants it, or an equal one was there
+};
+
+void DurableLedger::OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) {
+  loop_.Post([this, run = std::move(run), digest = std::move(volume_digest)] {
+    VolumeKnown(run.get(), digest);
+  });
+}
+
+void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end() || found->second.ending) return;
+  ActiveRun& active = found->second;
+  active.volume_digest = digest;
+  const auto result = std::make_shared<int64_t>(0);
+  loop_.Post(
+      [this, tenant = active.tenant, volume = active.volume, options = active.options, digest,
+       result](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.FindVolume(tenant, volume));
+        if (row.has_value() && row->volume_digest != digest) {
+          row->volume_digest = digest;
+          BCCSKEL_RETURN_IF_ERROR(store.PutVolume(*row));
+        }
+        BCCSKEL_ASSIGN_OR_RETURN(const auto stored,
+                                 store.FindResultOf(tenant, ResultKey(digest, options)));
+        if (stored.has_value()) *result = stored->number;
+        return absl::OkStatus();
+      },
+      [this, run, result](const absl::Status&) {
+        // Without the answer the run just goes on.
+        if (*result != 0) return GiveStoredResult(run, *result);
+        JoinEqual(run);
+      });
+}
+
+void DurableLedger::GiveStoredResult(Run* run, int64_t result) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end() || found->second.ending) return;
+  const std::set<int64_t> jobs = found->second.jobs;
+  cached_ += jobs.size();
+  found->second.ending = true;
+  found->second.run->Cancel();
+  ForgetRun(run);
+  EnterState(jobs, JobState::kSucceeded, absl::OkStatus(), result, nullptr);
+}
+
+// The later of two runs of the same volume, encoded differently, gives way.
+void DurableLedger::JoinEqual(Run* run) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end() || found->second.ending) return;
+  for (auto& [pointer, other] : runs_) {
+    if (pointer == run || other.ending || other.tenant != found->second.tenant ||
+        other.options != found->second.options ||
+        other.volume_digest != found->second.volume_digest) {
+      continue;
+    }
+    const std::set<int64_t> jobs = found->second.jobs;
+    found->second.run->Cancel();
+    ForgetRun(run);
+    for (const int64_t job : jobs) Attach(other, job);
+    return Schedule();
+  }
+}
+
+void DurableLedger::OnRunProgress(std::shared_ptr<Run> run) {
+  loop_.Post([this, run = std::move(run)] { TellProgress(run); });
+}
+
+void DurableLedger::TellProgress(const std::shared_ptr<Run>& run) {
+  const std::optional<JobProgress> progress = run->TakeProgress();
+  const auto found = runs_.find(run.get());
+  if (!progress.has_value() || found == runs_.end()) return;
+  for (const int64_t job : found->second.jobs) {
+    const auto active = active_.find(job);
+    if (active == active_.end() || active->second.row.state != JobState::kRunning) continue;
+    watches_.Tell(job, {.sequence = journal_.NextSequence(job, active->second.row.sequence),
+                        .time = Now(),
+                        .what = *progress});
+  }
+}
+
+void DurableLedger::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) {
+  if (!result.ok()) {
+    return loop_.Post(
+        [this, run = std::move(run), error = result.status()] { RunEnded(run.get(), error); });
+  }
+  const auto held = std::make_shared<std::optional<JobResult>>(*std::move(result));
+  files_.Post({.tenant = run->tenant()}, [this, run, held] {
+    absl::StatusOr<ResultRow> row = WriteResult(**held, run->tenant(), codec_, blobs_, quota_);
+    held->reset();  // its memory is admitted until here
+    loop_.Post([this, run, row = std::move(row)] { RunEnded(run.get(), row); });
+  });
+}
+
+void DurableLedger::RunEnded(Run* run, const absl::StatusOr<ResultRow>& result) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end() || found->second.ending) {
+    if (result.ok()) RemoveResult(*result, blobs_, quota_);
+    return;
+  }
+  found->second.ending = true;
+  if (!result.ok()) return RunFailed(run, result.status());
+  StoreResult(run, *result);
+}
+
+void DurableLedger::StoreResult(Run* run, const ResultRow& row) {
+  const auto storing = std::make_shared<Storing>();
+  storing->run = run;
+  storing->row = row;
+  loop_.Post([this, storing](JobStore& store) { return StoreResultOf(store, *storing); },
+             [this, storing, row](const absl::Status& status) {
+               if (!status.ok()) {
+                 return RetryLater([this, run = storing->run, row] { StoreResult(run, row); });
+               }
+               if (storing->needless) RemoveResult(row, blobs_, quota_);
+               for (const Step& step : storing->steps) Apply(step);
+               ForgetRun(storing->run);
+               Schedule();
+             });
+}
+
+absl::Status DurableLedger::StoreResultOf(JobStore& store, Storing& storing) {
+  const ActiveRun& active = runs_.at(storing.run);
+  storing.row.key = ResultKey(active.volume_digest, active.options);
+  BCCSKEL_ASSIGN_OR_RETURN(storing.number, store.InsertResult(storing.row));
+  for (const int64_t job : active.jobs) {
+    BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, JobState::kSucceeded, absl::OkStatus(),
+                                       storing.number, storing.steps));
+  }
+  BCCSKEL_RETURN_IF_ERROR(store.TakeResultIfUnused(storing.number).status());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> kept, store.FindResult(storing.number));
+  storing.needless = !kept.has_value() || kept->file != storing.row.file;
+  return absl::OkStatus();
+}
+
+void DurableLedger::RunFailed(Run* run, const absl::Status& error) {
+  const std::set<int64_t> jobs = runs_.at(run).jobs;
+  const bool received = !runs_.at(run).volume.empty();
+  ForgetRun(run);
+  if (!received) {
+    for (const int64_t job : jobs) ReceivingFailed(job, error);
+    return Schedule();
+  }
+  // The runner stops, or has no room just now.
+  const bool again = absl::IsUnavailable(error) || absl::IsCancelled(error);
+  if (!jobs.empty()) {
+    EnterState(jobs, again ? JobState::kQueued : JobState::kFailed,
+               again ? absl::OkStatus() : error, 0, nullptr);
+  }
+  if (!again) return Schedule();
+  retry_wanted_ = true;
+}
+
+// The upload can go on without being decoded, unless it is malformed.
+void DurableLedger::ReceivingFailed(int64_t job, const absl::Status& error) {
+  const JobRow& row = active_.at(job).row;
+  if (const Session session = FindSession(row.tenant, row.upload); session != nullptr) {
+    session->TakeAlong();
+  }
+  if (!absl::IsInvalidArgument(error)) return;
+  EndUpload(row.tenant, row.upload, JobState::kFailed, error,
+            [token = operations_.Begin()](const absl::Status&) {});
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_ledger.h"
+#include "server/durable/names.h"
+
+namespace bccskel::server {
+
+std::string DurableLedger::ResultKey(const std::string& volume_digest,
+                                     const std::string& options) const {
+  return KeyOf({volume_digest, options, options_.algorithm_version});
+}
+
+void DurableLedger::Schedule() {
+  while (!stopping_ && BeginNext() == Begun::kYes) {
+  }
+}
+
+std::map<std::string, int> DurableLedger::RunsOfTenants() const {
+  std::map<std::string, int> runs;
+  for (const auto& [pointer, run] : runs_) ++runs[run.tenant];
+  return runs;
+}
+
+DurableLedger::Begun DurableLedger::BeginNext() {
+  const auto from_files = std::ranges::count_if(
+      runs_, [](const auto& entry) { return entry.second.source == ActiveRun::Source::kFile; });
+  const bool one_is_alone =
+      std::ranges::any_of(runs_, [](const auto& entry) { return entry.second.alone; });
+  if (one_is_alone || from_files >= options_.max_runs) return Begun::kNothingNow;
+  const std::optional<int64_t> first = queue_.First(RunsOfTenants());
+  if (!first.has_value()) return Begun::kNothingNow;
+  const JobRow job = active_.at(*first).row;
+  // Its next crash is its last: it must be its own.
+  if (job.crashes + 1 >= kCrashesToPoison && from_files > 0) return Begun::kNothingNow;
+  return BeginJob(job);
+}
+
+DurableLedger::Begun DurableLedger::BeginJob(const JobRow& job) {
+  JobStore& store = loop_.store();
+  const auto volume = store.FindVolume(job.tenant, job.volume);
+  if (!volume.ok()) {
+    retry_wanted_ = true;
+    return Begun::kNothingNow;
+  }
+  queue_.Remove(job);
+  queue_.CountTurn(job.tenant);
+  if (!volume->has_value()) {
+    EnterState({job.number}, JobState::kFailed,
+               absl::DataLossError(absl::StrCat(job.volume, " is gone")), 0, nullptr);
+    return Begun::kYes;
+  }
+  if (!(*volume)->volume_digest.empty()) {
+    const auto result =
+        store.FindResultOf(job.tenant, ResultKey((*volume)->volume_digest, job.options));
+    if (result.ok() && result->has_value()) {
+      ++cached_;
+      EnterState({job.number}, JobState::kSucceeded, absl::OkStatus(), (*result)->number, nullptr);
+      return Begun::kYes;
+    }
+  }
+  if (ActiveRun* equal = EqualRun(job, **volume); equal != nullptr) {
+    Attach(*equal, job.number);
+    EnterState({job.number}, JobState::kRunning, absl::OkStatus(), 0, nullptr);
+    return Begun::kYes;
+  }
+  return StartRun(job, **volume);
+}
+
+DurableLedger::ActiveRun* DurableLedger::EqualRun(const JobRow& job, const VolumeRow& volume) {
+  for (auto& [pointer, run] : runs_) {
+    const bool same_volume =
+        !run.volume.empty() &&
+        (run.volume == volume.name ||
+         (!run.volume_digest.empty() && run.volume_digest == volume.volume_digest));
+    if (same_volume && !run.ending && run.tenant == job.tenant && run.options == job.options) {
+      return &run;
+    }
+  }
+  return nullptr;
+}
+
+DurableLedger::Begun DurableLedger::StartRun(const JobRow& job, const VolumeRow& volume) {
+  absl::StatusOr<JobRequest> request = codec_.RequestOf(volume.declaration, job.options);
+  const auto run = std::make_shared<Run>(*this, job.tenant, operations_.Begin());
+  absl::Status started = request.status();
+  if (started.ok()) started = run->Start(runner_, RunnerRequest(*std::move(request), job));
+  if (absl::IsUnavailable(started)) {
+    queue_.Add(job);
+    retry_wanted_ = true;
+    return Begun::kNothingNow;
+  }
+  if (!started.ok()) {
+    EnterState({job.number}, JobState::kFailed, started, 0, nullptr);
+    return Begun::kYes;
+  }
+  ActiveRun& active = AddRun(run, job, ActiveRun::Source::kFile);
+  active.volume = volume.name;
+  active.volume_digest = volume.volume_digest;
+  active.alone = job.crashes + 1 >= kCrashesToPoison;
+  Attach(active, job.number);
+  // The attempt is counted before it begins.
+  EnterState({job.number}, JobState::kRunning, absl::OkStatus(), 0,
+             [this, pointer = run.get(), volume] { Feed(pointer, volume); });
+  return Begun::kYes;
+}
+
+DurableLedger::ActiveRun& DurableLedger::AddRun(std::shared_ptr<Run> run, const JobRow& job,
+                                                ActiveRun::Source source) {
+  ActiveRun& active = runs_[run.get()];
+  active.run = std::move(run);
+  active.source = source;
+  active.tenant = job.tenant;
+  active.options = job.options;
+  return active;
+}
+
+void DurableLedger::Attach(ActiveRun& run, int64_t job) {
+  run.jobs.insert(job);
+  active_.at(job).run = run.run.get();
+}
+
+void DurableLedger::Detach(int64_t job) {
+  const auto found = active_.find(job);
+  if (found == active_.end() || found->second.run == nullptr) return;
+  const auto run = runs_.find(std::exchange(found->second.run, nullptr));
+  if (run == runs_.end()) return;
+  run->second.jobs.erase(job);
+  if (run->second.jobs.empty() && !run->second.ending) run->second.run->Cancel();
+}
+
+void DurableLedger::Feed(Run* pointer, const VolumeRow& volume) {
+  const auto found = runs_.find(pointer);
+  if (found == runs_.end()) return;  // nobody wants it any more
+  files_.Post({.tenant = volume.tenant}, [this, run = found->second.run, volume] {
+    absl::StatusOr<CheckedFile> file = blobs_.OpenBlob(volume.tenant, volume.blob_digest);
+    if (!file.ok()) return run->Fail(file.status());
+    run->Feed(*std::move(file), files_);
+  });
+}
+
+void DurableLedger::ForgetRun(Run* run) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end()) return;
+  for (const int64_t job : found->second.jobs) {
+    const auto active = active_.find(job);
+    if (active != active_.end() && active->second.run == run) active->second.run = nullptr;
+  }
+  runs_.erase(found);
+}
+
+absl::Status DurableLedger::EnterState(JobStore& store, int64_t number, JobState state,
+                                       const absl::Status& error, int64_t result,
+                                       std::vector<Step>& steps) {
+  const auto active = active_.find(number);
+  if (active == active_.end()) return absl::OkStatus();
+  const JobRow& known = active->second.row;
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(known.tenant, known.name));
+  if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
+  job->result = result;
+  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
+  if (event.has_value()) steps.push_back({.job = *job, .event = event});
+  return absl::OkStatus();
+}
+
+void DurableLedger::EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error,
+                               int64_t result, std::function<void()> then) {
+  const auto steps = std::make_shared<std::vector<Step>>();
+  loop_.Post(
+      [this, jobs, state, error, result, steps](JobStore& store) -> absl::Status {
+        for (const int64_t job : jobs) {
+          BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, state, error, result, *steps));
+        }
+        return absl::OkStatus();
+      },
+      [this, jobs, state, error, result, steps, then](const absl::Status& status) {
+        if (!status.ok()) {
+          return RetryLater([=, this] { EnterState(jobs, state, error, result, then); });
+        }
+        for (const Step& step : *steps) Apply(step);
+        if (then) then();
+        Schedule();
+      });
+}
+
+void DurableLedger::RetryLater(std::function<void()> task) {
+  if (stopping_) return;
+  retries_.push_back(std::move(task));
+  retry_wanted_ = true;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,89 @@
+#ifndef BCCSKEL_SERVER_DURABLE_RUN_H_
+#define BCCSKEL_SERVER_DURABLE_RUN_H_
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/durable/operations.h"
+#include "server/durable/records.h"
+#include "server/jobs/job_runner.h"
+#include "server/jobs/task_threads.h"
+#include "server/store/checked_file.h"
+
+namespace bccskel::server {
+
+class Run;
+
+// Hears of runs. Called on the runner's threads; must not block.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) = 0;
+  // There is progress to take.
+  virtual void OnRunProgress(std::shared_ptr<Run> run) = 0;
+  // Once, last.
+  virtual void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) = 0;
+};
+
+// One computation at the runner, for one or more equal jobs. Its bytes come from an upload that is
+// under way, or from a file.
+// Threads: safe.
+class Run : public JobListener, public std::enable_shared_from_this<Run> {
+ public:
+  // Needs: the observer lives while the operation is under way.
+  Run(RunObserver& observer, std::string tenant, Operations::Token operation)
+      : observer_(observer), tenant_(std::move(tenant)), operation_(std::move(operation)) {}
+
+  const std::string& tenant() const { return tenant_; }
+
+  // Asks the runner for a place. Errors: the runner's; then the run is of no further use.
+  absl::Status Start(JobRunner& runner, JobRequest request);
+
+  // From an upload: the next bytes. `room` is called when they are decoded, or with the error with
+  // which the run ended. Needs: `room` of the bytes before was called.
+  void Append(std::string bytes, std::function<void(absl::Status)> room);
+  void FinishVolume();
+
+  // From a file, which is read on `threads`. A damaged file ends the run with DATA_LOSS.
+  void Feed(CheckedFile file, TaskThreads& threads);
+
+  // Ends the run soon; OnRunEnd() comes all the same.
+  void Cancel();
+  // The same, because its bytes cannot be had.
+  void Fail(absl::Status status);
+
+  std::optional<JobProgress> TakeProgress();
+
+  void OnBytesConsumed() override;
+  void OnVolume(const Volume& volume) override;
+  void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override;
+  void OnEnd(absl::StatusOr<JobResult> result) override;
+
+ private:
+  void FeedNext();
+
+  RunObserver& observer_;
+  const std::string tenant_;
+  const Operations::Token operation_;
+  std::shared_ptr<Job> job_;         // set by Start()
+  TaskThreads* threads_ = nullptr;   // set by Feed()
+  std::optional<CheckedFile> file_;  // used by one task at a time
+
+  std::mutex mutex_;
+  bool ended_ = false;                             // guarded by mutex_
+  std::function<void(absl::Status)> room_;         // guarded by mutex_
+  absl::Status feed_error_;                        // guarded by mutex_
+  std::optional<JobProgress> progress_;            // guarded by mutex_
+  std::chrono::nanoseconds next_announcement_{0};  // guarded by mutex_
+  bool announced_ = false;                         // guarded by mutex_: nobody took it yet
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_RUN_H_

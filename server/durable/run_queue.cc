@@ -1,0 +1,47 @@
+#include "server/durable/run_queue.h"
+
+#include <limits>
+#include <utility>
+
+namespace bccskel::server {
+namespace {
+
+constexpr int64_t kPlacesBackPerCrash = 1000;
+
+}  // namespace
+
+RunQueue::Place RunQueue::PlaceOf(const JobRow& job) {
+  return {-job.priority, job.number + kPlacesBackPerCrash * job.crashes, job.number};
+}
+
+void RunQueue::Add(const JobRow& job) {
+  if (tenants_[job.tenant].places.insert(PlaceOf(job)).second) ++size_;
+}
+
+void RunQueue::Remove(const JobRow& job) {
+  const auto tenant = tenants_.find(job.tenant);
+  if (tenant == tenants_.end() || tenant->second.places.erase(PlaceOf(job)) == 0) return;
+  --size_;
+  if (tenant->second.places.empty()) tenants_.erase(tenant);
+}
+
+std::optional<int64_t> RunQueue::First(const std::map<std::string, int>& at_work_of) const {
+  std::pair<int, uint64_t> best = {std::numeric_limits<int>::max(), 0};
+  std::optional<int64_t> first;
+  for (const auto& [name, tenant] : tenants_) {
+    const auto at_work = at_work_of.find(name);
+    const std::pair<int, uint64_t> share = {at_work == at_work_of.end() ? 0 : at_work->second,
+                                            tenant.last_turn};
+    if (first.has_value() && best <= share) continue;
+    best = share;
+    first = std::get<2>(*tenant.places.begin());
+  }
+  return first;
+}
+
+void RunQueue::CountTurn(const std::string& tenant) {
+  const auto found = tenants_.find(tenant);
+  if (found != tenants_.end()) found->second.last_turn = ++turns_;
+}
+
+}  // namespace bccskel::server

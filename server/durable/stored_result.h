@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_SERVER_DURABLE_STORED_RESULT_H_
+#define BCCSKEL_SERVER_DURABLE_STORED_RESULT_H_
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "server/durable/job_codec.h"
+#include "server/durable/ledger.h"
+#include "server/jobs/task_threads.h"
+#include "server/store/blob_store.h"
+#include "server/store/disk_quota.h"
+
+namespace bccskel::server {
+
+// Writes the result's file and counts its bytes. What the row says of the key is left to the
+// caller. After an error there is no file.
+// Errors: RESOURCE_EXHAUSTED for quota and disk; the codec's.
+absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const std::string& tenant,
+                                      const JobCodec& codec, const BlobStore& blobs,
+                                      DiskQuota& quota);
+// The opposite.
+void RemoveResult(const ResultRow& row, const BlobStore& blobs, DiskQuota& quota);
+
+// Reads on `threads`, which outlive the reader's last call to be answered.
+// Errors: OUT_OF_RANGE for a first record beyond the end; DATA_LOSS.
+absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& row,
+                                                               uint64_t first_record,
+                                                               const BlobStore& blobs,
+                                                               TaskThreads& threads);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_STORED_RESULT_H_

@@ -1,0 +1,79 @@
+#include "server/durable/upload_session.h"
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/fault.h"
+
+namespace bccskel::server {
+
+uint64_t UploadSession::committed() const {
+  std::lock_guard lock(mutex_);
+  return committed_;
+}
+
+Time UploadSession::used() const {
+  std::lock_guard lock(mutex_);
+  return used_;
+}
+
+absl::Status UploadSession::Begin() {
+  if (writing_) {
+    return WithFault(absl::AbortedError(absl::StrCat(row_.name, " is being written just now")),
+                     {.reason = "SECOND_WRITER", .key = {}, .value = {}});
+  }
+  writing_ = true;
+  return absl::OkStatus();
+}
+
+absl::Status UploadSession::BeginAppend(uint64_t offset, uint64_t size) {
+  std::lock_guard lock(mutex_);
+  if (!writing_ && offset != committed_) {
+    return WrongOffset(absl::StrCat("chunk at offset ", offset, " of ", row_.name, ", which has ",
+                                    committed_, " bytes"),
+                       committed_);
+  }
+  if (!writing_ && size > row_.size_bytes - committed_) {
+    return WrongOffset(absl::StrCat(size, " bytes after ", committed_, " are more than the ",
+                                    row_.size_bytes, " that were declared"),
+                       committed_);
+  }
+  return Begin();
+}
+
+absl::Status UploadSession::BeginFinish(uint64_t size) {
+  std::lock_guard lock(mutex_);
+  if (size != row_.size_bytes) {
+    return WithFault(absl::InvalidArgumentError(absl::StrCat("finish states ", size, " bytes, ",
+                                                             row_.size_bytes, " were declared")),
+                     {.reason = "VOLUME_SIZE", .key = {}, .value = {}});
+  }
+  if (!writing_ && committed_ != size) {
+    return WrongOffset(absl::StrCat(row_.name, " has ", committed_, " of ", size, " bytes"),
+                       committed_);
+  }
+  return Begin();
+}
+
+void UploadSession::EndWriting(Time now) {
+  std::lock_guard lock(mutex_);
+  writing_ = false;
+  committed_ = file_->size();
+  used_ = now;
+}
+
+void UploadSession::set_along(std::shared_ptr<Run> run) {
+  std::lock_guard lock(mutex_);
+  along_ = std::move(run);
+}
+
+std::shared_ptr<Run> UploadSession::along() const {
+  std::lock_guard lock(mutex_);
+  return along_;
+}
+
+std::shared_ptr<Run> UploadSession::TakeAlong() {
+  std::lock_guard lock(mutex_);
+  return std::exchange(along_, nullptr);
+}
+
+}  // namespace bccskel::server

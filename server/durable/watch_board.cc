@@ -1,0 +1,63 @@
+#include "server/durable/watch_board.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace bccskel::server {
+
+void Watch::Tell(const JobEvent& event) {
+  if (over() || event.sequence <= told_) return;
+  told_ = event.sequence;
+  watcher_->OnEvent(event);
+  if (event.IsCompleted()) End(absl::OkStatus());
+}
+
+void Watch::End(const absl::Status& status) {
+  if (over()) return;
+  const std::shared_ptr<JobWatcher> watcher = std::move(watcher_);
+  watcher->OnWatchEnd(status);
+}
+
+void WatchBoard::Add(int64_t job, std::shared_ptr<Watch> watch) {
+  const auto progress = progress_.find(job);
+  if (progress != progress_.end()) watch->Tell(progress->second);
+  std::vector<std::shared_ptr<Watch>>& watches = watches_[job];
+  std::erase_if(watches, [](const auto& other) { return other->over(); });
+  watches.push_back(std::move(watch));
+}
+
+void WatchBoard::Tell(int64_t job, const JobEvent& event) {
+  if (std::holds_alternative<JobProgress>(event.what)) {
+    progress_.insert_or_assign(job, event);
+  } else {
+    progress_.erase(job);
+  }
+  const auto found = watches_.find(job);
+  if (found == watches_.end()) return;
+  std::erase_if(found->second, [](const auto& watch) { return watch->over(); });
+  for (const auto& watch : found->second) watch->Tell(event);
+  if (event.IsCompleted() || found->second.empty()) watches_.erase(found);
+}
+
+std::optional<JobProgress> WatchBoard::ProgressOf(int64_t job) const {
+  const auto found = progress_.find(job);
+  if (found == progress_.end()) return std::nullopt;
+  return std::get<JobProgress>(found->second.what);
+}
+
+void WatchBoard::EndAll(const absl::Status& status) {
+  for (const auto& [job, watches] : watches_) {
+    for (const auto& watch : watches) watch->End(status);
+  }
+  watches_.clear();
+}
+
+JobEvent EventOf(const EventRow& row) {
+  return {.sequence = row.sequence,
+          .time = row.time,
+          .what = JobEvent::StateChange{
+              .state = row.state, .attempt = row.attempt, .error = row.error}};
+}
+
+}  // namespace bccskel::server

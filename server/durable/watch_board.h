@@ -1,0 +1,54 @@
+#ifndef BCCSKEL_SERVER_DURABLE_WATCH_BOARD_H_
+#define BCCSKEL_SERVER_DURABLE_WATCH_BOARD_H_
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "server/durable/ledger.h"
+#include "server/store/rows.h"
+
+namespace bccskel::server {
+
+// One watcher of one job. Threads: Stop() from any, the rest from the ledger's.
+class Watch {
+ public:
+  Watch(uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher)
+      : told_(after_sequence), watcher_(std::move(watcher)) {}
+
+  uint64_t told() const { return told_; }
+  void Tell(const JobEvent& event);
+  void End(const absl::Status& status);
+  void Stop() { stopped_ = true; }
+  bool over() const { return stopped_ || watcher_ == nullptr; }
+
+ private:
+  uint64_t told_;                        // the last sequence
+  std::shared_ptr<JobWatcher> watcher_;  // null once it was told the end
+  std::atomic<bool> stopped_ = false;
+};
+
+// Who watches which unfinished job, and the newest progress of each.
+// Threads: one at a time, the ledger's.
+class WatchBoard {
+ public:
+  void Add(int64_t job, std::shared_ptr<Watch> watch);
+  // After a completed event the job's watches are over.
+  void Tell(int64_t job, const JobEvent& event);
+  // Newest progress of a running job.
+  std::optional<JobProgress> ProgressOf(int64_t job) const;
+  void EndAll(const absl::Status& status);
+
+ private:
+  std::map<int64_t, std::vector<std::shared_ptr<Watch>>> watches_;
+  std::map<int64_t, JobEvent> progress_;
+};
+
+JobEvent EventOf(const EventRow& row);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_WATCH_BOARD_H_
