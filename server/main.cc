@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "server/config.h"
+#include "server/decoding/decoding_child.h"
 #include "server/logging/json_log.h"
 #include "server/server.h"
 
@@ -56,7 +57,10 @@ int Serve(const ServerConfig& config) {
 
 int main(int argc, char** argv) {
   using namespace bccskel::server;
-  const auto parsed = ParseServerConfig(argc, argv);
+  if (const auto code = RunIfDecodingChild(argc, argv)) return *code;
+  auto parsed = ParseServerConfig(argc, argv);
   if (const auto* exit = std::get_if<ExitRequest>(&parsed)) return Print(*exit);
-  return Serve(std::get<ServerConfig>(parsed));
+  auto& config = std::get<ServerConfig>(parsed);
+  config.limits.decode_in_children = DecodeInChildren::kOpenExr;
+  return Serve(config);
 }

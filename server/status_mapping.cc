@@ -41,6 +41,8 @@ absl::Status WithRefusal(absl::Status status, Refusal refusal) {
       return WithRetryDelay(WithReason(std::move(status), "MEMORY_BUSY"), kRetryDelay);
     case Refusal::kDraining:
       return WithRetryDelay(WithReason(std::move(status), "DRAINING"), kRetryDelay);
+    case Refusal::kNoDecoder:
+      return WithRetryDelay(WithReason(std::move(status), "DECODER_BUSY"), kRetryDelay);
   }
   return status;
 }

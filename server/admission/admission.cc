@@ -1,15 +1,30 @@
 #include "server/admission/admission.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/refusal.h"
 
 namespace bccskel::server {
+namespace {
+
+absl::Status CheckFits(const char* whose, uint64_t bytes, uint64_t limit) {
+  if (bytes <= limit) return absl::OkStatus();
+  return Refuse(Refusal::kTooMuchMemory,
+                absl::StrFormat("the volume needs up to %d bytes of memory, the limit for %s is "
+                                "%d; declare max_bricks (max_label_voxels and max_runs of labels) "
+                                "if it is sparse",
+                                bytes, whose, limit));
+}
+
+}  // namespace
 
 Ticket& Ticket::operator=(Ticket&& other) noexcept {
   if (this == &other) return *this;
   Release();
   admission_ = std::exchange(other.admission_, nullptr);
+  tenant_ = std::exchange(other.tenant_, {});
   bytes_ = std::exchange(other.bytes_, 0);
   places_ = std::exchange(other.places_, 0);
   return *this;
@@ -17,7 +32,7 @@ Ticket& Ticket::operator=(Ticket&& other) noexcept {
 
 void Ticket::ShrinkTo(uint64_t bytes) {
   if (bytes >= bytes_) return;
-  admission_->GiveBack({.bytes = bytes_ - bytes, .places = 0});
+  admission_->GiveBack(tenant_, {.bytes = bytes_ - bytes, .places = 0});
   bytes_ = bytes;
 }
 
@@ -31,7 +46,7 @@ absl::Status Ticket::ResizeTo(uint64_t bytes) {
 }
 
 void Ticket::LeavePlace() {
-  if (places_ > 0) admission_->GiveBack({.bytes = 0, .places = places_});
+  if (places_ > 0) admission_->GiveBack(tenant_, {.bytes = 0, .places = places_});
   places_ = 0;
 }
 
@@ -40,46 +55,55 @@ void Ticket::Release() {
   ShrinkTo(0);
 }
 
-absl::StatusOr<Ticket> Admission::Admit(uint64_t bytes) {
+absl::StatusOr<Ticket> Admission::Admit(const std::string& tenant, uint64_t bytes) {
   std::lock_guard lock(mutex_);
   if (!admitting_) {
     return Refuse(Refusal::kDraining, "the server is shutting down and takes no new jobs");
   }
-  BCCSKEL_RETURN_IF_ERROR(CheckLimit(bytes));
-  if (usage_.places >= limits_.places) {
-    return Refuse(Refusal::kQueueFull,
-                  absl::StrFormat("%d jobs at work or waiting, the limit is %d", usage_.places,
-                                  limits_.places));
-  }
-  BCCSKEL_RETURN_IF_ERROR(Take(bytes));
-  ++usage_.places;
-  return Ticket(this, bytes);
+  BCCSKEL_RETURN_IF_ERROR(Take(tenant, {.bytes = bytes, .places = 1}));
+  return Ticket(this, tenant, bytes);
 }
 
-absl::Status Admission::CheckLimit(uint64_t bytes) const {
-  if (bytes <= limits_.bytes) return absl::OkStatus();
-  return Refuse(Refusal::kTooMuchMemory,
-                absl::StrFormat("the volume needs up to %d bytes of memory, the limit for all jobs "
-                                "together is %d; declare max_bricks (max_label_voxels and max_runs "
-                                "of labels) if it is sparse",
-                                bytes, limits_.bytes));
+std::array<Admission::Part, 2> Admission::PartsOf(const std::string& tenant) const {
+  const TenantLimits& own = limits_.tenants.Of(tenant);
+  const auto found = tenants_.find(tenant);
+  const Usage all = {.bytes = limits_.bytes, .places = limits_.places};
+  return {Part{"all jobs together", all, usage_},
+          Part{"this tenant's jobs together",
+               {.bytes = own.max_bytes > 0 ? std::min(own.max_bytes, all.bytes) : all.bytes,
+                .places = own.max_jobs > 0 ? std::min(own.max_jobs, all.places) : all.places},
+               found == tenants_.end() ? Usage() : found->second}};
 }
 
-absl::Status Admission::Take(uint64_t bytes) {
-  if (bytes > limits_.bytes - usage_.bytes) {
-    return Refuse(Refusal::kMemoryBusy,
-                  absl::StrFormat("the volume needs up to %d bytes of memory, %d of %d are free "
-                                  "now",
-                                  bytes, limits_.bytes - usage_.bytes, limits_.bytes));
+absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
+  for (const Part& part : PartsOf(tenant)) {
+    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes));
+    if (part.usage.places + wanted.places > part.limit.places) {
+      return Refuse(Refusal::kQueueFull,
+                    absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d",
+                                    part.usage.places, part.whose, part.limit.places));
+    }
+    const uint64_t free_bytes = part.limit.bytes - std::min(part.limit.bytes, part.usage.bytes);
+    if (wanted.bytes > free_bytes) {
+      return Refuse(Refusal::kMemoryBusy,
+                    absl::StrFormat("the volume needs up to %d bytes of memory, %d of %d are free "
+                                    "now for %s",
+                                    wanted.bytes, free_bytes, part.limit.bytes, part.whose));
+    }
   }
-  usage_.bytes += bytes;
+  for (Usage* usage : {&usage_, &tenants_[tenant]}) {
+    usage->bytes += wanted.bytes;
+    usage->places += wanted.places;
+  }
   return absl::OkStatus();
 }
 
 absl::Status Admission::Grow(const Ticket& ticket, uint64_t bytes) {
   std::lock_guard lock(mutex_);
-  BCCSKEL_RETURN_IF_ERROR(CheckLimit(bytes));
-  return Take(bytes - ticket.bytes());
+  for (const Part& part : PartsOf(ticket.tenant_)) {
+    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, bytes, part.limit.bytes));
+  }
+  return Take(ticket.tenant_, {.bytes = bytes - ticket.bytes(), .places = 0});
 }
 
 void Admission::StopAdmitting() {
@@ -97,10 +121,20 @@ Admission::Usage Admission::usage() const {
   return usage_;
 }
 
-void Admission::GiveBack(const Usage& part) {
+Admission::Usage Admission::usage(const std::string& tenant) const {
   std::lock_guard lock(mutex_);
-  usage_.bytes -= part.bytes;
-  usage_.places -= part.places;
+  const auto found = tenants_.find(tenant);
+  return found == tenants_.end() ? Usage() : found->second;
+}
+
+void Admission::GiveBack(const std::string& tenant, const Usage& part) {
+  std::lock_guard lock(mutex_);
+  Usage& own = tenants_[tenant];
+  for (Usage* usage : {&usage_, &own}) {
+    usage->bytes -= part.bytes;
+    usage->places -= part.places;
+  }
+  if (own == Usage()) tenants_.erase(tenant);
   if (usage_ == Usage()) empty_.notify_all();
 }
 

@@ -1,13 +1,17 @@
 #ifndef BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
 #define BCCSKEL_SERVER_ADMISSION_ADMISSION_H_
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "absl/status/statusor.h"
+#include "server/admission/tenant_limits.h"
 
 namespace bccskel::server {
 
@@ -34,21 +38,25 @@ class Ticket {
 
  private:
   friend class Admission;
-  Ticket(Admission* admission, uint64_t bytes) : admission_(admission), bytes_(bytes), places_(1) {}
+  Ticket(Admission* admission, std::string tenant, uint64_t bytes)
+      : admission_(admission), tenant_(std::move(tenant)), bytes_(bytes), places_(1) {}
   void Release();
 
   Admission* admission_ = nullptr;
+  std::string tenant_;
   uint64_t bytes_ = 0;
   int places_ = 0;
 };
 
-// Lets jobs in while the sum of their demands stays within the limits. It decides at once, from
-// what a volume's declaration says, and nothing ever waits for it. Needs: outlives its tickets.
+// Lets jobs in while the sum of their demands stays within the limits, of all tenants together and
+// of each. It decides at once, from what a volume's declaration says, and nothing ever waits for
+// it. Needs: outlives its tickets.
 class Admission {
  public:
   struct Limits {
     uint64_t bytes = 0;  // of all jobs together
     int places = 0;      // jobs that receive, wait or run
+    TenantTable tenants = {};
   };
   struct Usage {
     uint64_t bytes = 0;
@@ -61,7 +69,8 @@ class Admission {
 
   // Errors: a Refusal: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
   //         or kDraining.
-  absl::StatusOr<Ticket> Admit(uint64_t bytes);
+  absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
+  absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }
 
   // From now on every job is refused as kDraining.
   void StopAdmitting();
@@ -70,20 +79,27 @@ class Admission {
   void WaitUntilEmpty(std::chrono::milliseconds timeout) const;
 
   Usage usage() const;
+  Usage usage(const std::string& tenant) const;
 
  private:
   friend class Ticket;
-  // Needs of these two: mutex_ held.
-  absl::Status CheckLimit(uint64_t bytes) const;
-  absl::Status Take(uint64_t bytes);
+  // What a tenant may have and has.
+  struct Part {
+    const char* whose;  // for messages
+    Usage limit, usage;
+  };
+  // Needs of these: mutex_ held.
+  std::array<Part, 2> PartsOf(const std::string& tenant) const;
+  absl::Status Take(const std::string& tenant, const Usage& part);
   absl::Status Grow(const Ticket& ticket, uint64_t bytes);
-  void GiveBack(const Usage& part);
+  void GiveBack(const std::string& tenant, const Usage& part);
 
   const Limits limits_;
   mutable std::mutex mutex_;
   mutable std::condition_variable empty_;
-  Usage usage_;            // guarded by mutex_
-  bool admitting_ = true;  // guarded by mutex_
+  Usage usage_;                           // guarded by mutex_
+  std::map<std::string, Usage> tenants_;  // guarded by mutex_; those that have something
+  bool admitting_ = true;                 // guarded by mutex_
 };
 
 }  // namespace bccskel::server

@@ -16,6 +16,7 @@ absl::StatusCode CodeOf(Refusal refusal) {
     case Refusal::kQueueFull:
     case Refusal::kMemoryBusy:
     case Refusal::kDraining:
+    case Refusal::kNoDecoder:
       return absl::StatusCode::kUnavailable;
   }
   return absl::StatusCode::kInternal;

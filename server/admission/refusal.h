@@ -16,6 +16,7 @@ enum class Refusal {
   kQueueFull,       // no place now; UNAVAILABLE
   kMemoryBusy,      // other jobs have the memory now; UNAVAILABLE
   kDraining,        // the server is about to stop; UNAVAILABLE
+  kNoDecoder,       // no process, descriptor or memory for decoding now; UNAVAILABLE
 };
 
 // An error that remembers the reason. Its code is stated above.

@@ -4,9 +4,16 @@
 #include <utility>
 
 namespace bccskel::server {
+namespace {
 
-ComputeQueue::ComputeQueue(int threads, int max_running)
-    : threads_(threads), free_threads_(threads) {
+// Who gives way waits for little, and seldom.
+constexpr uint64_t kTimesSmaller = 8;
+
+}  // namespace
+
+ComputeQueue::ComputeQueue(int threads, int max_running, TenantTable tenants,
+                           std::function<Clock::time_point()> now)
+    : threads_(threads), now_(std::move(now)), queue_(std::move(tenants)), free_threads_(threads) {
   for (int n = 0; n < std::min(threads, max_running); ++n) {
     runners_.emplace_back([this](std::stop_token stop) { Serve(stop); });
   }
@@ -16,12 +23,12 @@ ComputeQueue::~ComputeQueue() {
   for (std::jthread& runner : runners_) runner.request_stop();
 }
 
-ComputeQueue::Entry ComputeQueue::Post(int most_threads, Work work) {
+ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
   Entry entry = 0;
   {
     std::lock_guard lock(mutex_);
-    entry = next_entry_++;
-    waiting_.push_back({entry, most_threads, std::move(work)});
+    entry = queue_.Push(claim.origin, now_(), {claim.most_threads, claim.bricks, std::move(work)});
+    NoteWaiting();
   }
   wake_.notify_one();
   return entry;
@@ -29,34 +36,62 @@ ComputeQueue::Entry ComputeQueue::Post(int most_threads, Work work) {
 
 ComputeQueue::Removal ComputeQueue::Remove(Entry entry) {
   std::lock_guard lock(mutex_);
-  const size_t removed = waiting_.remove_if([entry](const Waiting& w) { return w.entry == entry; });
-  return removed > 0 ? Removal::kRemoved : Removal::kNotWaiting;
+  const bool removed = queue_.Remove(entry);
+  NoteWaiting();
+  return removed ? Removal::kRemoved : Removal::kNotWaiting;
 }
 
 ComputeQueue::Usage ComputeQueue::usage() const {
   std::lock_guard lock(mutex_);
-  return {.waiting = static_cast<int>(waiting_.size()),
+  return {.waiting = static_cast<int>(queue_.size()),
           .running = running_,
           .busy_threads = threads_ - free_threads_};
 }
 
 void ComputeQueue::Serve(std::stop_token stop) {
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [this] { return !waiting_.empty() && free_threads_ > 0; })) {
+  while (wake_.wait(lock, stop, [this] { return free_threads_ > 0 && queue_.Has(); })) {
     if (stop.stop_requested()) return;
-    Waiting next = std::move(waiting_.front());
-    waiting_.pop_front();
-    const int threads = std::min(next.most_threads, free_threads_);
+    Taken next = *queue_.Take();
+    NoteWaiting();
+    const int threads = std::min(next.item.most_threads, free_threads_);
     free_threads_ -= threads;
     ++running_;
     lock.unlock();
-    next.work(threads);
-    next.work = nullptr;
+    Run(std::move(next), threads);
     lock.lock();
     --running_;
     free_threads_ += threads;
-    if (!waiting_.empty()) wake_.notify_all();
+    if (!queue_.empty()) wake_.notify_all();
   }
+}
+
+void ComputeQueue::Run(Taken taken, int threads) {
+  Turn turn(*this, threads, taken.item.bricks);
+  taken.item.work(turn);
+  taken.item.work = nullptr;
+  std::lock_guard lock(mutex_);
+  queue_.Done(taken.tenant);
+}
+
+bool ComputeQueue::GiveWay(const Turn& turn) {
+  std::unique_lock lock(mutex_);
+  std::optional<Taken> next = queue_.Take([&turn](const Waiting& waiting) {
+    return waiting.most_threads == 1 && waiting.bricks <= turn.bricks_ / kTimesSmaller;
+  });
+  NoteWaiting();
+  lock.unlock();
+  if (!next.has_value()) return false;
+  Run(*std::move(next), 1);
+  return true;
+}
+
+void ComputeQueue::Turn::GiveWay() {
+  if (queue_.waiting_ == 0 || std::this_thread::get_id() != thread_) return;
+  const Clock::time_point start = queue_.now_();
+  if (start < not_before_ || !queue_.GiveWay(*this)) return;
+  const Clock::time_point end = queue_.now_();
+  not_before_ = end + (end - start);
 }
 
 }  // namespace bccskel::server

@@ -1,41 +1,57 @@
 #ifndef BCCSKEL_SERVER_JOBS_COMPUTE_QUEUE_H_
 #define BCCSKEL_SERVER_JOBS_COMPUTE_QUEUE_H_
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <list>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
+#include "server/jobs/fair_queue.h"
+
 namespace bccskel::server {
 
-// Hands out a fixed number of threads to jobs, first come, first served. A job gets as many of
+// Hands out a fixed number of threads to jobs, in the order of a FairQueue. A job gets as many of
 // those that are free as it can use, at least one: a large job alone has the whole machine, and
 // small jobs run side by side. Results do not depend on the number of threads.
+//
+// A job at work gives way to small ones that wait: to those that take one thread and have at most
+// an eighth of its bricks. They run on its thread while it rests; afterwards it has at least as
+// much time to itself as they took, so that it always goes on at half speed or more.
 class ComputeQueue {
  public:
-  using Work = std::function<void(int threads)>;
+  using Clock = std::chrono::steady_clock;
+  class Turn;
+  using Work = std::function<void(Turn& turn)>;
   using Entry = uint64_t;
   struct Usage {
     int waiting = 0;
-    int running = 0;
+    int running = 0;  // those that gave way, not those that they gave way to
     int busy_threads = 0;
 
     friend bool operator==(const Usage&, const Usage&) = default;
   };
+  // What a job asks for.
+  struct Claim {
+    JobOrigin origin;
+    int most_threads = 1;
+    uint64_t bricks = 0;  // the job's size
+  };
 
-  // `max_running` jobs at the same time. Needs: both >= 1.
-  ComputeQueue(int threads, int max_running);
+  // `max_running` jobs at the same time. Needs: both >= 1. Tests bring a clock of their own.
+  ComputeQueue(int threads, int max_running, TenantTable tenants = {},
+               std::function<Clock::time_point()> now = &Clock::now);
   ~ComputeQueue();  // waits for running work; what still waits is dropped
   ComputeQueue(const ComputeQueue&) = delete;
   ComputeQueue& operator=(const ComputeQueue&) = delete;
 
-  // `work` runs on a thread of the queue, which is one of the `threads` that it may keep busy. It
-  // must not throw.
-  Entry Post(int most_threads, Work work);
+  // `work` runs on a thread of the queue, which is one of those that it may keep busy. It must not
+  // throw.
+  Entry Post(const Claim& claim, Work work);
   enum class Removal { kRemoved, kNotWaiting };
   Removal Remove(Entry entry);
 
@@ -44,21 +60,47 @@ class ComputeQueue {
 
  private:
   struct Waiting {
-    Entry entry;
     int most_threads;
+    uint64_t bricks;
     Work work;
   };
+  using Taken = FairQueue<Waiting>::Taken;
 
   void Serve(std::stop_token stop);
+  void Run(Taken taken, int threads);
+  bool GiveWay(const Turn& turn);
+  void NoteWaiting() { waiting_ = static_cast<int>(queue_.size()); }  // needs: mutex_ held
 
   const int threads_;
+  const std::function<Clock::time_point()> now_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::list<Waiting> waiting_;         // guarded by mutex_
-  Entry next_entry_ = 1;               // guarded by mutex_
+  FairQueue<Waiting> queue_;           // guarded by mutex_
+  std::atomic<int> waiting_ = 0;       // items in queue_
   int running_ = 0;                    // guarded by mutex_
   int free_threads_;                   // guarded by mutex_
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
+};
+
+// A job's time at work.
+class ComputeQueue::Turn {
+ public:
+  int threads() const { return threads_; }
+
+  // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
+  // may be run in between. Costs next to nothing where none wait.
+  void GiveWay();
+
+ private:
+  friend class ComputeQueue;
+  Turn(ComputeQueue& queue, int threads, uint64_t bricks)
+      : queue_(queue), threads_(threads), bricks_(bricks) {}
+
+  ComputeQueue& queue_;
+  const int threads_;
+  const uint64_t bricks_;
+  const std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point not_before_ = Clock::time_point::min();  // the next time that it gives way
 };
 
 }  // namespace bccskel::server

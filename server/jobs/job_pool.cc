@@ -1,11 +1,13 @@
 #include "server/jobs/job_pool.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
+#include "server/decoding/child_decoder.h"
 #include "server/jobs/labels_work.h"
 #include "server/jobs/skeletonize_work.h"
 
@@ -27,37 +29,62 @@ absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
 
 JobPool::JobPool(const Limits& limits)
     : limits_(limits),
-      admission_({.bytes = limits.max_bytes, .places = limits.max_jobs + limits.max_queue}),
-      compute_(limits.threads, limits.max_jobs),
-      decoders_(kDecoderThreads) {}
+      admission_({.bytes = limits.max_bytes,
+                  .places = limits.max_jobs + limits.max_queue,
+                  .tenants = limits.tenants}),
+      compute_(limits.threads, limits.max_jobs, limits.tenants),
+      children_(limits.decode_in_children == DecodeInChildren::kOpenExr
+                    ? std::make_unique<ChildPool>(limits.child_command)
+                    : nullptr),
+      decoders_(kDecoderThreads, limits.tenants),
+      finishers_(std::max(kDecoderThreads, limits.threads), limits.tenants) {}
 
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
                                                     std::shared_ptr<JobListener> listener) {
   BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(
-      Ticket ticket, admission_.Admit(BytesToSkeletonize(request.header, request.size_bytes)));
-  const auto deadline = request.deadline;
-  return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume, listener),
-                std::move(ticket), deadline, listener);
+      Ticket ticket, admission_.Admit(request.origin.tenant,
+                                      BytesToSkeletonize(request.header, request.size_bytes)));
+  PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
+  TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
+  VolumeIntake::MakeDecoder make_decoder = DecoderFor(request);
+  return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
+                                                  std::move(make_decoder), listener),
+                std::move(ticket), std::move(facts), finishers, listener);
 }
 
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
                                                     std::shared_ptr<LabelsListener> listener) {
   BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
   const int threads = ThreadsWithin(limits_.threads, request.threads_wanted);
-  BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket,
-                           admission_.Admit(BytesToSkeletonizeLabels(request.header, threads)));
-  const auto deadline = request.deadline;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      Ticket ticket,
+      admission_.Admit(request.origin.tenant, BytesToSkeletonizeLabels(request.header, threads)));
+  PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
   return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
-                std::move(ticket), deadline, listener);
+                std::move(ticket), std::move(facts), decoders_, listener);
+}
+
+std::string JobPool::NextName() { return absl::StrFormat("jobs/%d", next_job_++); }
+
+bool JobPool::InChild(const VolumeHeader& header) const {
+  return children_ != nullptr && header.encoding == VolumeEncoding::kOpenExr;
+}
+
+VolumeIntake::MakeDecoder JobPool::DecoderFor(const JobRequest& request) {
+  if (!InChild(request.header)) return &MakeVolumeDecoder;
+  return [tenant = request.origin.tenant, &children = *children_](const VolumeHeader& header,
+                                                                  const VolumeLimits& limits) {
+    return ChildDecoder::Create(header, limits, tenant, children);
+  };
 }
 
 std::shared_ptr<Job> JobPool::Launch(std::unique_ptr<JobWork> work, Ticket ticket,
-                                     PoolJob::Clock::time_point deadline,
+                                     PoolJob::Facts facts, TaskThreads& finishers,
                                      std::shared_ptr<UploadListener> listener) {
-  return std::make_shared<PoolJob>(absl::StrFormat("jobs/%d", next_job_++), std::move(work),
-                                   std::move(ticket), deadline, std::move(listener), decoders_,
-                                   compute_);
+  return std::make_shared<PoolJob>(std::move(facts), std::move(work), std::move(ticket),
+                                   std::move(listener),
+                                   PoolJob::Threads{decoders_, finishers, compute_});
 }
 
 }  // namespace bccskel::server

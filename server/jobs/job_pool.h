@@ -5,14 +5,23 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "server/admission/admission.h"
+#include "server/decoding/child_pool.h"
+#include "server/decoding/decoding_child.h"
 #include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
 #include "server/jobs/pool_job.h"
 #include "server/jobs/task_threads.h"
+#include "server/jobs/volume_intake.h"
 
 namespace bccskel::server {
+
+// What is decoded in processes of its own (decoding/child_pool.h). Needs a program that begins with
+// RunIfDecodingChild().
+enum class DecodeInChildren { kNothing, kOpenExr };
 
 // Runs jobs in this process: admits them, decodes on threads of their own, computes on the threads
 // of a ComputeQueue. Jobs end with the process.
@@ -25,6 +34,9 @@ class JobPool : public JobRunner {
     uint64_t max_bytes = 0;         // working memory of all jobs together
     uint64_t max_volume_bytes = 0;  // encoded, of one job
     VolumeLimits volume;
+    TenantTable tenants = {};
+    DecodeInChildren decode_in_children = DecodeInChildren::kNothing;
+    std::vector<std::string> child_command = ThisProgramAsChild();
   };
 
   explicit JobPool(const Limits& limits);
@@ -43,17 +55,26 @@ class JobPool : public JobRunner {
 
   ComputeQueue::Usage compute_usage() const { return compute_.usage(); }
   Admission::Usage admission_usage() const { return admission_.usage(); }
+  // Process ids of children that wait for volumes.
+  std::vector<pid_t> idle_children() const {
+    return children_ == nullptr ? std::vector<pid_t>() : children_->idle();
+  }
 
  private:
-  std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket,
-                              PoolJob::Clock::time_point deadline,
-                              std::shared_ptr<UploadListener> listener);
+  std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket, PoolJob::Facts facts,
+                              TaskThreads& finishers, std::shared_ptr<UploadListener> listener);
+  std::string NextName();
+  bool InChild(const VolumeHeader& header) const;
+  VolumeIntake::MakeDecoder DecoderFor(const JobRequest& request);
 
   const Limits limits_;
   Admission admission_;
   std::atomic<uint64_t> next_job_{1};
   ComputeQueue compute_;
-  TaskThreads decoders_;  // destroyed first: what it runs may still post to compute_
+  std::unique_ptr<ChildPool> children_;  // null where nothing is decoded in children
+  // Destroyed first: what they run may still post to compute_.
+  TaskThreads decoders_;
+  TaskThreads finishers_;  // which wait for children; each job has one task at a time
 };
 
 }  // namespace bccskel::server

@@ -16,15 +16,9 @@
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
 #include "server/admission/label_demand.h"
+#include "server/jobs/job_origin.h"
 
 namespace bccskel::server {
-
-// Who asks, and how urgently: decides on turns and caps, never on results.
-enum class JobPriority { kLow, kNormal, kHigh };  // among the jobs of one tenant
-struct JobOrigin {
-  std::string tenant;  // "": the one that all callers without a name share
-  JobPriority priority = JobPriority::kNormal;
-};
 
 // Where the time of a job went.
 struct JobTimes {

@@ -32,6 +32,7 @@ class JobWork {
   // After Finish(): memory that the rest takes, and threads of `threads` that it can use.
   virtual uint64_t BytesToRun() const = 0;
   virtual int MostThreads(int threads) const = 0;
+  virtual uint64_t Bricks() const = 0;  // its size, of the next turn or more
 
   // Whether the next turn may begin. Where not, `wake` is called when that may have changed.
   virtual bool MayRun() const { return true; }

@@ -25,6 +25,7 @@ class LabelsWork final : public JobWork {
                       const exec::Context& context) override;
   uint64_t BytesToRun() const override;
   int MostThreads(int threads) const override;
+  uint64_t Bricks() const override { return bricks_; }
   bool MayRun() const override;
   absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
   void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;

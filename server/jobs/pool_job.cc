@@ -8,37 +8,38 @@
 
 namespace bccskel::server {
 
-PoolJob::PoolJob(std::string name, std::unique_ptr<JobWork> work, Ticket ticket,
-                 Clock::time_point deadline, std::shared_ptr<UploadListener> listener,
-                 TaskThreads& decoders, ComputeQueue& compute)
-    : name_(std::move(name)),
-      deadline_(deadline),
-      decoders_(decoders),
-      compute_(compute),
+PoolJob::PoolJob(Facts facts, std::unique_ptr<JobWork> work, Ticket ticket,
+                 std::shared_ptr<UploadListener> listener, const Threads& threads)
+    : facts_(std::move(facts)),
+      threads_(threads),
       work_(std::move(work)),
       ticket_(std::move(ticket)),
       listener_(std::move(listener)) {}
 
 void PoolJob::Append(std::string bytes) {
   if (!Enter(Phase::kReceiving, Phase::kDecoding)) return;
-  decoders_.Post([self = shared_from_this(), bytes = std::move(bytes)] { self->Decode(bytes); });
+  threads_.decoders.Post(facts_.origin, [self = shared_from_this(), bytes = std::move(bytes)] {
+    self->Decode(bytes);
+  });
 }
 
 void PoolJob::FinishVolume(std::optional<Sha256Digest> expected) {
   if (!Enter(Phase::kReceiving, Phase::kDecoding)) return;
-  decoders_.Post([self = shared_from_this(), expected] { self->DecodeRest(expected); });
+  threads_.finishers.Post(facts_.origin,
+                          [self = shared_from_this(), expected] { self->DecodeRest(expected); });
 }
 
 void PoolJob::Cancel() {
   stop_.request_stop();
   {
     std::lock_guard lock(mutex_);
-    const bool removed =
-        phase_ == Phase::kWaiting && compute_.Remove(entry_) == ComputeQueue::Removal::kRemoved;
+    const bool removed = phase_ == Phase::kWaiting &&
+                         threads_.compute.Remove(entry_) == ComputeQueue::Removal::kRemoved;
     if (phase_ != Phase::kReceiving && phase_ != Phase::kPaused && !removed) return;
     phase_ = Phase::kDecoding;
   }
-  decoders_.Post([self = shared_from_this()] { self->End(self->StopContext().StopStatus()); });
+  threads_.decoders.Post(
+      facts_.origin, [self = shared_from_this()] { self->End(self->StopContext().StopStatus()); });
 }
 
 bool PoolJob::Enter(Phase from, Phase to) {
@@ -49,7 +50,7 @@ bool PoolJob::Enter(Phase from, Phase to) {
 }
 
 exec::Context PoolJob::StopContext() const {
-  return {.stop = stop_.get_token(), .deadline = deadline_, .on_shell = nullptr};
+  return {.stop = stop_.get_token(), .deadline = facts_.deadline, .on_shell = nullptr};
 }
 
 template <typename Step>
@@ -107,11 +108,14 @@ void PoolJob::PostIfReady() {
   if (!work_->MayRun()) return;
   phase_ = Phase::kWaiting;
   waiting_since_ = Clock::now();
-  entry_ = compute_.Post(work_->MostThreads(compute_.threads()),
-                         [self = shared_from_this()](int threads) { self->Run(threads); });
+  const ComputeQueue::Claim claim = {.origin = facts_.origin,
+                                     .most_threads = work_->MostThreads(threads_.compute.threads()),
+                                     .bricks = work_->Bricks()};
+  entry_ = threads_.compute.Post(
+      claim, [self = shared_from_this()](ComputeQueue::Turn& turn) { self->Run(turn); });
 }
 
-void PoolJob::Run(int threads) {
+void PoolJob::Run(ComputeQueue::Turn& at_work) {
   const Clock::time_point start = Clock::now();
   {
     std::lock_guard lock(mutex_);
@@ -119,17 +123,18 @@ void PoolJob::Run(int threads) {
     times_.queued += start - waiting_since_;
   }
   absl::StatusOr<JobWork::Turn> turn =
-      OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(threads); });
+      OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(at_work); });
   times_.computed += Clock::now() - start;
   if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(turn.status());
   ticket_.ShrinkTo(work_->BytesToRun());
   WaitForTurn();
 }
 
-absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(int threads) {
-  exec::WorkerTeam team(threads);
+absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(ComputeQueue::Turn& turn) {
+  exec::WorkerTeam team(turn.threads());
   exec::Context context = StopContext();
   context.team = &team;
+  context.interlude = [&turn] { turn.GiveWay(); };
   return work_->Run(std::move(context), [job = weak_from_this()] {
     if (const auto self = job.lock()) self->Wake();
   });

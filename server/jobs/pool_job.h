@@ -28,12 +28,23 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
  public:
   using Clock = exec::Context::Clock;
 
-  // Needs: decoders and compute outlive the job.
-  PoolJob(std::string name, std::unique_ptr<JobWork> work, Ticket ticket,
-          Clock::time_point deadline, std::shared_ptr<UploadListener> listener,
-          TaskThreads& decoders, ComputeQueue& compute);
+  // Where jobs get their threads from.
+  struct Threads {
+    TaskThreads& decoders;
+    TaskThreads& finishers;  // for the last of decoding, which may wait for a child
+    ComputeQueue& compute;
+  };
+  struct Facts {
+    std::string name;
+    JobOrigin origin;
+    Clock::time_point deadline;
+  };
 
-  const std::string& name() const override { return name_; }
+  // Needs: the threads outlive the job.
+  PoolJob(Facts facts, std::unique_ptr<JobWork> work, Ticket ticket,
+          std::shared_ptr<UploadListener> listener, const Threads& threads);
+
+  const std::string& name() const override { return facts_.name; }
   void Append(std::string bytes) override;
   void FinishVolume(std::optional<Sha256Digest> expected) override;
   void Cancel() override;
@@ -52,15 +63,13 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   void Wake();
   // Needs: mutex_ held.
   void PostIfReady();
-  void Run(int threads);
-  absl::StatusOr<JobWork::Turn> RunTurn(int threads);
+  void Run(ComputeQueue::Turn& turn);
+  absl::StatusOr<JobWork::Turn> RunTurn(ComputeQueue::Turn& turn);
   void End(absl::Status status);
   exec::Context StopContext() const;
 
-  const std::string name_;
-  const Clock::time_point deadline_;
-  TaskThreads& decoders_;
-  ComputeQueue& compute_;
+  const Facts facts_;
+  const Threads threads_;
   std::stop_source stop_;
 
   // Owned by the one task that exists.

@@ -19,10 +19,12 @@ absl::StatusOr<std::string> EncodeThin(const Volume& thin, VolumeEncoding encodi
 }  // namespace
 
 SkeletonizeWork::SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
+                                 VolumeIntake::MakeDecoder make_decoder,
                                  std::shared_ptr<JobListener> listener)
     : request_(std::move(request)),
       listener_(std::move(listener)),
-      intake_(std::make_unique<VolumeIntake>(request_.header, request_.size_bytes, limits)) {}
+      intake_(std::make_unique<VolumeIntake>(request_.header, request_.size_bytes, limits,
+                                             std::move(make_decoder))) {}
 
 absl::Status SkeletonizeWork::Append(std::string_view bytes, const exec::Context&) {
   return intake_->Append(bytes);

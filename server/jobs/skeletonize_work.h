@@ -15,13 +15,14 @@ namespace bccskel::server {
 class SkeletonizeWork final : public JobWork {
  public:
   SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
-                  std::shared_ptr<JobListener> listener);
+                  VolumeIntake::MakeDecoder make_decoder, std::shared_ptr<JobListener> listener);
 
   absl::Status Append(std::string_view bytes, const exec::Context& context) override;
   absl::Status Finish(const std::optional<Sha256Digest>& expected,
                       const exec::Context& context) override;
   uint64_t BytesToRun() const override;
   int MostThreads(int threads) const override;
+  uint64_t Bricks() const override { return volume_->brick_count(); }
   absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
   void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
@@ -25,8 +26,11 @@ absl::Status CheckExtent(const LatticeExtent& found, const LatticeExtent& declar
 }  // namespace
 
 VolumeIntake::VolumeIntake(const VolumeHeader& declared, uint64_t size_bytes,
-                           const VolumeLimits& limits)
-    : declared_(declared), size_bytes_(size_bytes), limits_(limits) {
+                           const VolumeLimits& limits, MakeDecoder make_decoder)
+    : declared_(declared),
+      size_bytes_(size_bytes),
+      make_decoder_(std::move(make_decoder)),
+      limits_(limits) {
   limits_.max_bricks = std::min(limits.max_bricks, declared.max_bricks);
 }
 
@@ -58,7 +62,7 @@ absl::Status VolumeIntake::StartDecoder(std::string_view front) {
     BCCSKEL_ASSIGN_OR_RETURN(header, ScanVolumeHeader(declared_.encoding, BytesOf(front), limits_));
     BCCSKEL_RETURN_IF_ERROR(CheckExtent(header.extent, declared_.extent));
   }
-  BCCSKEL_ASSIGN_OR_RETURN(decoder_, MakeVolumeDecoder(header, limits_));
+  BCCSKEL_ASSIGN_OR_RETURN(decoder_, make_decoder_(header, limits_));
   BCCSKEL_RETURN_IF_ERROR(decoder_->Append(BytesOf(front)));
   front_ = std::string();
   return absl::OkStatus();

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_JOBS_VOLUME_INTAKE_H_
 #define BCCSKEL_SERVER_JOBS_VOLUME_INTAKE_H_
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,8 +21,12 @@ namespace bccskel::server {
 // Threads: one at a time.
 class VolumeIntake {
  public:
+  using MakeDecoder = std::function<absl::StatusOr<std::unique_ptr<VolumeDecoder>>(
+      const VolumeHeader& header, const VolumeLimits& limits)>;
+
   // Needs: `declared` completed under `limits`.
-  VolumeIntake(const VolumeHeader& declared, uint64_t size_bytes, const VolumeLimits& limits);
+  VolumeIntake(const VolumeHeader& declared, uint64_t size_bytes, const VolumeLimits& limits,
+               MakeDecoder make_decoder = &MakeVolumeDecoder);
 
   // Needs: no more than `size_bytes` in all.
   // Errors: INVALID_ARGUMENT for bytes that are malformed or not what was declared;
@@ -43,6 +48,7 @@ class VolumeIntake {
 
   const VolumeHeader declared_;
   const uint64_t size_bytes_;
+  const MakeDecoder make_decoder_;
   VolumeLimits limits_;
   UploadDigest digest_;
   std::string front_;  // until the header is complete

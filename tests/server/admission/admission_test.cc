@@ -85,6 +85,43 @@ TEST(Admission, RefusesForNowWhenItIsFull) {
   EXPECT_EQ(places.code(), absl::StatusCode::kUnavailable);
 }
 
+TEST(Admission, ATenantHasItsOwnLimits) {
+  Admission admission({.bytes = 100,
+                       .places = 10,
+                       .tenants = {.each = {.max_jobs = 2, .max_bytes = 40}, .named = {}}});
+  const auto first = admission.Admit("greedy", 30);
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 20).status()), Refusal::kMemoryBusy);
+  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 41).status()), Refusal::kTooMuchMemory);
+  const auto second = admission.Admit("greedy", 1);
+  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 1).status()), Refusal::kQueueFull);
+  const auto other = admission.Admit("small", 40);
+  ASSERT_TRUE(other.ok()) << other.status();
+  EXPECT_EQ(admission.usage("greedy"), (Usage{.bytes = 31, .places = 2}));
+  EXPECT_EQ(admission.usage("small"), (Usage{.bytes = 40, .places = 1}));
+  EXPECT_EQ(admission.usage(), (Usage{.bytes = 71, .places = 3}));
+}
+
+TEST(Admission, ANamedTenantMayHaveMore) {
+  Admission admission(
+      {.bytes = 100,
+       .places = 10,
+       .tenants = {.each = {.max_bytes = 10}, .named = {{"large", {.max_bytes = 0}}}}});
+  EXPECT_FALSE(admission.Admit("small", 11).ok());
+  EXPECT_TRUE(admission.Admit("large", 100).ok());
+}
+
+TEST(Admission, ATicketKnowsItsTenantWhenItGrowsAndGoes) {
+  Admission admission({.bytes = 100, .places = 10, .tenants = {.each = {.max_bytes = 40}, .named = {}}});
+  {
+    Ticket ticket = *admission.Admit("small", 10);
+    EXPECT_TRUE(ticket.ResizeTo(40).ok());
+    EXPECT_EQ(RefusalOf(ticket.ResizeTo(41)), Refusal::kTooMuchMemory);
+    EXPECT_EQ(admission.usage("small"), (Usage{.bytes = 40, .places = 1}));
+  }
+  EXPECT_EQ(admission.usage("small"), Usage());
+}
+
 TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
   Admission admission({.bytes = 100, .places = 2});
   admission.StopAdmitting();

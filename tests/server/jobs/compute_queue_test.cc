@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <latch>
 #include <semaphore>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -12,6 +15,8 @@ namespace bccskel::server {
 namespace {
 
 using Usage = ComputeQueue::Usage;
+
+ComputeQueue::Claim Claim(int most_threads) { return {.origin = {}, .most_threads = most_threads}; }
 
 void WaitForUsage(const ComputeQueue& queue, const Usage& usage) {
   while (queue.usage() != usage) std::this_thread::yield();
@@ -21,8 +26,8 @@ TEST(ComputeQueue, ALargeJobAloneGetsAllThreads) {
   ComputeQueue queue(8, 4);
   std::binary_semaphore done(0);
   int given = 0;
-  queue.Post(100, [&](int threads) {
-    given = threads;
+  queue.Post(Claim(100), [&](ComputeQueue::Turn& turn) {
+    given = turn.threads();
     done.release();
   });
   done.acquire();
@@ -35,8 +40,8 @@ TEST(ComputeQueue, SmallJobsRunSideBySide) {
   std::latch together(3);
   std::atomic<int> threads_given = 0;
   for (int n = 0; n < 3; ++n) {
-    queue.Post(1, [&](int threads) {
-      threads_given += threads;
+    queue.Post(Claim(1), [&](ComputeQueue::Turn& turn) {
+      threads_given += turn.threads();
       together.arrive_and_wait();  // hangs unless all three run at the same time
     });
   }
@@ -48,11 +53,11 @@ TEST(ComputeQueue, SmallJobsRunSideBySide) {
 TEST(ComputeQueue, ALargeJobTakesTheThreadsThatAreFree) {
   ComputeQueue queue(4, 4);
   std::binary_semaphore small_may_end(0), large_done(0);
-  queue.Post(1, [&](int) { small_may_end.acquire(); });
+  queue.Post(Claim(1), [&](ComputeQueue::Turn&) { small_may_end.acquire(); });
   WaitForUsage(queue, {.waiting = 0, .running = 1, .busy_threads = 1});
   int given = 0;
-  queue.Post(4, [&](int threads) {
-    given = threads;
+  queue.Post(Claim(4), [&](ComputeQueue::Turn& turn) {
+    given = turn.threads();
     large_done.release();
   });
   large_done.acquire();
@@ -63,7 +68,7 @@ TEST(ComputeQueue, ALargeJobTakesTheThreadsThatAreFree) {
 TEST(ComputeQueue, NeverRunsMoreJobsThanAllowed) {
   ComputeQueue queue(4, 2);
   std::counting_semaphore<8> may_end(0);
-  for (int n = 0; n < 5; ++n) queue.Post(1, [&](int) { may_end.acquire(); });
+  for (int n = 0; n < 5; ++n) queue.Post(Claim(1), [&](ComputeQueue::Turn&) { may_end.acquire(); });
   WaitForUsage(queue, {.waiting = 3, .running = 2, .busy_threads = 2});
   may_end.release(5);
   WaitForUsage(queue, Usage());
@@ -74,9 +79,9 @@ TEST(ComputeQueue, FirstComeFirstServed) {
   std::binary_semaphore may_begin(0);
   std::vector<int> order;
   std::latch done(10);
-  queue.Post(1, [&](int) { may_begin.acquire(); });
+  queue.Post(Claim(1), [&](ComputeQueue::Turn&) { may_begin.acquire(); });
   for (int n = 0; n < 10; ++n) {
-    queue.Post(1, [&, n](int) {
+    queue.Post(Claim(1), [&, n](ComputeQueue::Turn&) {
       order.push_back(n);
       done.count_down();
     });
@@ -90,15 +95,87 @@ TEST(ComputeQueue, WaitingWorkCanBeRemovedAndRunningWorkCannot) {
   ComputeQueue queue(1, 1);
   std::binary_semaphore may_end(0);
   std::atomic<bool> second_ran = false;
-  const auto first = queue.Post(1, [&](int) { may_end.acquire(); });
+  const auto first = queue.Post(Claim(1), [&](ComputeQueue::Turn&) { may_end.acquire(); });
   WaitForUsage(queue, {.waiting = 0, .running = 1, .busy_threads = 1});
-  const auto second = queue.Post(1, [&](int) { second_ran = true; });
+  const auto second = queue.Post(Claim(1), [&](ComputeQueue::Turn&) { second_ran = true; });
   EXPECT_EQ(queue.Remove(second), ComputeQueue::Removal::kRemoved);
   EXPECT_EQ(queue.Remove(second), ComputeQueue::Removal::kNotWaiting);
   EXPECT_EQ(queue.Remove(first), ComputeQueue::Removal::kNotWaiting);
   may_end.release();
   WaitForUsage(queue, Usage());
   EXPECT_FALSE(second_ran);
+}
+
+// A queue of one thread whose clock is moved by hand, and a large job that is at work.
+class GivingWay : public testing::Test {
+ protected:
+  using Turn = ComputeQueue::Turn;
+  static constexpr uint64_t kLargeBricks = 8000;
+
+  // Runs `large` and returns once everything is done.
+  void RunLarge(const std::function<void(Turn&)>& large) {
+    queue_.Post({.origin = {}, .most_threads = 1, .bricks = kLargeBricks}, large);
+    while (queue_.usage() != Usage()) std::this_thread::yield();
+  }
+  void PostSmall(const std::string& name, uint64_t bricks = kLargeBricks / 8,
+                 int most_threads = 1) {
+    queue_.Post({.origin = {}, .most_threads = most_threads, .bricks = bricks}, [=, this](Turn&) {
+      order_ += name;
+      now_ms_ += kSmallMs;
+    });
+  }
+
+  static constexpr int kSmallMs = 10;
+  std::atomic<int> now_ms_ = 0;
+  std::string order_;
+  ComputeQueue queue_{1, 1, {}, [this] {
+                        return ComputeQueue::Clock::time_point(std::chrono::milliseconds(now_ms_));
+                      }};
+};
+
+TEST_F(GivingWay, ASmallJobRunsWhileALargeOneRests) {
+  RunLarge([this](Turn& turn) {
+    PostSmall("s");
+    order_ += "(";
+    turn.GiveWay();
+    order_ += ")";
+  });
+  EXPECT_EQ(order_, "(s)");
+}
+
+TEST_F(GivingWay, AfterwardsTheLargeOneHasAsMuchTime) {
+  RunLarge([this](Turn& turn) {
+    PostSmall("s");
+    PostSmall("t");
+    turn.GiveWay();
+    turn.GiveWay();
+    now_ms_ += kSmallMs - 1;
+    turn.GiveWay();
+    order_ += "|";
+    now_ms_ += 1;
+    turn.GiveWay();
+    order_ += "|";
+  });
+  EXPECT_EQ(order_, "s|t|");
+}
+
+TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
+  RunLarge([this](Turn& turn) {
+    PostSmall("a", kLargeBricks / 8 + 1);
+    PostSmall("b", 1, 2);
+    turn.GiveWay();
+    order_ += "|";
+  });
+  EXPECT_EQ(order_, "|ab");
+}
+
+TEST_F(GivingWay, OnlyOnTheThreadOfTheJob) {
+  RunLarge([this](Turn& turn) {
+    PostSmall("s");
+    std::jthread([&turn] { turn.GiveWay(); }).join();
+    order_ += "|";
+  });
+  EXPECT_EQ(order_, "|s");
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+#include "server/decoding/child_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace bccskel::server {
+namespace {
+
+// A child takes some 5 MB that are its own.
+constexpr size_t kMostIdle = 4;
+
+}  // namespace
+
+ChildPool::ChildPool(std::vector<std::string> command) : command_(std::move(command)) {
+  StartAhead();
+}
+
+absl::StatusOr<std::unique_ptr<ChildProcess>> ChildPool::Take(const std::string& tenant) {
+  {
+    std::lock_guard lock(mutex_);
+    if (auto child = TakeUsed(tenant); child != nullptr) return child;
+    if (fresh_ != nullptr && fresh_->Lives()) return std::move(fresh_);
+  }
+  return ChildProcess::Start(command_);
+}
+
+std::unique_ptr<ChildProcess> ChildPool::TakeUsed(const std::string& tenant) {
+  std::erase_if(used_, [](const Idle& idle) { return !idle.child->Lives(); });
+  const auto found = std::ranges::find(used_, tenant, &Idle::tenant);
+  if (found == used_.end()) return nullptr;
+  std::unique_ptr<ChildProcess> child = std::move(found->child);
+  used_.erase(found);
+  return child;
+}
+
+void ChildPool::Keep(const std::string& tenant, std::unique_ptr<ChildProcess> child) {
+  Idle surplus;  // ended without the lock
+  std::lock_guard lock(mutex_);
+  used_.push_back({tenant, std::move(child)});
+  if (used_.size() <= kMostIdle) return;
+  surplus = std::move(used_.front());
+  used_.pop_front();
+}
+
+void ChildPool::StartAhead() {
+  {
+    std::lock_guard lock(mutex_);
+    if (fresh_ != nullptr && fresh_->Lives()) return;
+  }
+  auto child = ChildProcess::Start(command_);
+  if (!child.ok()) return;  // whoever needs one will see why
+  std::lock_guard lock(mutex_);
+  fresh_ = *std::move(child);
+}
+
+std::vector<pid_t> ChildPool::idle() const {
+  std::lock_guard lock(mutex_);
+  std::vector<pid_t> pids;
+  for (const Idle& idle : used_) pids.push_back(idle.child->pid());
+  if (fresh_ != nullptr) pids.push_back(fresh_->pid());
+  return pids;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,70 @@
+#ifndef BCCSKEL_SERVER_DECODING_CHILD_PROCESS_H_
+#define BCCSKEL_SERVER_DECODING_CHILD_PROCESS_H_
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/volume/volume.h"
+#include "server/decoding/child_channel.h"
+#include "server/decoding/decoding_budget.h"
+#include "server/decoding/shared_bytes.h"
+
+namespace bccskel::server {
+
+// A child that decodes, seen from the server. Killed and waited for when destroyed.
+// Threads: one at a time.
+class ChildProcess {
+ public:
+  // Returns before the child is ready. It inherits nothing but its end of the channel, ignores the
+  // signals that end the server and gets none from the terminal.
+  // Shapes: the program's path, then its arguments. Errors: a Refusal.
+  static absl::StatusOr<std::unique_ptr<ChildProcess>> Start(
+      const std::vector<std::string>& command);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Decodes sealed bytes whose header is `announced`. After an error the child is of no more use.
+  // Errors: a Refusal when the child was lost before it took the volume; INVALID_ARGUMENT for
+  //         malformed bytes, and for whatever happens to the child while it has them: a crash, a
+  //         limit, nonsense; RESOURCE_EXHAUSTED for a volume over the limits; CANCELLED,
+  //         DEADLINE_EXCEEDED.
+  absl::StatusOr<Volume> Decode(const SharedBytes& bytes, const VolumeHeader& announced,
+                                const VolumeLimits& limits, const exec::Context& context);
+
+  // False once the child has ended; then it is waited for, too.
+  bool Lives();
+  pid_t pid() const { return pid_; }
+
+ private:
+  ChildProcess(pid_t pid, Descriptor channel) : pid_(pid), channel_(std::move(channel)) {}
+
+  absl::Status BecomeReady(const ChildChannel::KeepWaiting& keep_waiting);
+  absl::Status HandOver(const SharedBytes& bytes, const DecodingBudget& budget,
+                        const VolumeLimits& limits, const ChildChannel::KeepWaiting& keep_waiting);
+  absl::StatusOr<Volume> ReceiveVolume(const DecodeReply& reply, const VolumeHeader& announced,
+                                       const exec::Context& context,
+                                       const ChildChannel::KeepWaiting& keep_waiting);
+  absl::Status ReceiveFault(const DecodeReply& reply,
+                            const ChildChannel::KeepWaiting& keep_waiting);
+  void Restrict(const DecodingBudget& budget) const;
+  // What the caller is told about the end of a child that had its volume.
+  absl::Status Blame(const DecodingBudget& budget);
+
+  pid_t pid_;
+  ChildChannel channel_;
+  bool ready_ = false;
+  bool ended_ = false;
+  int exit_status_ = 0;  // as of waitpid(), once ended_
+  uint64_t address_space_bytes_ = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DECODING_CHILD_PROCESS_H_

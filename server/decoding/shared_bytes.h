@@ -1,0 +1,54 @@
+#ifndef BCCSKEL_SERVER_DECODING_SHARED_BYTES_H_
+#define BCCSKEL_SERVER_DECODING_SHARED_BYTES_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/decoding/descriptor.h"
+
+namespace bccskel::server {
+
+// Bytes in memory that a child can be given without copying them: an upload on its way.
+class SharedBytes {
+ public:
+  // Errors: a Refusal, when there is no descriptor left.
+  static absl::StatusOr<SharedBytes> Create();
+
+  // Errors: a Refusal, when there is no memory.
+  absl::Status Append(std::span<const std::byte> bytes);
+  // From now on nobody can change them, the server neither.
+  absl::Status Seal();
+
+  uint64_t size() const { return size_; }
+  int descriptor() const { return file_.get(); }
+
+ private:
+  explicit SharedBytes(Descriptor file) : file_(std::move(file)) {}
+
+  Descriptor file_;
+  uint64_t size_ = 0;
+};
+
+// Sealed bytes as a child sees them. Unmapped with its owner.
+class MappedBytes {
+ public:
+  // Errors: INTERNAL.
+  static absl::StatusOr<MappedBytes> Map(int descriptor, uint64_t size);
+  ~MappedBytes();
+  MappedBytes(MappedBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+  MappedBytes& operator=(MappedBytes&&) = delete;
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  explicit MappedBytes(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DECODING_SHARED_BYTES_H_

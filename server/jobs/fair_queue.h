@@ -1,0 +1,149 @@
+#ifndef BCCSKEL_SERVER_JOBS_FAIR_QUEUE_H_
+#define BCCSKEL_SERVER_JOBS_FAIR_QUEUE_H_
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "server/admission/tenant_limits.h"
+#include "server/jobs/job_origin.h"
+
+namespace bccskel::server {
+
+// Says who is next.
+// - Tenants take turns, as many in a round as their weight is; one that comes back after a while
+//   has saved nothing up and owes nothing.
+// - A tenant with as many items at work as it may have is passed over.
+// - Of one tenant the first come is first, where a level of priority is worth half a minute of
+//   waiting: an item of low priority goes before one of high priority that came a minute later.
+// Threads: one at a time; time is what its callers say.
+template <typename Item>
+class FairQueue {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+  using Entry = uint64_t;
+  static constexpr std::chrono::seconds kWorthOfPriority{30};
+
+  struct Taken {
+    std::string tenant;
+    Item item;
+  };
+
+  // `max_at_work` of each tenant, besides what its limits say; 0 means any number.
+  explicit FairQueue(TenantTable limits, int max_at_work = 0)
+      : limits_(std::move(limits)), max_at_work_(max_at_work) {}
+
+  Entry Push(const JobOrigin& origin, TimePoint now, Item item) {
+    Tenant& tenant = tenants_[origin.tenant];
+    if (tenant.waiting.empty()) tenant.next_turn = std::max(tenant.next_turn, time_);
+    const Entry entry = next_entry_++;
+    const auto priority = static_cast<int>(origin.priority);
+    tenant.waiting.emplace(Rank{now - priority * kWorthOfPriority, entry}, std::move(item));
+    ++size_;
+    return entry;
+  }
+
+  // False when it does not wait (any more).
+  bool Remove(Entry entry) {
+    for (auto& [name, tenant] : tenants_) {
+      const auto found = std::ranges::find_if(
+          tenant.waiting, [entry](const auto& item) { return item.first.second == entry; });
+      if (found == tenant.waiting.end()) continue;
+      tenant.waiting.erase(found);
+      --size_;
+      Forget(name);
+      return true;
+    }
+    return false;
+  }
+
+  bool empty() const { return size_ == 0; }
+  size_t size() const { return size_; }
+
+  // Whether Take() would give something.
+  template <typename Fits>
+  bool Has(Fits fits) const {
+    return std::ranges::any_of(tenants_, [&](const auto& entry) {
+      return MayStart(entry.first, entry.second) && FirstOf(entry.second, fits).has_value();
+    });
+  }
+  bool Has() const { return Has(&Anything); }
+
+  // The next item among those that fit. It is at work until Done().
+  template <typename Fits>
+  std::optional<Taken> Take(Fits fits) {
+    Place best = {tenants_.end(), {}};
+    for (auto at = tenants_.begin(); at != tenants_.end(); ++at) {
+      if (!MayStart(at->first, at->second)) continue;
+      if (best.first != tenants_.end() && best.first->second.next_turn <= at->second.next_turn) {
+        continue;
+      }
+      if (const auto rank = FirstOf(at->second, fits)) best = {at, *rank};
+    }
+    if (best.first == tenants_.end()) return std::nullopt;
+    return Start(best);
+  }
+  std::optional<Taken> Take() { return Take(&Anything); }
+
+  void Done(const std::string& tenant) {
+    --tenants_[tenant].at_work;
+    Forget(tenant);
+  }
+
+ private:
+  using Rank = std::pair<TimePoint, Entry>;
+  struct Tenant {
+    std::map<Rank, Item> waiting;
+    uint64_t next_turn = 0;  // in time_'s units
+    int at_work = 0;
+  };
+  using Place = std::pair<typename std::map<std::string, Tenant>::iterator, Rank>;
+  static constexpr uint64_t kRound = uint64_t{1} << 20;
+
+  static bool Anything(const Item&) { return true; }
+
+  bool MayStart(const std::string& name, const Tenant& tenant) const {
+    const int most = limits_.Of(name).max_running;
+    return (most == 0 || tenant.at_work < most) &&
+           (max_at_work_ == 0 || tenant.at_work < max_at_work_);
+  }
+
+  template <typename Fits>
+  static std::optional<Rank> FirstOf(const Tenant& tenant, Fits fits) {
+    const auto found = std::ranges::find_if(
+        tenant.waiting, [&fits](const auto& item) { return fits(item.second); });
+    if (found == tenant.waiting.end()) return std::nullopt;
+    return found->first;
+  }
+
+  Taken Start(const Place& place) {
+    auto& [name, tenant] = *place.first;
+    const auto weight = static_cast<uint64_t>(std::max(1, limits_.Of(name).weight));
+    time_ = std::max(time_, tenant.next_turn);
+    tenant.next_turn += kRound / weight;
+    ++tenant.at_work;
+    --size_;
+    return {name, std::move(tenant.waiting.extract(place.second).mapped())};
+  }
+
+  void Forget(const std::string& name) {
+    const auto found = tenants_.find(name);
+    if (found->second.waiting.empty() && found->second.at_work == 0) tenants_.erase(found);
+  }
+
+  const TenantTable limits_;
+  const int max_at_work_;
+  std::map<std::string, Tenant> tenants_;  // those that wait or are at work
+  uint64_t time_ = 0;                      // a round is as long for every tenant
+  Entry next_entry_ = 1;
+  size_t size_ = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_FAIR_QUEUE_H_
