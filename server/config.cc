@@ -2,18 +2,24 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <limits>
-#include <sstream>
+#include <optional>
 #include <thread>
+#include <utility>
 
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "core/version/version.h"
+#include "server/identity/token.h"
+#include "server/identity/token_table.h"
+#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
 
 constexpr int kUsageError = 2;
+constexpr char kName[] = "bccskel-server";
 
 uint64_t PhysicalMemoryBytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
@@ -23,62 +29,179 @@ uint64_t PhysicalMemoryBytes() {
              : kUnknown;
 }
 
-void AddLimits(CLI::App& app, JobPool::Limits& limits) {
-  const auto positive = CLI::Range(1, 4096);
-  app.add_option("--threads", limits.threads, "Threads that compute, all jobs together")
-      ->check(positive)
-      ->capture_default_str();
-  app.add_option("--max-jobs", limits.max_jobs, "Jobs that run at the same time")
-      ->check(positive)
-      ->capture_default_str();
-  app.add_option("--max-queue", limits.max_queue, "Jobs that may upload or wait beside them")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
-  app.add_option("--max-memory-bytes", limits.max_bytes,
-                 "Working memory of all jobs together, such as 8GB")
-      ->transform(CLI::AsSizeValue(false))
-      ->capture_default_str();
-  app.add_option("--max-volume-bytes", limits.max_volume_bytes,
-                 "Size of one encoded volume, such as 256MB")
-      ->transform(CLI::AsSizeValue(false))
-      ->capture_default_str();
-  app.add_option("--max-bricks", limits.volume.max_bricks,
-                 "Occupied bricks (512 points each) of one volume")
-      ->check(CLI::Range(uint64_t{1}, std::numeric_limits<uint64_t>::max()))
-      ->capture_default_str();
+std::vector<Setting> ListenerSettings(ServerConfig& config) {
+  return {
+      AddressesSetting("listen", config.listen,
+                       "HOST:PORT (port 0: any free one) or unix:PATH; may be given several times"),
+      AddressSetting("admin-listen", config.admin_listen,
+                     "For reflection, admin calls and health; without it where --listen says, if "
+                     "that is this machine"),
+      AddressSetting("metrics-listen", config.metrics_listen,
+                     "HOST:PORT for Prometheus, HTTP at /metrics"),
+      PathSetting("tls-cert", config.tls.certificate, "Certificate chain, PEM; read again"),
+      PathSetting("tls-key", config.tls.key, "Its key, PEM; read again"),
+      PathSetting("tls-client-ca", config.tls.client_ca,
+                  "Clients must show a certificate signed by one of these, PEM; read again"),
+      PathSetting("tokens", config.tokens, "Callers need a token of this file; read again"),
+      ChoiceSetting("plaintext-tokens", config.plaintext_tokens, {"refuse", "allow"},
+                    "Whether tokens may cross a network without TLS"),
+  };
 }
 
-// An error message, or nothing: gRPC would take any port modulo 65536.
-std::string CheckAddress(const std::string& address) {
-  if (address.rfind("unix:", 0) == 0) return address == "unix:" ? "unix: names no path" : "";
-  const size_t colon = address.rfind(':');
-  constexpr int kMaxPort = 65535;
-  int port = -1;
-  if (colon == std::string::npos || colon == 0 ||
-      !CLI::detail::lexical_cast(address.substr(colon + 1), port) || port < 0 || port > kMaxPort) {
-    return address + " is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH";
+std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
+  constexpr int kMaxThreads = 4096, kMaxQueue = 1'000'000;
+  return {
+      NumberSetting("threads", limits.threads, 1, kMaxThreads,
+                    "Threads that compute, all jobs together"),
+      NumberSetting("max-jobs", limits.max_jobs, 1, kMaxThreads, "Jobs that run at the same time"),
+      NumberSetting("max-queue", limits.max_queue, 0, kMaxQueue,
+                    "Jobs that may upload or wait beside them"),
+      SizeSetting("max-memory-bytes", limits.max_bytes, 0,
+                  "Working memory of all jobs together, such as 8GB"),
+      SizeSetting("max-volume-bytes", limits.max_volume_bytes, 0,
+                  "Size of one encoded volume, such as 256MB"),
+      CountSetting("max-bricks", limits.volume.max_bricks,
+                   "Occupied bricks (512 points each) of one volume"),
+  };
+}
+
+std::vector<Setting> OperationSettings(ServerConfig& config) {
+  return {
+      MillisecondsSetting("lame-duck-ms", config.lame_duck,
+                          "On SIGTERM: time for a balancer's health checks to notice"),
+      MillisecondsSetting("drain-ms", config.drain, "On SIGTERM: time for running calls to finish"),
+      ChoiceSetting("log-level", config.log_level,
+                    {"trace", "debug", "info", "warning", "error", "off"},
+                    "What goes to standard error, as JSON lines"),
+  };
+}
+
+std::vector<Setting> SettingsOf(ServerConfig& config) {
+  std::vector<Setting> all;
+  for (auto&& part :
+       {ListenerSettings(config), LimitSettings(config.limits), OperationSettings(config)}) {
+    all.insert(all.end(), part.begin(), part.end());
   }
-  return "";
+  return all;
 }
 
-void AddOptions(CLI::App& app, ServerConfig& config) {
-  constexpr int kDayMs = 86'400'000;
-  const auto time = CLI::Range(0, kDayMs);
-  app.set_version_flag("--version", "bccskel-server " + std::string(Version()));
-  app.add_option("--listen", config.listen, "HOST:PORT (port 0: any free one) or unix:PATH")
-      ->check(CheckAddress, "ADDRESS")
-      ->capture_default_str();
-  AddLimits(app, config.limits);
-  app.add_option("--lame-duck-ms", config.lame_duck,
-                 "On SIGTERM: time for a balancer's health checks to notice")
-      ->check(time)
-      ->capture_default_str();
-  app.add_option("--drain-ms", config.drain, "On SIGTERM: time for running calls to finish")
-      ->check(time)
-      ->capture_default_str();
-  app.add_option("--log-level", config.log_level, "What goes to standard error, as JSON lines")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "off"}))
-      ->capture_default_str();
+const std::vector<Action>& Actions() {
+  static const std::vector<Action> actions = {
+      {"config", "FILE", "Settings as lines like max-jobs = 4; BCCSKEL_CONFIG names one, too"},
+      {"check-config", "", "Print the settings in force, with what is wrong about them, and end"},
+      {"new-token", "TENANT", "Print a new token and its line for the file of --tokens, and end"},
+  };
+  return actions;
+}
+
+// Settles every setting, and keeps where it came from and what is wrong.
+struct Settling {
+  std::vector<std::string> problems;
+  std::map<std::string, std::string> origins;  // by setting
+
+  void Take(const Setting& setting, const std::vector<std::string>& values,
+            const std::string& spelled, const std::string& origin) {
+    const absl::Status status = setting.set(values);
+    origins[setting.name] = origin;
+    if (status.ok()) return;
+    problems.push_back(absl::StrCat(spelled, ": ", std::string(status.message())));
+  }
+};
+
+// The first source that gives a setting has it.
+void Settle(const std::vector<Setting>& settings, const GivenValues& flags,
+            const GivenValues& variables, const GivenValues& file, Settling& settling) {
+  for (const Setting& setting : settings) {
+    const std::string& name = setting.name;
+    if (const auto flag = flags.find(name); flag != flags.end()) {
+      settling.Take(setting, flag->second, "--" + name, "command line");
+    } else if (const auto found = variables.find(name); found != variables.end()) {
+      settling.Take(setting, found->second, VariableOf(name), "environment");
+    } else if (const auto line = file.find(name); line != file.end()) {
+      settling.Take(setting, line->second, name, "file");
+    }
+  }
+}
+
+void RefuseUnknown(const std::vector<Setting>& settings, const GivenValues& file,
+                   Settling& settling) {
+  for (const auto& [name, values] : file) {
+    if (std::ranges::find(settings, name, &Setting::name) == settings.end()) {
+      settling.problems.push_back(name + ": there is no such setting");
+    }
+  }
+}
+
+bool IsOpen(const std::string& address) { return !IsOfThisMachine(address); }
+
+// What only shows when settings are seen together, and in the files that they name.
+absl::Status CheckTokens(const ServerConfig& config) {
+  if (config.tokens.empty()) return absl::OkStatus();
+  const absl::Status file = TokenTable::ReadFile(config.tokens).status();
+  if (!file.ok() || config.tls.enabled() || config.plaintext_tokens == "allow") return file;
+  std::vector<std::string> addresses = config.listen;
+  if (!config.admin_listen.empty()) addresses.push_back(config.admin_listen);
+  const auto open = std::ranges::find_if(addresses, IsOpen);
+  if (open == addresses.end()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "tokens would cross the network of ", *open,
+      " in the clear: give --tls-cert and --tls-key, or --plaintext-tokens allow where something "
+      "else protects that network"));
+}
+
+absl::Status CheckMetricsAddress(const ServerConfig& config) {
+  if (!absl::StartsWith(config.metrics_listen, "unix:")) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("--metrics-listen: ", config.metrics_listen, ": must be HOST:PORT"));
+}
+
+void CheckTogether(const ServerConfig& config, Settling& settling) {
+  for (const absl::Status& status :
+       {CheckTlsFiles(config.tls), CheckTokens(config), CheckMetricsAddress(config)}) {
+    if (!status.ok()) settling.problems.emplace_back(status.message());
+  }
+}
+
+GivenValues FromFile(const CommandLine& line, const Variable& variable, Settling& settling) {
+  const auto flag = line.actions.find("config");
+  const char* const named = variable("BCCSKEL_CONFIG");
+  std::string path = named == nullptr ? "" : named;
+  if (flag != line.actions.end()) path = flag->second;
+  if (path.empty()) return {};
+  absl::StatusOr<GivenValues> file = ReadConfigFile(path);
+  if (file.ok()) return *std::move(file);
+  settling.problems.emplace_back(file.status().message());
+  return {};
+}
+
+std::string ProblemText(const std::vector<std::string>& problems) {
+  std::string text;
+  for (const std::string& problem : problems) absl::StrAppend(&text, kName, ": ", problem, "\n");
+  return text;
+}
+
+std::string SettingsText(const std::vector<Setting>& settings, const Settling& settling) {
+  std::string text;
+  for (const Setting& setting : settings) {
+    const auto origin = settling.origins.find(setting.name);
+    absl::StrAppend(&text, setting.name, " = ", setting.show(), "  # ",
+                    origin == settling.origins.end() ? "default" : origin->second, "\n");
+  }
+  return text;
+}
+
+ExitRequest MakeToken(const std::string& tenant) {
+  if (!IsTenantName(tenant)) {
+    return {kUsageError, "",
+            ProblemText({absl::StrCat("--new-token ", tenant,
+                                      ": a tenant's name has 1 to 64 of a-z, 0-9, - and _, a "
+                                      "letter or digit first")})};
+  }
+  const absl::StatusOr<std::string> token = NewToken();
+  if (!token.ok()) return {1, "", ProblemText({std::string(token.status().message())})};
+  return {0, absl::StrCat(*token, "\n", TokenLine(tenant, *token), "\n"),
+          "The first line is the token, for the caller's --token-file alone; the second goes into "
+          "the server's --tokens file.\n"};
 }
 
 }  // namespace
@@ -93,18 +216,29 @@ ServerConfig DefaultServerConfig() {
   return config;
 }
 
-std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* const* argv) {
+std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* const* argv,
+                                                          const Variable& variable) {
   ServerConfig config = DefaultServerConfig();
-  CLI::App app("Turns volumes on the body-centered cubic grid into curve skeletons, over gRPC.",
-               "bccskel-server");
-  AddOptions(app, config);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream out, err;
-    const int code = app.exit(error, out, err);
-    return ExitRequest{code == 0 ? 0 : kUsageError, out.str(), err.str()};
+  const std::vector<Setting> settings = SettingsOf(config);
+  const Program program = {
+      kName, std::string(Version()),
+      "Turns volumes on the body-centered cubic grid into curve skeletons, over gRPC."};
+  const auto read = ReadCommandLine(program, settings, Actions(), argc, argv);
+  if (const auto* exit = std::get_if<ExitRequest>(&read)) return *exit;
+  const CommandLine& line = std::get<CommandLine>(read);
+  if (const auto tenant = line.actions.find("new-token"); tenant != line.actions.end()) {
+    return MakeToken(tenant->second);
   }
+  Settling settling;
+  const GivenValues file = FromFile(line, variable, settling);
+  Settle(settings, line.values, ReadEnvironment(settings, variable), file, settling);
+  RefuseUnknown(settings, file, settling);
+  CheckTogether(config, settling);
+  const int code = settling.problems.empty() ? 0 : kUsageError;
+  if (line.actions.contains("check-config")) {
+    return ExitRequest{code, SettingsText(settings, settling), ProblemText(settling.problems)};
+  }
+  if (code != 0) return ExitRequest{code, "", ProblemText(settling.problems)};
   return config;
 }
 

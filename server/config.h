@@ -3,15 +3,27 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "server/identity/tls_files.h"
 #include "server/jobs/job_pool.h"
+#include "server/settings/sources.h"
 
 namespace bccskel::server {
 
 struct ServerConfig {
-  std::string listen = "127.0.0.1:50051";  // HOST:PORT, port 0 for any free one, or unix:PATH
+  // Each HOST:PORT, port 0 for any free one, or unix:PATH.
+  std::vector<std::string> listen = {"127.0.0.1:50051"};
+  // For reflection, admin calls and health; empty: where `listen` says, if that is this machine.
+  std::string admin_listen;
+  std::string metrics_listen;  // HTTP; empty: nowhere
+  TlsFiles tls;                // for every HOST:PORT but the metrics'; Unix sockets have none
+  std::string tokens;          // file of tokens (identity/token_table.h); empty: none are wanted
+  std::string plaintext_tokens = "refuse";  // over networks without TLS; or allow
   JobPool::Limits limits;
   std::chrono::milliseconds lame_duck{0};   // at least so long "not serving" before the end
   std::chrono::milliseconds drain{25'000};  // for running calls after that
@@ -21,15 +33,12 @@ struct ServerConfig {
 // Everything from what this machine has: its threads, three quarters of its memory.
 ServerConfig DefaultServerConfig();
 
-// The process has nothing to serve: what it printed and its exit code.
-struct ExitRequest {
-  int code = 0;
-  std::string out;  // for standard output
-  std::string err;  // for standard error
-};
+using Variable = std::function<const char*(const char*)>;  // getenv()
 
-// Errors are exit requests with code 2.
-std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* const* argv);
+// From the command line, the environment and a file. Bad settings are an exit request with code 2
+// that names each of them; so are files that the server could not work with.
+std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* const* argv,
+                                                          const Variable& variable = std::getenv);
 
 }  // namespace bccskel::server
 

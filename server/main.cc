@@ -1,12 +1,15 @@
 #include <pthread.h>
+#include <sys/resource.h>
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <variant>
 
 #include "server/config.h"
 #include "server/decoding/decoding_child.h"
+#include "server/logging/grpc_log.h"
 #include "server/logging/json_log.h"
 #include "server/server.h"
 
@@ -15,18 +18,33 @@ namespace {
 
 constexpr int kCannotListen = 1;
 
-// Blocked in every thread, and taken by WaitForStop() alone: nothing ever runs in a signal handler.
-sigset_t StopSignals() {
+// Blocked in every thread, and taken by ServeUntilStopped() alone: nothing ever runs in a signal
+// handler.
+sigset_t Signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
+  for (const int number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, number);
   return signals;
 }
 
-void WaitForStop(const sigset_t& signals) {
-  int received = 0;
-  while (sigwait(&signals, &received) != 0) {
+// Every connection is an open file; the usual limit of 1024 is for programs that use select().
+void AllowManyConnections() {
+  rlimit files = {};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+void ServeUntilStopped(const sigset_t& signals, Server& server) {
+  constexpr timespec kBetweenLooks = {.tv_sec = 1, .tv_nsec = 0};
+  while (true) {
+    const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
+    if (received == SIGTERM || received == SIGINT) return;
+    if (received == SIGHUP) {
+      server.ReloadNow();
+    } else {
+      server.ReloadIfChanged();
+    }
   }
 }
 
@@ -36,18 +54,30 @@ int Print(const ExitRequest& exit) {
   return exit.code;
 }
 
+void Greet(const Server& server) {
+  for (const std::string& address : server.addresses()) {
+    std::printf("listening on %s\n", address.c_str());
+  }
+  const std::string admin = server.admin_address();
+  if (!admin.empty()) std::printf("listening for admins on %s\n", admin.c_str());
+  const std::string metrics = server.metrics_address();
+  if (!metrics.empty()) std::printf("metrics at http://%s/metrics\n", metrics.c_str());
+  std::fflush(stdout);
+}
+
 int Serve(const ServerConfig& config) {
-  const sigset_t signals = StopSignals();
+  const sigset_t signals = Signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  AllowManyConnections();
   const Logging logging(config.log_level);
+  LogWhatGrpcSays();
   const auto server = Server::Start(config);
   if (!server.ok()) {
     std::fprintf(stderr, "bccskel-server: %s\n", std::string(server.status().message()).c_str());
     return kCannotListen;
   }
-  std::printf("listening on %s\n", (*server)->address().c_str());
-  std::fflush(stdout);
-  WaitForStop(signals);
+  Greet(**server);
+  ServeUntilStopped(signals, **server);
   (*server)->Drain();
   return 0;
 }

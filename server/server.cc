@@ -1,140 +1,179 @@
 #include "server/server.h"
 
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/grpcpp.h>
-#include <grpcpp/health_check_service_interface.h>
-
+#include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "core/version/version.h"
+#include "server/listener.h"
 #include "server/logging/json_log.h"
+#include "server/metrics/call_meter.h"
+#include "server/metrics/metered_runner.h"
+#include "server/metrics/metrics_page.h"
+#include "server/server_status.h"
+#include "server/service/admin_service.h"
 #include "server/service/server_service.h"
 #include "server/service/skeletonization_service.h"
+#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
 
-constexpr char kUnixPrefix[] = "unix:";
-// Clients may ping every 10 s, also between calls; more often than that is abuse.
-constexpr int kMinPingIntervalMs = 10'000;
 // For calls that hold no job, such as a watched health status, to end by themselves.
 constexpr std::chrono::milliseconds kLastReplies(100);
 
-void EnableHealthAndReflection() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    grpc::EnableDefaultHealthCheckService(true);
-    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  });
-}
-
-void Configure(grpc::ServerBuilder& builder) {
-  builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server must fail, not share
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
-                             kMinPingIntervalMs);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
-}
-
-// Nothing where it is no Unix socket.
-std::optional<std::string> SocketPathOf(const std::string& listen) {
-  if (listen.rfind(kUnixPrefix, 0) != 0) return std::nullopt;
-  const std::string path = listen.substr(std::strlen(kUnixPrefix));
-  return path.rfind("//", 0) == 0 ? path.substr(2) : path;  // unix:/path or unix:///path
-}
-
-std::string AddressOf(const std::string& listen, int port) {
-  if (SocketPathOf(listen).has_value()) return listen;
-  return absl::StrCat(listen.substr(0, listen.rfind(':')), ":", port);
+// A network sees neither reflection nor admin calls unless it is meant to.
+bool AdminsShareThePublicListener(const ServerConfig& config) {
+  return config.admin_listen.empty() && std::ranges::all_of(config.listen, IsOfThisMachine);
 }
 
 }  // namespace
 
-class Server::Listener {
+class Server::Services {
  public:
-  Listener(JobPool& jobs, const JobPool::Limits& limits)
-      : skeletonization_(gate_, jobs, limits.volume), server_service_(gate_, limits) {}
+  Services(const ServerConfig& config, const Callers& callers, JobPool& jobs,
+           ServerMetrics& metrics)
+      : gate_(callers),
+        runner_(jobs, metrics),
+        skeletonization_(gate_, runner_, config.limits.volume),
+        server_(gate_, config.limits),
+        admin_(gate_, [this, &metrics] { return StatusOf(metrics, started_); }) {}
 
-  // The port, 1 for a Unix socket, 0 where the address cannot be listened on.
-  int Listen(const std::string& address) {
-    EnableHealthAndReflection();
-    grpc::ServerBuilder builder;
-    int port = 0;
-    builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(&skeletonization_);
-    builder.RegisterService(&server_service_);
-    Configure(builder);
-    server_ = builder.BuildAndStart();
-    if (server_ == nullptr) return 0;
-    SetServing(Serving::kYes);
-    return port;
+  void AddPublic(ListenerPlan& plan) {
+    Add(plan, skeletonization_, v1::SkeletonizationService::service_full_name());
+    Add(plan, server_, v1::ServerService::service_full_name());
   }
-
-  enum class Serving { kYes, kNo };
-  void SetServing(Serving serving) {
-    grpc::HealthCheckServiceInterface& health = *server_->GetHealthCheckService();
-    const bool yes = serving == Serving::kYes;
-    health.SetServingStatus(yes);
-    health.SetServingStatus(v1::SkeletonizationService::service_full_name(), yes);
-    health.SetServingStatus(v1::ServerService::service_full_name(), yes);
-  }
-
-  void Shutdown(std::chrono::milliseconds grace) {
-    if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now() + grace);
+  void AddAdmin(ListenerPlan& plan) {
+    Add(plan, admin_, v1::AdminService::service_full_name());
+    plan.reflection = ListenerPlan::Reflection::kOn;
   }
 
  private:
+  static void Add(ListenerPlan& plan, grpc::Service& service, const char* name) {
+    plan.services.push_back(&service);
+    plan.healthy.emplace_back(name);
+  }
+
+  const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   CallGate gate_;
+  MeteredRunner runner_;
   SkeletonizationService skeletonization_;
-  ServerService server_service_;
-  std::unique_ptr<grpc::Server> server_;
+  ServerService server_;
+  AdminService admin_;
 };
 
-Server::Server(const ServerConfig& config) : config_(config), jobs_(config.limits) {}
+Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
+    : config_(config),
+      callers_(std::move(callers)),
+      metrics_([this] { return Gauges(); }),
+      jobs_(config.limits),
+      services_(std::make_unique<Services>(config_, *callers_, jobs_, metrics_)) {}
 
 Server::~Server() {
-  if (listener_ != nullptr) listener_->Shutdown(std::chrono::milliseconds(0));
+  metrics_page_.reset();
+  for (const auto* listener : {&public_listener_, &admin_listener_}) {
+    if (*listener != nullptr) (*listener)->Shutdown(std::chrono::milliseconds(0));
+  }
 }
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
-  std::unique_ptr<Server> server(new Server(config));
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<Callers> callers, Callers::Create(config.tokens));
+  std::unique_ptr<Server> server(new Server(config, std::move(callers)));
   BCCSKEL_RETURN_IF_ERROR(server->Listen());
+  BCCSKEL_RETURN_IF_ERROR(server->ListenForAdmins());
+  BCCSKEL_RETURN_IF_ERROR(server->ShowMetrics());
   return server;
 }
 
 absl::Status Server::Listen() {
-  BCCSKEL_RETURN_IF_ERROR(LockSocket());
-  listener_ = std::make_unique<Listener>(jobs_, config_.limits);
-  const int port = listener_->Listen(config_.listen);
-  if (port == 0) {
-    return absl::InvalidArgumentError(absl::StrCat("cannot listen on ", config_.listen));
+  ListenerPlan plan;
+  plan.addresses = config_.listen;
+  plan.tls = config_.tls;
+  services_->AddPublic(plan);
+  if (AdminsShareThePublicListener(config_)) services_->AddAdmin(plan);
+  plan.interceptors.push_back(std::make_unique<CallMeter>(metrics_));
+  BCCSKEL_ASSIGN_OR_RETURN(public_listener_, Listener::Start(std::move(plan)));
+  for (const std::string& address : addresses()) {
+    Log(LogLevel::kInfo, "listening", {{"address", address}});
   }
-  address_ = AddressOf(config_.listen, port);
-  Log(LogLevel::kInfo, "listening", {{"address", address_}});
   return absl::OkStatus();
 }
 
-absl::Status Server::LockSocket() {
-  const std::optional<std::string> path = SocketPathOf(config_.listen);
-  if (!path.has_value()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(SocketLock lock, SocketLock::Take(*path));
-  socket_lock_.emplace(std::move(lock));
+absl::Status Server::ListenForAdmins() {
+  if (config_.admin_listen.empty()) return absl::OkStatus();
+  ListenerPlan plan;
+  plan.addresses = {config_.admin_listen};
+  plan.tls = config_.tls;
+  services_->AddAdmin(plan);
+  BCCSKEL_ASSIGN_OR_RETURN(admin_listener_, Listener::Start(std::move(plan)));
+  Log(LogLevel::kInfo, "listening for admins", {{"address", admin_address()}});
   return absl::OkStatus();
+}
+
+absl::Status Server::ShowMetrics() {
+  if (config_.metrics_listen.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(
+      metrics_page_,
+      MetricsPage::Start(config_.metrics_listen, {metrics_.counted(), metrics_.seen()}));
+  Log(LogLevel::kInfo, "listening for metrics", {{"address", metrics_address()}});
+  return absl::OkStatus();
+}
+
+ServerGauges Server::Gauges() const {
+  const Admission::Usage admitted = jobs_.admission_usage();
+  const ComputeQueue::Usage computing = jobs_.compute_usage();
+  ServerGauges now;
+  now.admitted_jobs = admitted.places;
+  now.waiting_jobs = computing.waiting;
+  now.running_jobs = computing.running;
+  now.threads = config_.limits.threads;
+  now.busy_threads = computing.busy_threads;
+  now.admitted_bytes = admitted.bytes;
+  now.max_admitted_bytes = config_.limits.max_bytes;
+  now.draining = draining_ ? 1 : 0;
+  return now;
+}
+
+const std::vector<std::string>& Server::addresses() const { return public_listener_->addresses(); }
+
+std::string Server::admin_address() const {
+  return admin_listener_ == nullptr ? "" : admin_listener_->addresses().front();
+}
+
+std::string Server::metrics_address() const {
+  return metrics_page_ == nullptr ? "" : metrics_page_->address();
+}
+
+void Server::ReloadIfChanged() {
+  const absl::StatusOr<Callers::Reload> reload = callers_->ReloadIfChanged();
+  if (!reload.ok() || *reload == Callers::Reload::kDone) LogReload(reload.status());
+}
+
+void Server::ReloadNow() {
+  if (!config_.tokens.empty()) LogReload(callers_->ReloadNow());
+}
+
+void Server::LogReload(const absl::Status& status) const {
+  if (!status.ok()) {
+    return Log(LogLevel::kError, "tokens not reloaded",
+               {{"message", std::string(status.message())}});
+  }
+  Log(LogLevel::kInfo, "tokens reloaded",
+      {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
 }
 
 void Server::Drain() {
   Log(LogLevel::kInfo, "draining", {{"jobs", int64_t{jobs_.admission_usage().places}}});
-  listener_->SetServing(Listener::Serving::kNo);
+  draining_ = true;
+  public_listener_->SetServing(Listener::Serving::kNo);
+  if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
   jobs_.StopAdmitting();
   std::this_thread::sleep_for(config_.lame_duck);
   jobs_.WaitUntilEmpty(config_.drain);
-  listener_->Shutdown(kLastReplies);
+  public_listener_->Shutdown(kLastReplies);
+  if (admin_listener_ != nullptr) admin_listener_->Shutdown(kLastReplies);
   Log(LogLevel::kInfo, "drained");
 }
 

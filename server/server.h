@@ -1,28 +1,44 @@
 #ifndef BCCSKEL_SERVER_SERVER_H_
 #define BCCSKEL_SERVER_SERVER_H_
 
+#include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "server/config.h"
+#include "server/identity/callers.h"
 #include "server/jobs/job_pool.h"
-#include "server/socket_lock.h"
+#include "server/metrics/server_metrics.h"
 
 namespace bccskel::server {
 
-// The running server: listener, services, health, reflection and the jobs behind them.
+class Listener;
+class MetricsPage;
+
+// The running server: listeners, services, health, reflection, metrics and the jobs behind them.
 class Server {
  public:
   // Listens when it returns.
-  // Errors: INVALID_ARGUMENT for an address that cannot be listened on; ALREADY_EXISTS for a Unix
-  //         socket that another server listens on.
+  // Errors: INVALID_ARGUMENT for an address that cannot be listened on, and for files of tokens and
+  //         certificates that cannot be worked with; ALREADY_EXISTS for a Unix socket that another
+  //         server listens on.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config);
   ~Server();
 
   // Where clients find it: "127.0.0.1:50051" (never with port 0) or "unix:/path".
-  const std::string& address() const { return address_; }
+  const std::vector<std::string>& addresses() const;
+  const std::string& address() const { return addresses().front(); }
+  // Where reflection and admin calls are; empty: nowhere, or beside the other services.
+  std::string admin_address() const;
+  // Where Prometheus finds the metrics, HOST:PORT; empty: nowhere.
+  std::string metrics_address() const;
+
+  // Takes in changes of the file of tokens; the log says how that went. Certificates are taken in
+  // without it.
+  void ReloadIfChanged();
+  void ReloadNow();
 
   // Stops in good order: health says NOT_SERVING and new jobs are refused as UNAVAILABLE; after the
   // lame-duck time the jobs that were let in have the drain time to finish and to be read; then the
@@ -33,17 +49,25 @@ class Server {
   const JobPool& jobs() const { return jobs_; }
 
  private:
-  class Listener;  // keeps gRPC out of this header
+  class Services;  // keeps gRPC out of this header
 
-  explicit Server(const ServerConfig& config);
-  absl::Status LockSocket();
+  Server(const ServerConfig& config, std::unique_ptr<Callers> callers);
   absl::Status Listen();
+  absl::Status ListenForAdmins();
+  absl::Status ShowMetrics();
+  ServerGauges Gauges() const;
+  void LogReload(const absl::Status& status) const;
 
   const ServerConfig config_;
-  std::optional<SocketLock> socket_lock_;  // outlives the listener
+  const std::unique_ptr<Callers> callers_;
+  std::atomic<bool> draining_ = false;
+  ServerMetrics metrics_;
   JobPool jobs_;
-  std::unique_ptr<Listener> listener_;  // after jobs_: its calls end before the jobs' threads
-  std::string address_;
+  // After jobs_: calls end before the jobs' threads do.
+  std::unique_ptr<Services> services_;
+  std::unique_ptr<Listener> public_listener_;
+  std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work
+  std::unique_ptr<MetricsPage> metrics_page_;
 };
 
 }  // namespace bccskel::server

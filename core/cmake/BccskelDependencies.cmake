@@ -12,7 +12,7 @@ if(BCCSKEL_BUILD_SERVER OR BCCSKEL_BUILD_CLIENT)
   list(APPEND bccskel_packages ${BCCSKEL_CLIENT_PACKAGES} CLI11)
 endif()
 if(BCCSKEL_BUILD_SERVER)
-  list(APPEND bccskel_packages spdlog)
+  list(APPEND bccskel_packages spdlog prometheus-cpp)
 endif()
 # Debian's Imath, which OpenEXR finds, complains of a Python library that nothing here needs.
 set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)

@@ -1,6 +1,7 @@
 #include "server/service/call_facts.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "server/logging/json_log.h"
 
@@ -16,10 +17,22 @@ Clock::time_point SteadyDeadline(std::chrono::system_clock::time_point deadline)
   return left > kFar ? Clock::time_point::max() : Clock::now() + left;
 }
 
+// W3C Trace Context: version, trace, parent and flags. What is none is left out of the log, which
+// is no place for whatever callers send.
+bool IsTraceparent(std::string_view text) {
+  constexpr std::string_view kShape = "xx-xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx-xxxxxxxxxxxxxxxx-xx";
+  const auto fits = [](char c, char shape) {
+    const bool digit = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+    return shape == '-' ? c == '-' : digit;
+  };
+  return text.size() == kShape.size() && std::ranges::equal(text, kShape, fits);
+}
+
 std::string TraceOf(const grpc::CallbackServerContext& context) {
   const auto trace = context.client_metadata().find("traceparent");
   if (trace == context.client_metadata().end()) return std::string();
-  return std::string(trace->second.data(), trace->second.size());
+  const std::string_view text(trace->second.data(), trace->second.size());
+  return IsTraceparent(text) ? std::string(text) : std::string();
 }
 
 }  // namespace
@@ -35,12 +48,16 @@ absl::Status CallFacts::CancelStatus() const {
 
 void CallFacts::LogAccepted(const std::string& job, uint64_t volume_bytes) const {
   Log(LogLevel::kInfo, "job accepted",
-      {{"job", job}, {"volume_bytes", static_cast<int64_t>(volume_bytes)}, {"traceparent", trace}});
+      {{"job", job},
+       {"tenant", tenant},
+       {"volume_bytes", static_cast<int64_t>(volume_bytes)},
+       {"traceparent", trace}});
 }
 
 void CallFacts::LogEnded(const std::string& job, const absl::Status& status) const {
   Log(status.ok() ? LogLevel::kInfo : LogLevel::kWarning, "call ended",
       {{"job", job},
+       {"tenant", tenant},
        {"code", absl::StatusCodeToString(status.code())},
        {"message", std::string(status.message())},
        {"seconds", std::chrono::duration<double>(Clock::now() - started).count()},

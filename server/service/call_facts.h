@@ -11,6 +11,7 @@
 #include "bccskel/v1/volume.pb.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
+#include "server/identity/callers.h"
 
 namespace bccskel::server {
 
@@ -20,8 +21,9 @@ struct CallFacts {
 
   Clock::time_point started = Clock::now();
   Clock::time_point deadline = Clock::time_point::max();
-  std::string trace;               // the caller's traceparent, for the log
-  std::string tenant = "default";  // whose call it is; "default" for all without tokens
+  std::string trace;                    // the caller's traceparent, if it is one; for the log
+  std::string tenant = kDefaultTenant;  // whose call it is
+  Role role = Role::kTenant;
 
   // Why gRPC says that the call is over.
   absl::Status CancelStatus() const;

@@ -1,11 +1,43 @@
 #include "server/service/call_gate.h"
 
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
 #include "server/status_mapping.h"
 
 namespace bccskel::server {
+namespace {
+
+std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContext& context) {
+  const auto header = context.client_metadata().find("authorization");
+  if (header == context.client_metadata().end()) return std::nullopt;
+  return std::string_view(header->second.data(), header->second.size());
+}
+
+}  // namespace
 
 absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context) const {
-  return FactsOf(context);
+  const auto authorization = AuthorizationOf(context);
+  absl::StatusOr<Caller> caller = callers_.Identify(authorization);
+  if (!caller.ok()) {
+    return wire::WithReason(caller.status(),
+                            authorization.has_value() ? "TOKEN_INVALID" : "TOKEN_MISSING");
+  }
+  CallFacts facts = FactsOf(context);
+  facts.tenant = std::move(caller->tenant);
+  facts.role = caller->role;
+  return facts;
+}
+
+absl::StatusOr<CallFacts> CallGate::EnterAsAdmin(const grpc::CallbackServerContext& context) const {
+  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context));
+  if (facts.role == Role::kAdmin) return facts;
+  return wire::WithReason(
+      absl::PermissionDeniedError("this call is for admins; the token is a tenant's"),
+      "ADMIN_ONLY");
 }
 
 grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,

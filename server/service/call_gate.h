@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "absl/status/statusor.h"
+#include "server/identity/callers.h"
 #include "server/service/call_facts.h"
 
 namespace bccskel::server {
@@ -13,8 +14,16 @@ namespace bccskel::server {
 // Threads: safe.
 class CallGate {
  public:
+  // Needs: `callers` outlives the gate.
+  explicit CallGate(const Callers& callers) : callers_(callers) {}
+
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context) const;
+  // Errors besides: PERMISSION_DENIED for who is no admin.
+  absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context) const;
+
+ private:
+  const Callers& callers_;
 };
 
 // Ends a unary call: with OK, or with the error and its details.

@@ -126,6 +126,7 @@ template <typename Call>
 absl::Status VolumeStream<Call>::StartJob(const Request& request) {
   BCCSKEL_ASSIGN_OR_RETURN(auto job_request, Call::JobRequestOf(request.config(), limits_));
   job_request.deadline = facts_.deadline;
+  job_request.origin.tenant = facts_.tenant;
   BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<Job> job,
                            runner_.Start(std::move(job_request), this->shared_from_this()));
   facts_.LogAccepted(job->name(), request.config().volume().size_bytes());

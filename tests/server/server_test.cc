@@ -116,26 +116,26 @@ TEST(Server, StatesItsLimits) {
 TEST(Server, AnAddressInUseIsRefused) {
   const auto first = test::StartServer();
   ServerConfig config = test::SmallServer();
-  config.listen = first->address();
+  config.listen = {first->address()};
   EXPECT_EQ(Server::Start(config).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
   const test::TemporaryFolder folder;
   ServerConfig config = test::SmallServer();
-  config.listen = "unix:" + folder.File("server.sock");
+  config.listen = {"unix:" + folder.File("server.sock")};
   const auto first = test::StartServer(config);
   const auto second = Server::Start(config);
   EXPECT_EQ(second.status().code(), absl::StatusCode::kAlreadyExists) << second.status();
   const auto replies =
-      test::Converse(test::ConnectTo(config.listen), RequestsFor(test::SmallTorusPlanes()));
+      test::Converse(test::ConnectTo(first->address()), RequestsFor(test::SmallTorusPlanes()));
   EXPECT_TRUE(replies.status.ok()) << replies.status;
 }
 
 TEST(Server, RemovesItsSocketAtTheEnd) {
   const test::TemporaryFolder folder;
   ServerConfig config = test::SmallServer();
-  config.listen = "unix:" + folder.File("server.sock");
+  config.listen = {"unix:" + folder.File("server.sock")};
   auto server = test::StartServer(config);
   EXPECT_TRUE(std::filesystem::exists(folder.File("server.sock")));
   server->Drain();

@@ -40,9 +40,9 @@ TEST(SkeletonizeCall, GivesTheLibrarysResultOverTcp) {
 TEST(SkeletonizeCall, GivesTheLibrarysResultOverAUnixSocket) {
   const test::TemporaryFolder folder;
   server::ServerConfig config = test::SmallServer();
-  config.listen = "unix:" + folder.File("server.sock");
+  config.listen = {"unix:" + folder.File("server.sock")};
   const auto server = test::StartServer(config);
-  EXPECT_EQ(server->address(), config.listen);
+  EXPECT_EQ(server->addresses(), config.listen);
   const auto replies =
       Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
   ExpectSame(SkeletonOf(replies), ByTheLibrary(test::SmallTorus()));

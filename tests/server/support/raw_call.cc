@@ -60,10 +60,10 @@ absl::StatusOr<std::vector<LabelSkeleton>> SkeletonsOf(const LabelsReplies& repl
   BCCSKEL_RETURN_IF_ERROR(replies.status);
   std::vector<LabelSkeleton> skeletons;
   wire::SkeletonAssembler assembler;
-  std::optional<uint64_t> label;
+  uint64_t label = 0;  // whose chunks came last; 0, the background, is no label
   for (const v1::SkeletonizeLabelsResponse& response : replies.responses) {
     if (response.has_skeleton_chunk()) {
-      if (label.value_or(response.skeleton_chunk().label()) != response.skeleton_chunk().label()) {
+      if (label != 0 && label != response.skeleton_chunk().label()) {
         return absl::DataLossError("a chunk of another label came before the summary");
       }
       label = response.skeleton_chunk().label();
@@ -76,7 +76,7 @@ absl::StatusOr<std::vector<LabelSkeleton>> SkeletonsOf(const LabelsReplies& repl
       skeleton.voxels = summary.voxels();
       BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
                                std::exchange(assembler, {}).Finish(summary.summary()));
-      label.reset();
+      label = 0;
     }
   }
   if (replies.responses.empty() || !replies.responses.back().has_labels_summary()) {

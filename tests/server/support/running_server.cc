@@ -13,7 +13,7 @@ using server::Server;
 
 server::ServerConfig SmallServer() {
   server::ServerConfig config = server::DefaultServerConfig();
-  config.listen = "127.0.0.1:0";
+  config.listen = {"127.0.0.1:0"};
   config.limits.threads = config.limits.max_jobs = 2;
   config.limits.max_bytes = uint64_t{2} << 30;
   return config;

@@ -1,0 +1,85 @@
+#include "server/identity/callers.h"
+
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::server {
+namespace {
+
+struct stat FactsOfFile(const std::string& path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0) return {};
+  return facts;
+}
+
+bool SameFile(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
+         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+// The token of a header like "Bearer TOKEN"; the scheme's case does not matter (RFC 9110).
+std::optional<std::string_view> BearerToken(std::string_view header) {
+  constexpr std::string_view kScheme = "bearer ";
+  if (header.size() <= kScheme.size()) return std::nullopt;
+  for (size_t n = 0; n < kScheme.size(); ++n) {
+    if (absl::ascii_tolower(static_cast<unsigned char>(header[n])) != kScheme[n]) {
+      return std::nullopt;
+    }
+  }
+  return header.substr(kScheme.size());
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Callers>> Callers::Create(const std::string& path) {
+  std::unique_ptr<Callers> callers(new Callers(path));
+  if (!path.empty()) BCCSKEL_RETURN_IF_ERROR(callers->ReloadNow());
+  return callers;
+}
+
+absl::StatusOr<Caller> Callers::Identify(std::optional<std::string_view> authorization) const {
+  if (path_.empty()) return Caller{.tenant = kDefaultTenant, .role = Role::kAdmin};
+  if (!authorization.has_value()) {
+    return absl::UnauthenticatedError(
+        "this server wants a token: metadata \"authorization\" with \"Bearer TOKEN\"");
+  }
+  const std::optional<std::string_view> token = BearerToken(*authorization);
+  const std::optional<Caller> caller =
+      token.has_value() ? table()->Find(*token) : std::optional<Caller>();
+  if (!caller.has_value()) return absl::UnauthenticatedError("the token is not accepted");
+  return *caller;
+}
+
+std::shared_ptr<const TokenTable> Callers::table() const {
+  std::lock_guard lock(mutex_);
+  return table_;
+}
+
+std::map<std::string, TenantTerms> Callers::tenants() const {
+  if (path_.empty()) return {{kDefaultTenant, TenantTerms()}};
+  return table()->tenants();
+}
+
+absl::StatusOr<Callers::Reload> Callers::ReloadIfChanged() {
+  {
+    std::lock_guard lock(reload_mutex_);
+    if (path_.empty() || SameFile(FactsOfFile(path_), seen_)) return Reload::kNotNeeded;
+  }
+  BCCSKEL_RETURN_IF_ERROR(ReloadNow());
+  return Reload::kDone;
+}
+
+absl::Status Callers::ReloadNow() {
+  if (path_.empty()) return absl::OkStatus();
+  std::lock_guard reload_lock(reload_mutex_);
+  seen_ = FactsOfFile(path_);  // before it is read: a change meanwhile is seen the next time
+  BCCSKEL_ASSIGN_OR_RETURN(TokenTable table, TokenTable::ReadFile(path_));
+  std::lock_guard lock(mutex_);
+  table_ = std::make_shared<const TokenTable>(std::move(table));
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel::server

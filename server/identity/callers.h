@@ -1,0 +1,55 @@
+#ifndef BCCSKEL_SERVER_IDENTITY_CALLERS_H_
+#define BCCSKEL_SERVER_IDENTITY_CALLERS_H_
+
+#include <sys/stat.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "server/identity/token_table.h"
+
+namespace bccskel::server {
+
+// The tenant of all calls where no tokens are configured.
+inline constexpr char kDefaultTenant[] = "default";
+
+// Tells whose call it is, from a file of tokens that may change while the server runs.
+// Threads: safe.
+class Callers {
+ public:
+  // Without a path everybody is the default tenant, and an admin.
+  // Errors: as TokenTable::ReadFile().
+  static absl::StatusOr<std::unique_ptr<Callers>> Create(const std::string& path);
+
+  // `authorization` is the header of that name, as it came, if it came.
+  // Errors: UNAUTHENTICATED; the message holds nothing of the header.
+  absl::StatusOr<Caller> Identify(std::optional<std::string_view> authorization) const;
+
+  std::map<std::string, TenantTerms> tenants() const;
+
+  enum class Reload { kNotNeeded, kDone };
+  // Reads the file again, where it has changed since it was read last. A file with a mistake
+  // changes nothing: the tokens that were accepted before still are.
+  // Errors: as TokenTable::ReadFile(), once for each change of the file.
+  absl::StatusOr<Reload> ReloadIfChanged();
+  absl::Status ReloadNow();
+
+ private:
+  explicit Callers(std::string path) : path_(std::move(path)) {}
+  std::shared_ptr<const TokenTable> table() const;
+
+  const std::string path_;  // empty: no tokens
+  mutable std::mutex mutex_;
+  std::shared_ptr<const TokenTable> table_;  // guarded by mutex_
+  std::mutex reload_mutex_;
+  struct stat seen_ = {};  // guarded by reload_mutex_: the file when it was read last
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_IDENTITY_CALLERS_H_

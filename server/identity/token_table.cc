@@ -1,0 +1,138 @@
+#include "server/identity/token_table.h"
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "core/exec/status_macros.h"
+#include "server/identity/token.h"
+#include "server/settings/values.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr size_t kMaxFileBytes = size_t{1} << 20;
+constexpr int kMaxWeight = 1000;
+constexpr int kMaxCount = 1'000'000;
+
+absl::StatusOr<Sha256Digest> DigestFromHex(const std::string& hex) {
+  Sha256Digest digest;
+  const auto value = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+  };
+  bool valid = hex.size() == 2 * digest.bytes.size();
+  for (size_t n = 0; valid && n < digest.bytes.size(); ++n) {
+    const int high = value(hex[2 * n]), low = value(hex[2 * n + 1]);
+    valid = high >= 0 && low >= 0;
+    digest.bytes[n] = static_cast<uint8_t>(16 * high + low);
+  }
+  if (valid) return digest;
+  return absl::InvalidArgumentError(
+      "the second word must be the SHA-256 of a token, 64 hexadecimal digits in lower case");
+}
+
+template <typename Number>
+absl::Status SetOnce(absl::StatusOr<Number> value, Number& target) {
+  if (!value.ok()) return value.status();
+  const Number unset = target;
+  if (unset != Number{} && unset != *value) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(*value, ", another line of the same tenant says ", unset));
+  }
+  target = *value;
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status TokenTable::AddTerm(const std::string& word, Entry& entry) {
+  if (word == "admin") {
+    entry.caller.role = Role::kAdmin;
+    return absl::OkStatus();
+  }
+  const std::pair<std::string, std::string> term = absl::StrSplit(word, absl::MaxSplits('=', 1));
+  const auto& [name, value] = term;
+  TenantTerms& terms = tenants_[entry.caller.tenant];
+  absl::Status status = absl::InvalidArgumentError(
+      "must be admin, weight=N, max-jobs=N, max-queue=N or max-memory-bytes=SIZE");
+  if (name == "weight") status = SetOnce(ParseNumber(value, 1, kMaxWeight), terms.weight);
+  if (name == "max-jobs") status = SetOnce(ParseNumber(value, 1, kMaxCount), terms.max_jobs);
+  if (name == "max-queue") status = SetOnce(ParseNumber(value, 1, kMaxCount), terms.max_queue);
+  if (name == "max-memory-bytes") status = SetOnce(ParseSize(value, 1), terms.max_bytes);
+  if (status.ok()) return status;
+  return absl::InvalidArgumentError(absl::StrCat(word, ": ", std::string(status.message())));
+}
+
+absl::Status TokenTable::AddLine(const std::vector<std::string>& words) {
+  if (!IsTenantName(words[0])) {
+    return absl::InvalidArgumentError(
+        "the first word must be a tenant's name: 1 to 64 of a-z, 0-9, - and _, a letter or digit "
+        "first");
+  }
+  if (words.size() < 2) return absl::InvalidArgumentError("the SHA-256 of the token is missing");
+  Entry entry = {.digest = {}, .caller = {.tenant = words[0]}};
+  BCCSKEL_ASSIGN_OR_RETURN(entry.digest, DigestFromHex(words[1]));
+  for (const Entry& other : entries_) {
+    if (SameDigest(other.digest, entry.digest)) {
+      return absl::InvalidArgumentError("this token stands in another line, too");
+    }
+  }
+  tenants_.try_emplace(words[0], TenantTerms{.weight = 0});
+  for (size_t n = 2; n < words.size(); ++n) BCCSKEL_RETURN_IF_ERROR(AddTerm(words[n], entry));
+  entries_.push_back(std::move(entry));
+  return absl::OkStatus();
+}
+
+absl::StatusOr<TokenTable> TokenTable::Parse(std::string_view text) {
+  TokenTable table;
+  std::istringstream lines{std::string(text)};
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    line.resize(std::min(line.find('#'), line.size()));
+    const std::vector<std::string> words =
+        absl::StrSplit(line, absl::ByAnyChar(" \t\r"), absl::SkipEmpty());
+    if (words.empty()) continue;
+    if (const absl::Status added = table.AddLine(words); !added.ok()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("line ", number, ": ", std::string(added.message())));
+    }
+  }
+  for (auto& [name, terms] : table.tenants_) terms.weight = std::max(1, terms.weight);
+  return table;
+}
+
+absl::StatusOr<TokenTable> TokenTable::ReadFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxFileBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.is_open() || file.bad()) return absl::NotFoundError(path + ": cannot be read");
+  text.resize(static_cast<size_t>(file.gcount()));
+  if (text.size() > kMaxFileBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path, ": is larger than ", kMaxFileBytes, " bytes"));
+  }
+  absl::StatusOr<TokenTable> table = Parse(text);
+  if (table.ok()) return table;
+  return absl::InvalidArgumentError(
+      absl::StrCat(path, ": ", std::string(table.status().message())));
+}
+
+std::optional<Caller> TokenTable::Find(std::string_view token) const {
+  const Sha256Digest digest = DigestOfToken(token);
+  const Entry* found = nullptr;
+  for (const Entry& entry : entries_) {
+    if (SameDigest(entry.digest, digest)) found = &entry;
+  }
+  return found == nullptr ? std::nullopt : std::optional(found->caller);
+}
+
+std::string TokenLine(const std::string& tenant, std::string_view token) {
+  return tenant + " " + DigestOfToken(token).Hex();
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,71 @@
+#ifndef BCCSKEL_SERVER_IDENTITY_TOKEN_TABLE_H_
+#define BCCSKEL_SERVER_IDENTITY_TOKEN_TABLE_H_
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+
+namespace bccskel::server {
+
+// What a tenant is granted.
+struct TenantTerms {
+  int weight = 1;          // its share of the threads, while others want them, too
+  int max_jobs = 0;        // at work at the same time; 0: as many as the server runs
+  int max_queue = 0;       // let in and not at work yet; 0: as many as the server takes
+  uint64_t max_bytes = 0;  // working memory; 0: as much as the server has
+
+  friend bool operator==(const TenantTerms&, const TenantTerms&) = default;
+};
+
+enum class Role { kTenant, kAdmin };
+
+// Whose call it is, and whether it may ask for what concerns all tenants.
+struct Caller {
+  std::string tenant;
+  Role role = Role::kTenant;
+};
+
+// The tokens that are accepted and the tenants they stand for. As text, a token a line:
+//
+//   acme  9f86d081884c7d65...  weight=2 max-jobs=4 max-queue=100 max-memory-bytes=8GB
+//   acme  60303ae22b998861...            # a second token of the same tenant
+//   ops   fd61a03af4f77d87...  admin     # may call the AdminService, too
+//
+// The second word is the SHA-256 of the token. A '#' begins a comment.
+class TokenTable {
+ public:
+  // Errors: INVALID_ARGUMENT with the line; the message holds no digest.
+  static absl::StatusOr<TokenTable> Parse(std::string_view text);
+  // Errors: NOT_FOUND where the file cannot be read; INVALID_ARGUMENT.
+  static absl::StatusOr<TokenTable> ReadFile(const std::string& path);
+
+  // Nothing for a token that is not accepted. Takes the same time for any.
+  std::optional<Caller> Find(std::string_view token) const;
+
+  const std::map<std::string, TenantTerms>& tenants() const { return tenants_; }
+
+ private:
+  struct Entry {
+    Sha256Digest digest;
+    Caller caller;
+  };
+
+  absl::Status AddLine(const std::vector<std::string>& words);
+  absl::Status AddTerm(const std::string& word, Entry& entry);
+
+  std::vector<Entry> entries_;
+  std::map<std::string, TenantTerms> tenants_;
+};
+
+// The line of a token, without its end.
+std::string TokenLine(const std::string& tenant, std::string_view token);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_IDENTITY_TOKEN_TABLE_H_

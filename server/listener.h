@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_SERVER_LISTENER_H_
+#define BCCSKEL_SERVER_LISTENER_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "server/identity/tls_files.h"
+#include "server/socket_lock.h"
+
+namespace bccskel::server {
+
+// What is reached at a set of addresses.
+struct ListenerPlan {
+  using Interceptors =
+      std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>>;
+
+  std::vector<std::string> addresses;    // each HOST:PORT or unix:PATH
+  TlsFiles tls;                          // for each HOST:PORT
+  std::vector<grpc::Service*> services;  // not owned
+  std::vector<std::string> healthy;      // full names of services that health answers for
+  enum class Reflection { kOff, kOn } reflection = Reflection::kOff;
+  Interceptors interceptors;
+};
+
+// Addresses that are listened on, and the calls that come in there. Each listener answers health
+// checks; they need no token.
+class Listener {
+ public:
+  // Listens when it returns.
+  // Errors: INVALID_ARGUMENT for an address that cannot be listened on; ALREADY_EXISTS for a Unix
+  //         socket that another server listens on.
+  static absl::StatusOr<std::unique_ptr<Listener>> Start(ListenerPlan plan);
+
+  // In the order of the plan, with the ports that port 0 became.
+  const std::vector<std::string>& addresses() const { return addresses_; }
+
+  enum class Serving { kYes, kNo };
+  void SetServing(Serving serving);
+
+  // New calls are refused at once; running ones have so long to end, and are cut off then.
+  void Shutdown(std::chrono::milliseconds grace);
+
+ private:
+  Listener() = default;
+  absl::Status LockSockets(const std::vector<std::string>& addresses);
+  absl::Status Listen(ListenerPlan& plan);
+
+  std::vector<SocketLock> locks_;  // outlive the server
+  std::vector<std::string> addresses_;
+  std::vector<std::string> healthy_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_LISTENER_H_

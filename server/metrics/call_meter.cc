@@ -1,0 +1,56 @@
+#include "server/metrics/call_meter.h"
+
+#include <chrono>
+
+#include "absl/status/status.h"
+#include "bccskel/v1/rpc_details.pb.h"
+#include "proto/wire/error_details.h"
+
+namespace bccskel::server {
+namespace {
+
+using grpc::experimental::InterceptionHookPoints;
+using grpc::experimental::InterceptorBatchMethods;
+using Clock = std::chrono::steady_clock;
+
+class Meter : public grpc::experimental::Interceptor {
+ public:
+  Meter(ServerMetrics& metrics, const char* method) : metrics_(metrics), method_(method) {}
+
+  void Intercept(InterceptorBatchMethods* methods) override {
+    if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
+      const grpc::Status status = methods->GetSendStatus();
+      metrics_.Count(EndedCall{.method = method_,
+                               .code = CodeName(status),
+                               .reason = ReasonOf(status),
+                               .seconds = Clock::now() - start_});
+    }
+    methods->Proceed();
+  }
+
+ private:
+  ServerMetrics& metrics_;
+  const char* const method_;
+  const Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+grpc::experimental::Interceptor* CallMeter::CreateServerInterceptor(
+    grpc::experimental::ServerRpcInfo* info) {
+  return new Meter(metrics_, info->method());
+}
+
+std::string CodeName(const grpc::Status& status) {
+  return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
+}
+
+std::string ReasonOf(const grpc::Status& status) {
+  if (status.ok() || status.error_details().empty()) return std::string();
+  v1::Status message;
+  if (!message.ParseFromString(status.error_details())) return std::string();
+  const auto info = wire::ErrorInfoOf(wire::FromRpcStatus(message));
+  return info.has_value() ? info->reason() : std::string();
+}
+
+}  // namespace bccskel::server

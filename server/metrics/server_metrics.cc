@@ -1,0 +1,177 @@
+#include "server/metrics/server_metrics.h"
+
+#include <prometheus/collectable.h>
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <utility>
+#include <vector>
+
+#include "core/pipeline/algorithm_version.h"
+#include "core/version/version.h"
+#include "server/metrics/process_figures.h"
+
+namespace bccskel::server {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::Counter;
+using prometheus::Family;
+using prometheus::Histogram;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using prometheus::Registry;
+
+// From a small volume's fraction of a millisecond to the hours of the largest.
+const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
+                                              0.05,   0.1,   0.25,   0.5,   1,    2.5,
+                                              5,      10,    30,     60,    300,  1800};
+
+Family<Counter>& AddCounter(Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+Family<Histogram>& AddHistogram(Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+}
+
+MetricFamily Sample(MetricType type, const char* name, const char* help, double value) {
+  ClientMetric metric;
+  metric.gauge.value = value;
+  metric.counter.value = value;
+  return {name, help, type, {std::move(metric)}};
+}
+
+MetricFamily GaugeNow(const char* name, const char* help, double value) {
+  return Sample(MetricType::Gauge, name, help, value);
+}
+
+std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
+  return {
+      GaugeNow("bccskel_jobs_admitted", "Jobs let in that have not ended or are not read yet",
+               now.admitted_jobs),
+      GaugeNow("bccskel_jobs_waiting", "Jobs whose volume is there and that wait for threads",
+               now.waiting_jobs),
+      GaugeNow("bccskel_jobs_running", "Jobs that compute", now.running_jobs),
+      GaugeNow("bccskel_threads", "Threads for computing", now.threads),
+      GaugeNow("bccskel_threads_busy", "Threads that compute", now.busy_threads),
+      GaugeNow("bccskel_memory_admitted_bytes", "Working memory that jobs have reserved",
+               static_cast<double>(now.admitted_bytes)),
+      GaugeNow("bccskel_memory_limit_bytes", "Working memory that jobs may reserve together",
+               static_cast<double>(now.max_admitted_bytes)),
+      GaugeNow("bccskel_draining", "1 from the stop signal on", now.draining),
+  };
+}
+
+std::vector<MetricFamily> FamiliesOf(const ProcessFigures& process) {
+  return {
+      Sample(MetricType::Counter, "process_cpu_seconds_total", "User and system time",
+             process.processor_time.count()),
+      GaugeNow("process_resident_memory_bytes", "Memory in use",
+               static_cast<double>(process.resident_bytes)),
+      GaugeNow("process_open_fds", "Open files and connections",
+               static_cast<double>(process.open_files)),
+      GaugeNow("process_max_fds", "Limit of open files and connections",
+               static_cast<double>(process.max_open_files)),
+      GaugeNow("process_threads", "Threads of the process", static_cast<double>(process.threads)),
+  };
+}
+
+// What is asked when the page is read.
+class Seen : public prometheus::Collectable {
+ public:
+  explicit Seen(ServerMetrics::GaugeSource gauges) : gauges_(std::move(gauges)) {}
+  std::vector<MetricFamily> Collect() const override {
+    std::vector<MetricFamily> all = FamiliesOf(gauges_());
+    for (MetricFamily& family : FamiliesOf(ReadProcessFigures())) all.push_back(std::move(family));
+    return all;
+  }
+
+ private:
+  const ServerMetrics::GaugeSource gauges_;
+};
+
+}  // namespace
+
+class ServerMetrics::Families {
+ public:
+  explicit Families(GaugeSource gauges) : seen(std::make_shared<Seen>(std::move(gauges))) {
+    prometheus::BuildGauge()
+        .Name("bccskel_build_info")
+        .Help("1; what runs is in the labels")
+        .Register(*registry)
+        .Add({{"version", std::string(Version())}, {"algorithm", kAlgorithmVersion}})
+        .Set(1);
+    prometheus::BuildGauge()
+        .Name("process_start_time_seconds")
+        .Help("Start of the process in seconds since 1970")
+        .Register(*registry)
+        .Add({})
+        .SetToCurrentTime();
+  }
+
+  void ObserveIfKnown(Histogram& histogram,
+                      const std::optional<std::chrono::duration<double>>& time) {
+    if (time.has_value()) histogram.Observe(time->count());
+  }
+
+  const std::shared_ptr<Registry> registry = std::make_shared<Registry>();
+  const std::shared_ptr<Seen> seen;
+  Family<Counter>& calls = AddCounter(*registry, "bccskel_calls_total", "Calls that have ended");
+  Family<Histogram>& call_seconds =
+      AddHistogram(*registry, "bccskel_call_seconds", "From a call's first message to its status");
+  Family<Counter>& jobs = AddCounter(*registry, "bccskel_jobs_total", "Jobs that have ended");
+  Counter& points = AddCounter(*registry, "bccskel_points_thinned_total",
+                               "Points of the objects that were thinned")
+                        .Add({});
+  Counter& volume_bytes = AddCounter(*registry, "bccskel_volume_bytes_admitted_total",
+                                     "Declared bytes of the volumes of jobs let in")
+                              .Add({});
+  Histogram& queued =
+      AddHistogram(*registry, "bccskel_job_queue_seconds", "A job's time waiting for threads")
+          .Add({}, kSeconds);
+  Histogram& decoded =
+      AddHistogram(*registry, "bccskel_job_decode_seconds", "A job's time in the decoder")
+          .Add({}, kSeconds);
+  Histogram& computed =
+      AddHistogram(*registry, "bccskel_job_compute_seconds", "A job's time at computing")
+          .Add({}, kSeconds);
+};
+
+ServerMetrics::ServerMetrics(GaugeSource gauges)
+    : gauges_(gauges), families_(std::make_unique<Families>(std::move(gauges))) {}
+
+ServerMetrics::~ServerMetrics() = default;
+
+void ServerMetrics::Count(const EndedCall& call) {
+  families_->calls.Add({{"method", call.method}, {"code", call.code}, {"reason", call.reason}})
+      .Increment();
+  families_->call_seconds.Add({{"method", call.method}}, kSeconds).Observe(call.seconds.count());
+  ++sums_.calls;
+  if (call.code != "OK") ++sums_.failed_calls;
+}
+
+void ServerMetrics::Count(const EndedJob& job) {
+  families_->jobs.Add({{"tenant", job.tenant}, {"code", job.code}, {"reason", job.reason}})
+      .Increment();
+  families_->ObserveIfKnown(families_->queued, job.queued);
+  families_->ObserveIfKnown(families_->decoded, job.decoded);
+  families_->ObserveIfKnown(families_->computed, job.computed);
+  families_->points.Increment(static_cast<double>(job.object_points));
+  sums_.object_points += job.object_points;
+  ++(job.code == "OK" ? sums_.jobs : sums_.failed_jobs);
+}
+
+void ServerMetrics::CountAdmitted(uint64_t volume_bytes) {
+  families_->volume_bytes.Increment(static_cast<double>(volume_bytes));
+}
+
+std::shared_ptr<prometheus::Collectable> ServerMetrics::counted() const {
+  return families_->registry;
+}
+
+std::shared_ptr<prometheus::Collectable> ServerMetrics::seen() const { return families_->seen; }
+
+}  // namespace bccskel::server

@@ -1,0 +1,41 @@
+#ifndef BCCSKEL_SERVER_SETTINGS_SETTING_H_
+#define BCCSKEL_SERVER_SETTINGS_SETTING_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+
+namespace bccskel::server {
+
+// One thing that can be set: --max-jobs N, BCCSKEL_MAX_JOBS=N, or max-jobs = N in a file.
+struct Setting {
+  std::string name;
+  std::string value;  // what stands for it in the help: N, SIZE, ...
+  std::string description;
+  // Takes the values that one source gives. Errors: INVALID_ARGUMENT; nothing is set then.
+  std::function<absl::Status(const std::vector<std::string>&)> set;
+  // As it stands in a file: 3 or "text" or ["a", "b"].
+  std::function<std::string()> show;
+};
+
+// Each sets `target`, which must outlive the setting.
+Setting NumberSetting(std::string name, int& target, int low, int high, std::string description);
+Setting CountSetting(std::string name, uint64_t& target, std::string description);
+Setting SizeSetting(std::string name, uint64_t& target, uint64_t low, std::string description);
+Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,
+                            std::string description);
+Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string description);
+Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::string> choices,
+                      std::string description);
+Setting PathSetting(std::string name, std::string& target, std::string description);
+Setting AddressSetting(std::string name, std::string& target, std::string description);
+Setting AddressesSetting(std::string name, std::vector<std::string>& target,
+                         std::string description);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SETTINGS_SETTING_H_

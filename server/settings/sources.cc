@@ -1,0 +1,96 @@
+#include "server/settings/sources.h"
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr int kUsageError = 2;
+
+void AddSetting(CLI::App& app, const Setting& setting, CommandLine& line) {
+  app.add_option_function<std::vector<std::string>>(
+         "--" + setting.name,
+         [&line, name = setting.name](const std::vector<std::string>& values) {
+           line.values[name] = values;
+         },
+         setting.description)
+      ->allow_extra_args(false)
+      ->option_text(absl::StrCat(setting.value, " [", setting.show(), "]"));
+}
+
+void AddAction(CLI::App& app, const Action& action, CommandLine& line) {
+  const std::string flag = "--" + action.name;
+  if (action.argument.empty()) {
+    app.add_flag_callback(
+        flag, [&line, name = action.name] { line.actions[name] = ""; }, action.description);
+    return;
+  }
+  app.add_option_function<std::string>(
+         flag,
+         [&line, name = action.name](const std::string& value) { line.actions[name] = value; },
+         action.description)
+      ->option_text(action.argument);
+}
+
+}  // namespace
+
+std::variant<CommandLine, ExitRequest> ReadCommandLine(const Program& program,
+                                                       const std::vector<Setting>& settings,
+                                                       const std::vector<Action>& actions, int argc,
+                                                       const char* const* argv) {
+  CommandLine line;
+  CLI::App app(program.purpose, program.name);
+  app.set_version_flag("--version", program.name + " " + program.version);
+  for (const Setting& setting : settings) AddSetting(app, setting, line);
+  for (const Action& action : actions) AddAction(app, action, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err);
+    return ExitRequest{code == 0 ? 0 : kUsageError, out.str(), err.str()};
+  }
+  return line;
+}
+
+std::string VariableOf(const std::string& setting) {
+  return "BCCSKEL_" + absl::AsciiStrToUpper(absl::StrReplaceAll(setting, {{"-", "_"}}));
+}
+
+GivenValues ReadEnvironment(const std::vector<Setting>& settings,
+                            const std::function<const char*(const char*)>& variable) {
+  GivenValues given;
+  for (const Setting& setting : settings) {
+    const char* const value = variable(VariableOf(setting.name).c_str());
+    if (value == nullptr || *value == '\0') continue;
+    given[setting.name] = absl::StrSplit(value, ',');
+  }
+  return given;
+}
+
+absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path) {
+  std::ifstream file(path);
+  if (!file.is_open()) return absl::NotFoundError(path + ": cannot be read");
+  GivenValues given;
+  try {
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(file)) {
+      if (!item.parents.empty() || item.name == "++" || item.name == "--") {
+        return absl::InvalidArgumentError(
+            absl::StrCat(path, ": [", item.fullname(), "]: must hold no sections"));
+      }
+      given[item.name] = item.inputs;
+    }
+  } catch (const std::exception& error) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": ", error.what()));
+  }
+  return given;
+}
+
+}  // namespace bccskel::server

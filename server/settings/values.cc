@@ -1,0 +1,77 @@
+#include "server/settings/values.h"
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr char kUnixPrefix[] = "unix:";
+
+absl::Status Wrong(const std::string& text, const std::string& must) {
+  return absl::InvalidArgumentError(absl::StrCat(text, ": must be ", must));
+}
+
+// The power of 1024 that a unit stands for, -1 for no unit.
+int PowerOf(std::string unit) {
+  absl::AsciiStrToLower(&unit);
+  if (unit.empty() || unit == "b") return 0;
+  constexpr std::string_view kLetters = "kmgt";
+  const size_t power = kLetters.find(unit[0]);
+  const std::string rest = unit.substr(1);
+  const bool known =
+      power != std::string_view::npos && (rest.empty() || rest == "b" || rest == "ib");
+  return known ? static_cast<int>(power) + 1 : -1;
+}
+
+}  // namespace
+
+absl::StatusOr<int> ParseNumber(const std::string& text, int low, int high) {
+  int number = 0;
+  if (absl::SimpleAtoi(text, &number) && number >= low && number <= high) return number;
+  return Wrong(text, absl::StrCat("a number from ", low, " to ", high));
+}
+
+absl::StatusOr<uint64_t> ParseSize(const std::string& text, uint64_t low) {
+  const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  std::string unit = text.substr(digits);
+  absl::StripAsciiWhitespace(&unit);
+  uint64_t bytes = 0;
+  const int power = PowerOf(unit);
+  const bool number = absl::SimpleAtoi(text.substr(0, digits), &bytes) && power >= 0;
+  if (number && bytes <= std::numeric_limits<uint64_t>::max() >> (10 * power)) {
+    bytes <<= 10 * power;
+    if (bytes >= low) return bytes;
+  }
+  return Wrong(text, absl::StrCat("a size of at least ", low,
+                                  " bytes, with or without a unit, such as 256MB or 8GB"));
+}
+
+absl::Status CheckAddress(const std::string& address) {
+  if (absl::StartsWith(address, kUnixPrefix)) {
+    if (address != kUnixPrefix) return absl::OkStatus();
+    return absl::InvalidArgumentError("unix: names no path");
+  }
+  const std::string host = HostOf(address);
+  const std::string port = host.size() < address.size() ? address.substr(host.size() + 1) : "";
+  constexpr int kMaxPort = 65535;
+  if (!host.empty() && ParseNumber(port, 0, kMaxPort).ok()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(address, " is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"));
+}
+
+std::string HostOf(const std::string& address) { return address.substr(0, address.rfind(':')); }
+
+bool IsOfThisMachine(const std::string& address) {
+  if (absl::StartsWith(address, kUnixPrefix)) return true;
+  const std::string host = HostOf(address);
+  return host == "localhost" || host == "[::1]" || absl::StartsWith(host, "127.");
+}
+
+}  // namespace bccskel::server
