@@ -1,0 +1,149 @@
+#include "server/store/group_commit.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <future>
+#include <random>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/store/sqlite_job_store.h"
+#include "tests/server/store/temporary_folder.h"
+
+namespace bccskel::server {
+namespace {
+
+JobRow Job(const std::string& name) {
+  JobRow job;
+  job.tenant = "clinic";
+  job.name = name;
+  return job;
+}
+
+std::unique_ptr<JobStore> Open(const TemporaryFolder& folder) {
+  auto store = OpenSqliteJobStore(folder / "jobs.db");
+  EXPECT_TRUE(store.ok()) << store.status();
+  return *std::move(store);
+}
+
+GroupCommit::Change Insert(const std::string& name) {
+  return [name](JobStore& store) { return store.InsertJob(Job(name)).status(); };
+}
+
+TEST(GroupCommitTest, WritesWhatWaitsInOneTransaction) {
+  const TemporaryFolder folder;
+  std::promise<void> go;
+  std::vector<int> order;
+  {
+    GroupCommit commit(Open(folder));
+    commit.Post([&] { go.get_future().wait(); });
+    for (int n = 0; n < 100; ++n) {
+      commit.Post(Insert("jobs/" + std::to_string(n)), [&order, n](const absl::Status& status) {
+        EXPECT_TRUE(status.ok()) << status;
+        order.push_back(n);
+      });
+    }
+    go.set_value();
+    std::promise<void> done;
+    commit.Post([&] { done.set_value(); });
+    done.get_future().wait();
+    EXPECT_LE(commit.commits(), 2u);
+  }
+  ASSERT_EQ(order.size(), 100u);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+  EXPECT_EQ(Open(folder)->UnfinishedJobs()->size(), 100u);
+}
+
+TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
+  const TemporaryFolder folder;
+  absl::Status failed;
+  {
+    GroupCommit commit(Open(folder));
+    commit.Post(Insert("jobs/before"), nullptr);
+    commit.Post(
+        [](JobStore& store) -> absl::Status {
+          EXPECT_TRUE(store.InsertJob(Job("jobs/failed")).ok());
+          return absl::AbortedError("no");
+        },
+        [&](const absl::Status& status) { failed = status; });
+    commit.Post(Insert("jobs/after"), nullptr);
+  }
+  EXPECT_EQ(failed.code(), absl::StatusCode::kAborted);
+  const auto store = Open(folder);
+  EXPECT_TRUE(store->FindJob("clinic", "jobs/before")->has_value());
+  EXPECT_FALSE(store->FindJob("clinic", "jobs/failed")->has_value());
+  EXPECT_TRUE(store->FindJob("clinic", "jobs/after")->has_value());
+}
+
+TEST(GroupCommitTest, TakesChangesFromManyThreads) {
+  const TemporaryFolder folder;
+  {
+    GroupCommit commit(Open(folder));
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([&commit, thread] {
+        for (int n = 0; n < 50; ++n) {
+          commit.Post(Insert(std::to_string(thread) + "/" + std::to_string(n)), nullptr);
+        }
+      });
+    }
+  }
+  EXPECT_EQ(Open(folder)->UnfinishedJobs()->size(), 200u);
+}
+
+// Writes jobs and tells each that is confirmed through the pipe, until it is killed.
+[[noreturn]] void WriteUntilKilled(const TemporaryFolder& folder, int pipe, int round) {
+  GroupCommit commit(Open(folder));
+  for (uint32_t n = 0;; ++n) {
+    commit.Post(Insert(std::to_string(round) + "/" + std::to_string(n)),
+                [pipe, n](const absl::Status& status) {
+                  if (status.ok()) (void)!write(pipe, &n, sizeof(n));
+                });
+    if (n % 16 == 0) usleep(200);
+  }
+}
+
+std::set<std::string> KillAWriter(const TemporaryFolder& folder, int round, int microseconds) {
+  int pipes[2] = {};
+  EXPECT_EQ(pipe(pipes), 0);
+  const pid_t child = fork();
+  if (child == 0) WriteUntilKilled(folder, pipes[1], round);
+  close(pipes[1]);
+  usleep(static_cast<useconds_t>(microseconds));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  std::set<std::string> confirmed;
+  uint32_t n = 0;
+  while (read(pipes[0], &n, sizeof(n)) == sizeof(n)) {
+    confirmed.insert(std::to_string(round) + "/" + std::to_string(n));
+  }
+  close(pipes[0]);
+  return confirmed;
+}
+
+TEST(GroupCommitTest, LosesNothingConfirmedHoweverOftenItIsKilled) {
+  const TemporaryFolder folder;
+  std::mt19937 random(20061121);
+  std::set<std::string> confirmed;
+  for (int round = 0; round < 30; ++round) {
+    confirmed.merge(KillAWriter(folder, round, static_cast<int>(random() % 60'000)));
+    const auto store = Open(folder);
+    std::set<std::string> found;
+    const std::vector<JobRow> jobs = *store->UnfinishedJobs();
+    for (const JobRow& job : jobs) {
+      EXPECT_TRUE(found.insert(job.name).second) << job.name << " twice";
+    }
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), confirmed.begin(), confirmed.end()))
+        << "after round " << round;
+  }
+  EXPECT_GT(confirmed.size(), 0u) << "no round lived long enough to write";
+}
+
+}  // namespace
+}  // namespace bccskel::server

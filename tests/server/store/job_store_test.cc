@@ -1,0 +1,261 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "server/store/file_io.h"
+#include "server/store/schema.h"
+#include "server/store/sqlite_database.h"
+#include "server/store/sqlite_job_store.h"
+#include "tests/server/store/temporary_folder.h"
+
+namespace bccskel::server {
+namespace {
+
+using testing::ElementsAre, testing::Field, testing::HasSubstr, testing::IsEmpty;
+
+class JobStoreTest : public testing::Test {
+ protected:
+  void SetUp() override { Reopen(); }
+  void Reopen() {
+    store_.reset();
+    auto store = OpenSqliteJobStore(folder_ / "jobs.db");
+    ASSERT_TRUE(store.ok()) << store.status();
+    store_ = *std::move(store);
+  }
+  static JobRow Job(const std::string& tenant, const std::string& name) {
+    JobRow job;
+    job.tenant = tenant;
+    job.name = name;
+    job.created = Time(std::chrono::seconds(1));
+    return job;
+  }
+  int64_t Insert(const JobRow& job) {
+    const auto number = store_->InsertJob(job);
+    EXPECT_TRUE(number.ok()) << number.status();
+    return *number;
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<JobStore> store_;
+};
+
+TEST_F(JobStoreTest, KeepsEveryFieldOfAJob) {
+  JobRow job = Job("clinic", "jobs/1");
+  job.request_id = "request";
+  job.body = std::string("b\0dy", 4);
+  job.upload = "uploads/1";
+  job.options = std::string("\0\xFF", 2);
+  job.priority = -1;
+  job.threads = 3;
+  job.volume = "volumes/1";
+  job.state = JobState::kRunning;
+  job.attempts = 2;
+  job.crashes = 1;
+  job.sequence = uint64_t{5} << 32;
+  job.owner = "me";
+  job.error = absl::InternalError("why");
+  job.error.SetPayload("url", absl::Cord(std::string("\0x", 2)));
+  job.started = Time(std::chrono::microseconds(1234567));
+  job.number = Insert(job);
+  Reopen();
+  const JobRow found = **store_->FindJob("clinic", "jobs/1");
+  EXPECT_EQ(found.number, job.number);
+  EXPECT_EQ(found.request_id, job.request_id);
+  EXPECT_EQ(found.body, job.body);
+  EXPECT_EQ(found.upload, job.upload);
+  EXPECT_EQ(found.options, job.options);
+  EXPECT_EQ(found.priority, job.priority);
+  EXPECT_EQ(found.threads, job.threads);
+  EXPECT_EQ(found.created, job.created);
+  EXPECT_EQ(found.volume, job.volume);
+  EXPECT_EQ(found.state, job.state);
+  EXPECT_EQ(found.attempts, job.attempts);
+  EXPECT_EQ(found.crashes, job.crashes);
+  EXPECT_EQ(found.sequence, job.sequence);
+  EXPECT_EQ(found.owner, job.owner);
+  EXPECT_EQ(found.error, job.error);
+  EXPECT_EQ(found.started, job.started);
+  EXPECT_EQ(found.ended, std::nullopt);
+}
+
+TEST_F(JobStoreTest, NeverChangesAJobThatHasEnded) {
+  JobRow job = Job("clinic", "jobs/1");
+  job.number = Insert(job);
+  job.state = JobState::kCancelled;
+  EXPECT_TRUE(*store_->UpdateJob(job));
+  job.state = JobState::kSucceeded;
+  EXPECT_FALSE(*store_->UpdateJob(job));
+  EXPECT_EQ((*store_->FindJob("clinic", "jobs/1"))->state, JobState::kCancelled);
+}
+
+TEST_F(JobStoreTest, FindsNothingOfAnotherTenant) {
+  JobRow job = Job("clinic", "jobs/1");
+  job.request_id = "request";
+  Insert(job);
+  ASSERT_TRUE(store_
+                  ->PutVolume({.tenant = "clinic",
+                               .name = "volumes/1",
+                               .declaration = {},
+                               .blob_digest = "ab",
+                               .volume_digest = "cd",
+                               .size_bytes = 1,
+                               .created = {},
+                               .used = {}})
+                  .ok());
+  EXPECT_FALSE(store_->FindJob("other", "jobs/1")->has_value());
+  EXPECT_FALSE(store_->FindJobOfRequest("other", "request")->has_value());
+  EXPECT_FALSE(store_->FindVolume("other", "volumes/1")->has_value());
+  EXPECT_THAT(*store_->FindVolumesOf("other", "ab"), IsEmpty());
+  EXPECT_THAT(*store_->FindVolumesOf("clinic", "cd"), testing::SizeIs(1));
+  EXPECT_THAT(*store_->ListJobs("other", 1000, ~0u, 10), IsEmpty());
+}
+
+TEST_F(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
+  for (int n = 1; n <= 4; ++n) {
+    JobRow job = Job("clinic", "jobs/" + std::to_string(n));
+    if (n == 2) job.state = JobState::kFailed;
+    Insert(job);
+  }
+  const auto names = [](const std::vector<JobRow>& jobs) {
+    std::string all;
+    for (const JobRow& job : jobs) all += job.name.substr(5);
+    return all;
+  };
+  EXPECT_EQ(names(*store_->ListJobs("clinic", 1000, ~0u, 10)), "4321");
+  EXPECT_EQ(names(*store_->ListJobs("clinic", 4, ~0u, 2)), "32");
+  EXPECT_EQ(names(*store_->ListJobs("clinic", 1000, 1u << 4, 10)), "2");
+}
+
+TEST_F(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
+  ASSERT_TRUE(store_->Begin().ok());
+  ASSERT_TRUE(store_->BeginStep().ok());
+  Insert(Job("clinic", "jobs/kept"));
+  ASSERT_TRUE(store_->KeepStep().ok());
+  ASSERT_TRUE(store_->BeginStep().ok());
+  Insert(Job("clinic", "jobs/undone"));
+  ASSERT_TRUE(store_->UndoStep().ok());
+  ASSERT_TRUE(store_->Commit().ok());
+  EXPECT_TRUE(store_->FindJob("clinic", "jobs/kept")->has_value());
+  EXPECT_FALSE(store_->FindJob("clinic", "jobs/undone")->has_value());
+}
+
+TEST_F(JobStoreTest, GivesUpAResultWithItsLastJob) {
+  ResultRow result;
+  result.tenant = "clinic";
+  result.key = "key";
+  result.file = "file";
+  const int64_t number = *store_->InsertResult(result);
+  EXPECT_EQ(*store_->InsertResult(result), number) << "the same key is the same result";
+  std::vector<int64_t> jobs;
+  for (const char* name : {"jobs/1", "jobs/2"}) {
+    JobRow job = Job("clinic", name);
+    job.result = number;
+    jobs.push_back(Insert(job));
+  }
+  ASSERT_TRUE(store_->DeleteJob(jobs[0]).ok());
+  EXPECT_FALSE(store_->TakeResultIfUnused(number)->has_value());
+  ASSERT_TRUE(store_->DeleteJob(jobs[1]).ok());
+  EXPECT_EQ((*store_->TakeResultIfUnused(number))->file, "file");
+  EXPECT_FALSE(store_->FindResult(number)->has_value());
+}
+
+TEST_F(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
+  const int64_t job = Insert(Job("clinic", "jobs/1"));
+  for (uint64_t sequence : {1, 2, 3}) {
+    EventRow event;
+    event.job = job;
+    event.sequence = sequence;
+    ASSERT_TRUE(store_->InsertEvent(event).ok());
+  }
+  EXPECT_THAT(*store_->EventsAfter(job, 1),
+              ElementsAre(Field(&EventRow::sequence, 2), Field(&EventRow::sequence, 3)));
+  ASSERT_TRUE(store_->DeleteJob(job).ok());
+  EXPECT_THAT(*store_->EventsAfter(job, 0), IsEmpty());
+}
+
+TEST(SchemaTest, RefusesAFileOfANewerServer) {
+  const TemporaryFolder folder;
+  {
+    auto database = *SqliteDatabase::Open(folder / "jobs.db");
+    ASSERT_TRUE(database->Execute("PRAGMA user_version = 999").ok());
+  }
+  const auto store = OpenSqliteJobStore(folder / "jobs.db");
+  EXPECT_EQ(store.status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(store.status().message()), HasSubstr("999"));
+}
+
+TEST(SchemaTest, RefusesADamagedFile) {
+  const TemporaryFolder folder;
+  {
+    auto file = *File::OpenToWrite(folder / "jobs.db");
+    ASSERT_TRUE(file.WriteAt(0, std::string(8192, 'x')).ok());
+  }
+  EXPECT_EQ(OpenSqliteJobStore(folder / "jobs.db").status().code(), absl::StatusCode::kDataLoss);
+}
+
+// The tables of version 1 as they were, with a job and a volume.
+constexpr char kVersion1[] = R"(
+CREATE TABLE uploads(tenant TEXT NOT NULL, name TEXT NOT NULL, declaration BLOB NOT NULL,
+  size_bytes INTEGER NOT NULL, job TEXT NOT NULL, volume TEXT NOT NULL, used INTEGER NOT NULL,
+  PRIMARY KEY(tenant, name)) WITHOUT ROWID;
+CREATE TABLE volumes(tenant TEXT NOT NULL, name TEXT NOT NULL, declaration BLOB NOT NULL,
+  blob_digest TEXT NOT NULL, volume_digest TEXT NOT NULL, size_bytes INTEGER NOT NULL,
+  created INTEGER NOT NULL, used INTEGER NOT NULL, PRIMARY KEY(tenant, name)) WITHOUT ROWID;
+CREATE INDEX volumes_by_blob ON volumes(tenant, blob_digest);
+CREATE INDEX volumes_by_volume ON volumes(tenant, volume_digest);
+CREATE TABLE results(number INTEGER PRIMARY KEY AUTOINCREMENT, tenant TEXT NOT NULL,
+  key TEXT NOT NULL, file TEXT NOT NULL, file_digest TEXT NOT NULL, bytes INTEGER NOT NULL,
+  records INTEGER NOT NULL, summary BLOB NOT NULL, UNIQUE(tenant, key));
+CREATE TABLE jobs(number INTEGER PRIMARY KEY AUTOINCREMENT, tenant TEXT NOT NULL,
+  name TEXT NOT NULL, request_id TEXT NOT NULL, body BLOB NOT NULL, upload TEXT NOT NULL,
+  options BLOB NOT NULL, priority INTEGER NOT NULL, created INTEGER NOT NULL, volume TEXT NOT NULL,
+  state INTEGER NOT NULL, attempts INTEGER NOT NULL, crashes INTEGER NOT NULL,
+  sequence INTEGER NOT NULL, owner TEXT NOT NULL, error BLOB NOT NULL, result INTEGER NOT NULL,
+  started INTEGER NOT NULL, ended INTEGER NOT NULL, UNIQUE(tenant, name));
+CREATE UNIQUE INDEX jobs_by_request ON jobs(tenant, request_id) WHERE request_id != '';
+CREATE INDEX jobs_by_tenant ON jobs(tenant, number);
+CREATE INDEX jobs_unfinished ON jobs(number) WHERE state < 3;
+CREATE INDEX jobs_by_result ON jobs(result) WHERE result != 0;
+CREATE TABLE events(job INTEGER NOT NULL REFERENCES jobs(number) ON DELETE CASCADE,
+  sequence INTEGER NOT NULL, time INTEGER NOT NULL, state INTEGER NOT NULL,
+  attempt INTEGER NOT NULL, error BLOB NOT NULL, PRIMARY KEY(job, sequence)) WITHOUT ROWID;
+INSERT INTO volumes VALUES('clinic', 'volumes/1', x'01', 'ab', '', 7, 1000000, 2000000);
+INSERT INTO jobs VALUES(5, 'clinic', 'jobs/old', 'request', x'02', '', x'03', 1, 3000000,
+  'volumes/1', 1, 0, 0, 1, '', x'', 0, 0, 0);
+INSERT INTO events VALUES(5, 1, 3000000, 1, 0, x'');
+PRAGMA user_version = 1;
+)";
+
+TEST(SchemaTest, TakesOverAFileOfVersion1) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE((*SqliteDatabase::Open(folder / "jobs.db"))->Execute(kVersion1).ok());
+  const auto store = OpenSqliteJobStore(folder / "jobs.db");
+  ASSERT_TRUE(store.ok()) << store.status();
+  const JobRow job = **(*store)->FindJob("clinic", "jobs/old");
+  EXPECT_EQ(job.number, 5);
+  EXPECT_EQ(job.state, JobState::kQueued);
+  EXPECT_EQ(job.options, "\x03");
+  EXPECT_EQ(job.threads, 0);
+  EXPECT_EQ(job.created, Time(std::chrono::seconds(3)));
+  EXPECT_THAT(*(*store)->EventsAfter(5, 0), testing::SizeIs(1));
+  EXPECT_EQ((*(*store)->FindVolume("clinic", "volumes/1"))->size_bytes, 7u);
+  JobRow next;
+  next.tenant = "clinic";
+  next.name = "jobs/new";
+  next.threads = 2;
+  EXPECT_EQ(*(*store)->InsertJob(next), 6) << "numbers go on growing";
+  EXPECT_EQ((*(*store)->FindJob("clinic", "jobs/new"))->threads, 2);
+}
+
+TEST(SchemaTest, StatesTheVersionThatItWrites) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
+  auto database = *SqliteDatabase::Open(folder / "jobs.db");
+  SqliteQuery query(*database, "PRAGMA user_version");
+  ASSERT_TRUE(*query.Next());
+  EXPECT_EQ(query.Number(), SchemaVersion());
+}
+
+}  // namespace
+}  // namespace bccskel::server
