@@ -32,7 +32,7 @@ absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObje
                            Skeletonize(converted.volume, options.skeleton, context));
   Certificate& certificate = skeleton.result.certificate;
   certificate.mask = converted.mask;
-  const std::string changes = DescribeChanges(converted.mask, certificate.input);
+  const std::string changes = DescribeChanges(converted.mask, certificate.Given());
   if (changes.empty() || options.mask.sampling) return skeleton;
   return absl::InternalError("the exact conversion changed the topology: " + changes);
 }

@@ -65,11 +65,11 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
 }
 
 // Radii of a few points are searched for one by one. A search costs about as much as measuring
-// eight bricks, so for many it is cheaper to measure all; both give the same bits.
+// 24 bricks, so for many it is cheaper to measure all; both give the same bits.
 absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceField& distance,
                           const exec::Context& context) {
   if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
-  if (8 * thin.PointCount() <= object.brick_count()) return absl::OkStatus();
+  if (24 * thin.PointCount() <= object.brick_count()) return absl::OkStatus();
   distance = DistanceField(distance.kind(), distance.weights(), DistanceField::Values(), 0);
   BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, DistanceKind::kEuclidean, context));
   return absl::OkStatus();

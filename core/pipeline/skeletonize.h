@@ -22,7 +22,9 @@ struct SkeletonizeOptions {
   PreparingOptions preparing = {};
   // The symmetric method puts curves closer to the center than the paper's directions do.
   ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
-  DistanceKind distance = DistanceKind::kChamfer;  // that makes the shells
+  // That makes the shells. Straight distances center curves better than chamfer ones, and the exact
+  // radii come with them.
+  DistanceKind distance = DistanceKind::kEuclidean;
   // Not done where thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};
 };
@@ -43,14 +45,6 @@ struct SkeletonizeResult {
   std::string method;             // MethodInWords()
   std::string algorithm_version;  // kAlgorithmVersion of whoever made this
   std::string sha256;             // SkeletonDigest(graph)
-
-  // A curve skeleton of an object with cavities: they leave closed surfaces, which no curve can
-  // replace.
-  bool HasSurfacesAmongCurves() const {
-    const SkeletonKind kind = options.thinning.kind;
-    const bool curves = kind == SkeletonKind::kCurve || kind == SkeletonKind::kIsthmusCurve;
-    return curves && certificate.input.cavities > 0;
-  }
 };
 
 // The straight path of an object: preparing, distance, shells, thinning, pruning, certificate,

@@ -61,11 +61,11 @@ v1::DistanceKind ToMessage(DistanceKind kind) {
 
 absl::StatusOr<DistanceKind> FromMessage(v1::DistanceKind kind, const std::string& field) {
   switch (kind) {
-    case v1::DISTANCE_KIND_UNSPECIFIED:
     case v1::DISTANCE_KIND_CHAMFER:
       return DistanceKind::kChamfer;
     case v1::DISTANCE_KIND_CHAMFER_OPTIMAL:
       return DistanceKind::kChamferOptimal;
+    case v1::DISTANCE_KIND_UNSPECIFIED:
     case v1::DISTANCE_KIND_EUCLIDEAN:
       return DistanceKind::kEuclidean;
     default:
@@ -172,6 +172,59 @@ absl::StatusOr<TipPlacement> FromMessage(v1::TipPlacement tips, const std::strin
   }
 }
 
+absl::StatusOr<CavityFilling> FromMessage(v1::CavityFilling filling, const std::string& field) {
+  switch (filling) {
+    case v1::CAVITY_FILLING_UNSPECIFIED:
+    case v1::CAVITY_FILLING_OFF:
+      return CavityFilling::kOff;
+    case v1::CAVITY_FILLING_ON:
+      return CavityFilling::kOn;
+    default:
+      return InvalidField(field, absl::StrCat("unknown filling of cavities ", int{filling}));
+  }
+}
+
+absl::StatusOr<KeptComponents> FromMessage(v1::KeptComponents kept, const std::string& field) {
+  switch (kept) {
+    case v1::KEPT_COMPONENTS_UNSPECIFIED:
+    case v1::KEPT_COMPONENTS_ALL:
+      return KeptComponents::kAll;
+    case v1::KEPT_COMPONENTS_LARGEST:
+      return KeptComponents::kLargest;
+    default:
+      return InvalidField(field, absl::StrCat("unknown choice of components ", int{kept}));
+  }
+}
+
+v1::PreparingOptions ToMessage(const PreparingOptions& preparing) {
+  v1::PreparingOptions message;
+  message.set_denoise_passes(preparing.denoise_passes);
+  message.set_cavity_filling(preparing.cavities == CavityFilling::kOn ? v1::CAVITY_FILLING_ON
+                                                                      : v1::CAVITY_FILLING_OFF);
+  message.set_min_component_points(preparing.min_component_points);
+  message.set_min_component_volume(preparing.min_component_volume);
+  message.set_kept_components(preparing.components == KeptComponents::kLargest
+                                  ? v1::KEPT_COMPONENTS_LARGEST
+                                  : v1::KEPT_COMPONENTS_ALL);
+  return message;
+}
+
+absl::StatusOr<PreparingOptions> FromMessage(const v1::PreparingOptions& message,
+                                             const std::string& field) {
+  PreparingOptions preparing;
+  preparing.denoise_passes = message.denoise_passes();
+  preparing.min_component_points = message.min_component_points();
+  preparing.min_component_volume = message.min_component_volume();
+  BCCSKEL_ASSIGN_OR_RETURN(preparing.cavities,
+                           FromMessage(message.cavity_filling(), field + ".cavity_filling"));
+  BCCSKEL_ASSIGN_OR_RETURN(preparing.components,
+                           FromMessage(message.kept_components(), field + ".kept_components"));
+  if (absl::Status checked = CheckPreparingOptions(preparing); !checked.ok()) {
+    return InvalidField(field, std::string(checked.message()));
+  }
+  return preparing;
+}
+
 absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
                                          const std::string& field) {
   PruningOptions pruning;
@@ -219,6 +272,7 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
   message.set_tip_placement(options.pruning.tips == TipPlacement::kRidge
                                 ? v1::TIP_PLACEMENT_RIDGE
                                 : v1::TIP_PLACEMENT_AS_THINNED);
+  *message.mutable_preparing() = ToMessage(options.preparing);
   for (LatticePoint p : thinning.keep) {
     message.mutable_keep()->add_x(p.x);
     message.mutable_keep()->add_y(p.y);
@@ -241,6 +295,8 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
   BCCSKEL_ASSIGN_OR_RETURN(options.distance,
                            FromMessage(message.distance_kind(), field + ".distance_kind"));
   BCCSKEL_ASSIGN_OR_RETURN(options.pruning, PruningOf(message, field));
+  BCCSKEL_ASSIGN_OR_RETURN(options.preparing,
+                           FromMessage(message.preparing(), field + ".preparing"));
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();
   if (absl::Status checked = CheckThinningOptions(thinning); !checked.ok()) {

@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/duration.h"
+#include "proto/wire/options.h"
 #include "proto/wire/placement.h"
 
 namespace bccskel::wire {
@@ -26,6 +27,7 @@ BettiNumbers FromMessage(const v1::BettiNumbers& message) {
 void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts& facts) {
   *message->mutable_queue() = DurationMessage(facts.queued);
   *message->mutable_decode() = DurationMessage(facts.decoded);
+  *message->mutable_preparing() = DurationMessage(timings.preparing);
   *message->mutable_distance() = DurationMessage(timings.distance);
   *message->mutable_shells() = DurationMessage(timings.shells);
   *message->mutable_thinning() = DurationMessage(timings.thinning);
@@ -37,7 +39,8 @@ void Set(v1::StageTimings* message, const StageTimings& timings, const JobFacts&
 }
 
 StageTimings FromMessage(const v1::StageTimings& message) {
-  return {.distance = NanosecondsOf(message.distance()),
+  return {.preparing = NanosecondsOf(message.preparing()),
+          .distance = NanosecondsOf(message.distance()),
           .shells = NanosecondsOf(message.shells()),
           .thinning = NanosecondsOf(message.thinning()),
           .cleanup = NanosecondsOf(message.cleanup()),
@@ -45,6 +48,56 @@ StageTimings FromMessage(const v1::StageTimings& message) {
           .certificate = NanosecondsOf(message.certificate()),
           .graph = NanosecondsOf(message.graph()),
           .total = NanosecondsOf(message.total())};
+}
+
+v1::PreparingStepKind ToMessage(PreparingStepKind kind) {
+  switch (kind) {
+    case PreparingStepKind::kDenoise:
+      return v1::PREPARING_STEP_KIND_DENOISE;
+    case PreparingStepKind::kFillCavities:
+      return v1::PREPARING_STEP_KIND_FILL_CAVITIES;
+    case PreparingStepKind::kDropSmallComponents:
+      return v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS;
+    case PreparingStepKind::kKeepLargestComponent:
+      return v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT;
+  }
+  return v1::PREPARING_STEP_KIND_UNSPECIFIED;
+}
+
+absl::StatusOr<PreparingStepKind> FromMessage(v1::PreparingStepKind kind) {
+  switch (kind) {
+    case v1::PREPARING_STEP_KIND_DENOISE:
+      return PreparingStepKind::kDenoise;
+    case v1::PREPARING_STEP_KIND_FILL_CAVITIES:
+      return PreparingStepKind::kFillCavities;
+    case v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS:
+      return PreparingStepKind::kDropSmallComponents;
+    case v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT:
+      return PreparingStepKind::kKeepLargestComponent;
+    default:
+      return absl::DataLossError(
+          absl::StrCat("the summary has a preparing step of kind ", int{kind}));
+  }
+}
+
+void Set(v1::PreparingStep* message, const PreparingStep& step) {
+  message->set_kind(ToMessage(step.kind));
+  message->set_count(step.count);
+  message->set_points_added(step.points_added);
+  message->set_points_removed(step.points_removed);
+}
+
+absl::StatusOr<PreparingStep> FromMessage(const v1::PreparingStep& message) {
+  BCCSKEL_ASSIGN_OR_RETURN(const PreparingStepKind kind, FromMessage(message.kind()));
+  return PreparingStep{kind, message.count(), message.points_added(), message.points_removed()};
+}
+
+// A server that is newer may have options that this client does not know.
+absl::StatusOr<SkeletonizeOptions> OptionsOf(const v1::SkeletonSummary& message) {
+  absl::StatusOr<SkeletonizeOptions> options =
+      wire::FromMessage(message.options(), "summary.options");
+  if (options.ok()) return options;
+  return absl::DataLossError(std::string(options.status().message()));
 }
 
 }  // namespace
@@ -55,13 +108,18 @@ v1::Certificate ToMessage(const Certificate& certificate) {
   Set(message.mutable_skeleton(), certificate.skeleton);
   message.set_simple_points_left(certificate.simple_points_left);
   if (certificate.mask.has_value()) Set(message.mutable_mask(), *certificate.mask);
+  if (certificate.unprepared.has_value()) {
+    Set(message.mutable_unprepared(), *certificate.unprepared);
+  }
   return message;
 }
 
 Certificate FromMessage(const v1::Certificate& message) {
-  std::optional<BettiNumbers> mask;
+  std::optional<BettiNumbers> mask, unprepared;
   if (message.has_mask()) mask = FromMessage(message.mask());
+  if (message.has_unprepared()) unprepared = FromMessage(message.unprepared());
   return {.mask = mask,
+          .unprepared = unprepared,
           .input = FromMessage(message.input()),
           .skeleton = FromMessage(message.skeleton()),
           .simple_points_left = message.simple_points_left()};
@@ -103,6 +161,8 @@ v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& f
   message.set_algorithm_version(facts.algorithm_version);
   message.set_method(facts.method);
   message.set_threads(facts.threads);
+  *message.mutable_options() = wire::ToMessage(result.options);
+  for (const PreparingStep& step : result.preparing) Set(message.add_preparing(), step);
   return message;
 }
 
@@ -129,6 +189,11 @@ absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message
   result.skeleton_points = message.skeleton_points();
   result.last_shell = message.last_shell();
   result.method = message.method();
+  result.algorithm_version = message.algorithm_version();
+  BCCSKEL_ASSIGN_OR_RETURN(result.options, OptionsOf(message));
+  for (const v1::PreparingStep& step : message.preparing()) {
+    BCCSKEL_ASSIGN_OR_RETURN(result.preparing.emplace_back(), FromMessage(step));
+  }
   result.sha256 = absl::BytesToHexString(message.sha256());
   return result;
 }

@@ -81,6 +81,31 @@ TEST(OptionsRoundTrip, KeepsPruning) {
   }
 }
 
+TEST(OptionsRoundTrip, KeepsPreparing) {
+  for (CavityFilling cavities : {CavityFilling::kOff, CavityFilling::kOn}) {
+    for (KeptComponents components : {KeptComponents::kAll, KeptComponents::kLargest}) {
+      const PreparingOptions preparing = {.denoise_passes = 3,
+                                          .cavities = cavities,
+                                          .min_component_points = uint64_t{1} << 40,
+                                          .min_component_volume = 2.5,
+                                          .components = components};
+      const auto back =
+          FromMessage(ToMessage(SkeletonizeOptions{.preparing = preparing}), "options");
+      ASSERT_TRUE(back.ok()) << back.status();
+      EXPECT_EQ(back->preparing, preparing);
+    }
+  }
+}
+
+TEST(Options, RefusePreparingOutOfRange) {
+  v1::SkeletonizeOptions message;
+  message.mutable_preparing()->set_denoise_passes(17);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.preparing");
+  message.Clear();
+  message.mutable_preparing()->set_min_component_volume(-1);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.preparing");
+}
+
 TEST(Options, RefusePruningByNoLength) {
   v1::SkeletonizeOptions message;
   message.set_pruning_rule(v1::PRUNING_RULE_LENGTH);
@@ -100,6 +125,7 @@ TEST(Options, AnEmptyMessageMeansTheDefaults) {
   EXPECT_TRUE(options->thinning.keep.empty());
   EXPECT_EQ(options->distance, SkeletonizeOptions().distance);
   EXPECT_EQ(options->pruning, PruningOptions());
+  EXPECT_EQ(options->preparing, PreparingOptions());
 }
 
 TEST(Options, RefusesEnumeratorsFromTheFuture) {
@@ -124,6 +150,14 @@ TEST(Options, RefusesEnumeratorsFromTheFuture) {
   message.Clear();
   message.set_tip_placement(static_cast<v1::TipPlacement>(99));
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.tip_placement");
+  message.Clear();
+  message.mutable_preparing()->set_cavity_filling(static_cast<v1::CavityFilling>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()),
+            "options.preparing.cavity_filling");
+  message.Clear();
+  message.mutable_preparing()->set_kept_components(static_cast<v1::KeptComponents>(99));
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()),
+            "options.preparing.kept_components");
 }
 
 TEST(Options, RefusesColumnsOfDifferentLengths) {

@@ -1,0 +1,76 @@
+#include "core/pipeline/notes.h"
+
+#include "absl/strings/str_format.h"
+
+namespace bccskel {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+bool MakesCurves(SkeletonKind kind) {
+  return kind == SkeletonKind::kCurve || kind == SkeletonKind::kIsthmusCurve;
+}
+
+std::string Counted(int64_t count, const char* one, const char* many) {
+  return absl::StrFormat("%d %s", count, count == 1 ? one : many);
+}
+
+void AddCavities(const SkeletonizeResult& result, Notes& notes) {
+  const int64_t cavities = result.certificate.input.cavities;
+  if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
+  notes.push_back(
+      Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
+      " among the curves; --fill-cavities (PreparingOptions.cavity_filling) fills "
+      "cavities before thinning");
+}
+
+void AddPreparing(const SkeletonizeResult& result, Notes& notes) {
+  const BettiNumbers &before = result.certificate.Given(), &after = result.certificate.input;
+  if (result.object_points == 0 && !result.preparing.empty() && before != BettiNumbers()) {
+    notes.push_back("nothing is left of the object after preparing");
+    return;
+  }
+  if (before == after) return;
+  notes.push_back(absl::StrFormat(
+      "preparing changed the topology: components %d -> %d, loops %d -> %d, cavities %d -> %d",
+      before.components, after.components, before.loops, after.loops, before.cavities,
+      after.cavities));
+}
+
+void AddSimplePoints(const SkeletonizeResult& result, Notes& notes) {
+  const ThinningOptions& thinning = result.options.thinning;
+  const uint64_t left = result.certificate.simple_points_left;
+  if (left == 0) return;
+  const char* why = thinning.last_shell > 0 ? "thinning was told to stop at a shell"
+                    : thinning.cleanup == ThinnessCleanup::kOff ? "the clean-up was turned off"
+                                                                : "they were not removed";
+  notes.push_back(
+      absl::StrFormat("%d simple %s left: %s", left, left == 1 ? "point is" : "points are", why));
+}
+
+}  // namespace
+
+std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
+  Notes notes;
+  AddPreparing(result, notes);
+  AddCavities(result, notes);
+  AddSimplePoints(result, notes);
+  return notes;
+}
+
+std::string WordsFor(const PreparingStep& step) {
+  const auto count = static_cast<int64_t>(step.count);
+  switch (step.kind) {
+    case PreparingStepKind::kDenoise:
+      return "denoised in " + Counted(count, "pass", "passes");
+    case PreparingStepKind::kFillCavities:
+      return Counted(count, "cavity", "cavities") + " filled";
+    case PreparingStepKind::kDropSmallComponents:
+      return Counted(count, "small component", "small components") + " dropped";
+    case PreparingStepKind::kKeepLargestComponent:
+      return Counted(count, "component", "components") + " dropped beside the largest";
+  }
+  return "";
+}
+
+}  // namespace bccskel

@@ -1,0 +1,70 @@
+#ifndef BCCSKEL_CORE_SKELETON_TREE_ORDER_H_
+#define BCCSKEL_CORE_SKELETON_TREE_ORDER_H_
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/lattice/lattice_point.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel {
+
+// Where the tree of each component begins.
+struct RootChoice {
+  enum class Rule : uint8_t {
+    // The end whose edge has the largest mean radius; in a component without ends its deepest node.
+    kThickestEnd,
+    // The node nearest to `point`, for each component.
+    kNearestNode,
+    // `node` in its own component, the thickest end in the others.
+    kNode,
+  };
+  Rule rule = Rule::kThickestEnd;
+  WorldPoint point = {0, 0, 0};
+  uint32_t node = 0;
+
+  friend bool operator==(const RootChoice&, const RootChoice&) = default;
+};
+
+// Errors: INVALID_ARGUMENT for a node that the graph has not.
+absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& graph);
+
+inline constexpr uint32_t kNoRow = std::numeric_limits<uint32_t>::max();
+
+struct NodeOrder {
+  uint32_t root = 0;         // of its component
+  uint32_t parent = kNoRow;  // the next node on the way to the root; none for a root
+  double root_distance = 0;  // along the edges, world units
+};
+
+// An edge that closes a loop has no place in a tree: no proximal node, generation and order.
+struct EdgeOrder {
+  uint32_t proximal = kNoRow;  // which of its nodes is nearer to the root
+  uint32_t generation = 0;     // forks between the root and the edge; 0 for the root's own edges
+  uint32_t strahler = 0;       // 1 for an edge to a leaf; one more where two of the highest meet
+
+  bool ClosesLoop() const { return proximal == kNoRow; }
+};
+
+// The graph as trees, seen from their roots.
+struct TreeOrder {
+  std::vector<uint32_t> roots;   // by component, in the order of ComponentsOf()
+  std::vector<NodeOrder> nodes;  // by node
+  std::vector<EdgeOrder> edges;  // by edge
+  uint64_t loops_cut = 0;        // edges that close loops
+
+  uint32_t MostGenerations() const;
+  uint32_t HighestStrahler() const;
+};
+
+// Does:  follows the shortest ways from the roots; edges on none of them close loops and are left
+//        out, so every component is a tree. Of ways of one length that with the smaller edge is
+//        taken.
+// Needs: CheckRootChoice() is OK.
+TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_TREE_ORDER_H_
