@@ -70,6 +70,39 @@ Volume DeeperThan(int32_t shell, const Volume& object, const DistanceField& dist
                                   std::move(bricks));
 }
 
+// The points of the shells after this one.
+Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
+                 const PeeledShells& shells) {
+  VolumeBuilder builder(object.extent(), object.placement());
+  for (const auto& [number, points] : shells) {
+    if (number <= shell || number > last_shell) continue;
+    for (size_t n = 0; n < points.brick_count(); ++n) {
+      BrickBits& brick = builder.Brick(points.keys()[n]);
+      for (size_t w = 0; w < brick.words.size(); ++w) brick.words[w] |= points.bricks()[n].words[w];
+    }
+  }
+  absl::StatusOr<Volume> later = std::move(builder).Build();
+  return later.ok() ? *std::move(later) : Volume();
+}
+
+// `later(shell)` is what is left when that many shells are gone.
+absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
+                                   const std::function<Volume(int32_t)>& later,
+                                   const PeelingLimits& limits, const exec::Context& context) {
+  Peeling peeling = {.layers = {}, .last_shell = last_shell};
+  BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
+                           MakeDisplaySurface(object, limits.object_triangles, context));
+  peeling.layers.push_back({0, std::move(whole)});
+  const int32_t layers = std::min(limits.layers, last_shell - 1);
+  for (int32_t n = 1; n <= layers; ++n) {
+    const int32_t shell = n * (last_shell - 1) / layers;
+    BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface surface,
+                             MakeDisplaySurface(later(shell), limits.layer_triangles, context));
+    peeling.layers.push_back({shell, std::move(surface)});
+  }
+  return peeling;
+}
+
 }  // namespace
 
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
@@ -82,22 +115,18 @@ absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t m
 
 absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,
                                        const exec::Context& context) {
-  Peeling peeling;
-  BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
-                           MakeDisplaySurface(object, limits.object_triangles, context));
-  peeling.layers.push_back({0, std::move(whole)});
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                            ComputeDistance(object, DistanceKind::kChamfer, context));
-  peeling.last_shell = ShellOf(distance.largest(), distance.weights(), kShellWidth);
-  const int32_t layers = std::min(limits.layers, peeling.last_shell - 1);
-  for (int32_t n = 1; n <= layers; ++n) {
-    const int32_t shell = n * (peeling.last_shell - 1) / layers;
-    BCCSKEL_ASSIGN_OR_RETURN(
-        DisplaySurface surface,
-        MakeDisplaySurface(DeeperThan(shell, object, distance), limits.layer_triangles, context));
-    peeling.layers.push_back({shell, std::move(surface)});
-  }
-  return peeling;
+  const int32_t last_shell = ShellOf(distance.largest(), distance.weights(), kShellWidth);
+  const auto later = [&](int32_t shell) { return DeeperThan(shell, object, distance); };
+  return PeelLayers(object, last_shell, later, limits, context);
+}
+
+absl::StatusOr<Peeling> PeelByShells(const Volume& object, const PeeledShells& shells,
+                                     int32_t last_shell, const PeelingLimits& limits,
+                                     const exec::Context& context) {
+  const auto later = [&](int32_t shell) { return GoneAfter(shell, last_shell, object, shells); };
+  return PeelLayers(object, last_shell, later, limits, context);
 }
 
 }  // namespace bccskel::view

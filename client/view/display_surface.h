@@ -2,6 +2,9 @@
 #define BCCSKEL_CLIENT_VIEW_DISPLAY_SURFACE_H_
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -30,7 +33,7 @@ struct Peeled {
 };
 
 struct PeelingLimits {
-  size_t object_triangles = 150'000;
+  size_t object_triangles = 100'000;
   size_t layer_triangles = 20'000;
   int32_t layers = 20;
 };
@@ -40,10 +43,21 @@ struct Peeling {
   int32_t last_shell = 0;
 };
 
-// The object and a choice of its layers, evenly spread. Shells are one lattice unit thick.
+// The object and a choice of its layers, evenly spread, by the distance to the background. Shells
+// are one lattice unit thick.
 // Errors: those of ExtractSurface().
 absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,
                                        const exec::Context& context);
+
+// The points that went with each shell when the object was thinned.
+using PeeledShells = std::map<int32_t, Volume>;
+
+// The same by the shells of a thinning: a layer is what went later. `last_shell` is the object's
+// deepest; what went after it is no part of a layer.
+// Errors: those of ExtractSurface().
+absl::StatusOr<Peeling> PeelByShells(const Volume& object, const PeeledShells& shells,
+                                     int32_t last_shell, const PeelingLimits& limits,
+                                     const exec::Context& context);
 
 }  // namespace bccskel::view
 

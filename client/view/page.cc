@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The cube that all surfaces lie in, and its 65,535 steps.
+// The cube that everything lies in, and its 65,535 steps.
 struct Quantizer {
   WorldPoint low;
   double step;
@@ -26,18 +26,38 @@ struct Quantizer {
   }
 };
 
-Quantizer QuantizerFor(const DisplaySurface& outermost) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  WorldPoint low = {kInfinity, kInfinity, kInfinity}, high = {-kInfinity, -kInfinity, -kInfinity};
-  for (const WorldPoint& v : outermost.vertices) {
+// Empty where `low` is not below `high`.
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  WorldPoint low = {kInfinity, kInfinity, kInfinity};
+  WorldPoint high = {-kInfinity, -kInfinity, -kInfinity};
+
+  void Include(const WorldPoint& p, double around) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], v[axis]);
-      high[axis] = std::max(high[axis], v[axis]);
+      low[axis] = std::min(low[axis], p[axis] - around);
+      high[axis] = std::max(high[axis], p[axis] + around);
     }
   }
-  if (outermost.vertices.empty()) return {{0, 0, 0}, 1};
+};
+
+Box BoxOf(const PageContent& content) {
+  Box box;
+  for (const ResultDocument::Node& node : content.result.nodes) {
+    box.Include(node.position, node.radius);
+  }
+  for (const ResultDocument::Edge& edge : content.result.edges) {
+    for (size_t n = 0; n < edge.points.size(); ++n) box.Include(edge.points[n], edge.radii[n]);
+  }
+  if (content.peeling.layers.empty()) return box;
+  for (const WorldPoint& v : content.peeling.layers.front().surface.vertices) box.Include(v, 0);
+  return box;
+}
+
+Quantizer QuantizerFor(Box box) {
+  if (!(box.low[0] <= box.high[0])) return {{0, 0, 0}, 1};
+  WorldPoint& low = box.low;
   double edge = 0;
-  for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, high[axis] - low[axis]);
+  for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, box.high[axis] - low[axis]);
   // A margin, since smoothed inner layers of thin objects may poke out of the outermost.
   const double margin = edge / 64;
   for (double& coordinate : low) coordinate -= margin;
@@ -64,7 +84,7 @@ absl::StatusOr<Json> SurfaceJson(const Peeled& layer, const Quantizer& quantize)
 }
 
 absl::StatusOr<Json> DataOf(const PageContent& content) {
-  const Quantizer quantize = QuantizerFor(content.peeling.layers.front().surface);
+  const Quantizer quantize = QuantizerFor(BoxOf(content));
   Json data = {{"title", content.title},
                {"low", quantize.low},
                {"step", quantize.step},
@@ -75,6 +95,16 @@ absl::StatusOr<Json> DataOf(const PageContent& content) {
     data["layers"].push_back(std::move(surface));
   }
   return data;
+}
+
+// What the page shows of a document.
+std::string ShownOf(const std::string& document) {
+  Json result = Json::parse(document, nullptr, /*allow_exceptions=*/false);
+  result.erase("timings");
+  for (Json& edge : result["edges"]) {
+    if (edge.contains("curve")) edge.erase("points");
+  }
+  return result.dump();
 }
 
 // JSON inside of a script element: no text in it may end the element.
@@ -100,8 +130,8 @@ absl::StatusOr<std::string> PageOf(const PageContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(const Json data, DataOf(content));
   std::string page(kPageFrame);
   // From the end to the start, so that no mark is looked for in what was put in.
-  Replace(page, "{{viewer}}", kViewerScript);
-  Replace(page, "{{result}}", InScript(content.result.text));
+  Replace(page, "{{viewer}}", kViewerScripts);
+  Replace(page, "{{result}}", InScript(ShownOf(content.result.text)));
   Replace(page, "{{data}}",
           InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace)));
   Replace(page, "{{controls}}", kOrbitControls);

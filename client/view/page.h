@@ -12,12 +12,13 @@ namespace bccskel::view {
 struct PageContent {
   std::string title;  // plain text, UTF-8 or not
   const ResultDocument& result;
-  const Peeling& peeling;
+  const Peeling& peeling;  // without layers: the skeleton alone
 };
 
 // A self-contained page that a browser opens without a network: the object as tinted glass, its
-// skeleton, and a slider that peels it. Equal contents give equal bytes. Surfaces are quantized to
-// 16 bits across the object; the skeleton is the document itself.
+// skeleton, a slider that peels it and one that prunes it. Equal skeletons give equal bytes.
+// Surfaces are quantized to 16 bits across the object; the skeleton is the document itself, without
+// its timings and, where there are smooth curves, without the lattice points below them.
 // Errors: RESOURCE_EXHAUSTED.
 absl::StatusOr<std::string> PageOf(const PageContent& content);
 

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
 #include <utility>
 
+#include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
 
 namespace bccskel::view {
@@ -52,6 +54,25 @@ TEST(PeelForDisplayTest, LayersShrinkFromTheWholeToTheLastShell) {
     EXPECT_GT(peeling.layers[n].shells, peeling.layers[n - 1].shells);
     EXPECT_LT(EnclosedBy(peeling.layers[n].surface), EnclosedBy(peeling.layers[n - 1].surface));
     EXPECT_GT(EnclosedBy(peeling.layers[n].surface), 0);
+  }
+}
+
+TEST(PeelByShellsTest, ALayerIsWhatGoesLater) {
+  const Volume ball = Ball();
+  PeeledShells shells;
+  const auto keep = [&](int32_t shell, Volume points) { shells[shell] = std::move(points); };
+  const SkeletonizeResult result = *Skeletonize(ball, {}, {}, keep);
+  const PeelingLimits limits = {.layer_triangles = 1'000'000, .layers = 6};
+  const Peeling peeling = *PeelByShells(ball, shells, result.last_shell, limits, {});
+  ASSERT_EQ(peeling.layers.size(), 7u);
+  EXPECT_EQ(peeling.last_shell, result.last_shell);
+  for (const auto& [shells_off, surface] : std::span(peeling.layers).subspan(1)) {
+    double points = 0;
+    for (const auto& [shell, gone] : shells) {
+      if (shell > shells_off) points += static_cast<double>(gone.PointCount());
+    }
+    // Two points to a cubic cell. The surface of a small rest is smoothed a good deal.
+    EXPECT_NEAR(EnclosedBy(surface) * 2, points, 0.25 * points + 20) << shells_off;
   }
 }
 

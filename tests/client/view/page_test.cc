@@ -31,6 +31,18 @@ TEST(PageTest, IsWholeAndAsksForNothingElse) {
   }
 }
 
+TEST(PageTest, ShowsTheSkeletonAloneWhereThereIsNoObject) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTree);
+  const auto result = ParseResultDocument(exporting::JsonText(sample.result));
+  const std::string page = *PageOf({"alone", *result, {}});
+  EXPECT_THAT(page, HasSubstr("\"layers\":[]"));
+  EXPECT_THAT(page, HasSubstr("</html>"));
+}
+
+TEST(PageTest, OfAnEmptyObjectIsThere) {
+  EXPECT_THAT(PageFor(exporting::Sample(), "nothing"), HasSubstr("</html>"));
+}
+
 TEST(PageTest, CarriesTheLicenseOfThreeJs) {
   const std::string page = PageFor(exporting::SampleOf(Shape::kTorus), "");
   EXPECT_THAT(page, HasSubstr("The MIT License"));

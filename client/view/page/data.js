@@ -1,0 +1,48 @@
+"use strict";
+
+// Shows what the two JSON elements hold: `data` the surfaces, packed by packed_numbers.h, and
+// `result` the skeleton, as client/export/skeleton.schema.json says.
+// The scripts share one scope and run in the order data, skeleton, scene, panel.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const result = JSON.parse(document.getElementById("result").textContent);
+const root = document.documentElement;
+const element = (id) => document.getElementById(id);
+window.addEventListener("error", () => { root.dataset.state = "failed"; });
+window.addEventListener("unhandledrejection", () => { root.dataset.state = "failed"; });
+
+async function unpack(text, count) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const packed = new Uint8Array(await new Response(inflated).arrayBuffer());
+  const numbers = new Uint32Array(count);
+  for (let n = 0, at = 0, value = 0; n < count; ++n) {
+    let zigzag = 0, unit = 1, byte;
+    do {
+      byte = packed[at++];
+      zigzag += (byte & 127) * unit;
+      unit *= 128;
+    } while (byte & 128);
+    numbers[n] = value += zigzag % 2 ? -(zigzag + 1) / 2 : zigzag / 2;
+  }
+  return numbers;
+}
+
+// The scene is the world, moved and scaled so that the cube around everything has edges of 1.
+const edge = 65535 * data.step;
+const toScene = (p) => p.map((v, axis) => (v - data.low[axis]) / edge);
+
+async function surfaceGeometry(layer) {
+  const [steps, corners] = await Promise.all(
+    [unpack(layer.coordinates, 3 * layer.vertices), unpack(layer.corners, 3 * layer.triangles)]);
+  const positions = new Float32Array(3 * layer.vertices);
+  for (let n = 0; n < positions.length; ++n) {
+    positions[n] = steps[(n % 3) * layer.vertices + (n - n % 3) / 3] / 65535;
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setIndex(new THREE.BufferAttribute(corners, 1));
+  geometry.computeVertexNormals();
+  geometry.computeBoundingBox();
+  return geometry;
+}
