@@ -1,0 +1,57 @@
+"""What docker/ sets up is what the server takes and tells."""
+
+import json
+import re
+import unittest
+
+import yaml
+
+from server_process import SOURCE, run_to_end
+
+DOCKER = SOURCE / "docker"
+
+
+def server_arguments():
+    """The server's flags, by the file that gives them."""
+    compose = yaml.safe_load((DOCKER / "compose.yaml").read_text())
+    yield "compose.yaml", compose["services"]["server"]["command"]
+    for name in ("base/deployment.yaml", "durable/keep-jobs.yaml"):
+        deployment = yaml.safe_load((DOCKER / "kubernetes" / name).read_text())
+        containers = deployment["spec"]["template"]["spec"]["containers"]
+        yield name, next(c["args"] for c in containers if c["name"] == "server")
+    command = re.search(r"^CMD (\[.*\])$", (DOCKER / "Dockerfile").read_text(), re.MULTILINE)
+    yield "Dockerfile", json.loads(command[1])
+    unit = (DOCKER / "bccskel-server.service").read_text()
+    yield "bccskel-server.service", re.search(r"^ExecStart=\S+ (.*)$", unit, re.MULTILINE)[1].split()
+
+
+def named_metrics():
+    """Names of metrics, by the file that reads them; of a histogram's series the histogram's."""
+    for path in (DOCKER / "prometheus/alerts.yml", DOCKER / "grafana/bccskel.json",
+                 DOCKER / "kubernetes/base/autoscaler.yaml"):
+        for name in set(re.findall(r"\b(?:bccskel|process)_[a-z_]+\b", path.read_text())):
+            yield path.name, re.sub(r"_bucket$", "", name)
+
+
+class DeploymentTest(unittest.TestCase):
+    def test_the_server_takes_the_flags_of_every_deployment(self):
+        for name, arguments in server_arguments():
+            with self.subTest(name):
+                ended = run_to_end("--check-config", *arguments)
+                self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_alerts_dashboard_and_autoscaler_read_metrics_that_there_are(self):
+        sources = "".join(path.read_text() for path in (SOURCE / "server/metrics").glob("*.cc"))
+        told = set(re.findall(r'"((?:bccskel|process)_[a-z_]+)"', sources))
+        for name, metric in named_metrics():
+            self.assertIn(metric, told, f"in {name}")
+
+    def test_both_kinds_of_pod_mount_what_nginx_and_server_share(self):
+        base = yaml.safe_load((DOCKER / "kubernetes/base/deployment.yaml").read_text())
+        for container in base["spec"]["template"]["spec"]["containers"]:
+            mounts = {mount["name"]: mount["mountPath"] for mount in container["volumeMounts"]}
+            self.assertEqual(mounts["socket"], "/run/bccskel")
+
+
+if __name__ == "__main__":
+    unittest.main()
