@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "core/exec/context.h"
+#include "core/lattice/lattice_point.h"
 #include "core/mask/mask_grid.h"
 #include "core/pipeline/skeletonize.h"
 
@@ -28,6 +30,10 @@ struct CallOptions {
   std::stop_token stop = {};
   // Called between reads on the calling thread; after a retry the shells begin anew.
   std::function<void(const exec::ShellProgress&)> on_shell = {};
+  // Where given, the server sends the points that go with each shell, as the core tells them: the
+  // shells in order, a large one in several parts; then, as shell `last_shell + 1`, what cleaning
+  // up and pruning take. Lossless; called as on_shell is.
+  std::function<void(int32_t shell, std::span<const LatticePoint>)> on_shell_points = {};
 };
 
 // Everything about one call for labels but the volume.

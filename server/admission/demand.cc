@@ -13,13 +13,16 @@ uint64_t PipelineBytes(uint64_t bricks) {
 
 }  // namespace
 
-uint64_t BytesToSkeletonize(const VolumeHeader& declared, uint64_t size_bytes) {
-  return SaturatingAdd(SaturatingAdd(declared.DecodingBytes(size_bytes), kFixedJobBytes),
-                       PipelineBytes(declared.max_bricks));
+uint64_t BytesToSkeletonize(const VolumeHeader& declared, uint64_t size_bytes,
+                            ShellPointsWanted shell_points) {
+  const uint64_t received = SaturatingAdd(declared.DecodingBytes(size_bytes), kFixedJobBytes);
+  return SaturatingAdd(SaturatingAdd(received, PipelineBytes(declared.max_bricks)),
+                       ShellPointsBytes(shell_points, declared.max_bricks));
 }
 
-uint64_t BytesToSkeletonize(const Volume& volume) {
-  return kFixedJobBytes + PipelineBytes(volume.brick_count());
+uint64_t BytesToSkeletonize(const Volume& volume, ShellPointsWanted shell_points) {
+  return kFixedJobBytes + PipelineBytes(volume.brick_count()) +
+         ShellPointsBytes(shell_points, volume.brick_count());
 }
 
 int ThreadsFor(uint64_t bricks, int wanted, int threads) {

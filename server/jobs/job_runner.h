@@ -15,6 +15,7 @@
 #include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
+#include "server/admission/demand.h"
 #include "server/admission/label_demand.h"
 #include "server/jobs/job_origin.h"
 
@@ -34,7 +35,8 @@ struct JobRequest {
   uint64_t size_bytes = 0;  // of the encoded volume
   SkeletonizeOptions options;
   std::optional<VolumeEncoding> thin_volume;  // how to encode the thinned volume, if it is wanted
-  int threads_wanted = 0;                     // 0 leaves it to the server
+  ShellPointsWanted shell_points = ShellPointsWanted::kNone;
+  int threads_wanted = 0;  // 0 leaves it to the server
   exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
 };
 
@@ -68,6 +70,9 @@ class JobListener : public UploadListener {
   virtual void OnVolume(const Volume&) {}
   // `elapsed` since the computation began.
   virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
+  // A serialized v1.ShellPoints, where they are wanted. The job has reserved the memory for all of
+  // them, so they may be kept until the result is let go of.
+  virtual void OnShellPoints(std::string) {}
   // Exactly once, whatever happens.
   virtual void OnEnd(absl::StatusOr<JobResult> result) = 0;
 };

@@ -46,6 +46,19 @@ absl::StatusOr<std::optional<VolumeEncoding>> ThinVolumeOf(v1::ThinVolumeReturn 
   }
 }
 
+absl::StatusOr<ShellPointsWanted> ShellPointsOf(v1::ShellPointsReturn shell_points) {
+  switch (shell_points) {
+    case v1::SHELL_POINTS_RETURN_UNSPECIFIED:
+    case v1::SHELL_POINTS_RETURN_OMIT:
+      return ShellPointsWanted::kNone;
+    case v1::SHELL_POINTS_RETURN_ALL:
+      return ShellPointsWanted::kAll;
+    default:
+      return InvalidField("config.shell_points_return",
+                          absl::StrCat("unknown ", int{shell_points}));
+  }
+}
+
 // The compression whose decoder needs the most memory stands for those that a volume's own bytes
 // name later.
 VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
@@ -123,6 +136,7 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   request.size_bytes = config.volume().size_bytes();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
+  BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));
   BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));
   request.threads_wanted = config.threads();
   return request;

@@ -38,6 +38,11 @@ std::optional<v1::SkeletonizeResponse> ResponseOutbox::Next() {
     *response.mutable_shell_progress() = *std::exchange(progress_, std::nullopt);
     return response;
   }
+  if (!shell_points_.empty()) {
+    response.mutable_shell_points()->ParseFromString(shell_points_.front());
+    shell_points_.pop_front();
+    return response;
+  }
   return NextOfResult();
 }
 

@@ -1,8 +1,10 @@
 #ifndef BCCSKEL_SERVER_SERVICE_RESPONSE_OUTBOX_H_
 #define BCCSKEL_SERVER_SERVICE_RESPONSE_OUTBOX_H_
 
+#include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "proto/wire/skeleton_chunks.h"
@@ -14,11 +16,14 @@ namespace bccskel::server {
 v1::SkeletonizeAccepted AcceptedFor(const std::string& job);
 
 // What is still to be sent on a stream. Memory is bounded however slowly the caller reads: of the
-// progress only the latest is kept, and a result is cut into responses one at a time.
+// progress only the latest is kept, points of shells wait in the memory that their job has reserved
+// for them, and a result is cut into responses one at a time.
 class ResponseOutbox {
  public:
   void Accept(const std::string& job) { accepted_ = AcceptedFor(job); }
   void Report(v1::ShellProgress progress) { progress_ = std::move(progress); }
+  // A serialized v1.ShellPoints.
+  void Peel(std::string points) { shell_points_.push_back(std::move(points)); }
   void Complete(JobResult result);
 
   // The next response, if there is one now.
@@ -28,7 +33,8 @@ class ResponseOutbox {
   bool AtEnd() const { return stage_ == Stage::kEnd; }
   // A piece of the result, on which another one follows.
   static bool IsPiece(const v1::SkeletonizeResponse& response) {
-    return response.has_skeleton_chunk() || response.has_thin_volume_chunk();
+    return response.has_skeleton_chunk() || response.has_thin_volume_chunk() ||
+           response.has_shell_points();
   }
 
  private:
@@ -40,6 +46,7 @@ class ResponseOutbox {
 
   std::optional<v1::SkeletonizeAccepted> accepted_;
   std::optional<v1::ShellProgress> progress_;
+  std::deque<std::string> shell_points_;
   Stage stage_ = Stage::kJob;
   JobResult result_;
   std::optional<wire::SkeletonChunkPager> pager_;  // over result_

@@ -38,6 +38,18 @@ TEST(ResponseOutbox, KeepsOfTheProgressOnlyTheLatest) {
   EXPECT_FALSE(outbox.Next().has_value());
 }
 
+TEST(ResponseOutbox, KeepsAllPointsOfShellsAndSendsThemBeforeTheResult) {
+  ResponseOutbox outbox;
+  v1::ShellPoints points;
+  for (int shell = 1; shell <= 3; ++shell) {
+    points.set_shell(shell);
+    outbox.Peel(points.SerializeAsString());
+  }
+  outbox.Complete(TorusResult(0));
+  for (int shell = 1; shell <= 3; ++shell) EXPECT_EQ(outbox.Next()->shell_points().shell(), shell);
+  EXPECT_TRUE(outbox.Next()->has_skeleton_chunk());
+}
+
 TEST(ResponseOutbox, CutsTheResultOnePieceAtATime) {
   constexpr size_t kThinBytes = 600'000, kMaxPiece = 256 * 1024;
   ResponseOutbox outbox;
