@@ -106,6 +106,11 @@ absl::Status Admission::Grow(const Ticket& ticket, uint64_t bytes) {
   return Take(ticket.tenant_, {.bytes = bytes - ticket.bytes(), .places = 0});
 }
 
+void Admission::SetTenants(const TenantTable& tenants) {
+  std::lock_guard lock(mutex_);
+  limits_.tenants = tenants;
+}
+
 void Admission::StopAdmitting() {
   std::lock_guard lock(mutex_);
   admitting_ = false;

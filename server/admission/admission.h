@@ -72,6 +72,8 @@ class Admission {
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }
 
+  // From now on; what was let in stays.
+  void SetTenants(const TenantTable& tenants);
   // From now on every job is refused as kDraining.
   void StopAdmitting();
 
@@ -94,9 +96,9 @@ class Admission {
   absl::Status Grow(const Ticket& ticket, uint64_t bytes);
   void GiveBack(const std::string& tenant, const Usage& part);
 
-  const Limits limits_;
   mutable std::mutex mutex_;
   mutable std::condition_variable empty_;
+  Limits limits_;                         // guarded by mutex_
   Usage usage_;                           // guarded by mutex_
   std::map<std::string, Usage> tenants_;  // guarded by mutex_; those that have something
   bool admitting_ = true;                 // guarded by mutex_

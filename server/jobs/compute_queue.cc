@@ -41,6 +41,14 @@ ComputeQueue::Removal ComputeQueue::Remove(Entry entry) {
   return removed ? Removal::kRemoved : Removal::kNotWaiting;
 }
 
+void ComputeQueue::SetTenants(const TenantTable& tenants) {
+  {
+    std::lock_guard lock(mutex_);
+    queue_.SetLimits(tenants);
+  }
+  wake_.notify_all();  // some may do more now
+}
+
 ComputeQueue::Usage ComputeQueue::usage() const {
   std::lock_guard lock(mutex_);
   return {.waiting = static_cast<int>(queue_.size()),

@@ -55,6 +55,8 @@ class ComputeQueue {
   enum class Removal { kRemoved, kNotWaiting };
   Removal Remove(Entry entry);
 
+  void SetTenants(const TenantTable& tenants);  // from now on
+
   int threads() const { return threads_; }
   Usage usage() const;
 

@@ -38,6 +38,9 @@ class FairQueue {
   explicit FairQueue(TenantTable limits, int max_at_work = 0)
       : limits_(std::move(limits)), max_at_work_(max_at_work) {}
 
+  // From now on.
+  void SetLimits(TenantTable limits) { limits_ = std::move(limits); }
+
   Entry Push(const JobOrigin& origin, TimePoint now, Item item) {
     Tenant& tenant = tenants_[origin.tenant];
     if (tenant.waiting.empty()) tenant.next_turn = std::max(tenant.next_turn, time_);
@@ -136,7 +139,7 @@ class FairQueue {
     if (found->second.waiting.empty() && found->second.at_work == 0) tenants_.erase(found);
   }
 
-  const TenantTable limits_;
+  TenantTable limits_;
   const int max_at_work_;
   std::map<std::string, Tenant> tenants_;  // those that wait or are at work
   uint64_t time_ = 0;                      // a round is as long for every tenant

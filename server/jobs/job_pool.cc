@@ -43,8 +43,9 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
                                                     std::shared_ptr<JobListener> listener) {
   BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(
-      Ticket ticket, admission_.Admit(request.origin.tenant,
-                                      BytesToSkeletonize(request.header, request.size_bytes)));
+      Ticket ticket,
+      admission_.Admit(request.origin.tenant, BytesToSkeletonize(request.header, request.size_bytes,
+                                                                 request.shell_points)));
   PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
   VolumeIntake::MakeDecoder make_decoder = DecoderFor(request);
@@ -63,6 +64,13 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
   PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
   return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
                 std::move(ticket), std::move(facts), decoders_, listener);
+}
+
+void JobPool::SetTenants(const TenantTable& tenants) {
+  admission_.SetTenants(tenants);
+  compute_.SetTenants(tenants);
+  decoders_.SetTenants(tenants);
+  finishers_.SetTenants(tenants);
 }
 
 std::string JobPool::NextName() { return absl::StrFormat("jobs/%d", next_job_++); }

@@ -46,6 +46,8 @@ class JobPool : public JobRunner {
   absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,
                                              std::shared_ptr<LabelsListener> listener) override;
 
+  // Weights and caps from now on, instead of those that the limits say.
+  void SetTenants(const TenantTable& tenants);
   // New jobs are refused; those that were let in go on.
   void StopAdmitting() { admission_.StopAdmitting(); }
   // Returns when no job is left and every result is let go of, or when the time is over.

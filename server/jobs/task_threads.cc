@@ -27,6 +27,11 @@ TaskThreads::~TaskThreads() {
   for (std::jthread& thread : threads_) thread.request_stop();
 }
 
+void TaskThreads::SetTenants(const TenantTable& tenants) {
+  std::lock_guard lock(mutex_);
+  tasks_.SetLimits(WeightsOf(tenants));
+}
+
 void TaskThreads::Post(const JobOrigin& origin, std::function<void()> task) {
   {
     std::lock_guard lock(mutex_);

@@ -21,6 +21,8 @@ class TaskThreads {
   TaskThreads(const TaskThreads&) = delete;
   TaskThreads& operator=(const TaskThreads&) = delete;
 
+  void SetTenants(const TenantTable& tenants);  // from now on
+
   // `task` must not throw.
   void Post(const JobOrigin& origin, std::function<void()> task);
 

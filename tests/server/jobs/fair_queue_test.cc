@@ -107,6 +107,17 @@ TEST(FairQueue, ATenantWithAllItMayHaveIsPassedOver) {
   EXPECT_EQ(queue.Take()->item, "c");
 }
 
+TEST(FairQueue, LimitsMayChangeWhileItIsInUse) {
+  TenantTable tenants;
+  tenants.each.max_running = 1;
+  Queue queue(tenants);
+  for (int n = 0; n < 2; ++n) queue.Push(Of("x"), kStart, "x");
+  EXPECT_TRUE(queue.Take().has_value());
+  EXPECT_FALSE(queue.Has());
+  queue.SetLimits({});
+  EXPECT_TRUE(queue.Has());
+}
+
 TEST(FairQueue, TakesOnlyWhatFits) {
   Queue queue({});
   queue.Push(Of("x"), kStart, "long");
