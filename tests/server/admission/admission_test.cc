@@ -112,7 +112,8 @@ TEST(Admission, ANamedTenantMayHaveMore) {
 }
 
 TEST(Admission, ATicketKnowsItsTenantWhenItGrowsAndGoes) {
-  Admission admission({.bytes = 100, .places = 10, .tenants = {.each = {.max_bytes = 40}, .named = {}}});
+  Admission admission(
+      {.bytes = 100, .places = 10, .tenants = {.each = {.max_bytes = 40}, .named = {}}});
   {
     Ticket ticket = *admission.Admit("small", 10);
     EXPECT_TRUE(ticket.ResizeTo(40).ok());
