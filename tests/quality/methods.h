@@ -25,6 +25,12 @@ inline constexpr std::array<Method, 6> kMethods = {{
     {"directional, Euclidean", ThinningMethod::kDirectional, DistanceKind::kEuclidean},
 }};
 
+// One distance for each: the default, and the paper's with the paper's methods.
+constexpr bool IsMain(const Method& method) {
+  const bool symmetric = method.thinning == ThinningMethod::kSymmetric;
+  return symmetric == (method.distance == DistanceKind::kEuclidean);
+}
+
 inline absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Method& method, const Volume& object) {
   return Skeletonize(object, {.thinning = {.method = method.thinning}, .distance = method.distance},
                      exec::Context());

@@ -4,7 +4,7 @@
 
 #include "tests/quality/studies.h"
 
-// Usage: bccskel_quality figures|rotations|reconstruction|voxels POINTS TURNS
+// Usage: bccskel_quality figures|masks|rotations|reconstruction|voxels POINTS TURNS
 //        bccskel_quality mesh POINTS TURNS FILE
 
 namespace {
@@ -13,6 +13,7 @@ absl::Status Run(const std::string& study, const bccskel::quality::StudySize& si
                  const std::string& file) {
   using namespace bccskel::quality;
   if (study == "figures") return StudyFigures(size);
+  if (study == "masks") return StudyMasks(size);
   if (study == "rotations") return StudyRotations(size);
   if (study == "reconstruction") return StudyReconstruction(size);
   if (study == "voxels") return PrintVoxels(size);

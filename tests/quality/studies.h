@@ -17,6 +17,9 @@ struct StudySize {
 
 // Every figure, noise and method against the truth.
 absl::Status StudyFigures(const StudySize& size);
+// The figures as voxels, converted exactly: with the margin of the slope rule for voxels, and with
+// that for surfaces sampled point by point.
+absl::Status StudyMasks(const StudySize& size);
 // How much skeletons change when the grid, or the figure on it, is turned.
 absl::Status StudyRotations(const StudySize& size);
 // The union of the balls against the object, for curve and surface skeletons.

@@ -140,6 +140,7 @@ absl::Status StudyRotations(const StudySize& size) {
     BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed,
                              Place(Turned(figure, RandomFrame(0)), size.points));
     for (const Method& method : kMethods) {
+      if (!IsMain(method)) continue;
       BCCSKEL_RETURN_IF_ERROR(StudyGridRotations(placed, method));
       BCCSKEL_RETURN_IF_ERROR(StudyFreeRotations(figure, size, method));
     }
@@ -169,6 +170,7 @@ absl::Status StudyMesh(const StudySize& size, const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const VoxelizeResult solid,
                            Voxelize(mesh, {.points = size.points}, exec::Context()));
   for (const Method& method : kMethods) {
+    if (!IsMain(method)) continue;
     BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult clean,
                              PrintMesh(name, 0, method, solid.volume));
     for (const double noise : {0.02, 0.05}) {

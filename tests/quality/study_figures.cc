@@ -3,6 +3,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/shapes/boundary_noise.h"
 #include "tests/quality/disturb.h"
 #include "tests/quality/known_figure.h"
 #include "tests/quality/measure.h"
@@ -19,7 +20,7 @@ std::string InJson(const Offsets& offsets) {
                          offsets.largest, offsets.bias);
 }
 
-void PrintJudgment(const PlacedFigure& placed, const Method& method, double noise, int turn,
+void PrintJudgment(const PlacedFigure& placed, const char* method, double noise, int turn,
                    const SkeletonizeResult& result) {
   const Judgment judged = Judge(placed, result);
   const KnownFigure& figure = placed.figure;
@@ -27,7 +28,7 @@ void PrintJudgment(const PlacedFigure& placed, const Method& method, double nois
   absl::PrintF(
       "{\"study\": \"figures\", \"figure\": \"%s\", \"method\": \"%s\", \"noise\": %g, "
       "\"turn\": %d, \"points\": %d, \"known_line\": %s, ",
-      figure.name, method.name, noise, turn, result.object_points,
+      figure.name, method, noise, turn, result.object_points,
       figure.line.empty() ? "false" : "true");
   absl::PrintF("\"raw\": %s, \"smooth\": %s, ", InJson(judged.raw), InJson(judged.smooth));
   absl::PrintF(
@@ -44,6 +45,22 @@ void PrintJudgment(const PlacedFigure& placed, const Method& method, double nois
       judged.simple_left, std::chrono::duration<double, std::milli>(result.timings.total).count());
 }
 
+// Plain flips, which open tunnels and enclose cavities, and what is meant against them.
+absl::Status StudyFlips(const PlacedFigure& placed, int turn) {
+  SkeletonizeOptions options;
+  options.preparing = {
+      .denoise_passes = 1, .cavities = CavityFilling::kOn, .components = KeptComponents::kLargest};
+  for (const double noise : {0.02, 0.05, 0.10}) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const Volume object,
+        shapes::WithBoundaryNoise(placed.object, noise, static_cast<uint64_t>(turn)));
+    BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result,
+                             Skeletonize(object, options, exec::Context()));
+    PrintJudgment(placed, "default, plain flips denoised", noise, turn, result);
+  }
+  return absl::OkStatus();
+}
+
 absl::Status StudyFigure(const KnownFigure& figure, uint64_t points, int turn) {
   BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed, Place(figure, points));
   for (const double noise : kNoise) {
@@ -52,10 +69,10 @@ absl::Status StudyFigure(const KnownFigure& figure, uint64_t points, int turn) {
                    : WithTopologyKeepingNoise(placed.object, noise, static_cast<uint64_t>(turn));
     for (const Method& method : kMethods) {
       BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result, SkeletonizeBy(method, object));
-      PrintJudgment(placed, method, noise, turn, result);
+      PrintJudgment(placed, method.name, noise, turn, result);
     }
   }
-  return absl::OkStatus();
+  return StudyFlips(placed, turn);
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+"""scikit-image's skeletonize_3d on the cubic grid, with as many voxels as the objects have points.
+
+Its lengths are turned into lattice units of an object with as many points on the bcc grid.
+"""
+
+import json
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+VOXEL = 4 ** (1 / 3)  # edge of a voxel in lattice units: a lattice point stands for four cubic units
+REACH = 4             # points on either side that the smoothed curve is the mean of
+
+
+def name():
+    import skimage
+    return f"scikit-image {skimage.__version__}, skeletonize_3d"
+
+
+def neighbors_of(points):
+    """For each point, the positions of its neighbors among the 26 around it."""
+    at = {tuple(p): n for n, p in enumerate(points)}
+    offsets = [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z]
+    return [[at[q] for q in ((p[0] + x, p[1] + y, p[2] + z) for x, y, z in offsets) if q in at]
+            for p in points.tolist()]
+
+
+def clusters(members, neighbors):
+    """How many connected groups the points in `members` form."""
+    left, count = set(members), 0
+    while left:
+        count += 1
+        stack = [left.pop()]
+        while stack:
+            found = [q for q in neighbors[stack.pop()] if q in left]
+            left.difference_update(found)
+            stack += found
+    return count
+
+
+def smooth(points, neighbors):
+    """The mean of the points within REACH steps, fewer near ends, so that ends stay."""
+    places = np.empty(points.shape)
+    for n in range(len(points)):
+        rings, seen = [[n]], {n}
+        for _ in range(REACH):
+            ring = {q for p in rings[-1] for q in neighbors[p]} - seen
+            if len(ring) < 2:
+                break
+            seen |= ring
+            rings.append(list(ring))
+        places[n] = points[[p for ring in rings for p in ring]].mean(axis=0)
+    return places
+
+
+def offsets(places, line):
+    """Mean, largest and bias of the ways from the center line, in voxels."""
+    best = np.full(len(places), np.inf)
+    ways = np.zeros(places.shape)
+    for piece in line:
+        a, b = np.array(piece[:3]), np.array(piece[3:6])
+        axis = b - a
+        t = np.clip((places - a) @ axis / (axis @ axis), 0, 1)
+        way = places - a - t[:, None] * axis
+        length = np.linalg.norm(way, axis=1)
+        nearer = length < best
+        best[nearer], ways[nearer] = length[nearer], way[nearer]
+    return {"mean": VOXEL * best.mean(), "largest": VOXEL * best.max(),
+            "bias": VOXEL * float(np.linalg.norm(ways.mean(axis=0)))}
+
+
+def match_tips(ends, tips):
+    """As MatchTips() of measure.cc."""
+    pairs = sorted((float(np.linalg.norm(end - np.array(tip[3:6]))), t, e)
+                   for t, tip in enumerate(tips) for e, end in enumerate(ends))
+    tips_left, ends_left, gaps = set(range(len(tips))), set(range(len(ends))), []
+    for gap, t, e in pairs:
+        if t in tips_left and e in ends_left and gap <= 2 * tips[t][7] + 8 / VOXEL:
+            tips_left.discard(t)
+            ends_left.discard(e)
+            gaps.append(VOXEL * gap)
+    return {"found": len(gaps), "lost": len(tips_left), "spurious": len(ends_left),
+            "mean_gap": float(np.mean(gaps)) if gaps else 0, "largest_gap": max(gaps, default=0)}
+
+
+def flipped(voxels, fraction, seed):
+    """Flips a share of the voxels on either side of the boundary: plain noise."""
+    from scipy import ndimage
+    inner = voxels & ~ndimage.binary_erosion(voxels)
+    outer = ~voxels & ndimage.binary_dilation(voxels)
+    chosen = np.random.default_rng(seed).random(voxels.shape) < fraction
+    return voxels ^ ((inner | outer) & chosen)
+
+
+def judge(truth, voxels, noise):
+    from skimage.morphology import skeletonize_3d
+    started = time.thread_time()
+    skeleton = skeletonize_3d(voxels)
+    milliseconds = 1000 * (time.thread_time() - started)
+    points = np.argwhere(skeleton)[:, ::-1]
+    row = {"figure": truth["figure"], "method": "scikit-image", "noise": noise,
+           "turn": truth["turn"], "tips": len(truth["tips"]), "forks": truth["forks"],
+           "known_line": bool(truth["line"]), "empty": len(points) == 0,
+           "milliseconds": milliseconds}
+    neighbors = neighbors_of(points)
+    ends = [points[n] for n in range(len(points)) if len(neighbors[n]) == 1]
+    row.update(match_tips(ends, truth["tips"]), ends=len(ends), junctions=clusters(
+        [n for n in range(len(points)) if len(neighbors[n]) > 2], neighbors))
+    if truth["line"] and len(points) > 0:
+        row["raw"] = offsets(points.astype(float), truth["line"])
+        row["smooth"] = offsets(smooth(points.astype(float), neighbors), truth["line"])
+    return row
+
+
+def measure(program, arguments):
+    command = [program, "voxels", str(arguments.points), str(arguments.turns)]
+    rows = []
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        while line := process.stdout.readline():
+            truth = json.loads(line)
+            count = int(np.prod(truth["shape"]))
+            data = process.stdout.read((count + 7) // 8)
+            bits = np.unpackbits(np.frombuffer(data, np.uint8), bitorder="little")
+            voxels = bits[:count].reshape(truth["shape"]).astype(bool)
+            for noise in (0, 0.02):
+                rows.append(judge(truth, flipped(voxels, noise, truth["turn"]), noise))
+            print(f"peer: {truth['figure']}", file=sys.stderr)
+    return rows

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Measures how good skeletons are and prints a report as markdown.
+
+Usage: report.py BUILD_FOLDER [--output report.md] [--plot offsets.svg] [--points N] [--turns N]
+                 [--data FOLDER] [--without-peer]
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import platform
+import subprocess
+import sys
+import time
+
+import peer
+import tables
+
+MESHES = ["aorta-surface.stl", "armadillo_86k.ply", "bunny_hr.obj.gz", "cactus.off", "elephant.off",
+          "fertility.off", "hand.off", "horse.ply", "knot2.off", "scorpion.ply", "spot.obj"]
+
+
+def rows_of(program, study, arguments, *more):
+    """What a study prints, a dictionary a line."""
+    started = time.monotonic()
+    command = [program, study, str(arguments.points), str(arguments.turns), *more]
+    text = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
+    print(f"{study} {' '.join(more)}: {time.monotonic() - started:.0f} s", file=sys.stderr)
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def mesh_rows(program, arguments):
+    rows = []
+    for name in MESHES:
+        path = pathlib.Path(arguments.data) / name
+        if path.exists():
+            rows += rows_of(program, "mesh", arguments, str(path))
+    return rows
+
+
+def machine():
+    name = "unknown processor"
+    for line in open("/proc/cpuinfo", encoding="utf-8"):
+        if line.startswith("model name"):
+            name = line.split(":", 1)[1].strip()
+            break
+    return f"{name}, {os.cpu_count()} processors, {platform.platform()}"
+
+
+def heading(arguments, peer_name):
+    return [f"Objects of about {arguments.points:,} points, {arguments.turns} random rotations of "
+            "each figure. All lengths are in lattice units: half the edge of the cubic cell, so a "
+            "voxel of a cubic grid with as many samples is 1.587 wide. Settings are the defaults "
+            "but for the method and the distance that the tables name.",
+            "",
+            f"Machine: {machine()}. Figures do not depend on it, but for the milliseconds. "
+            f"Peer: {peer_name}.",
+            ""]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build")
+    parser.add_argument("--output", default="/dev/stdout")
+    parser.add_argument("--plot")
+    parser.add_argument("--points", type=int, default=100000)
+    parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--data", default="")
+    parser.add_argument("--without-peer", action="store_true")
+    arguments = parser.parse_args()
+    program = str(pathlib.Path(arguments.build) / "tests/quality/bccskel_quality")
+    figures = rows_of(program, "figures", arguments)
+    others = [] if arguments.without_peer else peer.measure(program, arguments)
+    rotations = rows_of(program, "rotations", arguments)
+    reconstruction = rows_of(program, "reconstruction", arguments)
+    masks = rows_of(program, "masks", argparse.Namespace(points=arguments.points // 4, turns=1))
+    meshes = mesh_rows(program, arguments)
+    lines = heading(arguments, "none" if arguments.without_peer else peer.name())
+    lines += tables.report(figures, others, rotations, reconstruction, masks, meshes)
+    pathlib.Path(arguments.output).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if arguments.plot:
+        tables.plot(figures, others, arguments.plot)
+
+
+if __name__ == "__main__":
+    main()
