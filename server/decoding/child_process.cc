@@ -108,8 +108,11 @@ std::string Printable(std::string words) {
   return words;
 }
 
+// The hard limit stays: the next volume may need more.
 void LimitSoftly(pid_t pid, __rlimit_resource resource, uint64_t most) {
-  const rlimit limit = {most, RLIM_INFINITY};
+  rlimit limit = {};
+  if (prlimit(pid, resource, nullptr, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(most, limit.rlim_max);
   prlimit(pid, resource, &limit, nullptr);
 }
 

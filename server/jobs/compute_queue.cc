@@ -6,8 +6,8 @@
 namespace bccskel::server {
 namespace {
 
-// Who gives way waits for little, and seldom.
-constexpr uint64_t kTimesSmaller = 8;
+// Who gives way waits for less than it takes itself.
+constexpr uint64_t kTimesSmaller = 2;
 
 }  // namespace
 
@@ -80,6 +80,7 @@ void ComputeQueue::Run(Taken taken, int threads) {
   taken.item.work = nullptr;
   std::lock_guard lock(mutex_);
   queue_.Done(taken.tenant);
+  if (!queue_.empty()) wake_.notify_one();  // the tenant may have been at its cap
 }
 
 bool ComputeQueue::GiveWay(const Turn& turn) {

@@ -20,7 +20,7 @@ namespace bccskel::server {
 // small jobs run side by side. Results do not depend on the number of threads.
 //
 // A job at work gives way to small ones that wait: to those that take one thread and have at most
-// an eighth of its bricks. They run on its thread while it rests; afterwards it has at least as
+// half of its bricks. They run on its thread while it rests; afterwards it has at least as
 // much time to itself as they took, so that it always goes on at half speed or more.
 class ComputeQueue {
  public:

@@ -117,7 +117,7 @@ class GivingWay : public testing::Test {
     queue_.Post({.origin = {}, .most_threads = 1, .bricks = kLargeBricks}, large);
     while (queue_.usage() != Usage()) std::this_thread::yield();
   }
-  void PostSmall(const std::string& name, uint64_t bricks = kLargeBricks / 8,
+  void PostSmall(const std::string& name, uint64_t bricks = kLargeBricks / 2,
                  int most_threads = 1) {
     queue_.Post({.origin = {}, .most_threads = most_threads, .bricks = bricks}, [=, this](Turn&) {
       order_ += name;
@@ -161,7 +161,7 @@ TEST_F(GivingWay, AfterwardsTheLargeOneHasAsMuchTime) {
 
 TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
   RunLarge([this](Turn& turn) {
-    PostSmall("a", kLargeBricks / 8 + 1);
+    PostSmall("a", kLargeBricks / 2 + 1);
     PostSmall("b", 1, 2);
     turn.GiveWay();
     order_ += "|";
