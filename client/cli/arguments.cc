@@ -9,10 +9,14 @@
 
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
+#include "client/cli/generate_arguments.h"
+#include "client/cli/job_arguments.h"
 #include "client/cli/label_files.h"
 #include "client/cli/labels_arguments.h"
 #include "client/cli/load_object.h"
+#include "client/cli/operations_arguments.h"
 #include "client/cli/result_arguments.h"
+#include "client/cli/root_argument.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
 #include "core/version/version.h"
@@ -27,15 +31,6 @@ constexpr const char* kFooter =
     "be, 4 server unavailable, 5 deadline passed or job cancelled by the server, 6 internal error\n"
     "or topology not kept, 7 over a limit, 8 output cannot be written, 130 interrupted (Ctrl-C),\n"
     "143 terminated. See bccskel(1).";
-
-std::string ShapeNames() {
-  std::string names;
-  for (const Shape shape : kShapes) {
-    if (!names.empty()) names += ", ";
-    names += ShapeName(shape);
-  }
-  return names;
-}
 
 void AddCommon(CLI::App& command, CommonArguments& common) {
   command.add_flag_callback(
@@ -103,13 +98,6 @@ void AddProgress(CLI::App& command, SkeletonizeArguments& arguments) {
       ->option_text("SECONDS");
 }
 
-CLI::Option* AddServer(CLI::App& command, SkeletonizeArguments& arguments) {
-  return command
-      .add_option("--server", arguments.server,
-                  "Where the server is (default " + arguments.server + ")")
-      ->option_text("HOST:PORT|unix:PATH");
-}
-
 CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("voxelize", "Turn a mesh or an image into bcc lattice points");
@@ -127,10 +115,16 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   arguments.accepted = AcceptedInput::kVolumeOnly;
   AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
-  AddServer(command, arguments);
+  command.get_option("--output")->required(false)->option_text("FILE (required unless detached)");
+  AddServer(command, arguments.server);
+  command.add_flag_callback(
+      "--detach", [&arguments] { arguments.waiting = Waiting::kDetach; },
+      "Print the job's name and end; the server keeps the job (see fetch)");
+  AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
+  AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
@@ -145,15 +139,17 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option* server = AddServer(command, arguments);
+  CLI::Option* server = AddServer(command, arguments.server);
   command
       .add_flag_callback(
           "--local", [&arguments] { arguments.place = Place::kLocal; },
           "Compute on this machine, without a server")
       ->excludes(server);
+  AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
+  AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
@@ -178,34 +174,6 @@ CLI::App& WithGrid(CLI::App& command, ResultArguments& source, CommonArguments& 
   return command;
 }
 
-CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("generate", "Make a test object");
-  command
-      .add_option_function<std::string>(
-          "SHAPE",
-          [&arguments](const std::string& name) {
-            const absl::StatusOr<Shape> shape = ParseShapeName(name);
-            if (!shape.ok()) throw CLI::ValidationError(std::string(shape.status().message()));
-            arguments.shape = *shape;
-          },
-          "One of " + ShapeNames())
-      ->required()
-      ->option_text(" ");
-  AddVolumeOutput(command, arguments.output);
-  command
-      .add_option("--points", arguments.options.points,
-                  "Points the object shall have (default 850000)")
-      ->option_text("N");
-  command.add_option("--seed", arguments.options.seed, "Chooses the random parts (default 0)")
-      ->option_text("N");
-  command
-      .add_option("--noise", arguments.options.noise,
-                  "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")
-      ->option_text("X");
-  AddCommon(command, arguments.common);
-  return command;
-}
-
 // All commands, each with what it fills in.
 struct CommandLine {
   CLI::App app{"Curve skeletons by parallel thinning on the body-centered cubic grid", "bccskel"};
@@ -219,6 +187,9 @@ struct CommandLine {
   ReconstructArguments reconstruct_arguments;
   GenerateArguments generate_arguments;
   BenchCoreArguments bench_core_arguments;
+  BenchServerArguments bench_server_arguments;
+  ProbeArguments probe_arguments;
+  TopArguments top_arguments;
   CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
   CLI::App& submit = AddSubmit(app, submit_arguments);
   CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
@@ -232,10 +203,15 @@ struct CommandLine {
                                    reconstruct_arguments.source, reconstruct_arguments.common);
   CLI::App& generate = AddGenerate(app, generate_arguments);
   CLI::App& bench = AddBench(app, bench_core_arguments);
+  CLI::App& bench_server = AddBenchServer(bench, bench_server_arguments);
+  CLI::App& probe = AddProbe(app, probe_arguments);
+  CLI::App& top = AddTop(app, top_arguments);
+  const JobCommands jobs{app};
 
   CommandLine() {
     AddThreads(labels, labels_arguments.common, kThreadsHere);
     AddCommon(labels, labels_arguments.common);
+    AddCommon(generate, generate_arguments.common);
     app.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
@@ -257,6 +233,10 @@ struct CommandLine {
     if (render.parsed()) return render_arguments;
     if (reconstruct.parsed()) return reconstruct_arguments;
     if (generate.parsed()) return generate_arguments;
+    if (probe.parsed()) return probe_arguments;
+    if (top.parsed()) return top_arguments;
+    if (auto chosen = jobs.Chosen()) return *std::move(chosen);
+    if (bench_server.parsed()) return bench_server_arguments;
     return bench_core_arguments;
   }
 };
@@ -303,6 +283,10 @@ Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
     if (!path.empty() && !path.ends_with(".nrrd")) return path + ": does not end in .nrrd";
     if (Complaint c = OverwriteComplaint(arguments.input, path); c.has_value()) return c;
   }
+  if (arguments.skeletonize.preparing.Wanted()) {
+    return "--branch-image and --curve-image show the voxels as they are, so not with --denoise, "
+           "--fill-cavities, --min-component, --min-component-volume or --keep-largest";
+  }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return std::nullopt;
   return "--branch-image and --curve-image are for images; " + arguments.input + " is " +
@@ -310,6 +294,11 @@ Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
 }
 
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
+  const bool detached = arguments.waiting == Waiting::kDetach;
+  if (!detached && arguments.outputs.empty()) return "--output is required";
+  if (detached && !arguments.outputs.empty()) {
+    return "--detach writes no files; bccskel fetch does, when the job has ended";
+  }
   for (const std::string& output : arguments.outputs) {
     if (Complaint c = IfError(exporting::SkeletonFormatOf(output).status()); c.has_value())
       return c;
@@ -358,6 +347,9 @@ Complaint ComplaintAbout(const LabelsArguments& arguments) {
     if (Complaint c = IfError(CheckLabelOutput(output)); c.has_value()) return c;
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
+  if (arguments.root.has_value() && arguments.root->rule == RootChoice::Rule::kNode) {
+    return "--root node:N names a node of one skeleton; labels have many";
+  }
   return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
 }
 
@@ -365,7 +357,10 @@ Complaint ComplaintAbout(const InfoArguments& arguments) {
   return ObjectComplaint(arguments.file, {}, arguments.image);
 }
 
-Complaint ComplaintAbout(const BenchCoreArguments&) { return std::nullopt; }
+template <typename Other>
+Complaint ComplaintAbout(const Other&) {
+  return std::nullopt;
+}
 
 std::string CommandRequired(const CLI::App& app) {
   std::string names;

@@ -3,15 +3,19 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "client/cli/exit_code.h"
 #include "client/cli/image_arguments.h"
+#include "client/cli/server_arguments.h"
 #include "client/view/render/picture.h"
+#include "core/io/volume_header.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
+#include "core/skeleton/tree_order.h"
 #include "core/voxelize/voxelize.h"
 
 namespace bccskel::cli {
@@ -39,6 +43,9 @@ struct VoxelizeArguments {
 
 enum class Place { kServer, kLocal };
 
+// Whether `submit` waits for the result, or names the job and ends.
+enum class Waiting { kForResult, kDetach };
+
 // `submit` is the same with a volume as the only kind of input and a server as the only place.
 enum class AcceptedInput { kAll, kVolumeOnly };
 
@@ -51,8 +58,10 @@ struct SkeletonizeArguments {
   ImageArguments image;
   SkeletonImages images;
   SkeletonizeOptions skeletonize;
+  std::optional<RootChoice> root;  // the trees are ordered from there
   Place place = Place::kServer;
-  std::string server = "127.0.0.1:50051";
+  Waiting waiting = Waiting::kForResult;
+  ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
 };
@@ -65,6 +74,7 @@ struct LabelsArguments {
   ImageArguments image;              // its labels are those wanted; none: all
   uint64_t min_voxels = 1;
   SkeletonizeOptions skeletonize;
+  std::optional<RootChoice> root;  // the trees are ordered from there
 };
 
 struct InfoArguments {
@@ -107,6 +117,73 @@ struct GenerateArguments {
   ShapeOptions options;
 };
 
+// Jobs that a server keeps.
+struct JobsArguments {
+  CommonArguments common;
+  ServerArguments server;
+  int limit = 50;
+};
+
+struct JobArguments {
+  CommonArguments common;
+  ServerArguments server;
+  std::string job;
+};
+
+// What becomes of a job when its user no longer waits.
+enum class OnInterrupt { kCancel, kLeave };
+
+struct WaitingArguments {
+  std::chrono::milliseconds timeout = std::chrono::hours(1);
+  ProgressStyle progress = ProgressStyle::kAuto;
+  OnInterrupt on_interrupt = OnInterrupt::kCancel;
+};
+
+struct WatchArguments {
+  JobArguments job;
+  WaitingArguments waiting;
+};
+
+struct CancelArguments {
+  JobArguments job;
+};
+
+struct DeleteArguments {
+  JobArguments job;
+};
+
+struct FetchArguments {
+  JobArguments job;
+  WaitingArguments waiting;
+  std::vector<std::string> outputs;
+};
+
+// Is the server ready for calls?
+struct ProbeArguments {
+  CommonArguments common;
+  ServerArguments server;
+  std::string service;  // empty: the whole server
+  std::chrono::milliseconds timeout = std::chrono::seconds(5);
+};
+
+enum class TopRepeat { kForever, kOnce };
+
+struct TopArguments {
+  CommonArguments common;
+  ServerArguments server;
+  TopRepeat repeat = TopRepeat::kForever;
+  std::chrono::milliseconds interval = std::chrono::seconds(1);
+};
+
+struct BenchServerArguments {
+  CommonArguments common;
+  ServerArguments server;
+  std::vector<int> clients = {1, 2, 4, 8};
+  std::vector<uint64_t> points = {10'000, 850'000};
+  VolumeEncoding encoding = VolumeEncoding::kRawPlanes;
+  std::chrono::milliseconds duration = std::chrono::seconds(5);  // of each combination
+};
+
 struct BenchCoreArguments {
   CommonArguments common;
   std::string shape = "ball";  // one of kBenchObjects
@@ -116,9 +193,11 @@ struct BenchCoreArguments {
   std::string instruction_set;  // empty: the best
 };
 
-using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsArguments,
-                               InfoArguments, ViewArguments, RenderArguments, ReconstructArguments,
-                               GenerateArguments, BenchCoreArguments>;
+using Arguments =
+    std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsArguments, InfoArguments,
+                 ViewArguments, RenderArguments, ReconstructArguments, GenerateArguments,
+                 BenchCoreArguments, BenchServerArguments, ProbeArguments, TopArguments,
+                 JobsArguments, WatchArguments, CancelArguments, DeleteArguments, FetchArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

@@ -9,8 +9,8 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/bench_objects.h"
 #include "client/cli/choice_option.h"
-#include "client/cli/method_words.h"
 #include "core/exec/instruction_sets.h"
+#include "core/pipeline/option_words.h"
 #include "core/shapes/shapes.h"
 
 namespace bccskel::cli {
@@ -44,13 +44,13 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
       ->check(OneOf(sets, "instruction set"))
       ->option_text(absl::StrJoin(sets, "|"));
   AddChoice<ThinningMethod>(core, "--method", arguments.method, "How to thin (default directional)",
-                            MethodWords());
+                            Choices(kMethodWords));
 }
 
 }  // namespace
 
 CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
-  CLI::App& bench = *app.add_subcommand("bench", "Measure the speed of this machine");
+  CLI::App& bench = *app.add_subcommand("bench", "Measure the speed of this machine or of a server");
   bench.require_subcommand(1);
   CLI::App& core = *bench.add_subcommand(
       "core", "Time and memory from a volume in memory to its skeleton in memory");

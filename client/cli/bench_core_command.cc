@@ -8,10 +8,10 @@
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/local_team.h"
-#include "client/cli/method_words.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/instruction_sets.h"
+#include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
 namespace {
@@ -20,7 +20,7 @@ using exporting::GroupedDigits;
 using exporting::Text;
 
 std::string WordOf(ThinningMethod wanted) {
-  for (const auto& [word, method] : MethodWords()) {
+  for (const auto& [word, method] : kMethodWords) {
     if (method == wanted) return word;
   }
   return "";
@@ -133,7 +133,9 @@ ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<Volume> object = MakeBenchObject(arguments.shape, arguments.points);
   if (!object.ok()) return FailWith(ExitCode::kUsage, object.status());
   LocalTeam team(arguments.common.threads, stop);
-  const SkeletonizeOptions options = {.thinning = {.method = arguments.method}};
+  SkeletonizeOptions options = {.thinning = {.method = arguments.method}};
+  // The paper's method with the paper's distances.
+  if (arguments.method != ThinningMethod::kSymmetric) options.distance = DistanceKind::kChamfer;
   const auto measured = MeasureCore(*object, options, arguments.repeat, team.context());
   if (!measured.ok()) return Fail(measured.status());
   const int threads = team.context().threads();

@@ -19,6 +19,13 @@ CLI::Option* AddChoice(CLI::App& command, const char* name, Enum& value, const c
       ->option_text(words);
 }
 
+// The words of a table of core/pipeline/option_words.h as choices.
+template <typename Table>
+auto Choices(const Table& table) {
+  using Enum = decltype(table.front().second);
+  return std::vector<std::pair<std::string, Enum>>(table.begin(), table.end());
+}
+
 }  // namespace bccskel::cli
 
 #endif  // BCCSKEL_CLIENT_CLI_CHOICE_OPTION_H_

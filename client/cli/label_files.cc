@@ -38,7 +38,8 @@ absl::Status CheckLabelOutput(const std::string& path) {
       " where its number shall stand, or put all labels into a .vtp, .graphml or .json file");
 }
 
-LabelFiles::LabelFiles(const std::vector<std::string>& paths) {
+LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root)
+    : root_(root), all_(root) {
   for (const std::string& path : paths) {
     (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
   }
@@ -46,7 +47,8 @@ LabelFiles::LabelFiles(const std::vector<std::string>& paths) {
 
 absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   const std::string title = "label " + std::to_string(skeleton.label);
-  const exporting::Subject subject = {skeleton.result, skeleton.result.thin, title};
+  const exporting::Subject subject = {
+      .result = skeleton.result, .object = skeleton.result.thin, .title = title, .root = root_};
   for (const std::string& path : paths_of_each_) {
     BCCSKEL_RETURN_IF_ERROR(
         exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_CLI_LABEL_FILES_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ absl::Status CheckLabelOutput(const std::string& path);
 class LabelFiles {
  public:
   // Needs: CheckLabelOutput() is OK for all.
-  explicit LabelFiles(const std::vector<std::string>& paths);
+  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root);
 
   // Writes the label's own files, and keeps what goes into the files of all labels.
   // Errors: as WriteSkeletonFile().
@@ -36,6 +37,7 @@ class LabelFiles {
  private:
   std::vector<std::string> paths_of_each_;
   std::vector<std::string> paths_of_all_;
+  const std::optional<RootChoice> root_;
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
 };

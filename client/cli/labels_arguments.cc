@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client/cli/root_argument.h"
 #include "client/cli/thinning_arguments.h"
 
 namespace bccskel::cli {
@@ -25,9 +26,11 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
       .add_option("--min-voxels", arguments.min_voxels,
                   "Leave out labels with fewer voxels (default 1)")
       ->option_text("N");
+  AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
+  AddRoot(command, arguments.root);
   return command;
 }
 

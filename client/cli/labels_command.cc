@@ -69,7 +69,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Labels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
-  LabelFiles files(arguments.outputs);
+  LabelFiles files(arguments.outputs, arguments.root);
   std::vector<LabelFigures> figures;
   absl::Status writing;
   const absl::Status computed = SkeletonizeLabels(

@@ -76,6 +76,9 @@ void AddLabelJson(Text& text, const LabelFigures& label) {
            ",\"skeleton_points\":", label.skeleton_points, ",\"nodes\":", label.nodes,
            ",\"edges\":", label.edges, ",\"certificate\":{");
   if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
+  }
   text.Add("\"input\":", BettiJson(certificate.input),
            ",\"skeleton\":", BettiJson(certificate.skeleton),
            ",\"simple_points_left\":", certificate.simple_points_left,

@@ -10,8 +10,10 @@
 #include "client/cli/load_object.h"
 #include "client/cli/mesh_summary.h"
 #include "client/cli/volume_summary.h"
+#include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
+#include "core/pipeline/notes.h"
 
 namespace bccskel::cli {
 namespace {
@@ -30,12 +32,35 @@ std::string Decimals(double seconds) {
   return text;
 }
 
+// "denoised in 2 passes (+3 -40 points), 5 cavities filled (+60 points)".
+std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
+  Text text;
+  for (const PreparingStep& step : steps) {
+    text.Add(&step == steps.data() ? "" : ", ", WordsFor(step));
+    if (step.points_added > 0) text.Add(" +", GroupedDigits(step.points_added));
+    if (step.points_removed > 0) text.Add(" -", GroupedDigits(step.points_removed));
+  }
+  return std::move(text).Take();
+}
+
 std::string CheckPhrase(const Certificate& certificate) {
   if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
   Text text;
   text.Add("topology kept, ", certificate.simple_points_left,
            certificate.simple_points_left == 1 ? " simple point left" : " simple points left");
   return std::move(text).Take();
+}
+
+void AddOrder(Text& text, const SkeletonSummary& summary) {
+  const TreeOrder order = OrderTrees(summary.result.graph, *summary.arguments.root);
+  text.Add("order:     ", order.roots.size(), order.roots.size() == 1 ? " tree, " : " trees, ",
+           order.MostGenerations() + 1, " generations, Strahler order ", order.HighestStrahler());
+  if (order.loops_cut > 0) {
+    text.Add("; ", order.loops_cut,
+             order.loops_cut == 1 ? " edge that closes a loop" : " edges that close loops",
+             " left out");
+  }
+  text.Add('\n');
 }
 
 void AddTimes(Text& text, const SkeletonSummary& summary) {
@@ -66,6 +91,12 @@ void AddMeshJson(Text& text, const MeshStage& stage) {
   text.Add(']');
 }
 
+std::string NotesJson(const std::vector<std::string>& notes) {
+  std::string json;
+  for (const std::string& note : notes) json += (json.empty() ? "" : ",") + JsonString(note);
+  return '[' + json + ']';
+}
+
 void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {
   text.Add(",\"outputs\":[");
   for (size_t n = 0; n < files.size(); ++n) {
@@ -85,11 +116,16 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
   if (summary.image.has_value()) text.Add(", ", ImagePhrase(*summary.image));
   if (certificate.mask.has_value()) text.Add("\nmask:      ", BettiPhrase(*certificate.mask));
+  if (certificate.unprepared.has_value()) {
+    text.Add("\ngiven:     ", BettiPhrase(*certificate.unprepared),
+             "\nprepared:  ", PreparingPhrase(result.preparing));
+  }
   text.Add("\nobject:    ", GroupedDigits(result.object_points), " points, ",
            BettiPhrase(certificate.input), '\n');
   text.Add("skeleton:  ", GroupedDigits(result.skeleton_points), " points, ",
            BettiPhrase(certificate.skeleton), ", ", result.graph.nodes.size(), " nodes, ",
            result.graph.edges.size(), " edges\n");
+  if (summary.arguments.root.has_value()) AddOrder(text, summary);
   text.Add("check:     ", CheckPhrase(certificate), '\n');
   AddTimes(text, summary);
   text.Add("sha256:    ", result.sha256, '\n');
@@ -114,11 +150,15 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
            ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
   text.Add(",\"certificate\":{");
   if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
+  }
   text.Add("\"input\":", BettiJson(certificate.input),
            ",\"skeleton\":", BettiJson(certificate.skeleton),
            ",\"simple_points_left\":", certificate.simple_points_left,
            "},\"topology_kept\":", certificate.TopologyKept() ? "true" : "false", ",\"sha256\":\"",
-           result.sha256, "\",\"timings\":");
+           result.sha256, "\",\"preparing\":", exporting::PreparingJson(result.preparing),
+           ",\"notes\":", NotesJson(NotesOn(result)), ",\"timings\":");
   AddTimingsJson(text, result.timings);
   text.Add(",\"seconds\":", summary.seconds);
   AddFilesJson(text, summary.files);

@@ -1,12 +1,17 @@
+#include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/detach.h"
 #include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "client/cli/progress_bar.h"
+#include "client/cli/server_arguments.h"
+#include "client/cli/shell_collector.h"
 #include "client/cli/skeleton_summary.h"
 #include "client/export/skeleton_file.h"
 #include "client/skeletonize_client.h"
@@ -14,6 +19,7 @@
 #include "core/io/volume_file.h"
 #include "core/labels/edge_image.h"
 #include "core/labels/nrrd_writer.h"
+#include "core/pipeline/notes.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::cli {
@@ -63,41 +69,79 @@ absl::StatusOr<Object> Load(const SkeletonizeArguments& arguments, const exec::C
   return kind == InputKind::kMesh ? FromMesh(arguments, context) : FromImage(arguments, context);
 }
 
-bool WantsThinVolume(const SkeletonizeArguments& arguments) {
-  for (const std::string& path : arguments.outputs) {
+bool Wants(const SkeletonizeArguments& arguments, exporting::SkeletonFormat wanted) {
+  return std::ranges::any_of(arguments.outputs, [&](const std::string& path) {
     const auto format = exporting::SkeletonFormatOf(path);
-    if (format.ok() && *format == exporting::SkeletonFormat::kVolume) return true;
-  }
-  return false;
+    return format.ok() && *format == wanted;
+  });
 }
 
+// What hears of a running job.
+struct Listeners {
+  Listeners(const SkeletonizeArguments& arguments, const Volume& object) : bar(arguments.progress) {
+    // Where thinning stops early, what is left is no skeleton, and the shells do not tell it. Those
+    // of a prepared object are not the object's.
+    const bool whole =
+        arguments.skeletonize.thinning.last_shell == 0 && !arguments.skeletonize.preparing.Wanted();
+    if (whole && Wants(arguments, exporting::SkeletonFormat::kHtml)) shells.emplace(object);
+  }
+
+  ProgressBar bar;
+  std::optional<ShellCollector> shells;  // for a page, which shows the object being peeled
+};
+
 absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments,
-                                           const Volume& object, ProgressBar& bar,
+                                           const Volume& object, Listeners& listeners,
                                            const std::stop_token& stop) {
   client::CallOptions options;
   options.skeletonize = arguments.skeletonize;
   options.threads = arguments.common.threads;
-  options.thin_volume =
-      WantsThinVolume(arguments) ? client::ThinVolume::kReturn : client::ThinVolume::kOmit;
+  options.thin_volume = Wants(arguments, exporting::SkeletonFormat::kVolume)
+                            ? client::ThinVolume::kReturn
+                            : client::ThinVolume::kOmit;
   options.timeout = arguments.timeout;
   options.stop = stop;
-  options.on_shell = bar.Callback();
-  return client::SkeletonizeClient(client::Connect(arguments.server)).Skeletonize(object, options);
+  options.on_shell = listeners.bar.Callback();
+  if (listeners.shells.has_value()) {
+    options.on_shell_points = [&](int32_t shell, std::span<const LatticePoint> points) {
+      listeners.shells->Add(shell, points);
+    };
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
+  BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<client::Connection> connection,
+                           client::Connect(endpoint));
+  return client::SkeletonizeClient(std::move(connection)).Skeletonize(object, options);
 }
 
 absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,
-                                                const Volume& object, ProgressBar& bar,
-                                                exec::Context& context) {
+                                                const Volume& object, Listeners& listeners,
+                                                exec::Context context) {
   context.deadline = Clock::now() + arguments.timeout;
-  context.on_shell = bar.Callback();
-  return Skeletonize(object, arguments.skeletonize, context);
+  context.on_shell = listeners.bar.Callback();
+  OnShellPoints on_points;
+  if (listeners.shells.has_value()) {
+    on_points = [&](int32_t shell, const Volume& points) {
+      listeners.shells->Add(shell, points.SortedPoints());
+    };
+  }
+  return Skeletonize(object, arguments.skeletonize, context, on_points);
 }
 
-absl::StatusOr<SkeletonizeResult> Compute(const SkeletonizeArguments& arguments,
-                                          const Volume& object, exec::Context& context) {
-  ProgressBar bar(arguments.progress);
-  if (arguments.place == Place::kLocal) return OnThisMachine(arguments, object, bar, context);
-  return OnServer(arguments, object, bar, context.stop);
+struct Computed {
+  SkeletonizeResult result;
+  std::optional<view::PeeledShells> shells;
+};
+
+absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, const Volume& object,
+                                 const exec::Context& context) {
+  Listeners listeners(arguments, object);
+  const bool local = arguments.place == Place::kLocal;
+  BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result,
+                           local ? OnThisMachine(arguments, object, listeners, context)
+                                 : OnServer(arguments, object, listeners, context.stop));
+  Computed computed = {std::move(result), std::nullopt};
+  if (listeners.shells.has_value()) computed.shells = std::move(*listeners.shells).Take();
+  return computed;
 }
 
 // Takes the image's own topology into the certificate.
@@ -105,14 +149,22 @@ absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& o
                           Certificate& certificate) {
   if (!object.image.has_value()) return absl::OkStatus();
   certificate.mask = object.image->mask;
-  return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.input);
+  return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.Given());
 }
 
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
                                                       const Object& object,
-                                                      const SkeletonizeResult& result) {
-  const exporting::Subject subject = {result, object.volume,
-                                      std::string(FileName(arguments.input))};
+                                                      const Computed& computed,
+                                                      const exec::Context& context) {
+  if (arguments.root.has_value()) {
+    BCCSKEL_RETURN_IF_ERROR(CheckRootChoice(*arguments.root, computed.result.graph));
+  }
+  const exporting::Subject subject = {computed.result,
+                                      object.volume,
+                                      std::string(FileName(arguments.input)),
+                                      context,
+                                      computed.shells.has_value() ? &*computed.shells : nullptr,
+                                      arguments.root};
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
     BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));
@@ -146,12 +198,11 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
 
 ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (arguments.place == Place::kLocal) return Fail(error);
-  const std::string message(error.message());
-  const absl::Status named(error.code(), "server " + arguments.server + ": " + message);
-  const bool unavailable = absl::IsUnavailable(error);
-  return Fail(named, unavailable ? "start bccskel-server, name another with --server, or compute "
-                                   "here with `bccskel skeletonize --local`"
-                                 : "");
+  return FailOnServer(arguments.server.address, error,
+                      absl::IsUnavailable(error)
+                          ? "start bccskel-server, name another with --server, or compute here "
+                            "with `bccskel skeletonize --local`"
+                          : "");
 }
 
 // The one invalid argument of writing is an object with coordinates that no format can hold.
@@ -165,22 +216,38 @@ ExitCode PrintSummary(const SkeletonSummary& summary) {
   return Print(json ? SkeletonSummaryJson(summary) : SkeletonSummaryText(summary));
 }
 
+// The surface of an image's object goes in steps of a voxel.
+SkeletonizeArguments ForInput(SkeletonizeArguments arguments, const Object& object) {
+  if (object.image.has_value()) {
+    PruningOptions& pruning = arguments.skeletonize.pruning;
+    pruning = ForSteps(pruning, VoxelEdge(arguments.image.mask));
+  }
+  return arguments;
+}
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 }  // namespace
 
-ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
+ExitCode Run(const SkeletonizeArguments& given, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
-  LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<Object> object = Load(arguments, team.context());
+  LocalTeam team(given.common.threads, stop);
+  const absl::StatusOr<Object> object = Load(given, team.context());
   if (!object.ok()) return Fail(object.status());
-  absl::StatusOr<SkeletonizeResult> result = Compute(arguments, object->volume, team.context());
-  if (!result.ok()) return FailComputing(arguments, result.status());
+  const SkeletonizeArguments arguments = ForInput(given, *object);
+  if (arguments.waiting == Waiting::kDetach) {
+    return SubmitDetached(arguments, object->volume, stop);
+  }
+  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context());
+  if (!computed.ok()) return FailComputing(arguments, computed.status());
+  SkeletonizeResult* const result = &computed->result;
   const absl::Status kept = CertifyImage(arguments, *object, result->certificate);
   if (!kept.ok()) return Fail(kept);
-  absl::StatusOr<std::vector<WrittenFile>> files = WriteOutputs(arguments, *object, *result);
+  for (const std::string& note : NotesOn(*result)) Warn(arguments.input + ": " + note);
+  absl::StatusOr<std::vector<WrittenFile>> files =
+      WriteOutputs(arguments, *object, *computed, team.context());
   if (!files.ok()) return FailWriting(arguments, files.status());
   const absl::Status shown = WriteImages(arguments, *object, result->graph, team.context(), *files);
   if (!shown.ok()) return FailWith(ExitCode::kOutput, shown);

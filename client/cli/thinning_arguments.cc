@@ -1,51 +1,64 @@
 #include "client/cli/thinning_arguments.h"
 
 #include "client/cli/choice_option.h"
-#include "client/cli/method_words.h"
+#include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
 
+void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
+  command
+      .add_option("--denoise", preparing.denoise_passes,
+                  "First set every point to the majority around it, so many times, up to 16; "
+                  "destroys what is one or two lattice units thick (default 0)")
+      ->option_text("N");
+  command.add_flag_callback(
+      "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
+      "Fill the cavities of the object, which leave closed surfaces in a skeleton");
+  command
+      .add_option("--min-component", preparing.min_component_points,
+                  "Drop components of fewer points (default 0)")
+      ->option_text("N");
+  command
+      .add_option("--min-component-volume", preparing.min_component_volume,
+                  "Drop components of a smaller volume, in cubic world units (default 0)")
+      ->option_text("X");
+  command.add_flag_callback(
+      "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
+      "Drop all components but the largest");
+}
+
 void AddDistance(CLI::App& command, DistanceKind& distance) {
   AddChoice<DistanceKind>(command, "--distance", distance,
-                          "How the distances that make the shells are measured (default chamfer)",
-                          {{"chamfer", DistanceKind::kChamfer},
-                           {"chamfer-optimal", DistanceKind::kChamferOptimal},
-                           {"euclidean", DistanceKind::kEuclidean}});
+                          "How the distances that make the shells are measured (default euclidean)",
+                          Choices(kDistanceWords));
 }
 
 void AddPruning(CLI::App& command, PruningOptions& pruning) {
   AddChoice<PruningRule>(command, "--pruning", pruning.rule,
                          "Which branches with a free end to remove (default slope)",
-                         {{"slope", PruningRule::kSlope},
-                          {"length", PruningRule::kLength},
-                          {"relative-length", PruningRule::kRelativeLength},
-                          {"none", PruningRule::kNone}});
+                         Choices(kPruningWords));
   command
       .add_option("--pruning-threshold", pruning.threshold,
-                  "Margin in lattice units for slope (default 4), world units for length, radii of "
+                  "Margin in lattice units for slope (default 4, for images four voxels), world "
+                  "units for length, radii of "
                   "the junction for relative-length (default 1)")
       ->option_text("X");
-  AddChoice<TipPlacement>(
-      command, "--tips", pruning.tips,
-      "Where branches end: where the ridge of the distances does (default), or "
-      "as thinned",
-      {{"ridge", TipPlacement::kRidge}, {"as-thinned", TipPlacement::kAsThinned}});
+  AddChoice<TipPlacement>(command, "--tips", pruning.tips,
+                          "Where branches end: where the ridge of the distances does (default), or "
+                          "as thinned",
+                          Choices(kTipsWords));
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
-                            "How points are chosen for removal (default symmetric)", MethodWords());
+                            "How points are chosen for removal (default symmetric)",
+                            Choices(kMethodWords));
   AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
                           "What to keep; all but curve (default) need the symmetric method",
-                          {{"curve", SkeletonKind::kCurve},
-                           {"surface", SkeletonKind::kSurface},
-                           {"kernel", SkeletonKind::kKernel},
-                           {"isthmus-curve", SkeletonKind::kIsthmusCurve}});
+                          Choices(kKindWords));
   AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
                            "Which stubble points to remove (default keep-two)",
-                           {{"keep-two", StubblePolicy::kKeepTwo},
-                            {"literal", StubblePolicy::kLiteral},
-                            {"none", StubblePolicy::kNone}});
+                           Choices(kStubbleWords));
   command
       .add_option("--shell-width", thinning.shell_width,
                   "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")

@@ -1,6 +1,7 @@
 #include "client/export/graphml.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,8 +34,15 @@ constexpr std::string_view kHead =
     "<key id=\"min_radius\" for=\"edge\" attr.name=\"min_radius\" attr.type=\"double\"/>\n"
     "<key id=\"max_radius\" for=\"edge\" attr.name=\"max_radius\" attr.type=\"double\"/>\n"
     "<key id=\"tortuosity\" for=\"edge\" attr.name=\"tortuosity\" attr.type=\"double\"/>\n"
-    "<key id=\"points\" for=\"edge\" attr.name=\"points\" attr.type=\"string\"/>\n"
-    "<graph id=\"skeleton\" edgedefault=\"undirected\">\n";
+    "<key id=\"points\" for=\"edge\" attr.name=\"points\" attr.type=\"string\"/>\n";
+constexpr std::string_view kOrderKeys =
+    "<key id=\"root\" for=\"node\" attr.name=\"root\" attr.type=\"string\"/>\n"
+    "<key id=\"parent\" for=\"node\" attr.name=\"parent\" attr.type=\"string\"/>\n"
+    "<key id=\"root_distance\" for=\"node\" attr.name=\"root_distance\" attr.type=\"double\"/>\n"
+    "<key id=\"proximal\" for=\"edge\" attr.name=\"proximal\" attr.type=\"string\"/>\n"
+    "<key id=\"generation\" for=\"edge\" attr.name=\"generation\" attr.type=\"int\"/>\n"
+    "<key id=\"strahler\" for=\"edge\" attr.name=\"strahler\" attr.type=\"int\"/>\n"
+    "<key id=\"closes_loop\" for=\"edge\" attr.name=\"closes_loop\" attr.type=\"boolean\"/>\n";
 
 template <typename Value>
 void AddData(Text& text, std::string_view key, const Value& value) {
@@ -46,8 +54,37 @@ void AddLabel(Text& text, const std::vector<uint64_t>& labels, size_t n) {
   if (!labels.empty()) AddData(text, "label", labels[n]);
 }
 
+// The keys that the context needs, and the graph's own data.
+void AddContext(Text& text, const GraphContext& context) {
+  if (context.order.has_value()) text.Add(kOrderKeys);
+  for (const auto& [name, value] : context.facts) {
+    text.Add("<key id=\"", name, "\" for=\"graph\" attr.name=\"", name,
+             "\" attr.type=\"string\"/>\n");
+  }
+  text.Add("<graph id=\"skeleton\" edgedefault=\"undirected\">\n");
+  for (const auto& [name, value] : context.facts) AddData(text, name, value);
+  if (!context.facts.empty()) text.Add('\n');
+}
+
+void AddNodeName(Text& text, std::string_view key, uint32_t node) {
+  text.Add("<data key=\"", key, "\">n", node, "</data>");
+}
+
+void AddNodeOrder(Text& text, const NodeOrder& order) {
+  AddNodeName(text, "root", order.root);
+  if (order.parent != kNoRow) AddNodeName(text, "parent", order.parent);
+  AddData(text, "root_distance", order.root_distance);
+}
+
+void AddEdgeOrder(Text& text, const EdgeOrder& order) {
+  if (order.ClosesLoop()) return AddData(text, "closes_loop", "true");
+  AddNodeName(text, "proximal", order.proximal);
+  AddData(text, "generation", order.generation);
+  AddData(text, "strahler", order.strahler);
+}
+
 void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component,
-             const GraphLabels& labels) {
+             const GraphContext& context) {
   const SkeletonNode& node = graph.nodes[n];
   const WorldPoint p = graph.PositionOf(node.at);
   text.Add("<node id=\"n", n, "\">");
@@ -57,7 +94,8 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t componen
   AddData(text, "z", p[2]);
   AddData(text, "radius", graph.RadiusOf(node.at));
   AddData(text, "component", component);
-  AddLabel(text, labels.of_nodes, n);
+  AddLabel(text, context.labels.of_nodes, n);
+  if (context.order.has_value()) AddNodeOrder(text, context.order->nodes[n]);
   if (node.kind == NodeKind::kClosedSurface) {
     AddData(text, "loops", node.loops);
     AddData(text, "cavities", node.cavities);
@@ -76,12 +114,13 @@ void AddPathPoints(Text& text, const SkeletonGraph& graph, std::span<const Skele
   text.Add("</data>");
 }
 
-void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphLabels& labels) {
+void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context) {
   const SkeletonEdge& edge = graph.edges[n];
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   text.Add("<edge id=\"e", n, "\" source=\"n", edge.source, "\" target=\"n", edge.target, "\">");
   const EdgeFigures figures = FiguresOf(graph, edge);
-  AddLabel(text, labels.of_edges, n);
+  AddLabel(text, context.labels.of_edges, n);
+  if (context.order.has_value()) AddEdgeOrder(text, context.order->edges[n]);
   AddData(text, "length", figures.length);
   AddData(text, "mean_radius", figures.mean_radius);
   AddData(text, "min_radius", figures.min_radius);
@@ -93,14 +132,15 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphLabels
 
 }  // namespace
 
-std::string GraphMlText(const SkeletonGraph& graph, const GraphLabels& labels) {
+std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context) {
   Text text;
   text.Add(kHead);
+  AddContext(text, context);
   const GraphComponents components = ComponentsOf(graph);
   for (size_t n = 0; n < graph.nodes.size(); ++n) {
-    AddNode(text, graph, n, components.of_node[n], labels);
+    AddNode(text, graph, n, components.of_node[n], context);
   }
-  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, labels);
+  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, context);
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();
 }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "client/export/graph_labels.h"
+#include "client/export/graph_context.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
@@ -13,8 +13,11 @@ namespace bccskel::exporting {
 // Edges: length, mean_radius, min_radius, max_radius, tortuosity (not of closed curves),
 //         points ("x y z radius; x y z radius; ...").
 // Both: label, where labels are given.
+// With an order of trees: of nodes root, parent and root_distance; of edges proximal, generation
+//         and strahler, or closes_loop. Roots have no parent.
+// Graph: how it was made, a string for each of the facts.
 // World coordinates and units throughout.
-std::string GraphMlText(const SkeletonGraph& graph, const GraphLabels& labels = {});
+std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context = {});
 
 }  // namespace bccskel::exporting
 

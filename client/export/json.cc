@@ -5,8 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "client/export/method_facts.h"
 #include "client/export/node_kind_name.h"
 #include "client/export/text.h"
+#include "core/pipeline/notes.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
@@ -29,7 +31,23 @@ void AddPosition(Text& text, const WorldPoint& p) {
   text.Add('[', p[0], ',', p[1], ',', p[2], ']');
 }
 
-void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, uint32_t component) {
+void AddNodeOrder(Text& text, const NodeOrder& order) {
+  text.Add(",\"root\":", order.root);
+  if (order.parent != kNoRow) text.Add(",\"parent\":", order.parent);
+  text.Add(",\"root_distance\":", order.root_distance);
+}
+
+void AddEdgeOrder(Text& text, const EdgeOrder& order) {
+  if (order.ClosesLoop()) {
+    text.Add(",\"closes_loop\":true");
+  } else {
+    text.Add(",\"proximal\":", order.proximal, ",\"generation\":", order.generation,
+             ",\"strahler\":", order.strahler);
+  }
+}
+
+void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, uint32_t component,
+             const std::optional<TreeOrder>& order) {
   text.Add("{\"id\":", &node - graph.nodes.data(), ",\"kind\":\"", NodeKindName(node.kind),
            "\",\"position\":");
   AddPosition(text, graph.PositionOf(node.at));
@@ -37,10 +55,14 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
   if (node.kind == NodeKind::kClosedSurface) {
     text.Add(",\"cavities\":", node.cavities, ",\"loops\":", node.loops);
   }
+  if (order.has_value()) {
+    AddNodeOrder(text, order->nodes[static_cast<size_t>(&node - graph.nodes.data())]);
+  }
   text.Add('}');
 }
 
-void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge) {
+void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
+             const std::optional<TreeOrder>& order) {
   const auto points = graph.PointsOf(edge);
   text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
   AddList(text, ",", points,
@@ -54,7 +76,17 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge) {
            ",\"min_radius\":", figures.min_radius, ",\"max_radius\":", figures.max_radius);
   if (figures.tortuosity.has_value()) text.Add(",\"tortuosity\":", *figures.tortuosity);
   if (std::isfinite(edge.pruning_level)) text.Add(",\"pruning_level\":", edge.pruning_level);
+  if (order.has_value()) {
+    AddEdgeOrder(text, order->edges[static_cast<size_t>(&edge - graph.edges.data())]);
+  }
   text.Add('}');
+}
+
+void AddOrder(Text& text, const TreeOrder& order) {
+  text.Add(",\n\"order\":{\"roots\":");
+  AddList(text, ",", order.roots, [&](uint32_t root) { text.Add(root); });
+  text.Add(",\"loops_cut\":", order.loops_cut, ",\"most_generations\":", order.MostGenerations(),
+           ",\"highest_strahler\":", order.HighestStrahler(), '}');
 }
 
 void AddFigures(Text& text, const ComponentFigures& figures) {
@@ -74,6 +106,11 @@ void AddCertificate(Text& text, const Certificate& certificate) {
   if (certificate.mask.has_value()) {
     text.Add("\"mask\":");
     AddBettiNumbers(text, *certificate.mask);
+    text.Add(',');
+  }
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":");
+    AddBettiNumbers(text, *certificate.unprepared);
     text.Add(',');
   }
   text.Add("\"input\":");
@@ -97,23 +134,29 @@ void AddTimings(Text& text, const StageTimings& timings) {
 
 }  // namespace
 
-std::string JsonText(const SkeletonizeResult& result) {
+std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order) {
   const SkeletonGraph& graph = result.graph;
   Text text;
   text.Add("{\n\"nodes\":");
   const GraphComponents components = ComponentsOf(graph);
   AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) {
-    AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())]);
+    AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
+            order);
   });
   text.Add(",\n\"edges\":");
-  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e); });
+  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, order); });
   text.Add(",\n\"components\":");
   AddList(text, ",\n", components.figures,
           [&](const ComponentFigures& figures) { AddFigures(text, figures); });
   text.Add(",\n\"totals\":");
   AddFigures(text, TotalOf(components));
+  if (order.has_value()) AddOrder(text, *order);
   text.Add(",\n\"certificate\":");
   AddCertificate(text, result.certificate);
+  text.Add(",\n\"method\":\"", result.method, "\",\n\"algorithm_version\":\"",
+           result.algorithm_version, "\",\n\"options\":", OptionsJson(result.options),
+           ",\n\"preparing\":", PreparingJson(result.preparing), ",\n\"notes\":");
+  AddList(text, ",\n", NotesOn(result), [&](const std::string& note) { text.Add('"', note, '"'); });
   text.Add(",\n\"object_points\":", result.object_points, ",\n\"timings\":");
   AddTimings(text, result.timings);
   text.Add(",\n\"sha256\":\"", result.sha256, "\"\n}\n");

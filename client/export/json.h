@@ -1,15 +1,19 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_JSON_H_
 #define BCCSKEL_CLIENT_EXPORT_JSON_H_
 
+#include <optional>
 #include <string>
 
 #include "core/pipeline/skeletonize.h"
+#include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
 
-// The JSON document of client/export/skeleton.schema.json: nodes, edges, certificate,
-// object_points, timings, sha256. World coordinates and units.
-std::string JsonText(const SkeletonizeResult& result);
+// The JSON document of client/export/skeleton.schema.json: nodes, edges, components, certificate,
+// how it was made, timings, sha256. World coordinates and units.
+// With an order of trees, nodes and edges tell their places in it.
+std::string JsonText(const SkeletonizeResult& result,
+                     const std::optional<TreeOrder>& order = std::nullopt);
 
 }  // namespace bccskel::exporting
 

@@ -9,9 +9,23 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
+namespace {
+
+std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,
+                                 const std::optional<RootChoice>& root) {
+  if (!root.has_value()) return std::nullopt;
+  return OrderTrees(graph, *root);
+}
+
+}  // namespace
 
 void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
   const SkeletonGraph& graph = result.graph;
+  if (facts_.empty()) {
+    facts_ = MethodFactsOf(result);
+    // What preparing did differs from label to label.
+    std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
+  }
   const auto first_node = static_cast<uint32_t>(graph_.nodes.size());
   const size_t first_point = graph_.points.size();
   graph_.placement = graph.placement;
@@ -27,7 +41,11 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   labels_.of_edges.resize(graph_.edges.size(), label);
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
-           ",\"skeleton\":" + JsonText(result) + "}";
+           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_)) + "}";
+}
+
+GraphContext LabeledSkeletons::Context() const {
+  return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_)};
 }
 
 bool HoldsManyLabels(SkeletonFormat format) {
@@ -39,9 +57,9 @@ absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& s
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   switch (format) {
     case SkeletonFormat::kVtp:
-      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.labels()));
+      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()));
     case SkeletonFormat::kGraphMl:
-      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.labels()));
+      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()));
     case SkeletonFormat::kJson:
       return WriteFileAtomically(path, skeletons.Json());
     default:

@@ -2,10 +2,11 @@
 #define BCCSKEL_CLIENT_EXPORT_LABELED_GRAPH_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
-#include "client/export/graph_labels.h"
+#include "client/export/graph_context.h"
 #include "client/export/skeleton_file.h"
 #include "core/pipeline/skeletonize.h"
 
@@ -14,18 +15,23 @@ namespace bccskel::exporting {
 // The skeletons of many labels of one image, on their way into one file.
 class LabeledSkeletons {
  public:
+  explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt) : root_(root) {}
+
   // Needs: all have one placement.
   void Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result);
 
   // All graphs side by side.
   const SkeletonGraph& graph() const { return graph_; }
-  const GraphLabels& labels() const { return labels_; }
+  // Labels, the method of the first, and with a choice of roots the order of their trees.
+  GraphContext Context() const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
 
  private:
   SkeletonGraph graph_;
+  const std::optional<RootChoice> root_;
   GraphLabels labels_;
+  MethodFacts facts_;
   std::string json_;
 };
 

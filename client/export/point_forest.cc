@@ -34,12 +34,13 @@ class StepGraph {
   const std::vector<SkeletonPoint>& points() const { return points_; }
   const std::vector<size_t>& Neighbors(size_t n) const { return neighbors_[n]; }
 
- private:
+  // Needs: one of the points.
   size_t PositionOf(LatticePoint p) const {
     const auto found = std::ranges::lower_bound(points_, p, {}, &SkeletonPoint::point);
     return static_cast<size_t>(found - points_.begin());
   }
 
+ private:
   void AddSteps(std::span<const SkeletonPoint> path) {
     for (size_t n = 1; n < path.size(); ++n) {
       const size_t a = PositionOf(path[n - 1].point), b = PositionOf(path[n].point);
@@ -132,16 +133,18 @@ void AppendTree(const StepGraph& steps, const ShortestWays& ways, size_t root,
 
 }  // namespace
 
-PointForest PointForestOf(const SkeletonGraph& graph) {
+PointForest PointForestOf(const SkeletonGraph& graph, std::span<const LatticePoint> roots) {
   const StepGraph steps(graph);
   ShortestWays ways(steps, graph.placement);
   PointForest forest;
-  for (size_t root : DeepestFirst(steps.points())) {
-    if (ways.Reached(root)) continue;
+  const auto grow_from = [&](size_t root) {
+    if (ways.Reached(root)) return;
     ways.GrowFrom(root);
     AppendTree(steps, ways, root, forest);
     ++forest.trees;
-  }
+  };
+  for (LatticePoint root : roots) grow_from(steps.PositionOf(root));
+  for (size_t root : DeepestFirst(steps.points())) grow_from(root);
   forest.loops_cut = graph.edges.size() + forest.trees - graph.nodes.size();
   return forest;
 }

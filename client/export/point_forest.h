@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -20,10 +21,11 @@ struct PointForest {
   size_t loops_cut = 0;
 };
 
-// The root of a component is its deepest point, on ties the smallest. Every point hangs on the
-// shortest way to its root, so a loop is cut at the step farthest from the root and no point is
-// lost.
-PointForest PointForestOf(const SkeletonGraph& graph);
+// The root of a component is the first of `roots` in it, or else its deepest point, on ties the
+// smallest. Every point hangs on the shortest way to its root, so a loop is cut at the step
+// farthest from the root and no point is lost.
+// Needs: `roots` are nodes' points.
+PointForest PointForestOf(const SkeletonGraph& graph, std::span<const LatticePoint> roots = {});
 
 }  // namespace bccskel::exporting
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -10,10 +11,10 @@
 #include "client/export/graphml.h"
 #include "client/export/json.h"
 #include "client/export/obj.h"
-#include "client/export/picture/html.h"
 #include "client/export/picture/svg.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
+#include "client/view/page.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -65,26 +66,47 @@ absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
   return Document{*std::move(bytes), ""};
 }
 
+std::optional<TreeOrder> OrderOf(const Subject& subject) {
+  if (!subject.root.has_value()) return std::nullopt;
+  return OrderTrees(subject.result.graph, *subject.root);
+}
+
+absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
+  if (subject.shells == nullptr) return view::PeelForDisplay(subject.object, {}, subject.context);
+  return view::PeelByShells(subject.object, *subject.shells, subject.result.last_shell, {},
+                            subject.context);
+}
+
+absl::StatusOr<std::string> PageText(const Subject& subject) {
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
+                           view::ParseResultDocument(JsonText(subject.result, OrderOf(subject))));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
+  return view::PageOf({subject.title, result, peeling});
+}
+
 // Needs: a format that is made in memory, so any but kVolume.
 absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
   const SkeletonGraph& graph = subject.result.graph;
+  const auto context = [&] {
+    return GraphContext{.facts = MethodFactsOf(subject.result), .order = OrderOf(subject)};
+  };
   switch (format) {
     case SkeletonFormat::kSwc: {
-      SwcDocument swc = WriteSwc(graph);
+      SwcDocument swc = WriteSwc(graph, OrderOf(subject));
       return Document{std::move(swc.text), std::move(swc.note)};
     }
     case SkeletonFormat::kVtp:
-      return WithoutNote(VtpText(graph));
+      return WithoutNote(VtpText(graph, context()));
     case SkeletonFormat::kGraphMl:
-      return WithoutNote(GraphMlText(graph));
+      return WithoutNote(GraphMlText(graph, context()));
     case SkeletonFormat::kObj:
       return WithoutNote(ObjText(graph));
     case SkeletonFormat::kJson:
-      return WithoutNote(JsonText(subject.result));
+      return WithoutNote(JsonText(subject.result, OrderOf(subject)));
     case SkeletonFormat::kSvg:
       return WithoutNote(SvgText(subject));
     case SkeletonFormat::kHtml:
-      return WithoutNote(HtmlText(subject));
+      return WithoutNote(PageText(subject));
     case SkeletonFormat::kVolume:
       break;
   }

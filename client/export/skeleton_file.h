@@ -20,8 +20,8 @@ std::string SkeletonFormatEndings();
 // Writes one file; either all of it appears or nothing. Equal subjects give equal bytes.
 // Returns what the format could not hold, a sentence for the user; empty if it held everything.
 // Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
-// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), and those of
-//         WriteFileAtomically().
+// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), those of
+//         WriteFileAtomically(), and for kHtml those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
 }  // namespace bccskel::exporting

@@ -1,10 +1,14 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SUBJECT_H_
 #define BCCSKEL_CLIENT_EXPORT_SUBJECT_H_
 
+#include <optional>
 #include <string>
 
+#include "client/view/display_surface.h"
+#include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/skeleton/tree_order.h"
 #include "core/volume/volume.h"
 
 namespace bccskel::exporting {
@@ -14,7 +18,12 @@ namespace bccskel::exporting {
 struct Subject {
   const SkeletonizeResult& result;
   const Volume& object;
-  std::string title;  // of pictures; plain text
+  std::string title;           // of pictures; plain text
+  exec::Context context = {};  // for the surfaces of a page, which take a while
+  // How the object was peeled, for a page; where nothing is known, by the distance to its boundary.
+  const view::PeeledShells* shells = nullptr;
+  // Where the trees begin, if they are to be ordered. Needs: CheckRootChoice() is OK.
+  std::optional<RootChoice> root = std::nullopt;
 };
 
 }  // namespace bccskel::exporting

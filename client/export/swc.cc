@@ -54,8 +54,12 @@ void AddHeader(Text& text, const PointForest& forest, const std::string& note) {
 
 }  // namespace
 
-SwcDocument WriteSwc(const SkeletonGraph& graph) {
-  const PointForest forest = PointForestOf(graph);
+SwcDocument WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order) {
+  std::vector<LatticePoint> roots;
+  if (order.has_value()) {
+    for (uint32_t root : order->roots) roots.push_back(graph.nodes[root].at.point);
+  }
+  const PointForest forest = PointForestOf(graph, roots);
   const std::map<LatticePoint, SwcType> types = TypesOf(graph);
   SwcDocument document;
   document.note = NoteOf(graph, forest);

@@ -1,9 +1,11 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SWC_H_
 #define BCCSKEL_CLIENT_EXPORT_SWC_H_
 
+#include <optional>
 #include <string>
 
 #include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
 
@@ -15,7 +17,8 @@ struct SwcDocument {
 
 // SWC: `id type x y z radius parent`, one tree per component (see PointForest).
 // Types: 6 end, 5 junction, 0 everything else. World coordinates and units.
-SwcDocument WriteSwc(const SkeletonGraph& graph);
+SwcDocument WriteSwc(const SkeletonGraph& graph,
+                     const std::optional<TreeOrder>& order = std::nullopt);
 
 }  // namespace bccskel::exporting
 

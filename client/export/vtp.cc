@@ -1,5 +1,6 @@
 #include "client/export/vtp.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -83,8 +84,51 @@ void AddLabels(Text& text, const GraphLabels& labels, const Polylines& polylines
   });
 }
 
+// Strings are written as the numbers of their characters.
+void AddFacts(Text& text, const MethodFacts& facts) {
+  if (facts.empty()) return;
+  text.Add("<FieldData>\n");
+  for (const auto& [name, value] : facts) {
+    text.Add("<DataArray type=\"String\" Name=\"", name,
+             "\" NumberOfTuples=\"1\" format=\"ascii\">\n");
+    for (char c : value) text.Add(static_cast<int>(static_cast<unsigned char>(c)), ' ');
+    text.Add("0\n</DataArray>\n");
+  }
+  text.Add("</FieldData>\n");
+}
+
+// One value per cell; `value` is asked for each edge.
+template <typename Value>
+void AddEdgeArray(Text& text, std::string_view type, std::string_view name,
+                  std::string_view of_vertices, const SkeletonGraph& graph,
+                  const Polylines& polylines, Value value) {
+  AddArray(text, type, name, [&] {
+    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add(of_vertices, '\n');
+    for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(value(n), '\n');
+  });
+}
+
+void AddOrder(Text& text, const SkeletonGraph& graph, const Polylines& polylines,
+              const TreeOrder& order) {
+  const auto or_none = [&](uint32_t EdgeOrder::*number) {
+    return [&order, number](size_t n) {
+      const EdgeOrder& edge = order.edges[n];
+      return edge.ClosesLoop() ? int64_t{-1} : static_cast<int64_t>(edge.*number);
+    };
+  };
+  AddEdgeArray(text, "Int32", "generation", "-1", graph, polylines,
+               or_none(&EdgeOrder::generation));
+  AddEdgeArray(text, "Int32", "strahler", "-1", graph, polylines, or_none(&EdgeOrder::strahler));
+  AddEdgeArray(text, "Int32", "along", "0", graph, polylines,
+               [&](size_t n) { return order.edges[n].proximal == graph.edges[n].source ? 1 : 0; });
+  AddEdgeArray(text, "Float64", "root_distance", "0", graph, polylines, [&](size_t n) {
+    const SkeletonEdge& edge = graph.edges[n];
+    return std::min(order.nodes[edge.source].root_distance, order.nodes[edge.target].root_distance);
+  });
+}
+
 void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polylines,
-                 const GraphLabels& labels) {
+                 const GraphContext& context) {
   text.Add("<CellData Scalars=\"edge_id\">\n");
   AddArray(text, "Int64", "edge_id", [&] {
     for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("-1\n");
@@ -103,13 +147,14 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
   add("min_radius", [](const EdgeFigures& one) { return one.min_radius; });
   add("max_radius", [](const EdgeFigures& one) { return one.max_radius; });
   add("tortuosity", [](const EdgeFigures& one) { return one.tortuosity.value_or(0); });
-  if (!labels.of_nodes.empty()) AddLabels(text, labels, polylines);
+  if (!context.labels.of_nodes.empty()) AddLabels(text, context.labels, polylines);
+  if (context.order.has_value()) AddOrder(text, graph, polylines, *context.order);
   text.Add("</CellData>\n");
 }
 
 }  // namespace
 
-std::string VtpText(const SkeletonGraph& graph, const GraphLabels& labels) {
+std::string VtpText(const SkeletonGraph& graph, const GraphContext& context) {
   const Polylines polylines = PolylinesOf(graph);
   std::vector<std::vector<size_t>> vertices;
   for (size_t n : polylines.lone_nodes) vertices.push_back({n});
@@ -117,11 +162,12 @@ std::string VtpText(const SkeletonGraph& graph, const GraphLabels& labels) {
   text.Add("<?xml version=\"1.0\"?>\n<!-- curve skeleton by bccskel -->\n",
            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" ",
            "header_type=\"UInt64\">\n<PolyData>\n");
+  AddFacts(text, context.facts);
   text.Add("<Piece NumberOfPoints=\"", polylines.points.size(), "\" NumberOfVerts=\"",
            vertices.size(), "\" NumberOfLines=\"", polylines.lines.size(),
            "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
   AddPointData(text, graph, polylines);
-  AddCellData(text, graph, polylines, labels);
+  AddCellData(text, graph, polylines, context);
   AddPoints(text, graph, polylines);
   AddCells(text, "Verts", vertices);
   AddCells(text, "Lines", polylines.lines);

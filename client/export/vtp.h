@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "client/export/graph_labels.h"
+#include "client/export/graph_context.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
@@ -14,8 +14,12 @@ namespace bccskel::exporting {
 //              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface); smooth (the place on a
 //              smooth curve inside the object).
 // Cell data:   edge_id (-1 for vertices); length, mean_radius, min_radius, max_radius (world
-//              units), tortuosity (0 for closed curves); label, where labels are given.
-std::string VtpText(const SkeletonGraph& graph, const GraphLabels& labels = {});
+//              units), tortuosity (0 for closed curves); label, where labels are given; with an
+//              order of trees generation and strahler (-1 for vertices and for edges that close
+//              loops), along (1 where the line runs away from its root, else 0), root_distance (of
+//              the end nearer to the root, world units).
+// Field data:  how it was made, a string for each of the facts.
+std::string VtpText(const SkeletonGraph& graph, const GraphContext& context = {});
 
 }  // namespace bccskel::exporting
 

@@ -72,6 +72,46 @@ TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
   EXPECT_THAT(parsed.err, HasSubstr("symmetric"));
 }
 
+TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
+  const PreparingOptions expected = {.denoise_passes = 2,
+                                     .cavities = CavityFilling::kOn,
+                                     .min_component_points = 30,
+                                     .min_component_volume = 1.5,
+                                     .components = KeptComponents::kLargest};
+  const std::vector<std::string> options = {"--denoise",
+                                            "2",
+                                            "--fill-cavities",
+                                            "--min-component",
+                                            "30",
+                                            "--min-component-volume",
+                                            "1.5",
+                                            "--keep-largest"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), options.begin(), options.end());
+    return Parse(words);
+  };
+  EXPECT_EQ(with({"skeletonize", "a.off", "-o", "a.swc"})
+                .as<SkeletonizeArguments>()
+                .skeletonize.preparing,
+            expected);
+  EXPECT_EQ(with({"labels", "a.tif", "-o", "a.vtp"}).as<LabelsArguments>().skeletonize.preparing,
+            expected);
+}
+
+TEST(ArgumentsTest, TakesARoot) {
+  const auto root = [](const char* text) {
+    return Parse({"skeletonize", "a.off", "-o", "a.swc", "--root", text})
+        .as<SkeletonizeArguments>()
+        .root;
+  };
+  EXPECT_EQ(root("thickest-end"), RootChoice());
+  EXPECT_EQ(root("-1.5,2e1,3"),
+            (RootChoice{.rule = RootChoice::Rule::kNearestNode, .point = {-1.5, 20, 3}}));
+  EXPECT_EQ(root("node:12"), (RootChoice{.rule = RootChoice::Rule::kNode, .node = 12}));
+  EXPECT_EQ(Parse({"skeletonize", "a.off", "-o", "a.swc"}).as<SkeletonizeArguments>().root,
+            std::nullopt);
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesPruning) {
   const Parsed parsed =
       Parse({"skeletonize", "a.off", "-o", "a.swc", "--pruning", "relative-length",
@@ -185,6 +225,13 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"voxelize_to_a_skeleton",
               {"voxelize", "a.off", "-o", "a.swc", "--points", "9"},
               ".bccb"},
+        Wrong{"too_many_passes", {"skeletonize", "a.off", "-o", "a.swc", "--denoise", "17"}, "16"},
+        Wrong{"prepared_voxels",
+              {"skeletonize", "a.tif", "-o", "a.swc", "--keep-largest", "--curve-image", "b.nrrd"},
+              "as they are"},
+        Wrong{"half_a_root", {"skeletonize", "a.off", "-o", "a.swc", "--root", "1,2"}, "node:7"},
+        Wrong{
+            "root_of_labels", {"labels", "a.tif", "-o", "a.vtp", "--root", "node:1"}, "have many"},
         Wrong{"unknown_shape", {"generate", "teapot", "-o", "a.exr"}, "hollow-ball"}),
     [](const auto& test) { return test.param.name; });
 

@@ -99,6 +99,63 @@ TEST(JsonTest, HoldsGraphCertificateAndDigest) {
   EXPECT_THAT(json, HasSubstr("\"sha256\":\"abc\""));
 }
 
+SkeletonizeResult Prepared() {
+  SkeletonizeResult result;
+  result.graph = Lollipop();
+  result.certificate = {
+      .unprepared = BettiNumbers{3, 1, 2}, .input = {2, 1, 0}, .skeleton = {2, 1, 0}};
+  result.options.preparing.cavities = CavityFilling::kOn;
+  result.preparing = {{PreparingStepKind::kFillCavities, 2, 30, 0}};
+  result.object_points = 99;
+  result.method = "by hand";
+  result.algorithm_version = "7";
+  return result;
+}
+
+TEST(JsonTest, SaysHowTheResultWasMade) {
+  const std::string json = JsonText(Prepared());
+  EXPECT_THAT(json, HasSubstr("\"method\":\"by hand\""));
+  EXPECT_THAT(json, HasSubstr("\"algorithm_version\":\"7\""));
+  EXPECT_THAT(json, HasSubstr("\"cavities\":\"filled\",\"min_component_points\":0,"));
+  EXPECT_THAT(json, HasSubstr("\"thinning\":\"symmetric\",\"kind\":\"curve\","));
+  EXPECT_THAT(json, HasSubstr("\"preparing\":[{\"step\":\"fill-cavities\",\"count\":2,"
+                              "\"points_added\":30,\"points_removed\":0}]"));
+  EXPECT_THAT(json, HasSubstr("\"certificate\":{\"unprepared\":{\"components\":3,"));
+  EXPECT_THAT(json, HasSubstr("\"notes\":[\"preparing changed the topology: components 3 -> 2"));
+}
+
+TEST(GraphMlTest, SaysHowTheResultWasMade) {
+  const std::string graphml = GraphMlText(Lollipop(), {.facts = MethodFactsOf(Prepared())});
+  EXPECT_THAT(graphml, HasSubstr("<key id=\"method\" for=\"graph\""));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"method\">by hand</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"prepared\">2 cavities filled</data>"));
+}
+
+TEST(VtpTest, SaysHowTheResultWasMade) {
+  const std::string vtp = VtpText(Lollipop(), {.facts = MethodFactsOf(Prepared())});
+  EXPECT_THAT(vtp, HasSubstr("<FieldData>\n<DataArray type=\"String\" Name=\"method\" "
+                             "NumberOfTuples=\"1\" format=\"ascii\">\n"
+                             "98 121 32 104 97 110 100 0\n"));
+}
+
+// The stick from node 0 to node 1 hangs on node 0; the loop at node 1 is cut.
+TEST(GraphFormatsTest, HoldTheOrderOfTheTrees) {
+  const SkeletonizeResult result = Prepared();
+  const TreeOrder order = OrderTrees(result.graph, {.rule = RootChoice::Rule::kNode, .node = 1});
+  const std::string json = JsonText(result, order);
+  EXPECT_THAT(json, HasSubstr("\"component\":0,\"root\":1,\"parent\":1,\"root_distance\":"));
+  EXPECT_THAT(json, HasSubstr("\"proximal\":1,\"generation\":0,\"strahler\":1}"));
+  EXPECT_THAT(json, HasSubstr("\"closes_loop\":true}"));
+  EXPECT_THAT(json, HasSubstr("\"order\":{\"roots\":[1,2],\"loops_cut\":1,"
+                              "\"most_generations\":0,\"highest_strahler\":1}"));
+  const std::string graphml = GraphMlText(result.graph, {.order = order});
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"parent\">n1</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"closes_loop\">true</data>"));
+  const std::string vtp = VtpText(result.graph, {.order = order});
+  EXPECT_THAT(vtp, HasSubstr("Name=\"strahler\" format=\"ascii\">\n-1\n1\n-1\n"));
+  EXPECT_THAT(vtp, HasSubstr("Name=\"along\" format=\"ascii\">\n0\n0\n0\n"));
+}
+
 TEST(GraphFormatsTest, AnEmptyGraphIsAValidFile) {
   EXPECT_THAT(VtpText({}), HasSubstr("NumberOfPoints=\"0\""));
   EXPECT_EQ(CountOf(GraphMlText({}), "<node "), 0);

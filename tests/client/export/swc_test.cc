@@ -112,6 +112,25 @@ TEST(SwcTest, MarksEndsAndForksAndGivesWorldUnits) {
   EXPECT_TRUE(seen.contains({0, 20, 2}));
 }
 
+TEST(SwcTest, BeginsEveryTreeAtItsRoot) {
+  for (const Sample& sample : Samples()) {
+    const SkeletonGraph& graph = sample.result.graph;
+    const TreeOrder order = OrderTrees(graph, {});
+    const PointForest deepest = PointForestOf(graph);
+    std::vector<LatticePoint> wanted;
+    for (uint32_t root : order.roots) wanted.push_back(graph.nodes[root].at.point);
+    const PointForest forest = PointForestOf(graph, wanted);
+    std::vector<LatticePoint> roots;
+    for (size_t n = 0; n < forest.points.size(); ++n) {
+      if (!forest.parents[n].has_value()) roots.push_back(forest.points[n].point);
+    }
+    EXPECT_EQ(roots, wanted);
+    EXPECT_EQ(forest.points.size(), deepest.points.size());
+    EXPECT_EQ(forest.loops_cut, deepest.loops_cut);
+    EXPECT_EQ(RowsOf(WriteSwc(graph, order).text).size(), forest.points.size());
+  }
+}
+
 TEST(SwcTest, AnEmptyGraphIsAHeader) {
   EXPECT_THAT(RowsOf(WriteSwc(SkeletonGraph()).text), IsEmpty());
 }

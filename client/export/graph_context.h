@@ -1,0 +1,21 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_
+#define BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_
+
+#include <optional>
+
+#include "client/export/graph_labels.h"
+#include "client/export/method_facts.h"
+#include "core/skeleton/tree_order.h"
+
+namespace bccskel::exporting {
+
+// What is known of a graph beside itself. Each part may be missing.
+struct GraphContext {
+  GraphLabels labels = {};
+  MethodFacts facts = {};
+  std::optional<TreeOrder> order = std::nullopt;
+};
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_

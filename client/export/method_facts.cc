@@ -1,0 +1,46 @@
+#include "client/export/method_facts.h"
+
+#include "client/export/text.h"
+#include "core/pipeline/notes.h"
+#include "core/pipeline/option_words.h"
+
+namespace bccskel::exporting {
+
+MethodFacts MethodFactsOf(const SkeletonizeResult& result) {
+  MethodFacts facts = {{"method", result.method}, {"algorithm_version", result.algorithm_version}};
+  for (const OptionFact& fact : FactsOf(result.options)) facts.emplace_back(fact.name, fact.value);
+  std::string prepared;
+  for (const PreparingStep& step : result.preparing) {
+    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
+  }
+  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
+  return facts;
+}
+
+std::string OptionsJson(const SkeletonizeOptions& options) {
+  Text text;
+  char before = '{';
+  for (const OptionFact& fact : FactsOf(options)) {
+    text.Add(before, '"', fact.name, "\":");
+    if (fact.type == OptionFact::Type::kNumber) {
+      text.Add(fact.value);
+    } else {
+      text.Add('"', fact.value, '"');
+    }
+    before = ',';
+  }
+  return std::move(text.Add('}')).Take();
+}
+
+std::string PreparingJson(const std::vector<PreparingStep>& steps) {
+  Text text;
+  text.Add('[');
+  for (const PreparingStep& step : steps) {
+    text.Add(&step == steps.data() ? "" : ",", "{\"step\":\"", WordFor(kPreparingWords, step.kind),
+             "\",\"count\":", step.count, ",\"points_added\":", step.points_added,
+             ",\"points_removed\":", step.points_removed, '}');
+  }
+  return std::move(text.Add(']')).Take();
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,24 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_METHOD_FACTS_H_
+#define BCCSKEL_CLIENT_EXPORT_METHOD_FACTS_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel::exporting {
+
+// How a result was made: names and values for formats that hold no structure. The first is `method`
+// in words, the second `algorithm_version`, the others are the options; `prepared` has what
+// preparing did. Plain text, no quotes.
+using MethodFacts = std::vector<std::pair<std::string, std::string>>;
+MethodFacts MethodFactsOf(const SkeletonizeResult& result);
+
+// The same as JSON values: an object of the options, and a list of the steps of preparing.
+std::string OptionsJson(const SkeletonizeOptions& options);
+std::string PreparingJson(const std::vector<PreparingStep>& steps);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_METHOD_FACTS_H_
