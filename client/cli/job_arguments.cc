@@ -1,0 +1,104 @@
+#include "client/cli/job_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "client/cli/choice_option.h"
+#include "client/cli/server_arguments.h"
+
+namespace bccskel::cli {
+namespace {
+
+void AddJson(CLI::App& command, CommonArguments& common) {
+  command.add_flag_callback(
+      "--json", [&common] { common.summary = SummaryStyle::kJson; },
+      "Print the summary as one JSON object");
+}
+
+CLI::App& AddJobCommand(CLI::App& app, const char* name, const char* description,
+                        JobArguments& arguments) {
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.add_option("JOB", arguments.job, "The job's name, as submit --detach prints it")
+      ->required()
+      ->option_text(" ");
+  AddServer(command, arguments.server);
+  AddJson(command, arguments.common);
+  return command;
+}
+
+void AddWaiting(CLI::App& command, WaitingArguments& waiting) {
+  AddChoice<ProgressStyle>(command, "--progress", waiting.progress,
+                           "Show the shells on standard error; auto (default): on a terminal",
+                           {{"auto", ProgressStyle::kAuto},
+                            {"always", ProgressStyle::kAlways},
+                            {"never", ProgressStyle::kNever}});
+  command.add_flag_callback(
+      "--detach", [&waiting] { waiting.on_interrupt = OnInterrupt::kLeave; },
+      "Let the job go on when Ctrl-C ends this command");
+  command
+      .add_option_function<double>(
+          "--timeout",
+          [&waiting](double seconds) {
+            waiting.timeout = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
+          },
+          "Stop waiting after this many seconds (default 3600); the job goes on")
+      ->check(CLI::Range(0.001, 1e7))
+      ->option_text("SECONDS");
+}
+
+CLI::App& AddJobs(CLI::App& app, JobsArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("jobs", "List the jobs that a server keeps");
+  AddServer(command, arguments.server);
+  command.add_option("--limit", arguments.limit, "The newest ones only (default 50)")
+      ->check(CLI::Range(1, 1'000'000))
+      ->option_text("N");
+  AddJson(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddWatch(CLI::App& app, WatchArguments& arguments) {
+  CLI::App& command = AddJobCommand(app, "watch", "Wait for a job's end", arguments.job);
+  AddWaiting(command, arguments.waiting);
+  return command;
+}
+
+CLI::App& AddCancel(CLI::App& app, CancelArguments& arguments) {
+  return AddJobCommand(app, "cancel", "End a job that waits or runs", arguments.job);
+}
+
+CLI::App& AddDelete(CLI::App& app, DeleteArguments& arguments) {
+  return AddJobCommand(app, "delete", "Erase a job and its result from the server", arguments.job);
+}
+
+CLI::App& AddFetch(CLI::App& app, FetchArguments& arguments) {
+  CLI::App& command =
+      AddJobCommand(app, "fetch", "Wait for a job's end and write its result", arguments.job);
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: .json, .graphml, .vtp, .swc or .obj; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+  AddWaiting(command, arguments.waiting);
+  return command;
+}
+
+}  // namespace
+
+JobCommands::JobCommands(CLI::App& app)
+    : jobs_(AddJobs(app, jobs_arguments_)),
+      watch_(AddWatch(app, watch_arguments_)),
+      cancel_(AddCancel(app, cancel_arguments_)),
+      delete_(AddDelete(app, delete_arguments_)),
+      fetch_(AddFetch(app, fetch_arguments_)) {}
+
+std::optional<Arguments> JobCommands::Chosen() const {
+  if (jobs_.parsed()) return jobs_arguments_;
+  if (watch_.parsed()) return watch_arguments_;
+  if (cancel_.parsed()) return cancel_arguments_;
+  if (delete_.parsed()) return delete_arguments_;
+  if (fetch_.parsed()) return fetch_arguments_;
+  return std::nullopt;
+}
+
+}  // namespace bccskel::cli

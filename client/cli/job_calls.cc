@@ -1,0 +1,87 @@
+#include "client/cli/job_calls.h"
+
+#include <utility>
+
+#include "absl/time/time.h"
+#include "client/cli/json_text.h"
+#include "client/cli/progress_bar.h"
+#include "client/cli/server_arguments.h"
+#include "client/export/text.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::cli {
+namespace {
+
+using client::DurableClient, client::JobState;
+
+constexpr std::chrono::minutes kShortCall(1);
+
+void AddTime(exporting::Text& text, const char* key, const std::optional<client::Time>& time) {
+  text.Add(",\"", key, "\":");
+  if (time.has_value()) {
+    text.Add(JsonString(TimeText(*time)));
+  } else {
+    text.Add("null");
+  }
+}
+
+absl::Status StatusOf(JobState state, const absl::Status& error) {
+  if (state == JobState::kSucceeded) return absl::OkStatus();
+  if (!error.ok()) return error;
+  return state == JobState::kCancelled ? absl::CancelledError("the job was cancelled")
+                                       : absl::InternalError("the job failed");
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<DurableClient>> ClientOf(const ServerArguments& server) {
+  BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(server));
+  BCCSKEL_ASSIGN_OR_RETURN(auto stub, client::MakeGrpcDurableStub(endpoint));
+  return std::make_unique<DurableClient>(std::move(stub));
+}
+
+DurableClient::Calls ShortCalls(const std::stop_token& stop) {
+  return {.timeout = kShortCall, .stop = stop};
+}
+
+std::string TimeText(client::Time time) {
+  return absl::FormatTime("%Y-%m-%dT%H:%M:%SZ", absl::FromChrono(time), absl::UTCTimeZone());
+}
+
+std::string JobJson(const client::DurableJob& job) {
+  exporting::Text text;
+  text.Add("{\"job\":", JsonString(job.name), ",\"state\":", JsonString(NameOf(job.state)),
+           ",\"request_id\":", JsonString(job.request_id), ",\"volume\":", JsonString(job.volume),
+           ",\"attempts\":", job.attempts, ",\"result_bytes\":", job.result_bytes,
+           ",\"message\":", JsonString(std::string(job.error.message())));
+  AddTime(text, "created", job.created);
+  AddTime(text, "started", job.started);
+  AddTime(text, "ended", job.ended);
+  AddTime(text, "expires", job.expires);
+  return std::move(text.Add("}")).Take();
+}
+
+std::string JobSummary(const CommonArguments& common, const client::DurableJob& job) {
+  if (common.summary == SummaryStyle::kJson) return JobJson(job) + "\n";
+  return job.name + " " + NameOf(job.state) + "\n";
+}
+
+absl::Status AwaitJob(DurableClient& client, const std::string& job,
+                      const WaitingArguments& waiting, const std::stop_token& stop) {
+  ProgressBar bar(waiting.progress);
+  const auto on_shell = bar.Callback();
+  absl::Status error;
+  const auto take = [&](const client::JobEvent& event) {
+    if (event.shell.has_value() && on_shell) on_shell(*event.shell);
+    if (event.state.has_value()) error = event.error;
+  };
+  const absl::StatusOr<JobState> state =
+      client.Watch(job, take, {.timeout = waiting.timeout, .stop = stop});
+  if (state.ok()) return StatusOf(*state, error);
+  if (stop.stop_requested() && waiting.on_interrupt == OnInterrupt::kCancel) {
+    BCCSKEL_RETURN_IF_ERROR(client.CancelJob(job, ShortCalls({})).status());
+  }
+  return state.status();
+}
+
+}  // namespace bccskel::cli

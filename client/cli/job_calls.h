@@ -1,0 +1,36 @@
+#ifndef BCCSKEL_CLIENT_CLI_JOB_CALLS_H_
+#define BCCSKEL_CLIENT_CLI_JOB_CALLS_H_
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+#include "client/durable_client.h"
+
+// What the commands for jobs share.
+
+namespace bccskel::cli {
+
+// Errors: those of EndpointOf() and CheckEndpoint().
+absl::StatusOr<std::unique_ptr<client::DurableClient>> ClientOf(const ServerArguments& server);
+
+// Calls that do not wait for a job.
+client::DurableClient::Calls ShortCalls(const std::stop_token& stop);
+
+// "2026-11-21T20:20:46Z"
+std::string TimeText(client::Time time);
+// One JSON object on one line, without a line end.
+std::string JobJson(const client::DurableJob& job);
+// "jobs/... succeeded", or the JSON object.
+std::string JobSummary(const CommonArguments& common, const client::DurableJob& job);
+
+// Waits for the job's end. A stop cancels the job unless it is to be left.
+// Errors: those of DurableClient::Watch(); what made the job fail; CANCELLED.
+absl::Status AwaitJob(client::DurableClient& client, const std::string& job,
+                      const WaitingArguments& waiting, const std::stop_token& stop);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_JOB_CALLS_H_

@@ -1,0 +1,129 @@
+#include "client/durable_client.h"
+
+#include <random>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "client/skeleton_reading.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::client {
+namespace {
+
+absl::Status StatusOf(const absl::Status& status) { return status; }
+template <typename Value>
+absl::Status StatusOf(const absl::StatusOr<Value>& value) {
+  return value.status();
+}
+
+}  // namespace
+
+std::string RandomId() {
+  std::random_device device;
+  std::string id;
+  for (int n = 0; n < 4; ++n) absl::StrAppendFormat(&id, "%08x", device());
+  return id;
+}
+
+const char* NameOf(JobState state) {
+  switch (state) {
+    case JobState::kUnknown:
+      return "unknown";
+    case JobState::kReceiving:
+      return "receiving";
+    case JobState::kQueued:
+      return "queued";
+    case JobState::kRunning:
+      return "running";
+    case JobState::kSucceeded:
+      return "succeeded";
+    case JobState::kFailed:
+      return "failed";
+    case JobState::kCancelled:
+      return "cancelled";
+  }
+  return "unknown";  // not reached: the enumerators are exhausted above
+}
+
+template <typename Attempt>
+auto DurableClient::Retry(const Calls& calls, Attempt attempt)
+    -> decltype(attempt(DurableStub::Deadline())) {
+  RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
+  while (true) {
+    auto result = attempt(loop.deadline());
+    if (StatusOf(result).ok()) return result;
+    if (auto end = loop.EndAfter(StatusOf(result)); end.has_value()) return *std::move(end);
+  }
+}
+
+absl::StatusOr<std::string> DurableClient::Upload(const EncodedVolume& volume, const Calls& calls) {
+  absl::StatusOr<std::string> found =
+      Retry(calls, [&](auto deadline) { return stub_->FindVolume(volume, deadline); });
+  if (!found.ok() || !found->empty()) return found;
+  return FinishUpload("uploads/" + RandomId(), volume, calls);
+}
+
+absl::StatusOr<std::string> DurableClient::FinishUpload(const std::string& upload,
+                                                        const EncodedVolume& volume,
+                                                        const Calls& calls) {
+  return Retry(calls,
+               [&](auto deadline) { return stub_->Upload(upload, volume, calls.stop, deadline); });
+}
+
+absl::StatusOr<DurableJob> DurableClient::CreateJob(NewJob job, const Calls& calls) {
+  // So that trying again makes no second job.
+  if (job.request_id.empty()) job.request_id = RandomId();
+  return Retry(calls, [&](auto deadline) { return stub_->CreateJob(job, deadline); });
+}
+
+absl::StatusOr<DurableJob> DurableClient::GetJob(const std::string& job, const Calls& calls) {
+  return Retry(calls, [&](auto deadline) { return stub_->GetJob(job, deadline); });
+}
+
+absl::StatusOr<JobPage> DurableClient::ListJobs(int page_size, const std::string& page_token,
+                                                const Calls& calls) {
+  return Retry(calls,
+               [&](auto deadline) { return stub_->ListJobs(page_size, page_token, deadline); });
+}
+
+absl::StatusOr<DurableJob> DurableClient::CancelJob(const std::string& job, const Calls& calls) {
+  return Retry(calls, [&](auto deadline) { return stub_->CancelJob(job, deadline); });
+}
+
+absl::Status DurableClient::DeleteJob(const std::string& job, const Calls& calls) {
+  return Retry(calls, [&](auto deadline) { return stub_->DeleteJob(job, deadline); });
+}
+
+absl::StatusOr<JobState> DurableClient::Watch(const std::string& job,
+                                              const DurableStub::EventConsumer& consume,
+                                              const Calls& calls) {
+  RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
+  uint64_t known = 0;
+  JobState state = JobState::kUnknown;
+  const auto take = [&](const JobEvent& event) {
+    known = event.sequence;
+    state = event.state.value_or(state);
+    loop.Progressed();
+    if (consume) consume(event);
+  };
+  while (true) {
+    const absl::Status status = stub_->WatchJob(job, known, take, calls.stop, loop.deadline());
+    if (status.ok() && HasEnded(state)) return state;
+    if (status.ok()) return absl::DataLossError("the watch ended before " + job + " did");
+    if (auto end = loop.EndAfter(status); end.has_value()) return *std::move(end);
+  }
+}
+
+absl::StatusOr<SkeletonizeResult> DurableClient::Fetch(const std::string& job, const Calls& calls) {
+  RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
+  SkeletonReading reading;
+  while (true) {
+    const uint32_t before = reading.pieces();
+    const absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, loop.deadline());
+    if (status.ok()) return std::move(reading).Finish();
+    if (reading.pieces() > before) loop.Progressed();
+    if (auto end = loop.EndAfter(status); end.has_value()) return *std::move(end);
+  }
+}
+
+}  // namespace bccskel::client

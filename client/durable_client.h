@@ -1,0 +1,107 @@
+#ifndef BCCSKEL_CLIENT_DURABLE_CLIENT_H_
+#define BCCSKEL_CLIENT_DURABLE_CLIENT_H_
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "client/durable_job.h"
+#include "client/encoded_volume.h"
+#include "client/endpoint.h"
+#include "client/retry_loop.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel::client {
+
+// How far a skeleton has been read. An attempt that broke is gone on with.
+class SkeletonReading;
+
+// One attempt at each call about things that the server keeps.
+// Threads: safe.
+class DurableStub {
+ public:
+  using Deadline = RetryLoop::Clock::time_point;
+  using EventConsumer = std::function<void(const JobEvent&)>;
+  virtual ~DurableStub() = default;
+
+  // The volume's name on the server; empty where it is missing.
+  virtual absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
+                                                 Deadline deadline) = 0;
+  // Sends what the server does not have of the upload yet, and yields the volume's name.
+  virtual absl::StatusOr<std::string> Upload(const std::string& upload, const EncodedVolume& volume,
+                                             const std::stop_token& stop, Deadline deadline) = 0;
+  virtual absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) = 0;
+  virtual absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) = 0;
+  virtual absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
+                                           Deadline deadline) = 0;
+  virtual absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) = 0;
+  virtual absl::Status DeleteJob(const std::string& job, Deadline deadline) = 0;
+  // OK after the event that tells the end of the job.
+  virtual absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
+                                const EventConsumer& consume, const std::stop_token& stop,
+                                Deadline deadline) = 0;
+  // Reads on from where `reading` is.
+  virtual absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
+                                    const std::stop_token& stop, Deadline deadline) = 0;
+};
+
+// Jobs that outlive their caller and the server's process. Each call tries again where that can
+// help, and goes on where the attempt before broke: an upload, a watch, a result.
+//
+//   DurableClient client(*MakeGrpcDurableStub({.address = "127.0.0.1:50051"}));
+//   volume = client.Upload(encoded, calls);  job = client.CreateJob({.volume = *volume}, calls);
+//   client.Watch(job->name, on_event, calls);  result = client.Fetch(job->name, calls);
+//
+// Errors of all calls: the server's, with its details as payloads; UNAVAILABLE when all attempts
+//                      failed; CANCELLED; DEADLINE_EXCEEDED; DATA_LOSS for a damaged reply.
+// Threads: safe; calls run beside each other.
+class DurableClient {
+ public:
+  // What every call has.
+  struct Calls {
+    std::chrono::milliseconds timeout = std::chrono::hours(1);  // for all attempts of a call
+    std::stop_token stop = {};
+  };
+
+  explicit DurableClient(std::unique_ptr<DurableStub> stub, const RetryPolicy& policy = {},
+                         Pause pause = PauseFor)
+      : stub_(std::move(stub)), policy_(policy), pause_(std::move(pause)) {}
+
+  // Sends the volume unless the server has it. Yields its name.
+  absl::StatusOr<std::string> Upload(const EncodedVolume& volume, const Calls& calls);
+  // Goes on with an upload of this name, or begins it.
+  absl::StatusOr<std::string> FinishUpload(const std::string& upload, const EncodedVolume& volume,
+                                           const Calls& calls);
+  absl::StatusOr<DurableJob> CreateJob(NewJob job, const Calls& calls);
+  absl::StatusOr<DurableJob> GetJob(const std::string& job, const Calls& calls);
+  absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
+                                   const Calls& calls);
+  absl::StatusOr<DurableJob> CancelJob(const std::string& job, const Calls& calls);
+  absl::Status DeleteJob(const std::string& job, const Calls& calls);
+  // Tells each event once, until the job has ended, and yields how. `consume` may be empty.
+  absl::StatusOr<JobState> Watch(const std::string& job, const DurableStub::EventConsumer& consume,
+                                 const Calls& calls);
+  // The result of a job that succeeded. `thin` only where it was asked for.
+  absl::StatusOr<SkeletonizeResult> Fetch(const std::string& job, const Calls& calls);
+
+ private:
+  template <typename Attempt>
+  auto Retry(const Calls& calls, Attempt attempt) -> decltype(attempt(DurableStub::Deadline()));
+
+  const std::unique_ptr<DurableStub> stub_;
+  const RetryPolicy policy_;
+  const Pause pause_;
+};
+
+// Over gRPC. Errors: as CheckEndpoint().
+absl::StatusOr<std::unique_ptr<DurableStub>> MakeGrpcDurableStub(const Endpoint& endpoint);
+
+// 32 random hexadecimal digits.
+std::string RandomId();
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_DURABLE_CLIENT_H_

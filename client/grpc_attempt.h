@@ -1,0 +1,28 @@
+#ifndef BCCSKEL_CLIENT_GRPC_ATTEMPT_H_
+#define BCCSKEL_CLIENT_GRPC_ATTEMPT_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <stop_token>
+#include <utility>
+
+#include "absl/status/status.h"
+
+namespace bccskel::client {
+
+// Makes one attempt at a call, which `stop` cancels.
+// Errors: CANCELLED before the call where the stop was requested before; those of `call`.
+template <typename Call>
+auto Attempt(const std::stop_token& stop, std::chrono::system_clock::time_point deadline, Call call)
+    -> decltype(call(std::declval<grpc::ClientContext&>())) {
+  if (stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
+  grpc::ClientContext context;
+  context.set_deadline(deadline);
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  return call(context);
+}
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_GRPC_ATTEMPT_H_

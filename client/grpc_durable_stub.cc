@@ -1,0 +1,232 @@
+#include "client/grpc_durable_stub.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "bccskel/v1/job_service.grpc.pb.h"
+#include "bccskel/v1/volume_service.grpc.pb.h"
+#include "client/channel.h"
+#include "client/durable_client.h"
+#include "client/grpc_attempt.h"
+#include "client/grpc_status.h"
+#include "client/job_messages.h"
+#include "client/skeleton_reading.h"
+#include "client/volume_declaration.h"
+#include "core/digest/crc32c.h"
+#include "core/digest/sha256.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::client {
+namespace {
+
+// Small enough that a break costs little, large enough for the speed of the line.
+constexpr size_t kChunkBytes = 512 * 1024;
+
+v1::UploadVolumeRequest ConfigRequest(const std::string& upload, const EncodedVolume& volume) {
+  v1::UploadVolumeRequest request;
+  request.mutable_config()->set_upload(upload);
+  *request.mutable_config()->mutable_volume() = DeclarationOf(volume);
+  return request;
+}
+
+v1::UploadVolumeRequest ChunkRequest(const EncodedVolume& volume, size_t offset) {
+  v1::UploadVolumeRequest request;
+  v1::VolumeChunk& chunk = *request.mutable_chunk();
+  chunk.set_offset(offset);
+  chunk.set_data(volume.bytes.substr(offset, kChunkBytes));
+  chunk.set_crc32c(Crc32c(chunk.data()));
+  return request;
+}
+
+v1::UploadVolumeRequest FinishRequest(const EncodedVolume& volume) {
+  const Sha256Digest digest = Sha256Of(volume.bytes);
+  v1::UploadVolumeRequest request;
+  request.mutable_finish()->set_size_bytes(volume.bytes.size());
+  request.mutable_finish()->set_sha256(digest.bytes.data(), digest.bytes.size());
+  return request;
+}
+
+class GrpcDurableStub final : public DurableStub {
+ public:
+  explicit GrpcDurableStub(const std::shared_ptr<grpc::Channel>& channel)
+      : volumes_(v1::VolumeService::NewStub(channel)), jobs_(v1::JobService::NewStub(channel)) {}
+
+  absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume, Deadline deadline) override {
+    const Sha256Digest digest = Sha256Of(volume.bytes);
+    v1::FindMissingVolumesRequest request;
+    v1::VolumeKey& key = *request.add_volumes();
+    *key.mutable_declaration() = DeclarationOf(volume);
+    key.set_blob_sha256(digest.bytes.data(), digest.bytes.size());
+    v1::FindMissingVolumesResponse response;
+    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
+      return volumes_->FindMissingVolumes(&context, request, &response);
+    }));
+    if (response.volumes_size() == 1) return response.volumes(0);
+    return absl::DataLossError("the server answered about another number of volumes");
+  }
+
+  absl::StatusOr<std::string> Upload(const std::string& upload, const EncodedVolume& volume,
+                                     const std::stop_token& stop, Deadline deadline) override {
+    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t committed, CommittedSize(upload, deadline));
+    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+      return Send(context, upload, volume, committed);
+    });
+  }
+
+  absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) override {
+    v1::CreateJobResponse response;
+    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
+      return jobs_->CreateJob(&context, ToMessage(job), &response);
+    }));
+    return FromMessage(response.job());
+  }
+
+  absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) override {
+    v1::GetJobRequest request;
+    request.set_job(job);
+    v1::GetJobResponse response;
+    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
+      return jobs_->GetJob(&context, request, &response);
+    }));
+    return FromMessage(response.job());
+  }
+
+  absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
+                                   Deadline deadline) override {
+    v1::ListJobsRequest request;
+    request.set_page_size(page_size);
+    request.set_page_token(page_token);
+    v1::ListJobsResponse response;
+    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
+      return jobs_->ListJobs(&context, request, &response);
+    }));
+    JobPage page;
+    for (const v1::Job& job : response.jobs()) page.jobs.push_back(FromMessage(job));
+    page.next_token = response.next_page_token();
+    return page;
+  }
+
+  absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) override {
+    v1::CancelJobRequest request;
+    request.set_job(job);
+    v1::CancelJobResponse response;
+    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
+      return jobs_->CancelJob(&context, request, &response);
+    }));
+    return FromMessage(response.job());
+  }
+
+  absl::Status DeleteJob(const std::string& job, Deadline deadline) override {
+    v1::DeleteJobRequest request;
+    request.set_job(job);
+    v1::DeleteJobResponse response;
+    return Call(deadline, [&](grpc::ClientContext& context) {
+      return jobs_->DeleteJob(&context, request, &response);
+    });
+  }
+
+  absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
+                        const EventConsumer& consume, const std::stop_token& stop,
+                        Deadline deadline) override {
+    v1::WatchJobRequest request;
+    request.set_job(job);
+    request.set_after_sequence(after_sequence);
+    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+      const auto stream = jobs_->WatchJob(&context, request);
+      v1::WatchJobResponse response;
+      while (stream->Read(&response)) {
+        if (const auto event = FromMessage(response); event.has_value()) consume(*event);
+      }
+      return FromGrpcStatus(stream->Finish());
+    });
+  }
+
+  absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
+                            const std::stop_token& stop, Deadline deadline) override {
+    v1::ReadSkeletonRequest request;
+    request.set_job(job);
+    request.set_piece_index(reading.pieces());
+    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+      const auto stream = jobs_->ReadSkeleton(&context, request);
+      v1::ReadSkeletonResponse piece;
+      absl::Status taken;
+      while (taken.ok() && stream->Read(&piece)) taken = Take(piece, reading);
+      if (!taken.ok()) context.TryCancel();
+      const absl::Status ended = FromGrpcStatus(stream->Finish());
+      return taken.ok() ? ended : taken;
+    });
+  }
+
+ private:
+  template <typename Do>
+  static absl::Status Call(Deadline deadline, Do call) {
+    return Attempt({}, deadline,
+                   [&](grpc::ClientContext& context) { return FromGrpcStatus(call(context)); });
+  }
+
+  // 0 for an upload that the server does not know.
+  absl::StatusOr<uint64_t> CommittedSize(const std::string& upload, Deadline deadline) {
+    v1::GetUploadStatusRequest request;
+    request.set_upload(upload);
+    v1::GetUploadStatusResponse response;
+    const absl::Status status = Call(deadline, [&](grpc::ClientContext& context) {
+      return volumes_->GetUploadStatus(&context, request, &response);
+    });
+    if (absl::IsNotFound(status)) return 0;
+    if (!status.ok()) return status;
+    return response.upload().committed_size();
+  }
+
+  absl::StatusOr<std::string> Send(grpc::ClientContext& context, const std::string& upload,
+                                   const EncodedVolume& volume, uint64_t committed) {
+    v1::UploadVolumeResponse response;
+    const auto stream = volumes_->UploadVolume(&context, &response);
+    // A write that fails means that the call has ended; Finish() knows why.
+    bool open = stream->Write(ConfigRequest(upload, volume));
+    for (size_t at = committed; open && at < volume.bytes.size(); at += kChunkBytes) {
+      open = stream->Write(ChunkRequest(volume, at));
+    }
+    if (open && stream->Write(FinishRequest(volume))) stream->WritesDone();
+    BCCSKEL_RETURN_IF_ERROR(FromGrpcStatus(stream->Finish()));
+    if (!response.upload().volume().empty()) return response.upload().volume();
+    return absl::DataLossError("the server names no volume for " + upload);
+  }
+
+  static absl::Status Take(v1::ReadSkeletonResponse& piece, SkeletonReading& reading) {
+    if (piece.piece_index() != reading.pieces()) {
+      return absl::DataLossError(
+          absl::StrCat("piece ", piece.piece_index(), " came instead of ", reading.pieces()));
+    }
+    switch (piece.piece_case()) {
+      case v1::ReadSkeletonResponse::kSkeletonChunk:
+        return reading.Add(piece.skeleton_chunk());
+      case v1::ReadSkeletonResponse::kThinVolumeChunk:
+        return reading.Add(piece.thin_volume_chunk());
+      case v1::ReadSkeletonResponse::kSummary:
+        return reading.Add(std::move(*piece.mutable_summary()));
+      case v1::ReadSkeletonResponse::PIECE_NOT_SET:
+        break;
+    }
+    return absl::DataLossError("a piece of a kind that this version does not know");
+  }
+
+  const std::unique_ptr<v1::VolumeService::StubInterface> volumes_;
+  const std::unique_ptr<v1::JobService::StubInterface> jobs_;
+};
+
+}  // namespace
+
+std::unique_ptr<DurableStub> MakeDurableStub(const std::shared_ptr<grpc::Channel>& channel) {
+  return std::make_unique<GrpcDurableStub>(channel);
+}
+
+absl::StatusOr<std::unique_ptr<DurableStub>> MakeGrpcDurableStub(const Endpoint& endpoint) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::shared_ptr<grpc::Channel> channel, OpenChannel(endpoint));
+  return MakeDurableStub(channel);
+}
+
+}  // namespace bccskel::client

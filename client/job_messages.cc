@@ -1,0 +1,96 @@
+#include "client/job_messages.h"
+
+#include <google/protobuf/timestamp.pb.h>
+
+#include <chrono>
+
+#include "proto/wire/error_details.h"
+#include "proto/wire/options.h"
+#include "proto/wire/result.h"
+
+namespace bccskel::client {
+namespace {
+
+JobState StateOf(v1::JobState state) {
+  switch (state) {
+    case v1::JOB_STATE_RECEIVING:
+      return JobState::kReceiving;
+    case v1::JOB_STATE_QUEUED:
+      return JobState::kQueued;
+    case v1::JOB_STATE_RUNNING:
+      return JobState::kRunning;
+    case v1::JOB_STATE_SUCCEEDED:
+      return JobState::kSucceeded;
+    case v1::JOB_STATE_FAILED:
+      return JobState::kFailed;
+    case v1::JOB_STATE_CANCELLED:
+      return JobState::kCancelled;
+    default:
+      return JobState::kUnknown;
+  }
+}
+
+v1::JobPriority PriorityMessage(JobPriority priority) {
+  switch (priority) {
+    case JobPriority::kLow:
+      return v1::JOB_PRIORITY_LOW;
+    case JobPriority::kNormal:
+      return v1::JOB_PRIORITY_NORMAL;
+    case JobPriority::kHigh:
+      return v1::JOB_PRIORITY_HIGH;
+  }
+  return v1::JOB_PRIORITY_UNSPECIFIED;  // not reached: the enumerators are exhausted above
+}
+
+Time TimeOf(const google::protobuf::Timestamp& message) {
+  const auto since =
+      std::chrono::seconds(message.seconds()) + std::chrono::nanoseconds(message.nanos());
+  return Time(std::chrono::duration_cast<Time::duration>(since));
+}
+
+}  // namespace
+
+v1::CreateJobRequest ToMessage(const NewJob& job) {
+  v1::CreateJobRequest message;
+  message.set_request_id(job.request_id);
+  message.set_volume(job.volume);
+  *message.mutable_options() = wire::ToMessage(job.options);
+  message.set_thin_volume_return(job.thin_volume == ThinVolume::kReturn
+                                     ? v1::THIN_VOLUME_RETURN_BRICKS
+                                     : v1::THIN_VOLUME_RETURN_OMIT);
+  message.set_priority(PriorityMessage(job.priority));
+  message.set_threads(job.threads);
+  return message;
+}
+
+DurableJob FromMessage(const v1::Job& message) {
+  DurableJob job;
+  job.name = message.name();
+  job.state = StateOf(message.state());
+  job.request_id = message.request_id();
+  job.volume = message.volume();
+  job.attempts = message.attempts();
+  if (message.has_error()) job.error = wire::FromRpcStatus(message.error());
+  job.result_bytes = message.result_bytes();
+  job.created = TimeOf(message.create_time());
+  if (message.has_start_time()) job.started = TimeOf(message.start_time());
+  if (message.has_end_time()) job.ended = TimeOf(message.end_time());
+  if (message.has_expire_time()) job.expires = TimeOf(message.expire_time());
+  return job;
+}
+
+std::optional<JobEvent> FromMessage(const v1::WatchJobResponse& message) {
+  JobEvent event;
+  event.sequence = message.sequence();
+  if (message.has_state_change()) {
+    const v1::JobStateChange& change = message.state_change();
+    event.state = StateOf(change.state());
+    if (change.has_error()) event.error = wire::FromRpcStatus(change.error());
+    return event;
+  }
+  if (!message.has_shell_progress()) return std::nullopt;
+  event.shell = wire::FromMessage(message.shell_progress());
+  return event;
+}
+
+}  // namespace bccskel::client

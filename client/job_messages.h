@@ -1,0 +1,19 @@
+#ifndef BCCSKEL_CLIENT_JOB_MESSAGES_H_
+#define BCCSKEL_CLIENT_JOB_MESSAGES_H_
+
+#include <optional>
+
+#include "bccskel/v1/job_service.pb.h"
+#include "client/durable_job.h"
+
+namespace bccskel::client {
+
+// What is told about jobs, to and from messages.
+v1::CreateJobRequest ToMessage(const NewJob& job);
+DurableJob FromMessage(const v1::Job& message);
+// Nothing for a heartbeat, and for events that this version does not know.
+std::optional<JobEvent> FromMessage(const v1::WatchJobResponse& message);
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_JOB_MESSAGES_H_

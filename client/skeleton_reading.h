@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_CLIENT_SKELETON_READING_H_
+#define BCCSKEL_CLIENT_SKELETON_READING_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "bccskel/v1/skeleton.pb.h"
+#include "core/pipeline/skeletonize.h"
+#include "proto/wire/skeleton_chunks.h"
+
+namespace bccskel::client {
+
+// Puts a result together from its pieces.
+class SkeletonReading {
+ public:
+  // Errors: DATA_LOSS for what is damaged, repeated or out of order.
+  absl::Status Add(const v1::SkeletonChunk& chunk);
+  absl::Status Add(const v1::ThinVolumeChunk& chunk);
+  absl::Status Add(v1::SkeletonSummary summary);
+
+  // So many came: the next one has this index.
+  uint32_t pieces() const { return pieces_; }
+
+  // Errors: DATA_LOSS where the summary is missing, and for a result that does not agree with it.
+  absl::StatusOr<SkeletonizeResult> Finish() &&;
+
+ private:
+  uint32_t pieces_ = 0;
+  wire::SkeletonAssembler assembler_;
+  std::string thin_bytes_;
+  std::optional<v1::SkeletonSummary> summary_;
+};
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_SKELETON_READING_H_
