@@ -50,7 +50,8 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
 }  // namespace
 
 CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
-  CLI::App& bench = *app.add_subcommand("bench", "Measure the speed of this machine or of a server");
+  CLI::App& bench =
+      *app.add_subcommand("bench", "Measure the speed of this machine or of a server");
   bench.require_subcommand(1);
   CLI::App& core = *bench.add_subcommand(
       "core", "Time and memory from a volume in memory to its skeleton in memory");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,8 +39,9 @@ uint64_t LabelsOfType(int bytes) {
 // corner.
 class BlockLayer {
  public:
-  explicit BlockLayer(const VoxelBox& box)
-      : first_x_(box.low[0] / 8),
+  BlockLayer(const VoxelBox& box, CavityFilling cavities)
+      : cavities_(cavities),
+        first_x_(box.low[0] / 8),
         first_y_(box.low[1] / 2),
         words_per_row_(static_cast<size_t>(box.high[0] / 8 - first_x_) / 64 + 1),
         bits_(words_per_row_ * static_cast<size_t>(box.high[1] / 2 - first_y_ + 1)) {}
@@ -51,10 +53,10 @@ class BlockLayer {
 
   uint64_t TakeCount() {
     uint64_t count = 0;
-    for (uint64_t& word : bits_) {
-      count += static_cast<uint64_t>(std::popcount(word));
-      word = 0;
+    for (size_t begin = 0; begin < bits_.size(); begin += words_per_row_) {
+      count += CountRow(std::span(bits_).subspan(begin, words_per_row_));
     }
+    std::ranges::fill(bits_, 0);
     return count;
   }
 
@@ -67,6 +69,18 @@ class BlockLayer {
     }
   }
 
+  uint64_t CountRow(std::span<const uint64_t> row) const {
+    uint64_t blocks = 0, first = row.size() * 64, last = 0;
+    for (size_t n = 0; n < row.size(); ++n) {
+      if (row[n] == 0) continue;
+      blocks += static_cast<uint64_t>(std::popcount(row[n]));
+      first = std::min<uint64_t>(first, 64 * n + static_cast<uint64_t>(std::countr_zero(row[n])));
+      last = 64 * n + 63 - static_cast<uint64_t>(std::countl_zero(row[n]));
+    }
+    return cavities_ == CavityFilling::kOn && blocks > 0 ? last - first + 1 : blocks;
+  }
+
+  CavityFilling cavities_;
   int32_t first_x_, first_y_;
   size_t words_per_row_;
   std::vector<uint64_t> bits_;
@@ -117,9 +131,9 @@ uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads
   return SaturatingAdd(bytes, BytesToComputeLabels(declared, threads));
 }
 
-uint64_t MostBricksOf(const LabeledObject& object) {
+uint64_t MostBricksOf(const LabeledObject& object, CavityFilling cavities) {
   if (object.runs.empty()) return 0;
-  BlockLayer here(object.box), above(object.box);
+  BlockLayer here(object.box, cavities), above(object.box, cavities);
   uint64_t blocks = 0;
   int32_t bz = object.runs.front().z / 4;
   for (const VoxelRun& run : object.runs) {

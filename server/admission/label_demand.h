@@ -6,6 +6,7 @@
 #include "core/io/volume_header.h"
 #include "core/labels/voxel_runs.h"
 #include "core/mask/mask_grid.h"
+#include "core/prepare/prepare.h"
 
 namespace bccskel::server {
 
@@ -35,9 +36,10 @@ uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads);
 // Peak memory for receiving the volume, and for computing beside its runs.
 uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads);
 
-// No exact conversion of the object has more bricks; most have as many.
+// No exact conversion of the object has more bricks; most have as many. Where cavities are to be
+// filled, all bricks between others of a row count.
 // Cost: a few operations for each run.
-uint64_t MostBricksOf(const LabeledObject& object);
+uint64_t MostBricksOf(const LabeledObject& object, CavityFilling cavities = CavityFilling::kOff);
 // Peak memory for converting and thinning an object of so many bricks, its graph included.
 uint64_t BytesToComputeLabel(uint64_t bricks);
 // Memory that the runs of an object keep.

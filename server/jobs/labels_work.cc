@@ -45,7 +45,7 @@ absl::Status LabelsWork::Finish(const std::optional<Sha256Digest>& expected,
 void LabelsWork::Plan() {
   uint64_t all = 0, largest = 0;
   for (const LabeledObject& object : labels_.objects) {
-    const uint64_t bricks = MostBricksOf(object);
+    const uint64_t bricks = MostBricksOf(object, request_.options.preparing.cavities);
     const uint64_t demand = BytesToComputeLabel(bricks);
     demands_.push_back(demand);
     bricks_ += bricks;

@@ -2,8 +2,12 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_encoder.h"
+#include "core/prepare/fill_cavities.h"
+#include "proto/wire/error_details.h"
+#include "proto/wire/shell_points.h"
 #include "server/admission/demand.h"
 
 namespace bccskel::server {
@@ -36,13 +40,38 @@ absl::Status SkeletonizeWork::Finish(const std::optional<Sha256Digest>& expected
   mask_topology_ = intake_->mask_topology();
   intake_.reset();
   listener_->OnVolume(*volume_);
+  return CountBricks(context);
+}
+
+// Cavities may hold far more bricks than the object.
+absl::Status SkeletonizeWork::CountBricks(const exec::Context& context) {
+  bricks_ = volume_->brick_count();
+  if (request_.options.preparing.cavities == CavityFilling::kOff) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(bricks_, BricksWithCavitiesFilled(*volume_, context));
   return absl::OkStatus();
 }
 
-uint64_t SkeletonizeWork::BytesToRun() const { return BytesToSkeletonize(*volume_); }
+uint64_t SkeletonizeWork::BytesToRun() const {
+  const uint64_t more = bricks_ - volume_->brick_count();
+  return BytesToSkeletonize(*volume_, request_.shell_points) + more * kPipelineBytesPerBrick +
+         ShellPointsBytes(request_.shell_points, more);
+}
 
 int SkeletonizeWork::MostThreads(int threads) const {
-  return ThreadsFor(volume_->brick_count(), request_.threads_wanted, threads);
+  return ThreadsFor(bricks_, request_.threads_wanted, threads);
+}
+
+// What goes beyond the reserved memory is counted and not told.
+OnShellPoints SkeletonizeWork::ShellPointsTeller() {
+  if (request_.shell_points == ShellPointsWanted::kNone) return nullptr;
+  const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
+  return [this, limit](int32_t shell, const Volume& points) {
+    for (const v1::ShellPoints& message : wire::ShellPointsMessages(shell, points)) {
+      std::string bytes = message.SerializeAsString();
+      shell_points_bytes_ += bytes.size();
+      if (shell_points_bytes_ <= limit) listener_->OnShellPoints(std::move(bytes));
+    }
+  };
 }
 
 absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
@@ -51,7 +80,12 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
   context.on_shell = [this, start](const exec::ShellProgress& progress) {
     listener_->OnShell(progress, exec::Context::Clock::now() - start);
   };
-  BCCSKEL_ASSIGN_OR_RETURN(result_.skeleton, Skeletonize(*volume_, request_.options, context));
+  SkeletonizeOptions options = request_.options;
+  // Denoising may close a cavity that was open when the memory was reserved.
+  options.preparing.max_bricks = 2 * bricks_;
+  BCCSKEL_ASSIGN_OR_RETURN(result_.skeleton,
+                           Skeletonize(*volume_, options, context, ShellPointsTeller()));
+  BCCSKEL_RETURN_IF_ERROR(CheckShellPoints());
   result_.skeleton.certificate.mask = mask_topology_;
   if (request_.thin_volume.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(result_.thin_volume,
@@ -60,6 +94,15 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
   result_.skeleton.thin = Volume();
   result_.threads = context.threads();
   return Turn::kDone;
+}
+
+absl::Status SkeletonizeWork::CheckShellPoints() const {
+  const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
+  if (shell_points_bytes_ <= limit) return absl::OkStatus();
+  return wire::WithReason(absl::ResourceExhaustedError(absl::StrCat(
+                              "the points of the shells take ", shell_points_bytes_,
+                              " bytes, the limit for a volume of this size is ", limit)),
+                          "SHELL_POINTS_TOO_LARGE");
 }
 
 void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {
@@ -73,7 +116,8 @@ void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Tic
     return listener->OnEnd(status);
   }
   ticket.LeavePlace();
-  ticket.ShrinkTo(GraphBytes(result.skeleton.graph) + result.thin_volume.size());
+  ticket.ShrinkTo(GraphBytes(result.skeleton.graph) + result.thin_volume.size() +
+                  shell_points_bytes_);
   result.queued = times.queued;
   result.decoded = times.decoded;
   result.ticket = std::move(ticket);

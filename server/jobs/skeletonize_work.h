@@ -27,12 +27,18 @@ class SkeletonizeWork final : public JobWork {
   void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
 
  private:
+  absl::Status CountBricks(const exec::Context& context);
+  OnShellPoints ShellPointsTeller();
+  absl::Status CheckShellPoints() const;
+
   const JobRequest request_;
   std::shared_ptr<JobListener> listener_;
   std::unique_ptr<VolumeIntake> intake_;
   std::optional<Volume> volume_;
+  uint64_t bricks_ = 0;  // of the volume, with its cavities filled if that is wanted
   std::optional<BettiNumbers> mask_topology_;
   JobResult result_;
+  uint64_t shell_points_bytes_ = 0;  // told to the listener
 };
 
 }  // namespace bccskel::server
