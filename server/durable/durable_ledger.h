@@ -244,7 +244,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   void VolumeKnown(Run* run, const std::string& digest);
   void JoinEqual(Run* run);
   void GiveStoredResult(Run* run, int64_t result);
-  void TellProgress(const std::shared_ptr<Run>& run);
+  std::map<int64_t, JobEvent> TakeProgress(Run& run);
   void RetryLater(std::function<void()> task);
 
   void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) override;

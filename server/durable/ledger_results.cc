@@ -75,21 +75,34 @@ void DurableLedger::JoinEqual(Run* run) {
   }
 }
 
+// Numbers are given within a change: what is stored and what is only told come in one order.
 void DurableLedger::OnRunProgress(std::shared_ptr<Run> run) {
-  loop_.Post([this, run = std::move(run)] { TellProgress(run); });
+  const auto events = std::make_shared<std::map<int64_t, JobEvent>>();
+  loop_.Post(
+      [this, run = std::move(run), events](JobStore&) {
+        *events = TakeProgress(*run);
+        return absl::OkStatus();
+      },
+      [this, events](const absl::Status&) {
+        for (const auto& [job, event] : *events) {
+          if (active_.count(job) > 0) watches_.Tell(job, event);
+        }
+      });
 }
 
-void DurableLedger::TellProgress(const std::shared_ptr<Run>& run) {
-  const std::optional<JobProgress> progress = run->TakeProgress();
-  const auto found = runs_.find(run.get());
-  if (!progress.has_value() || found == runs_.end()) return;
+std::map<int64_t, JobEvent> DurableLedger::TakeProgress(Run& run) {
+  std::map<int64_t, JobEvent> events;
+  const std::optional<JobProgress> progress = run.TakeProgress();
+  const auto found = runs_.find(&run);
+  if (!progress.has_value() || found == runs_.end()) return events;
   for (const int64_t job : found->second.jobs) {
-    const auto active = active_.find(job);
-    if (active == active_.end() || active->second.row.state != JobState::kRunning) continue;
-    watches_.Tell(job, {.sequence = journal_.NextSequence(job, active->second.row.sequence),
-                        .time = Now(),
-                        .what = *progress});
+    const JobRow& row = active_.at(job).row;
+    if (row.state != JobState::kRunning) continue;
+    events.insert_or_assign(job, JobEvent{.sequence = journal_.NextSequence(job, row.sequence),
+                                          .time = Now(),
+                                          .what = *progress});
   }
+  return events;
 }
 
 void DurableLedger::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) {

@@ -1,0 +1,241 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/durable/fault.h"
+#include "server/durable/run_queue.h"
+#include "tests/server/durable/ledger_fixture.h"
+
+namespace bccskel::server {
+namespace {
+
+using testing::IsEmpty, testing::SizeIs;
+
+class LedgerRecoveryTest : public LedgerTest {
+ protected:
+  void SetUp() override { Open(); }
+
+  // A kill is no different from a crash: a job that was at work at three of them has had its turns.
+  void ExpectResult(const JobInfo& job) {
+    if (job.state == JobState::kFailed && FaultOf(job.error).has_value()) {
+      EXPECT_EQ(FaultOf(job.error)->reason, "POISONED");
+      EXPECT_GE(job.attempts, 3);
+      return;
+    }
+    EXPECT_EQ(job.state, JobState::kSucceeded) << job.error;
+    const auto records = ReadResult("clinic", job.name);
+    ASSERT_TRUE(records.ok()) << records.status();
+    EXPECT_THAT(*records, SizeIs(4));
+  }
+};
+
+TEST_F(LedgerRecoveryTest, RunsWhatWaitedAndWhatRanAgain) {
+  Close();
+  options_.max_runs = 1;
+  Open();
+  runner_->Hold();
+  const std::string runs = CreateName("clinic", JobOf(Upload("clinic", "one")));
+  runner_->WaitForComputing(1);
+  const std::string waits = CreateName("clinic", JobOf(Upload("clinic", "two")));
+  Crash();
+  Open();
+  const JobInfo again = WaitForEnd("clinic", runs);
+  EXPECT_EQ(again.state, JobState::kSucceeded) << again.error;
+  EXPECT_EQ(again.attempts, 2);
+  EXPECT_EQ(WaitForEnd("clinic", waits).attempts, 1);
+  EXPECT_THAT(FilesIn("results"), SizeIs(2));
+}
+
+TEST_F(LedgerRecoveryTest, GoesOnWithTheNumbersOfEvents) {
+  runner_->Hold();
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  auto before = std::make_shared<RememberingWatcher>();
+  auto handle = ledger_->WatchJob("clinic", job, 0, before);
+  runner_->WaitForComputing(1);
+  WaitForState("clinic", job, JobState::kRunning);
+  Crash();
+  const uint64_t last = before->events().back().sequence;
+  Open();
+  const auto after = WatchToTheEnd("clinic", job, last);
+  EXPECT_EQ(after->States(), "123") << "waits again, runs, has succeeded";
+  for (const JobEvent& event : after->events()) EXPECT_GT(event.sequence, last);
+  EXPECT_EQ(WatchToTheEnd("clinic", job)->States(), "12123");
+  handle.reset();
+}
+
+TEST_F(LedgerRecoveryTest, DoesNotRunAJobAFourthTimeThatWasThereAtThreeCrashes) {
+  std::string job;
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    runner_->Hold();
+    if (attempt == 1) job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+    runner_->WaitForComputing(1);
+    EXPECT_EQ(GetJob("clinic", job)->attempts, attempt) << "counted before it begins";
+    Crash();
+    Open();
+    if (attempt < 3) runner_->Hold();
+  }
+  const JobInfo ended = WaitForEnd("clinic", job);
+  EXPECT_EQ(ended.state, JobState::kFailed);
+  EXPECT_EQ(ended.error.code(), absl::StatusCode::kInternal);
+  EXPECT_EQ(FaultOf(ended.error)->reason, "POISONED");
+  EXPECT_EQ(runner_->started(), 0);
+}
+
+TEST_F(LedgerRecoveryTest, CountsNoCrashWhenTheServerStopsInGoodOrder) {
+  std::string job = CreateName("clinic", JobOf(Upload("clinic", "first")));
+  WaitForEnd("clinic", job);
+  runner_->Hold();
+  job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  for (int stop = 0; stop < 4; ++stop) {
+    WaitForState("clinic", job, JobState::kRunning);
+    runner_->WaitForComputing(stop + 2);
+    Close();
+    Open();
+  }
+  runner_->Release();
+  EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
+}
+
+TEST_F(LedgerRecoveryTest, SweepsFilesThatNobodyKnows) {
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  WaitForEnd("clinic", job);
+  Close();
+  for (const std::string& known : {FilesIn("results")[0], FilesIn("blobs")[0]}) {
+    std::filesystem::copy(known, known + "0");
+  }
+  Open();
+  EXPECT_THAT(FilesIn("results"), SizeIs(1));
+  EXPECT_THAT(FilesIn("blobs"), SizeIs(1));
+  EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
+}
+
+TEST(RunQueueTest, LetsTenantsTakeTurnsAndPutsSuspectsBack) {
+  const auto job = [](const char* tenant, int64_t number, int priority = 0, int crashes = 0) {
+    JobRow row;
+    row.tenant = tenant;
+    row.number = number;
+    row.priority = priority;
+    row.crashes = crashes;
+    return row;
+  };
+  RunQueue queue;
+  for (const JobRow& row : {job("a", 1, 0, 1), job("a", 2), job("a", 3, 1), job("b", 4)}) {
+    queue.Add(row);
+  }
+  std::vector<int64_t> order;
+  std::map<std::string, int> at_work;
+  for (const JobRow& row : {job("a", 3, 1), job("b", 4), job("a", 2), job("a", 1, 0, 1)}) {
+    order.push_back(queue.First(at_work).value_or(0));
+    queue.CountTurn(row.tenant);
+    queue.Remove(row);
+  }
+  EXPECT_EQ(order, (std::vector<int64_t>{3, 4, 2, 1}));
+  EXPECT_EQ(queue.First(at_work), std::nullopt);
+  queue.Add(job("a", 5));
+  queue.Add(job("b", 6));
+  EXPECT_EQ(queue.First({{"a", 1}}), 6) << "who has less at work comes first";
+}
+
+// A server that is killed at any moment, and what it has confirmed until then.
+class KilledServer {
+ public:
+  explicit KilledServer(const DurableOptions& options) : options_(options) {}
+
+  // Makes jobs until it is killed; yields the request ids that were confirmed.
+  std::set<std::string> Run(int round, int microseconds) {
+    int pipes[2] = {};
+    EXPECT_EQ(pipe(pipes), 0);
+    const pid_t child = fork();
+    if (child == 0) Serve(round, pipes[1]);
+    close(pipes[1]);
+    usleep(static_cast<useconds_t>(microseconds));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    std::set<std::string> confirmed;
+    uint32_t n = 0;
+    while (read(pipes[0], &n, sizeof(n)) == sizeof(n)) confirmed.insert(RequestOf(round, n));
+    close(pipes[0]);
+    return confirmed;
+  }
+
+ private:
+  static std::string RequestOf(int round, uint32_t n) {
+    return std::to_string(round) + "-" + std::to_string(n);
+  }
+
+  [[noreturn]] void Serve(int round, int pipe) {
+    FakeRunner runner;
+    const FakeCodec codec;
+    const auto opened = Ledger::Open(options_, runner, codec);
+    if (!opened.ok()) _exit(1);
+    Ledger& ledger = **opened;
+    for (uint32_t n = 0;; ++n) {
+      const std::string bytes = "volume " + std::to_string(n % 8);
+      const std::string upload = "uploads/" + RequestOf(round, n);
+      ledger.CreateUpload(
+          "clinic", {.name = upload, .declaration = std::to_string(bytes.size()), .then_job = {}},
+          [&ledger, pipe, round, n, upload, bytes](const auto& begun) {
+            if (begun.ok()) Send(ledger, pipe, round, n, upload, bytes);
+          });
+      usleep(500);
+    }
+  }
+
+  static void Send(Ledger& ledger, int pipe, int round, uint32_t n, const std::string& upload,
+                   const std::string& bytes) {
+    ledger.Append("clinic", upload, 0, bytes, std::nullopt, [=, &ledger](const auto&) {
+      ledger.FinishUpload("clinic", upload, bytes.size(), std::nullopt, [=, &ledger](auto volume) {
+        if (!volume.ok()) return;
+        Ledger::NewJob job;
+        job.request_id = RequestOf(round, n);
+        job.volume = volume->name;
+        job.options = std::to_string(n);
+        ledger.CreateJob("clinic", job, [=](const auto& created) {
+          if (created.ok()) (void)!write(pipe, &n, sizeof(n));
+        });
+      });
+    });
+  }
+
+  const DurableOptions options_;
+};
+
+TEST_F(LedgerRecoveryTest, LosesAndDoublesNothingHoweverOftenItIsKilled) {
+  Close();
+  options_.now = [] { return std::chrono::system_clock::now(); };
+  runner_.reset();  // no threads while processes fork
+  std::mt19937 random(20061121);
+  std::set<std::string> confirmed;
+  for (int round = 0; round < 20; ++round) {
+    confirmed.merge(KilledServer(options_).Run(round, 5'000 + static_cast<int>(random() % 80'000)));
+  }
+  EXPECT_GT(confirmed.size(), 0u) << "no round lived long enough";
+  runner_ = std::make_unique<FakeRunner>();
+  Open();
+  Ledger::JobQuery query;
+  query.page_size = 1000;
+  std::set<std::string> found;
+  do {
+    const auto page = Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); });
+    ASSERT_TRUE(page.ok()) << page.status();
+    for (const JobInfo& job : page->jobs) {
+      EXPECT_TRUE(found.insert(job.request_id).second) << job.request_id << " twice";
+      ExpectResult(WaitForEnd("clinic", job.name));
+    }
+    query.page_token = page->next_token;
+  } while (!query.page_token.empty());
+  EXPECT_TRUE(std::includes(found.begin(), found.end(), confirmed.begin(), confirmed.end()));
+}
+
+}  // namespace
+}  // namespace bccskel::server
