@@ -28,8 +28,9 @@ absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObje
   BCCSKEL_ASSIGN_OR_RETURN(const ConvertedMask converted,
                            ConvertLabel(grid, object, options.mask, context));
   LabelSkeleton skeleton{object.label, object.voxels, {}};
-  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
-                           Skeletonize(converted.volume, options.skeleton, context));
+  SkeletonizeOptions stepped = options.skeleton;
+  stepped.pruning = ForSteps(stepped.pruning, VoxelEdge(options.mask));
+  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result, Skeletonize(converted.volume, stepped, context));
   Certificate& certificate = skeleton.result.certificate;
   certificate.mask = converted.mask;
   const std::string changes = DescribeChanges(converted.mask, certificate.Given());

@@ -27,6 +27,10 @@ struct MaskOptions {
   uint64_t max_bricks = uint64_t{1} << 28;
 };
 
+// The edge of a voxel in lattice units, which is the height of the steps in the object's surface:
+// 4 after the exact conversion.
+double VoxelEdge(const MaskOptions& options);
+
 struct ConvertedMask {
   Volume volume;
   BettiNumbers mask;  // counted on the cubic grid, in the reading of MaskOptions::adjacency

@@ -24,6 +24,13 @@ double ThresholdOf(const PruningOptions& options, const Placement& placement) {
 
 }  // namespace
 
+PruningOptions ForSteps(const PruningOptions& options, double step) {
+  PruningOptions stepped = options;
+  const bool is_default = options.rule == PruningRule::kSlope && options.threshold == 0;
+  if (is_default && step > 1) stepped.threshold = kDefaultSlopeMargin * step;
+  return stepped;
+}
+
 absl::Status CheckPruningOptions(const PruningOptions& options) {
   if (!(options.threshold >= 0 && options.threshold <= 1e9)) {
     return absl::InvalidArgumentError(absl::StrFormat(

@@ -19,8 +19,10 @@ namespace bccskel {
 // Which branches, from an end to the first junction, are spurious. J is the junction point, R the
 // largest radius of its cluster, D(p) the radius at p.
 enum class PruningRule : uint8_t {
-  // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default) at all their points
-  // p: the radius falls about as fast as the branch leaves the junction's ball, so the branch is a
+  // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default, 16 where voxels
+  // were
+  // converted exactly: see ForSteps()) at all their points p: the radius falls about as fast as the
+  // branch leaves the junction's ball, so the branch is a
   // bump of the surface.
   kSlope,
   // Those shorter than the threshold, in world units.
@@ -40,6 +42,11 @@ struct PruningOptions {
 
   friend bool operator==(const PruningOptions&, const PruningOptions&) = default;
 };
+
+// The options for an object whose surface goes in steps of so many lattice units, 1 where it was
+// sampled point by point. Bumps are as high as steps, so the default threshold of the slope rule
+// grows with them; one that was given stays.
+PruningOptions ForSteps(const PruningOptions& options, double step);
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);

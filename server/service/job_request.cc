@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "core/mask/mask_converter.h"
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
@@ -135,6 +136,9 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   BCCSKEL_RETURN_IF_ERROR(CheckSize(request.header, config.volume().size_bytes()));
   request.size_bytes = config.volume().size_bytes();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
+  if (request.header.mask.has_value()) {
+    request.options.pruning = ForSteps(request.options.pruning, VoxelEdge({}));
+  }
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));
   BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));

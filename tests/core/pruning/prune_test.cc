@@ -158,5 +158,18 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4));
 
+TEST(ForSteps, MakesTheDefaultMarginOfTheSlopeRuleGrowWithTheSteps) {
+  EXPECT_EQ(ForSteps({}, 4).threshold, 16);
+  EXPECT_EQ(ForSteps({}, 1), PruningOptions());
+  EXPECT_EQ(ForSteps({}, 0.5), PruningOptions());
+}
+
+TEST(ForSteps, LeavesWhatWasAskedFor) {
+  const PruningOptions given = {.threshold = 3};
+  EXPECT_EQ(ForSteps(given, 4), given);
+  const PruningOptions relative = {.rule = PruningRule::kRelativeLength};
+  EXPECT_EQ(ForSteps(relative, 4), relative);
+}
+
 }  // namespace
 }  // namespace bccskel
