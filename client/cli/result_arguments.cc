@@ -23,14 +23,18 @@ void AddOutput(CLI::App& command, std::string& path, const char* what,
       ->option_text("FILE (required)");
 }
 
-void AddSource(CLI::App& command, ResultArguments& source) {
+CLI::Option& AddSource(CLI::App& command, ResultArguments& source) {
   command.add_option("RESULT", source.result, "JSON file of skeletonize or submit")
       ->required()
       ->option_text(" ");
-  command
-      .add_option("--object", source.object, "Mesh, volume or image that the result was made from")
-      ->required()
-      ->option_text("FILE (required)");
+  return *command
+              .add_option("--object", source.object,
+                          "Mesh, volume or image that the result was made from")
+              ->option_text("FILE");
+}
+
+void AddSourceWithObject(CLI::App& command, ResultArguments& source) {
+  AddSource(command, source).required()->option_text("FILE (required)");
 }
 
 void ReadSize(const std::string& text, view::PictureOptions& picture) {
@@ -72,7 +76,7 @@ CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
 
 CLI::App& AddRender(CLI::App& app, RenderArguments& arguments) {
   CLI::App& command = *app.add_subcommand("render", "Draw a picture of a result");
-  AddSource(command, arguments.source);
+  AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Picture", {".png"});
   AddPicture(command, arguments.picture);
   return command;
@@ -81,7 +85,7 @@ CLI::App& AddRender(CLI::App& app, RenderArguments& arguments) {
 CLI::App& AddReconstruct(CLI::App& app, ReconstructArguments& arguments) {
   CLI::App& command =
       *app.add_subcommand("reconstruct", "Make a volume of a result's balls and compare it");
-  AddSource(command, arguments.source);
+  AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
   return command;
 }

@@ -10,12 +10,14 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "client/view/page.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
 
 std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeling, size_t bytes) {
-  const size_t triangles = peeling.layers.front().surface.triangles.size();
+  const size_t triangles =
+      peeling.layers.empty() ? 0 : peeling.layers.front().surface.triangles.size();
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
     text.Add("{\"result\":", JsonString(arguments.source.result),
@@ -31,22 +33,34 @@ std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeli
   return std::move(text).Take();
 }
 
+struct Scene {
+  std::string title;
+  view::ResultDocument result;
+  view::Peeling peeling;  // without layers where no object is given
+};
+
+absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& context) {
+  if (source.object.empty()) {
+    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, view::ReadResultDocument(source.result));
+    return Scene{std::string(FileName(source.result)), std::move(result), {}};
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(source, context));
+  BCCSKEL_ASSIGN_OR_RETURN(view::Peeling peeling, view::PeelForDisplay(loaded.object, {}, context));
+  return Scene{std::string(FileName(source.object)), std::move(loaded.result), std::move(peeling)};
+}
+
 }  // namespace
 
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<ResultAndObject> loaded =
-      LoadResultAndObject(arguments.source, team.context());
-  if (!loaded.ok()) return Fail(loaded.status());
-  const absl::StatusOr<view::Peeling> peeling =
-      view::PeelForDisplay(loaded->object, {}, team.context());
-  if (!peeling.ok()) return Fail(peeling.status());
-  const std::string title(FileName(arguments.source.object));
-  const absl::StatusOr<std::string> page = view::PageOf({title, loaded->result, *peeling});
+  const absl::StatusOr<Scene> scene = Load(arguments.source, team.context());
+  if (!scene.ok()) return Fail(scene.status());
+  const auto& [title, result, peeling] = *scene;
+  const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling});
   if (!page.ok()) return Fail(page.status());
   const absl::Status written = exporting::WriteFileAtomically(arguments.output, *page);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
-  return Print(SummaryOf(arguments, *peeling, page->size()));
+  return Print(SummaryOf(arguments, peeling, page->size()));
 }
 
 }  // namespace bccskel::cli

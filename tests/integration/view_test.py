@@ -1,4 +1,4 @@
-"""Pages that `bccskel view` makes, opened in a browser."""
+"""Pages that `bccskel view` and `-o x.html` make, opened in a browser."""
 
 import json
 import os
@@ -21,6 +21,31 @@ class ViewTest(harness.TestCase):
                                           "-o", self.path("s.html"), "--json"))
         self.assertEqual(summary["bytes"], os.path.getsize(self.path("s.html")))
         return summary
+
+    def test_the_skeleton_alone_is_shown(self):
+        self.page("tree")
+        self.succeed("view", self.path("s.json"), "-o", self.path("s.html"))
+        shown = self.browse("--dump-dom")
+        self.assertEqual(re.search('data-state="([a-z]+)"', shown)[1], "ready")
+        self.assertRegex(shown, '<div class="of-object" hidden="">')
+
+    def test_skeletonize_writes_the_page_with_the_shells_as_they_were_taken(self):
+        volume = self.generate("tree", 20000)
+        self.succeed("skeletonize", volume, "--local", "-o", self.path("s.html"))
+        shown = self.browse("--dump-dom", address="#peel=1")
+        self.assertEqual(re.search('data-state="([a-z]+)"', shown)[1], "ready")
+        self.assertRegex(shown, r'<output id="shells">\d+ of \d+ shells off<')
+
+    def test_pruning_hides_branches_and_counts_the_rest(self):
+        self.page("tree")
+        edges = json.loads((self.folder / "s.json").read_text())["edges"]
+        levels = sorted({e["pruning_level"] for e in edges if "pruning_level" in e})
+        self.assertGreater(len(levels), 10)
+        for step in (0, 5, len(levels)):
+            left = [e for e in edges
+                    if "pruning_level" not in e or e["pruning_level"] not in levels[:step]]
+            shown = self.browse("--dump-dom", address=f"#prune={step}")
+            self.assertRegex(shown, rf'<p id="counts"[^>]*>\d+ nodes?, {len(left)} branch')
 
     def browse(self, *options, address=""):
         """What the browser prints; it finds no network and draws without a graphics card."""
@@ -45,10 +70,10 @@ class ViewTest(harness.TestCase):
     def test_the_peeled_object_is_seen(self):
         self.page("tree", 200000)
         pictures = []
-        for address in ("", "#peel=2", "#theme=dark"):
+        for address in ("", "#peel=2", "#theme=dark", "#prune=20"):
             self.browse("--screenshot=" + self.path("s.png"), address=address)
             pictures.append((self.folder / "s.png").read_bytes())
-        self.assertEqual(len(set(pictures)), 3)
+        self.assertEqual(len(set(pictures)), 4)
         for picture in pictures:
             self.assertGreater(len(picture), 30000)  # a blank page is smaller
 
