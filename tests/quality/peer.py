@@ -10,8 +10,10 @@ import time
 
 import numpy as np
 
-VOXEL = 4 ** (1 / 3)  # edge of a voxel in lattice units: a lattice point stands for four cubic units
-REACH = 4             # points on either side that the smoothed curve is the mean of
+# Edge of a voxel in lattice units: a lattice point stands for four cubic units.
+VOXEL = 4 ** (1 / 3)
+# Points on either side that the smoothed curve is the mean of.
+REACH = 4
 
 
 def name():

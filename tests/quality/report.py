@@ -33,8 +33,7 @@ def rows_of(program, study, arguments, *more):
 def mesh_rows(program, arguments):
     rows = []
     for name in MESHES:
-        path = pathlib.Path(arguments.data) / name
-        if path.exists():
+        for path in pathlib.Path(arguments.data or os.devnull).rglob(name):
             rows += rows_of(program, "mesh", arguments, str(path))
     return rows
 
@@ -45,16 +44,17 @@ def machine():
         if line.startswith("model name"):
             name = line.split(":", 1)[1].strip()
             break
-    return f"{name}, {os.cpu_count()} processors, {platform.platform()}"
+    return f"{name}, {os.cpu_count()} processors, {platform.system()}"
 
 
 def heading(arguments, peer_name):
-    return [f"Objects of about {arguments.points:,} points, {arguments.turns} random rotations of "
+    return ["# Quality of skeletons", "",
+            f"Objects of about {arguments.points:,} points, {arguments.turns} random rotations of "
             "each figure. All lengths are in lattice units: half the edge of the cubic cell, so a "
             "voxel of a cubic grid with as many samples is 1.587 wide. Settings are the defaults "
             "but for the method and the distance that the tables name.",
             "",
-            f"Machine: {machine()}. Figures do not depend on it, but for the milliseconds. "
+            f"Machine: {machine()}. The figures do not depend on it. "
             f"Peer: {peer_name}.",
             ""]
 

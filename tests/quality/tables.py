@@ -81,14 +81,14 @@ def figure_rows(figures, figure):
         rows = select(figures, figure=figure, method=DEFAULT, noise=noise)
         first, with_line = rows[0], lined(rows)
         known = first["known_line"]
-        yield [figure, percent(noise), first["tips"], mean(r["ends"] for r in rows).__format__("g"),
+        yield [figure, percent(noise), first["tips"], f"{mean(r['ends'] for r in rows):g}",
                f"{mean(r['raw']['mean'] for r in with_line):.2f}" if known else "-",
                f"{mean(r['smooth']['mean'] for r in with_line):.2f}" if known else "-",
                f"{worst(with_line, 'smooth', 'largest'):.1f}" if known else "-",
                f"{mean(r['radius_bias'] for r in rows):+.2f}" if known else "-",
                f"{100 * mean(r['length_error'] for r in rows):+.1f} %" if known else "-",
                f"{mean(r['mean_gap'] for r in rows):.1f}", f"{worst(rows, 'largest_gap'):.1f}",
-               f"{first['forks']} / {mean(r['junctions'] for r in rows):g}" if known else "-",
+               f"{first['forks']} / {mean(r['junctions'] for r in rows):.3g}" if known else "-",
                f"{first['loops']} / {first['loops_found']}"]
 
 
