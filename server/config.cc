@@ -65,6 +65,18 @@ std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
   };
 }
 
+std::vector<Setting> DurableSettings(DurableOptions& durable) {
+  return {
+      PathSetting("data-dir", durable.data_directory,
+                  "Folder for uploads, jobs and results that outlive this process; without it "
+                  "nothing does"),
+      SizeSetting("max-disk-bytes", durable.max_disk_bytes, 0,
+                  "Space in it for all tenants together, such as 100GB; 0: no limit"),
+      SizeSetting("max-tenant-disk-bytes", durable.max_tenant_disk_bytes, 0,
+                  "Space in it for one tenant; 0: no limit"),
+  };
+}
+
 std::vector<Setting> OperationSettings(ServerConfig& config) {
   return {
       MillisecondsSetting("lame-duck-ms", config.lame_duck,
@@ -78,8 +90,8 @@ std::vector<Setting> OperationSettings(ServerConfig& config) {
 
 std::vector<Setting> SettingsOf(ServerConfig& config) {
   std::vector<Setting> all;
-  for (auto&& part :
-       {ListenerSettings(config), LimitSettings(config.limits), OperationSettings(config)}) {
+  for (auto&& part : {ListenerSettings(config), LimitSettings(config.limits),
+                      DurableSettings(config.durable), OperationSettings(config)}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/durable/durable_options.h"
 #include "server/identity/tls_files.h"
 #include "server/jobs/job_pool.h"
 #include "server/settings/sources.h"
@@ -25,6 +26,7 @@ struct ServerConfig {
   std::string tokens;          // file of tokens (identity/token_table.h); empty: none are wanted
   std::string plaintext_tokens = "refuse";  // over networks without TLS; or allow
   JobPool::Limits limits;
+  DurableOptions durable;
   std::chrono::milliseconds lame_duck{0};   // at least so long "not serving" before the end
   std::chrono::milliseconds drain{25'000};  // for running calls after that
   std::string log_level = "info";           // trace, debug, info, warning, error, off

@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
+#include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "server/durable/ledger.h"
+#include "server/durable/message_codec.h"
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
@@ -14,8 +17,12 @@
 #include "server/metrics/metrics_page.h"
 #include "server/server_status.h"
 #include "server/service/admin_service.h"
+#include "server/service/durable_gate.h"
+#include "server/service/job_service.h"
 #include "server/service/server_service.h"
 #include "server/service/skeletonization_service.h"
+#include "server/service/upload_writers.h"
+#include "server/service/volume_service.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -31,18 +38,41 @@ bool AdminsShareThePublicListener(const ServerConfig& config) {
 
 }  // namespace
 
+// Where calls get their work done: at once, or kept on disk.
+class Server::Work {
+ public:
+  Work(JobPool& jobs, ServerMetrics& metrics, const VolumeLimits& limits)
+      : runner_(jobs, metrics), codec_(limits) {}
+
+  absl::Status OpenLedger(const DurableOptions& options) {
+    BCCSKEL_ASSIGN_OR_RETURN(ledger_, Ledger::Open(options, runner_, codec_));
+    return absl::OkStatus();
+  }
+
+  JobRunner& runner() { return runner_; }
+  Ledger* ledger() const { return ledger_.get(); }  // null where nothing is durable
+
+ private:
+  MeteredRunner runner_;
+  MessageCodec codec_;
+  std::unique_ptr<Ledger> ledger_;
+};
+
 class Server::Services {
  public:
-  Services(const ServerConfig& config, const Callers& callers, JobPool& jobs,
-           ServerMetrics& metrics)
+  Services(const ServerConfig& config, const Callers& callers, Work& work, ServerMetrics& metrics)
       : gate_(callers),
-        runner_(jobs, metrics),
-        skeletonization_(gate_, runner_, config.limits.volume),
-        server_(gate_, config.limits),
+        durable_gate_(gate_, work.ledger()),
+        skeletonization_(gate_, work.runner(), config.limits.volume, work.ledger(), writers_),
+        volumes_(durable_gate_, writers_, config.limits),
+        jobs_(durable_gate_),
+        server_(gate_, config.limits, config.durable),
         admin_(gate_, [this, &metrics] { return StatusOf(metrics, started_); }) {}
 
   void AddPublic(ListenerPlan& plan) {
     Add(plan, skeletonization_, v1::SkeletonizationService::service_full_name());
+    Add(plan, volumes_, v1::VolumeService::service_full_name());
+    Add(plan, jobs_, v1::JobService::service_full_name());
     Add(plan, server_, v1::ServerService::service_full_name());
   }
   void AddAdmin(ListenerPlan& plan) {
@@ -58,8 +88,11 @@ class Server::Services {
 
   const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   CallGate gate_;
-  MeteredRunner runner_;
+  DurableGate durable_gate_;
+  UploadWriters writers_;
   SkeletonizationService skeletonization_;
+  VolumeService volumes_;
+  JobService jobs_;
   ServerService server_;
   AdminService admin_;
 };
@@ -69,7 +102,7 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
       callers_(std::move(callers)),
       metrics_([this] { return Gauges(); }),
       jobs_(config.limits),
-      services_(std::make_unique<Services>(config_, *callers_, jobs_, metrics_)) {}
+      work_(std::make_unique<Work>(jobs_, metrics_, config_.limits.volume)) {}
 
 Server::~Server() {
   metrics_page_.reset();
@@ -81,10 +114,22 @@ Server::~Server() {
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<Callers> callers, Callers::Create(config.tokens));
   std::unique_ptr<Server> server(new Server(config, std::move(callers)));
+  BCCSKEL_RETURN_IF_ERROR(server->OpenData());
   BCCSKEL_RETURN_IF_ERROR(server->Listen());
   BCCSKEL_RETURN_IF_ERROR(server->ListenForAdmins());
   BCCSKEL_RETURN_IF_ERROR(server->ShowMetrics());
   return server;
+}
+
+absl::Status Server::OpenData() {
+  if (!config_.durable.data_directory.empty()) {
+    DurableOptions options = config_.durable;
+    options.max_job_bytes = config_.limits.max_bytes;
+    options.algorithm_version = std::string(kAlgorithmVersion);
+    BCCSKEL_RETURN_IF_ERROR(work_->OpenLedger(options));
+  }
+  services_ = std::make_unique<Services>(config_, *callers_, *work_, metrics_);
+  return absl::OkStatus();
 }
 
 absl::Status Server::Listen() {
@@ -169,6 +214,7 @@ void Server::Drain() {
   draining_ = true;
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
+  if (Ledger* const ledger = work_->ledger()) ledger->StopAdmitting();
   jobs_.StopAdmitting();
   std::this_thread::sleep_for(config_.lame_duck);
   jobs_.WaitUntilEmpty(config_.drain);

@@ -49,9 +49,12 @@ class Server {
   const JobPool& jobs() const { return jobs_; }
 
  private:
-  class Services;  // keeps gRPC out of this header
+  // These keep gRPC and messages out of this header.
+  class Work;
+  class Services;
 
   Server(const ServerConfig& config, std::unique_ptr<Callers> callers);
+  absl::Status OpenData();
   absl::Status Listen();
   absl::Status ListenForAdmins();
   absl::Status ShowMetrics();
@@ -63,7 +66,8 @@ class Server {
   std::atomic<bool> draining_ = false;
   ServerMetrics metrics_;
   JobPool jobs_;
-  // After jobs_: calls end before the jobs' threads do.
+  // After jobs_: calls end before the ledger, and the ledger before the jobs' threads.
+  std::unique_ptr<Work> work_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work

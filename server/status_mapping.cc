@@ -72,9 +72,13 @@ absl::Status WithAllDetails(const absl::Status& status) {
 
 }  // namespace
 
+v1::Status ToStatusMessage(const absl::Status& status) {
+  return wire::ToRpcStatus(WithAllDetails(status));
+}
+
 grpc::Status ToGrpcStatus(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;
-  const v1::Status detailed = wire::ToRpcStatus(WithAllDetails(status));
+  const v1::Status detailed = ToStatusMessage(status);
   return grpc::Status(static_cast<grpc::StatusCode>(detailed.code()), detailed.message(),
                       detailed.SerializeAsString());
 }

@@ -4,12 +4,16 @@
 #include <grpcpp/support/status.h>
 
 #include "absl/status/status.h"
+#include "bccskel/v1/rpc_details.pb.h"
 
 namespace bccskel::server {
 
 // The only place where a grpc::Status is made. Details that the status carries (wire/error_details)
 // go into the trailer; a Refusal becomes QuotaFailure or RetryInfo; ErrorInfo is always there.
 grpc::Status ToGrpcStatus(const absl::Status& status);
+
+// The same for an error that is told in a message. Needs: !status.ok().
+v1::Status ToStatusMessage(const absl::Status& status);
 
 }  // namespace bccskel::server
 

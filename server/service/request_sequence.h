@@ -37,6 +37,9 @@ class RequestSequence {
   // Errors: INVALID_ARGUMENT before finish.
   absl::Status HalfClose() const;
 
+  // So many bytes came before this stream. Needs: comes after config and before the first chunk.
+  void ResumeAt(uint64_t committed_bytes) { committed_bytes_ = committed_bytes; }
+
   bool finished() const { return expected_ == Expected::kNothing; }
 
  private:

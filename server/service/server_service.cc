@@ -6,6 +6,7 @@
 
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "proto/wire/duration.h"
 #include "proto/wire/labels.h"
 #include "server/service/request_sequence.h"
 
@@ -22,6 +23,16 @@ void Set(v1::ServerLimits& message, const JobPool::Limits& limits) {
   message.set_max_chunk_bytes(kMaxChunkBytes);
   message.set_max_message_bytes(kMaxMessageBytes);
   message.set_max_decoded_bytes(limits.volume.max_decoded_bytes);
+}
+
+void Set(v1::Durability& message, const DurableOptions& durable) {
+  message.set_durable(true);
+  *message.mutable_keep_uploads() = wire::DurationMessage(durable.keep_uploads);
+  *message.mutable_keep_volumes() = wire::DurationMessage(durable.keep_volumes);
+  *message.mutable_keep_jobs() = wire::DurationMessage(durable.keep_results);
+  message.set_max_disk_bytes(durable.max_disk_bytes);
+  message.set_max_tenant_disk_bytes(durable.max_tenant_disk_bytes);
+  message.set_max_unfinished_jobs(static_cast<uint32_t>(durable.max_unfinished_jobs));
 }
 
 }  // namespace
@@ -42,6 +53,7 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   response->add_compressions(v1::VOLUME_COMPRESSION_ZSTD);
   for (int bytes : {1, 2, 4, 8}) response->add_label_types(wire::LabelTypeOf(bytes));
   Set(*response->mutable_limits(), limits_);
+  if (!durable_.data_directory.empty()) Set(*response->mutable_durability(), durable_);
   return EndUnary(*context, absl::OkStatus());
 }
 

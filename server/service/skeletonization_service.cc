@@ -1,5 +1,6 @@
 #include "server/service/skeletonization_service.h"
 
+#include "server/service/choosing_stream.h"
 #include "server/service/labels_stream.h"
 #include "server/service/skeletonize_stream.h"
 
@@ -7,7 +8,8 @@ namespace bccskel::server {
 
 grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>*
 SkeletonizationService::Skeletonize(grpc::CallbackServerContext* context) {
-  return StartStream<SkeletonizeStream>(*context, gate_, runner_, limits_);
+  if (ledger_ == nullptr) return StartStream<SkeletonizeStream>(*context, gate_, runner_, limits_);
+  return StartStream<ChoosingStream>(*context, gate_, runner_, limits_, *ledger_, writers_);
 }
 
 grpc::ServerBidiReactor<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>*

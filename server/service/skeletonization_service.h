@@ -2,16 +2,19 @@
 #define BCCSKEL_SERVER_SERVICE_SKELETONIZATION_SERVICE_H_
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
+#include "server/durable/ledger.h"
 #include "server/jobs/job_runner.h"
 #include "server/service/call_gate.h"
+#include "server/service/upload_writers.h"
 
 namespace bccskel::server {
 
 class SkeletonizationService final : public v1::SkeletonizationService::CallbackService {
  public:
-  // Needs: `gate` and `runner` outlive the service's calls.
-  SkeletonizationService(const CallGate& gate, JobRunner& runner, const VolumeLimits& limits)
-      : gate_(gate), runner_(runner), limits_(limits) {}
+  // Needs: all outlive the service's calls. `ledger` is null where nothing is durable.
+  SkeletonizationService(const CallGate& gate, JobRunner& runner, const VolumeLimits& limits,
+                         Ledger* ledger, UploadWriters& writers)
+      : gate_(gate), runner_(runner), limits_(limits), ledger_(ledger), writers_(writers) {}
 
   grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>* Skeletonize(
       grpc::CallbackServerContext* context) override;
@@ -22,6 +25,8 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
   const CallGate& gate_;
   JobRunner& runner_;
   const VolumeLimits limits_;
+  Ledger* const ledger_;
+  UploadWriters& writers_;
 };
 
 }  // namespace bccskel::server

@@ -21,12 +21,15 @@ struct SkeletonizeCall {
   }
 };
 
-// A Skeletonize call.
-class SkeletonizeStream final : public VolumeStream<SkeletonizeCall> {
+// A Skeletonize call whose job lives in memory.
+class SkeletonizeStream : public VolumeStream<SkeletonizeCall> {
  public:
   using VolumeStream::VolumeStream;
   void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override {
     Report(wire::ToMessage(progress, elapsed), elapsed);
+  }
+  void OnShellPoints(std::string points) override {
+    Send([&](ResponseOutbox& outbox) { outbox.Peel(std::move(points)); });
   }
 };
 

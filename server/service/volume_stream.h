@@ -14,6 +14,7 @@
 #include "core/exec/status_macros.h"
 #include "server/jobs/job_runner.h"
 #include "server/service/call_gate.h"
+#include "server/service/refused_call.h"
 #include "server/service/request_sequence.h"
 #include "server/status_mapping.h"
 
@@ -73,6 +74,12 @@ class VolumeStream
     fill(outbox_);
     Advance();
   }
+
+  const Request& request() const { return request_; }
+  const VolumeLimits& limits() const { return limits_; }
+  const CallFacts& facts() const { return facts_; }
+  // What keeps the stream alive. Needs: gRPC is done with it.
+  std::shared_ptr<VolumeStream> LetGo() { return std::move(self_); }
 
  private:
   void Take(Request& request);
@@ -212,7 +219,7 @@ void VolumeStream<Call>::Advance() {
 
 template <typename Call>
 void VolumeStream<Call>::OnDone() {
-  const std::shared_ptr<VolumeStream> self = std::move(self_);
+  const std::shared_ptr<VolumeStream> self = LetGo();
   std::lock_guard lock(mutex_);
   facts_.LogEnded(job_ == nullptr ? std::string() : job_->name(),
                   error_.value_or(absl::OkStatus()));
@@ -220,24 +227,18 @@ void VolumeStream<Call>::OnDone() {
   outbox_ = typename Call::Outbox();
 }
 
-// A call that the gate has refused.
-template <typename Request, typename Response>
-class RefusedStream final : public grpc::ServerBidiReactor<Request, Response> {
- public:
-  explicit RefusedStream(const absl::Status& why) { this->Finish(ToGrpcStatus(why)); }
-  void OnDone() override { delete this; }
-};
-
-// Starts a call's handler. Needs: `runner` outlives the call.
-template <typename Stream>
+// Starts a call's handler. Needs: `runner`, and what `more` refers to, outlive the call.
+template <typename Stream, typename... More>
 grpc::ServerBidiReactor<typename Stream::Request, typename Stream::Response>* StartStream(
     const grpc::CallbackServerContext& context, const CallGate& gate, JobRunner& runner,
-    const VolumeLimits& limits) {
+    const VolumeLimits& limits, More&... more) {
   absl::StatusOr<CallFacts> facts = gate.Enter(context);
   if (!facts.ok()) {
-    return new RefusedStream<typename Stream::Request, typename Stream::Response>(facts.status());
+    return new RefusedCall<
+        grpc::ServerBidiReactor<typename Stream::Request, typename Stream::Response>>(
+        facts.status());
   }
-  const auto stream = std::make_shared<Stream>(*std::move(facts), runner, limits);
+  const auto stream = std::make_shared<Stream>(*std::move(facts), runner, limits, more...);
   stream->Begin();
   return stream.get();
 }

@@ -1,0 +1,73 @@
+#ifndef BCCSKEL_SERVER_SERVICE_CHOOSING_STREAM_H_
+#define BCCSKEL_SERVER_SERVICE_CHOOSING_STREAM_H_
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "server/service/durable_skeletonize.h"
+#include "server/service/skeletonize_stream.h"
+
+namespace bccskel::server {
+
+// A Skeletonize call on a server with a ledger: its config decides whether the job is durable or
+// lives in memory.
+class ChoosingStream final : public SkeletonizeStream {
+ public:
+  // Needs: everything outlives the call.
+  ChoosingStream(CallFacts facts, JobRunner& runner, const VolumeLimits& limits, Ledger& ledger,
+                 UploadWriters& writers)
+      : SkeletonizeStream(std::move(facts), runner, limits), ledger_(ledger), writers_(writers) {}
+
+  void OnReadDone(bool ok) override {
+    if (durable_ != nullptr) return durable_->OnReadDone(ok);
+    const bool first = std::exchange(first_, false);
+    if (first && ok && request().has_config() &&
+        DurableSkeletonize::Suits(request().config(), limits())) {
+      return GoDurable();
+    }
+    SkeletonizeStream::OnReadDone(ok);
+  }
+
+  void OnWriteDone(bool ok) override {
+    if (durable_ != nullptr) return durable_->OnWriteDone(ok);
+    SkeletonizeStream::OnWriteDone(ok);
+  }
+
+  void OnCancel() override {
+    std::unique_lock lock(choice_);
+    cancelled_ = true;
+    const std::shared_ptr<DurableSkeletonize> durable = durable_;
+    lock.unlock();
+    if (durable != nullptr) return durable->OnCancel();
+    SkeletonizeStream::OnCancel();
+  }
+
+  void OnDone() override {
+    if (durable_ == nullptr) return SkeletonizeStream::OnDone();
+    const auto self = LetGo();
+    durable_->OnDone();
+  }
+
+ private:
+  void GoDurable() {
+    std::unique_lock lock(choice_);
+    if (cancelled_) return;  // and ended
+    durable_ = std::make_shared<DurableSkeletonize>(DurableCall{facts(), ledger_}, writers_, *this);
+    lock.unlock();
+    durable_->Begin(request().config());
+  }
+
+  Ledger& ledger_;
+  UploadWriters& writers_;
+  bool first_ = true;  // read reactions only
+
+  std::mutex choice_;
+  bool cancelled_ = false;  // guarded by choice_
+  // Set once, guarded by choice_; reads and writes come after that in any case.
+  std::shared_ptr<DurableSkeletonize> durable_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_SERVICE_CHOOSING_STREAM_H_

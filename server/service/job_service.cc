@@ -1,0 +1,141 @@
+#include "server/service/job_service.h"
+
+#include <algorithm>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+#include "server/durable/message_codec.h"
+#include "server/service/durable_messages.h"
+#include "server/service/result_stream.h"
+#include "server/service/unary_answer.h"
+#include "server/service/volume_fields.h"
+#include "server/service/watch_stream.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr size_t kMaxRequestIdBytes = 128;
+constexpr int kMaxPageSize = 1000, kDefaultPageSize = 50;
+
+absl::Status CheckRequestId(const std::string& id) {
+  const auto printable = [](char c) { return c > ' ' && c <= '~'; };
+  if (id.size() <= kMaxRequestIdBytes && std::ranges::all_of(id, printable)) {
+    return absl::OkStatus();
+  }
+  return wire::InvalidField("request_id", absl::StrCat("must be up to ", kMaxRequestIdBytes,
+                                                       " printable ASCII characters"));
+}
+
+absl::StatusOr<Ledger::NewJob> NewJobOf(const v1::CreateJobRequest& request) {
+  Ledger::NewJob job;
+  BCCSKEL_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
+  if (request.volume().empty()) return wire::InvalidField("volume", "must be set");
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads()));
+  BCCSKEL_ASSIGN_OR_RETURN(job.options,
+                           OptionsBytes(request.options(), request.thin_volume_return()));
+  BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
+  job.request_id = request.request_id();
+  job.volume = request.volume();
+  job.threads = request.threads();
+  if (request.validate_only()) job.mode = Ledger::NewJob::Mode::kValidateOnly;
+  return job;
+}
+
+absl::StatusOr<Ledger::JobQuery> QueryOf(const v1::ListJobsRequest& request) {
+  const int wanted = request.page_size();
+  if (wanted < 0 || wanted > kMaxPageSize) {
+    return wire::InvalidField("page_size", absl::StrCat(wanted, ", must be 0 to ", kMaxPageSize));
+  }
+  Ledger::JobQuery query;
+  query.page_size = wanted == 0 ? kDefaultPageSize : wanted;
+  query.page_token = request.page_token();
+  for (const int state : request.states()) {
+    BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
+    query.states.push_back(known);
+  }
+  return query;
+}
+
+// For every response that holds one job.
+template <typename Response>
+auto AnswerJob(grpc::ServerUnaryReactor* reactor, Response* response,
+               const LedgerReasons& reasons = {}) {
+  return Answer(reactor, reasons,
+                [response](const JobInfo& job) { *response->mutable_job() = ToMessage(job); });
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* JobService::CreateJob(grpc::CallbackServerContext* context,
+                                                const v1::CreateJobRequest* request,
+                                                v1::CreateJobResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const absl::StatusOr<Ledger::NewJob> job = NewJobOf(*request);
+  if (!job.ok()) return EndUnary(*context, job.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  const LedgerReasons reasons = {.precondition = "VOLUME_MISSING", .exists = "REQUEST_ID_REUSED"};
+  call->ledger.CreateJob(call->tenant(), *job, AnswerJob(reactor, response, reasons));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* JobService::GetJob(grpc::CallbackServerContext* context,
+                                             const v1::GetJobRequest* request,
+                                             v1::GetJobResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.GetJob(call->tenant(), request->job(), AnswerJob(reactor, response));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* context,
+                                               const v1::ListJobsRequest* request,
+                                               v1::ListJobsResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const absl::StatusOr<Ledger::JobQuery> query = QueryOf(*request);
+  if (!query.ok()) return EndUnary(*context, query.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.ListJobs(call->tenant(), *query,
+                        Answer(reactor, {}, [response](const JobPage& page) {
+                          for (const JobInfo& job : page.jobs)
+                            *response->add_jobs() = ToMessage(job);
+                          response->set_next_page_token(page.next_token);
+                        }));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* context,
+                                                const v1::CancelJobRequest* request,
+                                                v1::CancelJobResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.CancelJob(call->tenant(), request->job(), AnswerJob(reactor, response));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* context,
+                                                const v1::DeleteJobRequest* request,
+                                                v1::DeleteJobResponse*) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.DeleteJob(call->tenant(), request->job(), AnswerNothing(reactor, {}));
+  return reactor;
+}
+
+grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
+    grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
+  return StartWatchStream(gate_.Enter(*context), *request);
+}
+
+grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* JobService::ReadSkeleton(
+    grpc::CallbackServerContext* context, const v1::ReadSkeletonRequest* request) {
+  return StartResultStream(gate_.Enter(*context), *request);
+}
+
+}  // namespace bccskel::server

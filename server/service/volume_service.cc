@@ -1,0 +1,117 @@
+#include "server/service/volume_service.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+#include "server/durable/message_codec.h"
+#include "server/service/durable_messages.h"
+#include "server/service/unary_answer.h"
+#include "server/service/upload_stream.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr int kMaxKeys = 256;
+constexpr size_t kDigestBytes = 32;
+
+// A volume as the ledger stores it.
+struct StoredKey {
+  std::string declaration;
+  std::string digest;
+
+  bool IsOf(const VolumeInfo& volume) const {
+    return volume.blob_digest == digest && volume.declaration == declaration;
+  }
+};
+
+absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request) {
+  if (request.volumes().empty() || request.volumes_size() > kMaxKeys) {
+    return wire::InvalidField(
+        "volumes", absl::StrCat(request.volumes_size(), " keys, must be 1 to ", kMaxKeys));
+  }
+  std::vector<StoredKey> keys;
+  for (const v1::VolumeKey& key : request.volumes()) {
+    if (key.blob_sha256().size() != kDigestBytes) {
+      return wire::InvalidField(
+          "volumes.blob_sha256",
+          absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kDigestBytes));
+    }
+    keys.push_back(
+        {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
+  }
+  return keys;
+}
+
+std::string NameOf(const StoredKey& key, const std::vector<VolumeInfo>& volumes) {
+  for (const VolumeInfo& volume : volumes) {
+    if (key.IsOf(volume)) return volume.name;
+  }
+  return std::string();
+}
+
+}  // namespace
+
+grpc::ServerReadReactor<v1::UploadVolumeRequest>* VolumeService::UploadVolume(
+    grpc::CallbackServerContext* context, v1::UploadVolumeResponse* response) {
+  return StartUploadStream(gate_.Enter(*context), writers_, limits_, *response);
+}
+
+grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerContext* context,
+                                                         const v1::GetUploadStatusRequest* request,
+                                                         v1::GetUploadStatusResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.GetUpload(call->tenant(), request->upload(),
+                         Answer(reactor, {}, [response](const UploadInfo& upload) {
+                           *response->mutable_upload() = ToMessage(upload);
+                         }));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* VolumeService::DeleteUpload(grpc::CallbackServerContext* context,
+                                                      const v1::DeleteUploadRequest* request,
+                                                      v1::DeleteUploadResponse*) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(reactor, {}));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
+    grpc::CallbackServerContext* context, const v1::FindMissingVolumesRequest* request,
+    v1::FindMissingVolumesResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
+  if (!keys.ok()) return EndUnary(*context, keys.status());
+  std::vector<std::string> digests;
+  for (const StoredKey& key : *keys) digests.push_back(key.digest);
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.FindVolumes(
+      call->tenant(), digests,
+      Answer(reactor, {},
+             [response, keys = *std::move(keys)](const std::vector<VolumeInfo>& found) {
+               for (const StoredKey& key : keys) response->add_volumes(NameOf(key, found));
+             }));
+  return reactor;
+}
+
+grpc::ServerUnaryReactor* VolumeService::DeleteVolume(grpc::CallbackServerContext* context,
+                                                      const v1::DeleteVolumeRequest* request,
+                                                      v1::DeleteVolumeResponse*) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  call->ledger.DeleteVolume(call->tenant(), request->volume(),
+                            AnswerNothing(reactor, {.precondition = "VOLUME_IN_USE"}));
+  return reactor;
+}
+
+}  // namespace bccskel::server

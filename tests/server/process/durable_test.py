@@ -1,0 +1,433 @@
+"""Uploads, jobs and results that outlive connections, callers and the server's process."""
+
+import concurrent.futures
+import hashlib
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import grpc
+import numpy as np
+
+import server_process
+from server_process import SOURCE, ServerProcess
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+sys.path.insert(0, str(SOURCE / "client/examples"))
+import durable  # noqa: E402  (the stubs made it possible)
+import skeletonize as example  # noqa: E402
+
+jobs, volumes, volume_pb2 = durable.jobs, durable.volumes, durable.volume_pb2
+service, service_grpc = example.service, example.service_grpc
+Code = grpc.StatusCode
+
+
+def volume(radius=24.0, tube=8.0):
+    """A declaration and its bytes."""
+    return example.declare(example.torus(radius, tube), 1.0, (0, 0, 0), np.eye(3))
+
+
+def large_volume():
+    """More than a small job: its one-call job is durable."""
+    return volume(360.0, 120.0)
+
+
+class DurableTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.data = pathlib.Path(folder.name) / "data"
+        self.servers = []
+
+    def start(self, *flags):
+        """A server on the data directory; the one before, if any, has to be gone."""
+        server = ServerProcess("--data-dir", str(self.data), "--threads", "1", *flags)
+        self.assertTrue(server.address, server.log_text())
+        self.addCleanup(server.__exit__)
+        self.channel = grpc.insecure_channel(server.address)
+        self.addCleanup(self.channel.close)
+        grpc.channel_ready_future(self.channel).result(server_process.TIMEOUT_S)
+        self.volumes = durable.volumes_grpc.VolumeServiceStub(self.channel)
+        self.jobs = durable.jobs_grpc.JobServiceStub(self.channel)
+        return server
+
+    def kill(self, server):
+        server.stop(signal.SIGKILL)
+
+    def fails(self, code, reason, call):
+        with self.assertRaises(grpc.RpcError) as raised:
+            call()
+        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
+                         (code, reason), raised.exception.details())
+        return raised.exception
+
+    def create(self, name, request_id="", **more):
+        return self.jobs.CreateJob(jobs.CreateJobRequest(
+            volume=name, request_id=request_id, **more)).job
+
+    def get(self, job):
+        return self.jobs.GetJob(jobs.GetJobRequest(job=job)).job
+
+    def finish(self, job):
+        """The states that a watch tells, the last one last."""
+        return [event.state_change.state for event in durable.watch(self.channel, job)
+                if event.HasField("state_change")]
+
+    def files(self):
+        return {path for path in self.data.rglob("*") if path.is_file()}
+
+
+class JobTest(DurableTest):
+    def test_a_job_gives_the_skeleton_of_one_call(self):
+        self.start()
+        name = durable.send_volume(self.channel, *volume())
+        job = durable.create_job(self.channel, name)
+        self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
+        skeleton = durable.read_skeleton(self.channel, job)
+        expected = example.skeletonize(self.channel, example.torus())
+        self.assertEqual(skeleton.summary.sha256, expected.summary.sha256)
+        found = self.get(job)
+        self.assertEqual(found.state, jobs.JOB_STATE_SUCCEEDED)
+        self.assertEqual(found.summary.sha256, expected.summary.sha256)
+        self.assertEqual(found.volume, name)
+        self.assertGreater(found.result_pieces, 1)
+        last = list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(
+            job=job, piece_index=found.result_pieces - 1)))
+        self.assertEqual([piece.piece_index for piece in last], [found.result_pieces - 1])
+        self.assertTrue(last[0].HasField("summary"))
+
+    def test_what_the_server_has_is_not_sent_again(self):
+        self.start()
+        declaration, data = volume()
+        name = durable.send_volume(self.channel, declaration, data)
+        key = volumes.VolumeKey(declaration=declaration, blob_sha256=hashlib.sha256(data).digest())
+        moved = volumes.VolumeKey()
+        moved.CopyFrom(key)
+        moved.declaration.placement.origin[0] = 5
+        found = self.volumes.FindMissingVolumes(volumes.FindMissingVolumesRequest(
+            volumes=[moved, key]))
+        self.assertEqual(list(found.volumes), ["", name])
+
+    def test_one_request_id_makes_one_job_however_many_ask(self):
+        self.start()
+        name = durable.send_volume(self.channel, *volume())
+        with concurrent.futures.ThreadPoolExecutor(100) as pool:
+            made = {job.name for job in pool.map(lambda _: self.create(name, "once"), range(100))}
+        self.assertEqual(len(made), 1)
+        listed = self.jobs.ListJobs(jobs.ListJobsRequest()).jobs
+        self.assertEqual({job.name for job in listed}, made)
+        self.fails(Code.ALREADY_EXISTS, "REQUEST_ID_REUSED",
+                   lambda: self.create(name, "once", priority=jobs.JOB_PRIORITY_HIGH))
+
+    def test_pages_hold_every_job_once(self):
+        self.start()
+        name = durable.send_volume(self.channel, *volume())
+        made = [self.create(name).name for _ in range(7)]
+        found, token = [], ""
+        while True:
+            page = self.jobs.ListJobs(jobs.ListJobsRequest(page_size=3, page_token=token))
+            self.assertLessEqual(len(page.jobs), 3)
+            found += [job.name for job in page.jobs]
+            token = page.next_page_token
+            if not token:
+                break
+        self.assertEqual(found, made[::-1])
+
+    def test_errors_say_what_is_wrong(self):
+        self.start()
+        none = "jobs/none"
+        self.fails(Code.FAILED_PRECONDITION, "VOLUME_MISSING", lambda: self.create("volumes/none"))
+        self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID", lambda: self.create(""))
+        self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID", lambda: self.create("volumes/x", "\n"))
+        self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: self.get(none))
+        self.fails(Code.NOT_FOUND, "NOT_FOUND",
+                   lambda: self.jobs.CancelJob(jobs.CancelJobRequest(job=none)))
+        self.fails(Code.NOT_FOUND, "NOT_FOUND",
+                   lambda: list(self.jobs.WatchJob(jobs.WatchJobRequest(job=none))))
+        self.fails(Code.NOT_FOUND, "NOT_FOUND",
+                   lambda: list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=none))))
+        self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID",
+                   lambda: self.jobs.ListJobs(jobs.ListJobsRequest(page_size=1001)))
+        validated = self.create(durable.send_volume(self.channel, *volume()), validate_only=True)
+        self.assertEqual(validated.name, "")
+        self.assertEqual(len(self.jobs.ListJobs(jobs.ListJobsRequest()).jobs), 0)
+
+    def test_a_job_that_has_not_succeeded_has_nothing_to_read(self):
+        self.start()
+        job = self.create(durable.send_volume(self.channel, *large_volume())).name
+        self.fails(Code.FAILED_PRECONDITION, "JOB_NOT_SUCCEEDED",
+                   lambda: list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=job))))
+        ended = self.jobs.CancelJob(jobs.CancelJobRequest(job=job)).job
+        self.assertEqual(ended.state, jobs.JOB_STATE_CANCELLED)
+        self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_CANCELLED)
+
+    def test_a_malformed_volume_fails_its_job(self):
+        self.start()
+        declaration, data = volume()
+        declaration.encoding = volume_pb2.VOLUME_ENCODING_OPENEXR
+        declaration.size_bytes = len(data)
+        job = self.create(durable.send_volume(self.channel, declaration, data)).name
+        self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_FAILED)
+        self.assertEqual(self.get(job).error.code, Code.INVALID_ARGUMENT.value[0])
+
+    def test_without_a_data_directory_the_calls_name_the_flag(self):
+        with ServerProcess() as server, grpc.insecure_channel(server.address) as channel:
+            stub = durable.jobs_grpc.JobServiceStub(channel)
+            error = self.fails(Code.FAILED_PRECONDITION, "NOT_DURABLE",
+                               lambda: stub.GetJob(jobs.GetJobRequest(job="jobs/1")))
+            self.assertIn("--data-dir", error.details())
+
+
+class EraseTest(DurableTest):
+    def test_deleting_erases_the_bytes(self):
+        self.start()
+        before = self.files()
+        declaration, data = volume()
+        name = durable.send_volume(self.channel, declaration, data)
+        job = self.create(name).name
+        self.finish(job)
+        self.assertTrue(any(data in path.read_bytes() for path in self.files()))
+        self.jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
+        self.volumes.DeleteVolume(volumes.DeleteVolumeRequest(volume=name))
+        left = self.files() - before
+        self.assertFalse([path for path in left if data[:4096] in path.read_bytes()])
+        self.assertFalse([path for path in left if path.suffix not in (".db", ".db-wal", ".db-shm")
+                          and path.stat().st_size > 0], left)
+        self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: self.get(job))
+
+    def test_a_flipped_bit_of_a_stored_result_is_data_loss(self):
+        self.start()
+        before = self.files()
+        job = self.create(durable.send_volume(self.channel, *volume())).name
+        self.finish(job)
+        results = [path for path in self.files() - before if "result" in str(path)]
+        self.assertEqual(len(results), 1, self.files())
+        damaged = bytearray(results[0].read_bytes())
+        damaged[len(damaged) // 2] ^= 1
+        results[0].chmod(0o600)
+        results[0].write_bytes(damaged)
+        self.fails(Code.DATA_LOSS, "STORED_DATA_DAMAGED",
+                   lambda: list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=job))))
+
+
+class UploadTest(DurableTest):
+    def chunk(self, data, offset, size=None):
+        return volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
+            offset=offset, data=data[offset:offset + (size or durable.CHUNK_BYTES)]))
+
+    def config(self, declaration, name="uploads/a"):
+        return volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
+            upload=name, volume=declaration))
+
+    def status(self, name="uploads/a"):
+        return self.volumes.GetUploadStatus(volumes.GetUploadStatusRequest(upload=name)).upload
+
+    def test_a_half_closed_upload_stays_and_is_gone_on_with(self):
+        self.start()
+        declaration, data = volume(60.0, 20.0)
+        answer = self.volumes.UploadVolume(iter([self.config(declaration),
+                                                 self.chunk(data, 0, 1000)]))
+        self.assertEqual((answer.upload.committed_size, answer.upload.volume), (1000, ""))
+        self.fails(Code.OUT_OF_RANGE, "CHUNK_OFFSET", lambda: self.volumes.UploadVolume(
+            iter([self.config(declaration), self.chunk(data, 0, 1000)])))
+        self.assertTrue(durable.send_volume(self.channel, declaration, data, "uploads/a"))
+        self.assertEqual(self.status().committed_size, len(data))
+
+    def test_wrong_uploads_are_told_apart(self):
+        self.start()
+        declaration, data = volume()
+        other, _ = volume(30.0, 8.0)
+        self.volumes.UploadVolume(iter([self.config(declaration), self.chunk(data, 0, 1000)]))
+        self.fails(Code.ALREADY_EXISTS, "UPLOAD_EXISTS",
+                   lambda: self.volumes.UploadVolume(iter([self.config(other)])))
+        self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID",
+                   lambda: self.volumes.UploadVolume(iter([self.config(declaration, "me")])))
+        self.fails(Code.INVALID_ARGUMENT, "REQUEST_ORDER",
+                   lambda: self.volumes.UploadVolume(iter([self.chunk(data, 0)])))
+        wrong = self.chunk(data, 1000, 1000)
+        wrong.chunk.crc32c = 1
+        error = self.fails(Code.INVALID_ARGUMENT, "CHUNK_CHECKSUM", lambda:
+                           self.volumes.UploadVolume(iter([self.config(declaration), wrong])))
+        self.assertIn("1000", str(self.status().committed_size), error.details())
+
+    def test_a_newer_stream_takes_an_upload_over(self):
+        self.start()
+        declaration, data = volume(60.0, 20.0)
+        go_on = threading.Event()
+
+        def slowly():
+            yield self.config(declaration)
+            yield self.chunk(data, 0, 1000)
+            go_on.wait(server_process.TIMEOUT_S)
+
+        first = self.volumes.UploadVolume.future(slowly())
+        while True:  # the test's time limit ends it
+            try:
+                if self.status().committed_size == 1000:
+                    break
+            except grpc.RpcError:
+                pass
+        name = durable.send_volume(self.channel, declaration, data, "uploads/a")
+        self.assertTrue(name)
+        self.assertEqual(first.exception().code(), Code.ABORTED)
+        go_on.set()
+
+    def test_a_message_of_5_mib_is_refused(self):
+        self.start()
+        declaration, _ = large_volume()
+        too_long = volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(data=bytes(5 << 20)))
+        with self.assertRaises(grpc.RpcError) as raised:
+            self.volumes.UploadVolume(iter([self.config(declaration), too_long]))
+        self.assertEqual(raised.exception.code(), Code.RESOURCE_EXHAUSTED)
+
+    def test_after_a_kill_of_the_sender_at_most_one_chunk_is_sent_again(self):
+        server = self.start()
+        declaration, data = large_volume()
+        sender = subprocess.run([sys.executable, "-c", KILLED_SENDER, server.address, STUBS.name,
+                                 SOURCE / "client/examples"], check=False,
+                                timeout=server_process.TIMEOUT_S)
+        self.assertEqual(sender.returncode, -signal.SIGKILL)
+        # What it had handed over arrives although it is gone.
+        sent, committed = 3 * durable.CHUNK_BYTES, -1
+        while committed < sent - durable.CHUNK_BYTES:  # the test's time limit ends it
+            committed = durable.committed_size(self.volumes, "uploads/killed")
+        self.assertTrue(durable.send_volume(self.channel, declaration, data, "uploads/killed"))
+
+
+KILLED_SENDER = """
+import os, signal, sys, time
+import grpc
+sys.path[:0] = [sys.argv[2], sys.argv[3]]
+import durable, numpy
+from skeletonize import declare, torus
+channel = grpc.insecure_channel(sys.argv[1])
+stub = durable.volumes_grpc.VolumeServiceStub(channel)
+declaration, data = declare(torus(360.0, 120.0), 1.0, (0, 0, 0), numpy.eye(3))
+def some():
+    for number, request in enumerate(durable.upload_requests("uploads/killed", declaration, data, 0)):
+        if number == 4:
+            while durable.committed_size(stub, "uploads/killed") < 2 * durable.CHUNK_BYTES:
+                time.sleep(0.01)
+            os.kill(os.getpid(), signal.SIGKILL)
+        yield request
+stub.UploadVolume(some())
+"""
+
+
+class CrashTest(DurableTest):
+    def test_uploads_go_on_after_a_kill_of_the_server(self):
+        server = self.start()
+        declaration, data = large_volume()
+        half = len(data) // 2
+        self.volumes.UploadVolume(iter([
+            volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
+                upload="uploads/a", volume=declaration)),
+            *(volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
+                offset=at, data=data[at:min(half, at + durable.CHUNK_BYTES)]))
+              for at in range(0, half, durable.CHUNK_BYTES))]))
+        self.kill(server)
+        self.start()
+        self.assertEqual(durable.committed_size(self.volumes, "uploads/a"), half)
+        self.assertTrue(durable.send_volume(self.channel, declaration, data, "uploads/a"))
+
+    def test_jobs_are_neither_lost_nor_doubled_by_kills_of_the_server(self):
+        server = self.start()
+        name = durable.send_volume(self.channel, *volume(60.0, 20.0))
+        made = {}
+        for round_number in range(3):
+            for n in range(5):
+                request = f"{round_number}-{n}"
+                made[request] = self.create(name, request, options=example.service
+                                            .SkeletonizeConfig().options.__class__(
+                                                last_shell=1 + len(made))).name
+            self.kill(server)
+            server = self.start()
+        for request, job in made.items():
+            self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
+            self.assertEqual(self.create(name, request, options=self.get(job).options).name, job)
+        listed = self.jobs.ListJobs(jobs.ListJobsRequest(page_size=1000)).jobs
+        self.assertEqual(sorted(job.name for job in listed), sorted(made.values()))
+
+    def test_a_watch_goes_on_where_it_was(self):
+        server = self.start()
+        job = self.create(durable.send_volume(self.channel, *large_volume())).name
+        first = next(iter(self.jobs.WatchJob(jobs.WatchJobRequest(job=job))))
+        self.kill(server)
+        self.start()
+        events = list(durable.watch(self.channel, job, first.sequence))
+        sequences = [event.sequence for event in events]
+        self.assertEqual(sequences, sorted(set(sequences)))
+        self.assertGreater(sequences[0], first.sequence)
+        self.assertEqual(events[-1].state_change.state, jobs.JOB_STATE_SUCCEEDED)
+
+    def test_one_call_that_breaks_is_gone_on_with(self):
+        server = self.start()
+        declaration, data = large_volume()
+        go_on = threading.Event()
+
+        def half():
+            yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
+            yield service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(data=data[:100_000]))
+            go_on.wait(server_process.TIMEOUT_S)
+
+        replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(half())
+        accepted = next(replies).accepted
+        self.assertTrue(accepted.durable)
+        self.kill(server)
+        go_on.set()
+        self.start()
+        self.assertEqual(self.get(accepted.job).state, jobs.JOB_STATE_RECEIVING)
+        durable.send_volume(self.channel, declaration, data, accepted.upload)
+        self.assertEqual(self.finish(accepted.job)[-1], jobs.JOB_STATE_SUCCEEDED)
+        skeleton = durable.read_skeleton(self.channel, accepted.job)
+        self.assertEqual(skeleton.summary.certificate.skeleton.loops, 1)
+
+
+class OneCallTest(DurableTest):
+    def test_large_volumes_are_durable_and_small_ones_are_not(self):
+        self.start()
+        stub = service_grpc.SkeletonizationServiceStub(self.channel)
+        small = list(stub.Skeletonize(example.requests(example.torus())))
+        large = list(stub.Skeletonize(example.requests(example.torus(360.0, 120.0))))
+        self.assertFalse(small[0].accepted.durable)
+        self.assertTrue(large[0].accepted.durable)
+        self.assertTrue(large[-1].HasField("summary"))
+        self.assertEqual(self.get(large[0].accepted.job).summary.sha256, large[-1].summary.sha256)
+
+    def test_a_cancelled_call_ends_its_job_only_where_asked(self):
+        self.start()
+        declaration, data = large_volume()
+        for policy, state in ((service.DISCONNECT_POLICY_CANCEL, jobs.JOB_STATE_CANCELLED),
+                              (service.DISCONNECT_POLICY_CONTINUE, jobs.JOB_STATE_SUCCEEDED)):
+            requests = list(example.requests(example.torus(360.0, 120.0)))
+            requests[0].config.on_disconnect = policy
+            replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(
+                iter(requests))
+            job = next(replies).accepted.job
+            while self.get(job).state == jobs.JOB_STATE_RECEIVING:
+                time.sleep(0.01)
+            replies.cancel()
+            self.assertEqual(self.finish(job)[-1], state)
+
+
+class ExampleTest(DurableTest):
+    def test_the_example_runs_as_its_text_says(self):
+        server = self.start()
+        done = subprocess.run(
+            [sys.executable, SOURCE / "client/examples/durable.py", "--server", server.address],
+            env={**os.environ, "PYTHONPATH": STUBS.name}, capture_output=True, text=True,
+            timeout=server_process.TIMEOUT_S, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("JOB_STATE_SUCCEEDED", done.stdout)
+        self.assertTrue(done.stdout.endswith(" 1 loops\n"), done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
