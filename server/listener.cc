@@ -6,21 +6,19 @@
 #include <grpcpp/security/tls_certificate_provider.h>
 #include <grpcpp/security/tls_credentials_options.h>
 
-#include <cstring>
-#include <deque>
 #include <mutex>
-#include <optional>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
 #include "server/service/server_service.h"
+#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
 
-constexpr char kUnixPrefix[] = "unix:";
+using grpc::experimental::ExternalConnectionAcceptor;
+using ExternalConnectionType = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+
 // Clients may ping every 10 s, also between calls; more often than that is abuse.
 constexpr int kMinPingIntervalMs = 10'000;
 // A client that vanished without a word is found out by these.
@@ -40,25 +38,12 @@ class WithoutReflection : public grpc::ServerBuilderOption {
 
 void Configure(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server must fail, not share
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                              kMinPingIntervalMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kPingIntervalMs);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingTimeoutMs);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
-}
-
-// Nothing where it is no Unix socket.
-std::optional<std::string> SocketPathOf(const std::string& address) {
-  if (address.rfind(kUnixPrefix, 0) != 0) return std::nullopt;
-  const std::string path = address.substr(std::strlen(kUnixPrefix));
-  return path.rfind("//", 0) == 0 ? path.substr(2) : path;  // unix:/path or unix:///path
-}
-
-std::string AddressOf(const std::string& listen, int port) {
-  if (SocketPathOf(listen).has_value()) return listen;
-  return absl::StrCat(listen.substr(0, listen.rfind(':')), ":", port);
 }
 
 std::shared_ptr<grpc::ServerCredentials> TlsCredentials(const TlsFiles& files) {
@@ -84,31 +69,35 @@ absl::StatusOr<std::unique_ptr<Listener>> Listener::Start(ListenerPlan plan) {
   });
   std::unique_ptr<Listener> listener(new Listener);
   BCCSKEL_RETURN_IF_ERROR(CheckTlsFiles(plan.tls));
-  BCCSKEL_RETURN_IF_ERROR(listener->LockSockets(plan.addresses));
-  BCCSKEL_RETURN_IF_ERROR(listener->Listen(plan));
+  BCCSKEL_RETURN_IF_ERROR(listener->Listen(plan.addresses));
+  BCCSKEL_RETURN_IF_ERROR(listener->Serve(plan));
   listener->healthy_ = std::move(plan.healthy);
   listener->SetServing(Serving::kYes);
   return listener;
 }
 
-absl::Status Listener::LockSockets(const std::vector<std::string>& addresses) {
+absl::Status Listener::Listen(const std::vector<std::string>& addresses) {
   for (const std::string& address : addresses) {
-    const std::optional<std::string> path = SocketPathOf(address);
-    if (!path.has_value()) continue;
-    BCCSKEL_ASSIGN_OR_RETURN(SocketLock lock, SocketLock::Take(*path));
-    locks_.push_back(std::move(lock));
+    if (const std::string path = SocketPathOf(address); !path.empty()) {
+      BCCSKEL_ASSIGN_OR_RETURN(SocketLock lock, SocketLock::Take(path));
+      locks_.push_back(std::move(lock));
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<ConnectionAcceptor> acceptor,
+                             ConnectionAcceptor::Listen(address));
+    addresses_.push_back(acceptor->address());
+    acceptors_.push_back(std::move(acceptor));
   }
   return absl::OkStatus();
 }
 
-absl::Status Listener::Listen(ListenerPlan& plan) {
+absl::Status Listener::Serve(ListenerPlan& plan) {
   grpc::ServerBuilder builder;
   const auto plain = grpc::InsecureServerCredentials();
   const auto tls = plan.tls.enabled() ? TlsCredentials(plan.tls) : plain;
-  std::deque<int> ports;  // written while the server is built
-  for (const std::string& address : plan.addresses) {
-    const auto& credentials = SocketPathOf(address).has_value() ? plain : tls;
-    builder.AddListeningPort(address, credentials, &ports.emplace_back(0));
+  std::vector<std::unique_ptr<ExternalConnectionAcceptor>> takers;
+  for (const std::string& address : addresses_) {
+    takers.push_back(builder.experimental().AddExternalConnectionAcceptor(
+        ExternalConnectionType::FROM_FD, SocketPathOf(address).empty() ? tls : plain));
   }
   for (grpc::Service* service : plan.services) builder.RegisterService(service);
   if (plan.reflection == ListenerPlan::Reflection::kOff) {
@@ -117,12 +106,14 @@ absl::Status Listener::Listen(ListenerPlan& plan) {
   Configure(builder);
   builder.experimental().SetInterceptorCreators(std::move(plan.interceptors));
   server_ = builder.BuildAndStart();
-  if (server_ == nullptr) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("cannot listen on ", absl::StrJoin(plan.addresses, " or ")));
-  }
-  for (size_t n = 0; n < ports.size(); ++n) {
-    addresses_.push_back(AddressOf(plan.addresses[n], ports[n]));
+  if (server_ == nullptr) return absl::InternalError("gRPC cannot start a server");
+  for (size_t n = 0; n < takers.size(); ++n) {
+    acceptors_[n]->Start([taker = std::shared_ptr(std::move(takers[n]))](int from, int connection) {
+      ExternalConnectionAcceptor::NewConnectionParameters parameters;
+      parameters.listener_fd = from;
+      parameters.fd = connection;
+      taker->HandleNewConnection(&parameters);
+    });
   }
   return absl::OkStatus();
 }
@@ -135,6 +126,7 @@ void Listener::SetServing(Serving serving) {
 }
 
 void Listener::Shutdown(std::chrono::milliseconds grace) {
+  for (const auto& acceptor : acceptors_) acceptor->Stop();
   server_->Shutdown(std::chrono::system_clock::now() + grace);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "server/connection_acceptor.h"
 #include "server/identity/tls_files.h"
 #include "server/socket_lock.h"
 
@@ -47,13 +48,14 @@ class Listener {
 
  private:
   Listener() = default;
-  absl::Status LockSockets(const std::vector<std::string>& addresses);
-  absl::Status Listen(ListenerPlan& plan);
+  absl::Status Listen(const std::vector<std::string>& addresses);
+  absl::Status Serve(ListenerPlan& plan);
 
-  std::vector<SocketLock> locks_;  // outlive the server
+  std::vector<SocketLock> locks_;  // outlive the sockets
   std::vector<std::string> addresses_;
   std::vector<std::string> healthy_;
   std::unique_ptr<grpc::Server> server_;
+  std::vector<std::unique_ptr<ConnectionAcceptor>> acceptors_;  // stop before the server
 };
 
 }  // namespace bccskel::server

@@ -114,7 +114,11 @@ Server::~Server() {
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<Callers> callers, Callers::Create(config.tokens));
   std::unique_ptr<Server> server(new Server(config, std::move(callers)));
+<<<<<<< server/server.cc
+  server->SetTenants();
+=======
   BCCSKEL_RETURN_IF_ERROR(server->OpenData());
+>>>>>>> /tmp/ops/m.new
   BCCSKEL_RETURN_IF_ERROR(server->Listen());
   BCCSKEL_RETURN_IF_ERROR(server->ListenForAdmins());
   BCCSKEL_RETURN_IF_ERROR(server->ShowMetrics());
@@ -193,18 +197,21 @@ std::string Server::metrics_address() const {
 
 void Server::ReloadIfChanged() {
   const absl::StatusOr<Callers::Reload> reload = callers_->ReloadIfChanged();
-  if (!reload.ok() || *reload == Callers::Reload::kDone) LogReload(reload.status());
+  if (!reload.ok() || *reload == Callers::Reload::kDone) TakeReload(reload.status());
 }
 
 void Server::ReloadNow() {
-  if (!config_.tokens.empty()) LogReload(callers_->ReloadNow());
+  if (!config_.tokens.empty()) TakeReload(callers_->ReloadNow());
 }
 
-void Server::LogReload(const absl::Status& status) const {
+void Server::SetTenants() { jobs_.SetTenants({.each = {}, .named = callers_->tenants()}); }
+
+void Server::TakeReload(const absl::Status& status) {
   if (!status.ok()) {
     return Log(LogLevel::kError, "tokens not reloaded",
                {{"message", std::string(status.message())}});
   }
+  SetTenants();
   Log(LogLevel::kInfo, "tokens reloaded",
       {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
 }

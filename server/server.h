@@ -59,7 +59,8 @@ class Server {
   absl::Status ListenForAdmins();
   absl::Status ShowMetrics();
   ServerGauges Gauges() const;
-  void LogReload(const absl::Status& status) const;
+  void SetTenants();
+  void TakeReload(const absl::Status& status);
 
   const ServerConfig config_;
   const std::unique_ptr<Callers> callers_;

@@ -58,8 +58,8 @@ std::shared_ptr<const TokenTable> Callers::table() const {
   return table_;
 }
 
-std::map<std::string, TenantTerms> Callers::tenants() const {
-  if (path_.empty()) return {{kDefaultTenant, TenantTerms()}};
+std::map<std::string, TenantLimits> Callers::tenants() const {
+  if (path_.empty()) return {};
   return table()->tenants();
 }
 

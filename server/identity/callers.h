@@ -30,7 +30,8 @@ class Callers {
   // Errors: UNAUTHENTICATED; the message holds nothing of the header.
   absl::StatusOr<Caller> Identify(std::optional<std::string_view> authorization) const;
 
-  std::map<std::string, TenantTerms> tenants() const;
+  // What the tenants are granted; empty where no tokens are configured.
+  std::map<std::string, TenantLimits> tenants() const;
 
   enum class Reload { kNotNeeded, kDone };
   // Reads the file again, where it has changed since it was read last. A file with a mistake

@@ -56,13 +56,13 @@ absl::Status TokenTable::AddTerm(const std::string& word, Entry& entry) {
   }
   const std::pair<std::string, std::string> term = absl::StrSplit(word, absl::MaxSplits('=', 1));
   const auto& [name, value] = term;
-  TenantTerms& terms = tenants_[entry.caller.tenant];
+  TenantLimits& limits = tenants_[entry.caller.tenant];
   absl::Status status = absl::InvalidArgumentError(
-      "must be admin, weight=N, max-jobs=N, max-queue=N or max-memory-bytes=SIZE");
-  if (name == "weight") status = SetOnce(ParseNumber(value, 1, kMaxWeight), terms.weight);
-  if (name == "max-jobs") status = SetOnce(ParseNumber(value, 1, kMaxCount), terms.max_jobs);
-  if (name == "max-queue") status = SetOnce(ParseNumber(value, 1, kMaxCount), terms.max_queue);
-  if (name == "max-memory-bytes") status = SetOnce(ParseSize(value, 1), terms.max_bytes);
+      "must be admin, weight=N, max-jobs=N, max-running=N or max-memory-bytes=SIZE");
+  if (name == "weight") status = SetOnce(ParseNumber(value, 1, kMaxWeight), limits.weight);
+  if (name == "max-jobs") status = SetOnce(ParseNumber(value, 1, kMaxCount), limits.max_jobs);
+  if (name == "max-running") status = SetOnce(ParseNumber(value, 1, kMaxCount), limits.max_running);
+  if (name == "max-memory-bytes") status = SetOnce(ParseSize(value, 1), limits.max_bytes);
   if (status.ok()) return status;
   return absl::InvalidArgumentError(absl::StrCat(word, ": ", std::string(status.message())));
 }
@@ -81,7 +81,7 @@ absl::Status TokenTable::AddLine(const std::vector<std::string>& words) {
       return absl::InvalidArgumentError("this token stands in another line, too");
     }
   }
-  tenants_.try_emplace(words[0], TenantTerms{.weight = 0});
+  tenants_.try_emplace(words[0], TenantLimits{.weight = 0});
   for (size_t n = 2; n < words.size(); ++n) BCCSKEL_RETURN_IF_ERROR(AddTerm(words[n], entry));
   entries_.push_back(std::move(entry));
   return absl::OkStatus();
@@ -102,7 +102,7 @@ absl::StatusOr<TokenTable> TokenTable::Parse(std::string_view text) {
           absl::StrCat("line ", number, ": ", std::string(added.message())));
     }
   }
-  for (auto& [name, terms] : table.tenants_) terms.weight = std::max(1, terms.weight);
+  for (auto& [name, limits] : table.tenants_) limits.weight = std::max(1, limits.weight);
   return table;
 }
 

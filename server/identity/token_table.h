@@ -10,18 +10,9 @@
 
 #include "absl/status/statusor.h"
 #include "core/digest/sha256.h"
+#include "server/admission/tenant_limits.h"
 
 namespace bccskel::server {
-
-// What a tenant is granted.
-struct TenantTerms {
-  int weight = 1;          // its share of the threads, while others want them, too
-  int max_jobs = 0;        // at work at the same time; 0: as many as the server runs
-  int max_queue = 0;       // let in and not at work yet; 0: as many as the server takes
-  uint64_t max_bytes = 0;  // working memory; 0: as much as the server has
-
-  friend bool operator==(const TenantTerms&, const TenantTerms&) = default;
-};
 
 enum class Role { kTenant, kAdmin };
 
@@ -33,7 +24,7 @@ struct Caller {
 
 // The tokens that are accepted and the tenants they stand for. As text, a token a line:
 //
-//   acme  9f86d081884c7d65...  weight=2 max-jobs=4 max-queue=100 max-memory-bytes=8GB
+//   acme  9f86d081884c7d65...  weight=2 max-jobs=40 max-running=4 max-memory-bytes=8GB
 //   acme  60303ae22b998861...            # a second token of the same tenant
 //   ops   fd61a03af4f77d87...  admin     # may call the AdminService, too
 //
@@ -48,7 +39,7 @@ class TokenTable {
   // Nothing for a token that is not accepted. Takes the same time for any.
   std::optional<Caller> Find(std::string_view token) const;
 
-  const std::map<std::string, TenantTerms>& tenants() const { return tenants_; }
+  const std::map<std::string, TenantLimits>& tenants() const { return tenants_; }
 
  private:
   struct Entry {
@@ -60,7 +51,7 @@ class TokenTable {
   absl::Status AddTerm(const std::string& word, Entry& entry);
 
   std::vector<Entry> entries_;
-  std::map<std::string, TenantTerms> tenants_;
+  std::map<std::string, TenantLimits> tenants_;
 };
 
 // The line of a token, without its end.

@@ -68,10 +68,17 @@ absl::Status CheckAddress(const std::string& address) {
 
 std::string HostOf(const std::string& address) { return address.substr(0, address.rfind(':')); }
 
+std::string SocketPathOf(const std::string& address) {
+  if (!absl::StartsWith(address, kUnixPrefix)) return std::string();
+  const std::string path = address.substr(sizeof(kUnixPrefix) - 1);
+  return absl::StartsWith(path, "//") ? path.substr(2) : path;
+}
+
 bool IsOfThisMachine(const std::string& address) {
   if (absl::StartsWith(address, kUnixPrefix)) return true;
   const std::string host = HostOf(address);
-  return host == "localhost" || host == "[::1]" || absl::StartsWith(host, "127.");
+  const bool number = host.find_first_not_of("0123456789.") == std::string::npos;
+  return host == "localhost" || host == "[::1]" || (number && absl::StartsWith(host, "127."));
 }
 
 }  // namespace bccskel::server

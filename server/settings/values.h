@@ -21,6 +21,9 @@ absl::Status CheckAddress(const std::string& address);
 // The part of HOST:PORT before the port, as written.
 std::string HostOf(const std::string& address);
 
+// The path of unix:/path or unix:///path; empty where the address is no Unix socket.
+std::string SocketPathOf(const std::string& address);
+
 // What is sent there does not leave this machine: a Unix socket, localhost, 127.x.x.x or [::1].
 bool IsOfThisMachine(const std::string& address);
 

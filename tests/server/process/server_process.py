@@ -23,6 +23,13 @@ class ServerProcess:
         self.greeting = self.process.stdout.readline()
         self.address = self.greeting.removeprefix("listening on ").strip()
 
+    def line_after(self, prefix):
+        """What follows `prefix` in one of the next lines that the server prints at its start."""
+        for line in self.process.stdout:
+            if line.startswith(prefix):
+                return line.removeprefix(prefix).strip()
+        raise RuntimeError(f"no line begins with {prefix}: {self.log_text()}")
+
     def __enter__(self):
         return self
 

@@ -1,0 +1,56 @@
+#ifndef BCCSKEL_SERVER_CONNECTION_ACCEPTOR_H_
+#define BCCSKEL_SERVER_CONNECTION_ACCEPTOR_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "server/decoding/descriptor.h"
+
+namespace bccskel::server {
+
+// Listens at one address and hands on what comes in. gRPC 1.51 could do that itself, but stops for
+// good when it meets the limit of open files once; here connections wait until there is room.
+class ConnectionAcceptor {
+ public:
+  // Takes over the connection, which was accepted from `listener`. Called on a thread of the
+  // acceptor's; must not wait.
+  using Take = std::function<void(int listener, int connection)>;
+
+  // Listens when it returns: HOST:PORT, at every address of the host, or unix:PATH, where a socket
+  // that is there is replaced.
+  // Errors: INVALID_ARGUMENT with the system's reason.
+  static absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> Listen(const std::string& address);
+
+  ~ConnectionAcceptor();  // as Stop()
+
+  // With the port that port 0 became.
+  const std::string& address() const { return address_; }
+
+  // Called once.
+  void Start(Take take);
+  // Nobody listens any more, and nothing is handed on. What was is not touched.
+  void Stop();
+
+ private:
+  ConnectionAcceptor() = default;
+  absl::Status ListenToHost(const std::string& address);
+  absl::Status ListenToPath(const std::string& path);
+  void Serve();
+  // Errors: those of the system that concern more than one connection.
+  absl::Status AcceptAll(int listener);
+
+  std::string address_;
+  std::string path_;  // of a Unix socket
+  std::vector<Descriptor> listeners_;
+  Descriptor stop_;  // an eventfd
+  Take take_;
+  std::jthread thread_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CONNECTION_ACCEPTOR_H_

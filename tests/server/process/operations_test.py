@@ -1,0 +1,284 @@
+"""Running the real server: settings, listeners, metrics, health under load, the operator's commands."""
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import resource
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import urllib.request
+
+import grpc
+
+import server_process
+from server_process import ServerProcess, run_to_end
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+CLI = os.environ.get("BCCSKEL", "")
+CONNECTIONS = 300
+
+
+def health(channel, service=""):
+    """1 for SERVING, 2 for NOT_SERVING; grpc.health.v1 needs no stubs for this."""
+    request = b"\x0a" + bytes([len(service)]) + service.encode()
+    answer = channel.unary_unary("/grpc.health.v1.Health/Check")(
+        request, timeout=server_process.TIMEOUT_S)
+    return answer[1]
+
+
+def skeletonize(address):
+    with grpc.insecure_channel(address) as channel:
+        grpc.channel_ready_future(channel).result(server_process.TIMEOUT_S)
+        return example.skeletonize(channel, example.torus())
+
+
+def command(*arguments, environment=None):
+    return subprocess.run([CLI, *arguments], capture_output=True, text=True, check=False,
+                          timeout=server_process.TIMEOUT_S, env={**os.environ, **(environment or {})})
+
+
+def check_config(*flags, environment=None, file=None):
+    """The exit code, the settings that are printed with their origin, and the complaints."""
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as config:
+        config.write(file or "")
+        config.flush()
+        ended = subprocess.run(
+            [server_process.BINARY, "--check-config", "--config", config.name, *flags],
+            capture_output=True, text=True, check=False, timeout=server_process.TIMEOUT_S,
+            env={**os.environ, **(environment or {})})
+    lines = re.findall(r"^(\S+) = (.*)  # (.*)$", ended.stdout, re.MULTILINE)
+    return ended.returncode, {name: (value, origin) for name, value, origin in lines}, ended.stderr
+
+
+class SettingsTest(unittest.TestCase):
+    def test_flags_beat_the_environment_and_that_beats_the_file(self):
+        code, settings, errors = check_config(
+            "--max-jobs", "2",
+            environment={"BCCSKEL_MAX_JOBS": "3", "BCCSKEL_THREADS": "4",
+                         "BCCSKEL_LISTEN": "127.0.0.1:1,unix:/run/x"},
+            file='max-jobs = 5\nthreads = 6\nmax-queue = 7\nlog-level = "error"\n')
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(settings["max-jobs"], ("2", "command line"))
+        self.assertEqual(settings["threads"], ("4", "environment"))
+        self.assertEqual(settings["listen"], ('["127.0.0.1:1", "unix:/run/x"]', "environment"))
+        self.assertEqual(settings["max-queue"], ("7", "file"))
+        self.assertEqual(settings["log-level"], ('"error"', "file"))
+        self.assertEqual(settings["drain-ms"], ("25000", "default"))
+
+    def test_what_is_printed_can_be_read_as_a_file(self):
+        printed = check_config("--listen", "127.0.0.1:1", "--listen", "unix:/run/x",
+                               "--max-memory-bytes", "8GB")[1]
+        again = check_config(file="\n".join(f"{name} = {value}  # text"
+                                            for name, (value, _) in printed.items()))
+        self.assertEqual((again[0], again[2]), (0, ""))
+        self.assertEqual({name: value for name, (value, _) in again[1].items()},
+                         {name: value for name, (value, _) in printed.items()})
+
+    def test_every_problem_is_named_with_its_value_and_its_limit(self):
+        code, _, errors = check_config(
+            "--threads", "0", environment={"BCCSKEL_DRAIN_MS": "soon"},
+            file='max-queue = -1\nthredas = 2\ntokens = "/no/such/file"\n')
+        self.assertEqual(code, 2)
+        for complaint in ("--threads: 0: must be a number from 1 to 4096",
+                          "BCCSKEL_DRAIN_MS: soon: must be a number from 0 to 86400000",
+                          "max-queue: -1: must be a number from 0 to 1000000",
+                          "thredas: there is no such setting",
+                          "/no/such/file: cannot be read"):
+            self.assertIn(complaint, errors)
+        self.assertEqual(len(errors.splitlines()), 5)
+
+
+class ListenersTest(unittest.TestCase):
+    def test_each_address_is_listened_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            second = f"unix:{folder}/server.sock"
+            with ServerProcess("--listen", second) as server:
+                self.assertEqual(server.line_after("listening on "), second)
+                for address in (server.address, second):
+                    self.assertEqual(skeletonize(address).summary.certificate.skeleton.loops, 1)
+
+    def test_reflection_and_admin_calls_move_to_the_listener_for_admins(self):
+        with ServerProcess("--admin-listen", "127.0.0.1:0") as server:
+            address = server.line_after("listening for admins on ")
+            reflection = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"
+            status = "/bccskel.v1.AdminService/GetServerStatus"
+            for where, expected in ((server.address, grpc.StatusCode.UNIMPLEMENTED),
+                                    (address, grpc.StatusCode.OK)):
+                with grpc.insecure_channel(where) as channel:
+                    self.assertEqual(health(channel), 1)
+                    for method, request in ((reflection, b"\x3a\x01*"), (status, b"")):
+                        call = channel.stream_stream(method)(iter([request]),
+                                                             timeout=server_process.TIMEOUT_S)
+                        with contextlib.suppress(grpc.RpcError):
+                            list(call)
+                        self.assertEqual(call.code(), expected, (where, method))
+
+    def test_an_address_that_is_open_to_a_network_has_no_admin_calls(self):
+        with ServerProcess(listen="0.0.0.0:0") as server:
+            with grpc.insecure_channel(server.address.replace("0.0.0.0", "127.0.0.1")) as channel:
+                with self.assertRaises(grpc.RpcError) as raised:
+                    channel.unary_unary("/bccskel.v1.AdminService/GetServerStatus")(
+                        b"", timeout=server_process.TIMEOUT_S)
+        self.assertEqual(raised.exception.code(), grpc.StatusCode.UNIMPLEMENTED)
+
+
+class MetricsTest(unittest.TestCase):
+    def test_the_page_says_what_the_server_did(self):
+        with ServerProcess("--metrics-listen", "127.0.0.1:0", "--threads", "2") as server:
+            page = server.line_after("metrics at ")
+            points = skeletonize(server.address).summary.object_points
+            with grpc.insecure_channel(server.address) as channel:
+                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                with self.assertRaises(grpc.RpcError):
+                    list(stub.Skeletonize(iter([example.service.SkeletonizeRequest()])))
+            with urllib.request.urlopen(page, timeout=server_process.TIMEOUT_S) as answer:
+                lines = dict(line.rsplit(" ", 1) for line in answer.read().decode().splitlines()
+                             if not line.startswith("#"))
+        method = 'method="/bccskel.v1.SkeletonizationService/Skeletonize"'
+        for name, value in {
+                f'bccskel_calls_total{{code="OK",{method},reason=""}}': 1,
+                f'bccskel_calls_total{{code="INVALID_ARGUMENT",{method},reason="FIELD_INVALID"}}': 1,
+                f'bccskel_call_seconds_count{{{method}}}': 2,
+                'bccskel_jobs_total{code="OK",reason="",tenant="default"}': 1,
+                "bccskel_job_queue_seconds_count": 1,
+                "bccskel_job_decode_seconds_count": 1,
+                "bccskel_job_compute_seconds_count": 1,
+                "bccskel_points_thinned_total": points,
+                "bccskel_jobs_waiting": 0,
+                "bccskel_jobs_running": 0,
+                "bccskel_threads": 2,
+                "bccskel_draining": 0}.items():
+            self.assertEqual(float(lines.get(name, "nan")), value, name)
+        for name in ("bccskel_volume_bytes_admitted_total", "bccskel_memory_limit_bytes",
+                     "process_resident_memory_bytes", "process_open_fds", "process_max_fds",
+                     "process_cpu_seconds_total", "process_start_time_seconds"):
+            self.assertGreater(float(lines[name]), 0, name)
+        self.assertTrue(any(name.startswith("bccskel_build_info{") for name in lines))
+
+
+class LoadTest(unittest.TestCase):
+    def test_health_is_answered_and_sigterm_obeyed_while_all_threads_compute(self):
+        with ServerProcess("--threads", "2", "--max-jobs", "2") as server:
+            stop = threading.Event()
+            codes = []
+
+            def keep_busy():
+                with grpc.insecure_channel(server.address) as channel:
+                    while not stop.is_set():
+                        try:
+                            example.skeletonize(channel, example.torus())
+                        except grpc.RpcError as error:
+                            codes.append(error.code())
+                            return
+
+            threads = [threading.Thread(target=keep_busy) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            with grpc.insecure_channel(server.address) as channel:
+                for _ in range(20):
+                    self.assertEqual(health(channel), 1)
+            server.process.send_signal(signal.SIGTERM)
+            self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
+            stop.set()
+            for thread in threads:
+                thread.join()
+        # Who had a job got its skeleton; the next call was refused as one to try again.
+        self.assertEqual(set(codes), {grpc.StatusCode.UNAVAILABLE})
+
+    def test_idle_connections_keep_nobody_out(self):
+        with ServerProcess() as server, contextlib.ExitStack() as idle:
+            host, port = server.address.rsplit(":", 1)
+            for number in range(CONNECTIONS):
+                connection = idle.enter_context(socket.create_connection((host, int(port))))
+                # Half of them say nothing, half begin to speak HTTP/2 and stop.
+                if number % 2 == 1:
+                    connection.sendall(b"PRI * HTTP/2.0\r\n"[:number % 16])
+            self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
+            with grpc.insecure_channel(server.address) as channel:
+                self.assertEqual(health(channel), 1)
+
+
+    def test_connections_beyond_the_limit_of_open_files_wait_and_then_go_on(self):
+        with ServerProcess() as server:
+            host, port = server.address.rsplit(":", 1)
+            resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (64, 64))
+            with contextlib.ExitStack() as idle:
+                for _ in range(100):
+                    idle.enter_context(socket.create_connection((host, int(port))))
+                while "connections wait" not in server.log_text():
+                    time.sleep(0.05)
+            self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
+            self.assertEqual(server.stop(), 0)
+            self.assertIn("connections are taken again", server.log_text())
+
+
+@unittest.skipUnless(CLI, "the command line is not built")
+class CommandsTest(unittest.TestCase):
+    def test_probe_tells_by_its_exit_code(self):
+        with ServerProcess() as server:
+            self.assertEqual(command("probe", "--server", server.address).returncode, 0)
+            service = ("--service", "bccskel.v1.SkeletonizationService")
+            self.assertEqual(command("probe", "--server", server.address, *service).returncode, 0)
+            unknown = command("probe", "--server", server.address, "--service", "no.such.Service")
+            self.assertEqual(unknown.returncode, 3)
+            self.assertEqual(server.stop(), 0)
+            self.assertEqual(command("probe", "--server", server.address).returncode, 4)
+
+    def test_top_shows_what_the_server_did(self):
+        with ServerProcess("--threads", "2") as server:
+            skeletonize(server.address)
+            shown = command("top", "--once", "--json", "--server", server.address)
+            self.assertEqual(shown.returncode, 0, shown.stderr)
+            status = json.loads(shown.stdout)
+            self.assertEqual((status["totals"]["jobs"], status["threads"]), (1, 2))
+            self.assertIn("threads", command("top", "--once", "--server", server.address).stdout)
+
+    def test_bench_server_counts_calls_for_each_combination(self):
+        with ServerProcess() as server:
+            ended = command("bench", "server", "--server", server.address, "--clients", "1,2",
+                            "--points", "5000", "--seconds", "0.2", "--json")
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            measured = json.loads(ended.stdout)["measured"]
+        self.assertEqual([row["clients"] for row in measured], [1, 2])
+        for row in measured:
+            self.assertGreater(row["calls"], 0)
+            self.assertLessEqual(row["latency_ms"]["p50"], row["latency_ms"]["p99"])
+
+    def test_every_command_with_a_server_takes_a_token_from_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            token, line = run_to_end("--new-token", "ops").stdout.splitlines()
+            (folder / "tokens").write_text(line + " admin\n")
+            (folder / "token").write_text(token + "\n")
+            volume = str(folder / "torus.exr")
+            self.assertEqual(command("generate", "torus", "--points", "5000", "-o", volume)
+                             .returncode, 0)
+            with ServerProcess("--tokens", str(folder / "tokens")) as server:
+                for words in (("top", "--once"), ("bench", "server", "--clients", "1", "--points",
+                                                  "5000", "--seconds", "0.1"),
+                              ("submit", volume, "-o", str(folder / "torus.json"))):
+                    where = (*words, "--server", server.address)
+                    self.assertNotEqual(command(*where).returncode, 0, words)
+                    flag = command(*where, "--token-file", str(folder / "token"))
+                    self.assertEqual(flag.returncode, 0, flag.stderr)
+                    self.assertNotIn(token, flag.stdout + flag.stderr)
+                    variable = command(*where, environment={
+                        "BCCSKEL_TOKEN_FILE": str(folder / "token")})
+                    self.assertEqual(variable.returncode, 0, variable.stderr)
+            refused = command("top", "--once", "--server", "203.0.113.1:1", "--token-file",
+                              str(folder / "token"))
+            self.assertEqual(refused.returncode, 3)
+            self.assertIn("in the clear", refused.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,143 @@
+"""TLS and mTLS of the real server: who is let in, and certificates that change meanwhile."""
+
+import os
+import pathlib
+import socket
+import ssl
+import tempfile
+import threading
+import time
+import unittest
+
+import grpc
+
+import server_process
+from certificates import Authority, Pair
+from server_process import ServerProcess, run_to_end
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+
+
+def loops(channel):
+    return example.skeletonize(channel, example.torus()).summary.certificate.skeleton.loops
+
+
+def outcome(address, credentials):
+    """OK, or the code of the failure, of a call over a connection of its own."""
+    options = [("grpc.use_local_subchannel_pool", 1)]
+    with (grpc.secure_channel(address, credentials, options) if credentials else
+          grpc.insecure_channel(address, options)) as channel:
+        try:
+            return grpc.StatusCode.OK if loops(channel) == 1 else None
+        except grpc.RpcError as error:
+            return error.code()
+
+
+def shown_certificate(address):
+    """What the server shows in a handshake."""
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+    context.set_alpn_protocols(["h2"])
+    host, port = address.rsplit(":", 1)
+    with socket.create_connection((host, int(port))) as plain:
+        with context.wrap_socket(plain) as secure:
+            return ssl.DER_cert_to_PEM_cert(secure.getpeercert(binary_form=True))
+
+
+class TlsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.ours = Authority(cls.folder, "ours")
+        cls.theirs = Authority(cls.folder, "theirs")
+        cls.pair = cls.ours.issue("server")
+        cls.root = cls.ours.certificate_bytes()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def flags(self, pair=None):
+        pair = pair or self.pair
+        return "--tls-cert", str(pair.certificate), "--tls-key", str(pair.key)
+
+    def test_only_who_trusts_the_right_authority_talks_to_the_server(self):
+        with ServerProcess(*self.flags()) as server:
+            ours = grpc.ssl_channel_credentials(self.root)
+            theirs = grpc.ssl_channel_credentials(self.theirs.certificate_bytes())
+            self.assertEqual(outcome(server.address, ours), grpc.StatusCode.OK)
+            self.assertEqual(outcome(server.address, theirs), grpc.StatusCode.UNAVAILABLE)
+            self.assertEqual(outcome(server.address, None), grpc.StatusCode.UNAVAILABLE)
+            self.assertEqual(server.stop(), 0)
+
+    def test_where_clients_must_show_a_certificate_a_missing_wrong_or_expired_one_is_refused(self):
+        expired = self.ours.issue("expired", days=0)
+        authority = str(self.ours.pair.certificate)
+        with ServerProcess(*self.flags(), "--tls-client-ca", authority) as server:
+            time.sleep(1.1)  # the end of `expired`
+            def credentials(pair):
+                return grpc.ssl_channel_credentials(self.root, *(pair.bytes() if pair else ()))
+            self.assertEqual(outcome(server.address, credentials(self.ours.issue("client"))),
+                             grpc.StatusCode.OK)
+            for pair in (None, self.theirs.issue("stranger"), expired):
+                self.assertEqual(outcome(server.address, credentials(pair)),
+                                 grpc.StatusCode.UNAVAILABLE)
+
+    def test_a_new_certificate_is_shown_while_calls_run_on(self):
+        versions = []
+        for number in (1, 2):
+            folder = self.folder / f"v{number}"
+            folder.mkdir()
+            versions.append(self.ours.issue("rotating", folder=folder))
+        live = self.folder / "live"
+        live.symlink_to("v1")
+        pair = Pair(live, "rotating")
+        with ServerProcess(*self.flags(pair)) as server:
+            go_on = threading.Event()
+
+            def requests():
+                messages = example.requests(example.torus())
+                yield next(messages)
+                go_on.wait(server_process.TIMEOUT_S)
+                yield from messages
+
+            credentials = grpc.ssl_channel_credentials(self.root)
+            with grpc.secure_channel(server.address, credentials) as channel:
+                replies = example.service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+                    requests(), timeout=server_process.TIMEOUT_S)
+                self.assertTrue(next(replies).HasField("accepted"))
+                self.assertEqual(shown_certificate(server.address),
+                                 versions[0].certificate.read_text())
+                (self.folder / "next").symlink_to("v2")
+                os.replace(self.folder / "next", live)  # both files at once
+                end = time.monotonic() + server_process.TIMEOUT_S
+                while shown_certificate(server.address) != versions[1].certificate.read_text():
+                    self.assertLess(time.monotonic(), end)
+                    time.sleep(0.1)
+                go_on.set()
+                self.assertTrue(list(replies)[-1].HasField("summary"))
+            self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK)
+
+    def test_files_that_cannot_work_are_named_before_the_server_listens(self):
+        expired = self.ours.issue("old", days=0)
+        other_key = self.theirs.issue("other").key
+        time.sleep(1.1)
+        certificate, key = str(self.pair.certificate), str(self.pair.key)
+        for flags, complaint in [
+                ((certificate, str(other_key)), f"{other_key}: is not the key of {certificate}"),
+                ((str(expired.certificate), str(expired.key)), "the certificate has expired"),
+                (("/no/such.pem", key), "/no/such.pem: cannot be read"),
+                ((certificate, certificate), f"{certificate}: cannot be read as a PEM key"),
+                ((certificate, ""), "--tls-cert and --tls-key belong together")]:
+            ended = run_to_end("--listen", "127.0.0.1:0", "--tls-cert", flags[0],
+                               "--tls-key", flags[1])
+            self.assertEqual(ended.returncode, 2, flags)
+            self.assertIn(complaint, ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,170 @@
+"""Tokens and tenants of the real server."""
+
+import importlib
+import json
+import pathlib
+import tempfile
+import time
+import unittest
+import urllib.request
+
+import grpc
+
+import server_process
+from server_process import ServerProcess, run_to_end
+
+STUBS = tempfile.TemporaryDirectory()
+server_process.generate_stubs(STUBS.name)
+example = server_process.example()
+MODULES = [importlib.import_module(f"bccskel.v1.{path.stem}_pb2")
+           for path in sorted((server_process.SOURCE / "proto/bccskel/v1").glob("*.proto"))]
+admin = importlib.import_module("bccskel.v1.admin_service_pb2")
+admin_grpc = importlib.import_module("bccskel.v1.admin_service_pb2_grpc")
+details = importlib.import_module("bccskel.v1.rpc_details_pb2")
+
+
+def new_token(tenant):
+    """A token and its line."""
+    made = run_to_end("--new-token", tenant)
+    assert made.returncode == 0, made.stderr
+    return made.stdout.splitlines()
+
+
+def bearer(token):
+    return (("authorization", f"Bearer {token}"),) if token else ()
+
+
+def reason_of(error):
+    for key, value in error.trailing_metadata():
+        if key == "grpc-status-details-bin":
+            status = details.Status.FromString(value)
+            for detail in status.details:
+                if detail.type_url.endswith("ErrorInfo"):
+                    return details.ErrorInfo.FromString(detail.value).reason
+    return None
+
+
+class TokensTest(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.file = pathlib.Path(self.temporary.name) / "tokens"
+        self.acme, acme_line = new_token("acme")
+        self.lab, lab_line = new_token("lab")
+        self.ops, ops_line = new_token("ops")
+        self.lines = [acme_line + " weight=2 max-jobs=4", lab_line, ops_line + " admin"]
+        self.write(self.lines)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def write(self, lines):
+        new = self.file.with_suffix(".new")
+        new.write_text("# tenants\n" + "\n".join(lines) + "\n")
+        new.replace(self.file)
+
+    def server(self, *flags):
+        return ServerProcess("--tokens", str(self.file), *flags)
+
+    def outcome(self, server, token):
+        """OK, or the code and the reason of the failure."""
+        with grpc.insecure_channel(server.address) as channel:
+            stub = example.service_grpc.SkeletonizationServiceStub(channel)
+            try:
+                list(stub.Skeletonize(example.requests(example.torus()), metadata=bearer(token),
+                                      timeout=server_process.TIMEOUT_S))
+                return grpc.StatusCode.OK
+            except grpc.RpcError as error:
+                return error.code(), reason_of(error)
+
+    def wait_for(self, server, token, wanted):
+        end = time.monotonic() + server_process.TIMEOUT_S
+        while (last := self.outcome(server, token)) != wanted:
+            self.assertLess(time.monotonic(), end, last)
+            time.sleep(0.1)
+
+    def test_every_method_of_every_service_wants_a_token(self):
+        with self.server() as server, grpc.insecure_channel(server.address) as channel:
+            methods = [f"/{service.full_name}/{method.name}" for module in MODULES
+                       for service in module.DESCRIPTOR.services_by_name.values()
+                       for method in service.methods]
+            served = 0
+            for method in methods:
+                # Whether it streams makes no difference for a call that is refused at once.
+                call = channel.stream_stream(method)
+                with self.assertRaises(grpc.RpcError) as raised:
+                    list(call(iter([b""]), timeout=server_process.TIMEOUT_S))
+                if raised.exception.code() == grpc.StatusCode.UNIMPLEMENTED:
+                    continue  # its service is not served with these flags
+                served += 1
+                self.assertEqual(raised.exception.code(), grpc.StatusCode.UNAUTHENTICATED, method)
+                self.assertEqual(reason_of(raised.exception), "TOKEN_MISSING", method)
+            self.assertGreaterEqual(served, 4)
+
+    def test_a_token_lets_its_tenant_in_and_no_other_text_does(self):
+        refused = (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID")
+        with self.server() as server:
+            self.assertEqual(self.outcome(server, self.acme), grpc.StatusCode.OK)
+            self.assertEqual(self.outcome(server, self.lab), grpc.StatusCode.OK)
+            for text in (self.acme[:-1], self.acme + "0", "acme", self.lines[0].split()[1], "x"):
+                self.assertEqual(self.outcome(server, text), refused)
+
+    def test_admin_calls_are_for_admins(self):
+        with self.server() as server, grpc.insecure_channel(server.address) as channel:
+            ask = admin_grpc.AdminServiceStub(channel).GetServerStatus
+            request = admin.GetServerStatusRequest()
+            self.assertEqual(ask(request, metadata=bearer(self.ops)).threads > 0, True)
+            with self.assertRaises(grpc.RpcError) as raised:
+                ask(request, metadata=bearer(self.acme))
+            self.assertEqual(raised.exception.code(), grpc.StatusCode.PERMISSION_DENIED)
+            self.assertEqual(reason_of(raised.exception), "ADMIN_ONLY")
+
+    def test_the_file_is_read_again_and_a_mistake_in_it_changes_nothing(self):
+        refused = (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID")
+        token, line = new_token("newcomer")
+        with self.server() as server:
+            self.assertEqual(self.outcome(server, token), refused)
+            self.write(self.lines[1:] + [line])
+            self.wait_for(server, token, grpc.StatusCode.OK)
+            self.assertEqual(self.outcome(server, self.acme), refused)
+            self.write(["newcomer " + "x" * 64])
+            while "tokens not reloaded" not in server.log_text():
+                time.sleep(0.05)
+            self.assertEqual(self.outcome(server, token), grpc.StatusCode.OK)
+            self.assertEqual(server.stop(), 0)
+
+    def test_tenants_are_told_apart_and_no_token_is_written_anywhere(self):
+        trace = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"
+        with self.server("--log-level", "trace", "--metrics-listen", "127.0.0.1:0") as server:
+            page = server.line_after("metrics at ")
+            for token in (self.acme, self.lab, "bccskel_wrong"):
+                self.outcome(server, token)
+            with grpc.insecure_channel(server.address) as channel:
+                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                for traceparent in (trace, f"a {self.acme} in the wrong place"):
+                    list(stub.Skeletonize(
+                        example.requests(example.torus()), timeout=server_process.TIMEOUT_S,
+                        metadata=bearer(self.acme) + (("traceparent", traceparent),)))
+            with urllib.request.urlopen(page, timeout=server_process.TIMEOUT_S) as answer:
+                metrics = answer.read().decode()
+            self.assertEqual(server.stop(), 0)
+            log = server.log_text()
+        for tenant, jobs in (("acme", 3), ("lab", 1)):
+            self.assertIn(f'bccskel_jobs_total{{code="OK",reason="",tenant="{tenant}"}} {jobs}',
+                          metrics)
+        ended = [line for line in map(json.loads, log.splitlines()) if line["event"] == "call ended"]
+        self.assertEqual([line["tenant"] for line in ended], ["acme", "lab", "acme", "acme"])
+        self.assertEqual([line["traceparent"] for line in ended], ["", "", trace, ""])
+        for secret in (self.acme, self.lab, self.ops, "bccskel_wrong"):
+            self.assertNotIn(secret, log + metrics)
+
+    def test_tokens_do_not_cross_a_network_in_the_clear(self):
+        ended = run_to_end("--listen", "0.0.0.0:0", "--tokens", str(self.file))
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn("--plaintext-tokens allow", ended.stderr)
+        with ServerProcess("--tokens", str(self.file), "--plaintext-tokens", "allow",
+                           listen="0.0.0.0:0") as server:
+            self.assertEqual(server.stop(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,53 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "server/settings/values.h"
+
+namespace bccskel::server {
+namespace {
+
+TEST(ParseSize, TakesUnitsOf1024InSeveralSpellings) {
+  for (const auto& [text, bytes] :
+       {std::pair<const char*, uint64_t>{"0", 0},
+        {"77", 77},
+        {"1KB", 1024},
+        {"1k", 1024},
+        {"3 MiB", uint64_t{3} << 20},
+        {"2gb", uint64_t{2} << 30},
+        {"1TB", uint64_t{1} << 40},
+        {"18446744073709551615", std::numeric_limits<uint64_t>::max()}}) {
+    const auto parsed = ParseSize(text, 0);
+    ASSERT_TRUE(parsed.ok()) << text << parsed.status();
+    EXPECT_EQ(*parsed, bytes) << text;
+  }
+}
+
+TEST(ParseSize, RefusesWhatIsNoSizeOrTooLargeOrTooSmall) {
+  for (const char* text : {"", "GB", "-1", "1.5GB", "2 furlongs", "1EB", "20000000TB", "1 2",
+                           "18446744073709551616", "9"}) {
+    EXPECT_FALSE(ParseSize(text, 10).ok()) << text;
+  }
+}
+
+TEST(CheckAddress, KnowsWhichAddressesStayOnThisMachine) {
+  for (const char* address :
+       {"unix:/run/x", "localhost:1", "127.0.0.1:0", "127.1.2.3:80", "[::1]:65535"}) {
+    EXPECT_TRUE(CheckAddress(address).ok()) << address;
+    EXPECT_TRUE(IsOfThisMachine(address)) << address;
+  }
+  for (const char* address :
+       {"0.0.0.0:1", "[::]:1", "server:1", "10.0.0.1:1", "localhost.example:1", "127.example:1"}) {
+    EXPECT_TRUE(CheckAddress(address).ok()) << address;
+    EXPECT_FALSE(IsOfThisMachine(address)) << address;
+  }
+  for (const char* address :
+       {"", "unix:", "host", "host:", ":1", "host:65536", "host:-1", "host:http"}) {
+    EXPECT_FALSE(CheckAddress(address).ok()) << address;
+  }
+}
+
+}  // namespace
+}  // namespace bccskel::server
