@@ -114,11 +114,8 @@ Server::~Server() {
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<Callers> callers, Callers::Create(config.tokens));
   std::unique_ptr<Server> server(new Server(config, std::move(callers)));
-<<<<<<< server/server.cc
   server->SetTenants();
-=======
   BCCSKEL_RETURN_IF_ERROR(server->OpenData());
->>>>>>> /tmp/ops/m.new
   BCCSKEL_RETURN_IF_ERROR(server->Listen());
   BCCSKEL_RETURN_IF_ERROR(server->ListenForAdmins());
   BCCSKEL_RETURN_IF_ERROR(server->ShowMetrics());
