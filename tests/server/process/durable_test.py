@@ -1,6 +1,7 @@
 """Uploads, jobs and results that outlive connections, callers and the server's process."""
 
 import concurrent.futures
+import functools
 import hashlib
 import os
 import pathlib
@@ -34,9 +35,23 @@ def volume(radius=24.0, tube=8.0):
     return example.declare(example.torus(radius, tube), 1.0, (0, 0, 0), np.eye(3))
 
 
+LARGE = (200.0, 60.0)
+durable.CHUNK_BYTES = 1 << 17
+
+
+@functools.cache
 def large_volume():
     """More than a small job: its one-call job is durable."""
-    return volume(360.0, 120.0)
+    return volume(*LARGE)
+
+
+def large_requests():
+    declaration, data = large_volume()
+    yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
+    yield from (service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
+        offset=at, data=data[at:at + durable.CHUNK_BYTES]))
+        for at in range(0, len(data), durable.CHUNK_BYTES))
+    yield service.SkeletonizeRequest(finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
 
 
 class DurableTest(unittest.TestCase):
@@ -161,7 +176,10 @@ class JobTest(DurableTest):
 
     def test_a_job_that_has_not_succeeded_has_nothing_to_read(self):
         self.start()
-        job = self.create(durable.send_volume(self.channel, *large_volume())).name
+        name = durable.send_volume(self.channel, *large_volume())
+        options = example.service.SkeletonizeConfig().options.__class__
+        for shell in range(1, 20):  # one thread computes them all before the last one
+            job = self.create(name, options=options(shell_width=1 + shell / 10)).name
         self.fails(Code.FAILED_PRECONDITION, "JOB_NOT_SUCCEEDED",
                    lambda: list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=job))))
         ended = self.jobs.CancelJob(jobs.CancelJobRequest(job=job)).job
@@ -309,7 +327,8 @@ import durable, numpy
 from skeletonize import declare, torus
 channel = grpc.insecure_channel(sys.argv[1])
 stub = durable.volumes_grpc.VolumeServiceStub(channel)
-declaration, data = declare(torus(360.0, 120.0), 1.0, (0, 0, 0), numpy.eye(3))
+declaration, data = declare(torus(200.0, 60.0), 1.0, (0, 0, 0), numpy.eye(3))
+durable.CHUNK_BYTES = 1 << 17
 def some():
     for number, request in enumerate(durable.upload_requests("uploads/killed", declaration, data, 0)):
         if number == 4:
@@ -395,7 +414,7 @@ class OneCallTest(DurableTest):
         self.start()
         stub = service_grpc.SkeletonizationServiceStub(self.channel)
         small = list(stub.Skeletonize(example.requests(example.torus())))
-        large = list(stub.Skeletonize(example.requests(example.torus(360.0, 120.0))))
+        large = list(stub.Skeletonize(large_requests()))
         self.assertFalse(small[0].accepted.durable)
         self.assertTrue(large[0].accepted.durable)
         self.assertTrue(large[-1].HasField("summary"))
@@ -406,15 +425,21 @@ class OneCallTest(DurableTest):
         declaration, data = large_volume()
         for policy, state in ((service.DISCONNECT_POLICY_CANCEL, jobs.JOB_STATE_CANCELLED),
                               (service.DISCONNECT_POLICY_CONTINUE, jobs.JOB_STATE_SUCCEEDED)):
-            requests = list(example.requests(example.torus(360.0, 120.0)))
-            requests[0].config.on_disconnect = policy
+            go_on = threading.Event()
+
+            def config_only():
+                config = service.SkeletonizeConfig(volume=declaration, on_disconnect=policy)
+                yield service.SkeletonizeRequest(config=config)
+                go_on.wait(server_process.TIMEOUT_S)
+
             replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(
-                iter(requests))
-            job = next(replies).accepted.job
-            while self.get(job).state == jobs.JOB_STATE_RECEIVING:
-                time.sleep(0.01)
+                config_only())
+            accepted = next(replies).accepted
             replies.cancel()
-            self.assertEqual(self.finish(job)[-1], state)
+            go_on.set()
+            if policy == service.DISCONNECT_POLICY_CONTINUE:
+                durable.send_volume(self.channel, declaration, data, accepted.upload)
+            self.assertEqual(self.finish(accepted.job)[-1], state)
 
 
 class ExampleTest(DurableTest):
