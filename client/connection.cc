@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/exec/status_macros.h"
+
 namespace bccskel::client {
 namespace {
 
@@ -71,6 +73,12 @@ class RetryingConnection : public Connection {
 std::shared_ptr<Connection> MakeRetryingConnection(std::unique_ptr<Stub> stub,
                                                    const RetryPolicy& policy, Pause pause) {
   return std::make_shared<RetryingConnection>(std::move(stub), policy, std::move(pause));
+}
+
+absl::StatusOr<std::shared_ptr<Connection>> Connect(const Endpoint& endpoint,
+                                                    const RetryPolicy& policy) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<Stub> stub, MakeGrpcStub(endpoint));
+  return MakeRetryingConnection(std::move(stub), policy);
 }
 
 std::shared_ptr<Connection> Connect(const std::string& address, const RetryPolicy& policy) {

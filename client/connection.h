@@ -9,6 +9,7 @@
 #include "client/call_options.h"
 #include "client/encoded_labels.h"
 #include "client/encoded_volume.h"
+#include "client/endpoint.h"
 #include "client/retry_policy.h"
 #include "core/labels/skeletonize_labels.h"
 
@@ -68,10 +69,15 @@ std::shared_ptr<Connection> MakeRetryingConnection(std::unique_ptr<Stub> stub,
                                                    const RetryPolicy& policy = {},
                                                    Pause pause = PauseFor);
 
-// Over gRPC, without encryption. `address` is HOST:PORT or unix:PATH.
-std::unique_ptr<Stub> MakeGrpcStub(const std::string& address);
+// Over gRPC. Errors: as CheckEndpoint().
+absl::StatusOr<std::unique_ptr<Stub>> MakeGrpcStub(const Endpoint& endpoint);
 
 // Both of the above.
+absl::StatusOr<std::shared_ptr<Connection>> Connect(const Endpoint& endpoint,
+                                                    const RetryPolicy& policy = {});
+
+// Without encryption and without a token. `address` is HOST:PORT or unix:PATH.
+std::unique_ptr<Stub> MakeGrpcStub(const std::string& address);
 std::shared_ptr<Connection> Connect(const std::string& address, const RetryPolicy& policy = {});
 
 }  // namespace bccskel::client

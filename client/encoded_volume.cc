@@ -14,6 +14,7 @@ constexpr uint64_t kBrickBytes = 8 + sizeof(BrickBits);
 
 // The wire's compressions: quick to make, small enough.
 VolumeCompression WireCompression(VolumeEncoding encoding) {
+  if (encoding == VolumeEncoding::kRawPlanes) return VolumeCompression::kNone;
   return encoding == VolumeEncoding::kOpenExr ? VolumeCompression::kRle : VolumeCompression::kZstd;
 }
 

@@ -26,7 +26,7 @@ struct EncodedVolume {
 VolumeEncoding BestEncodingOf(const Volume& volume);
 
 // Errors: INVALID_ARGUMENT, CANCELLED, and what the encoder's library says.
-// Needs:  kBricks or kOpenExr.
+// Needs:  kBricks, kOpenExr or, which states no placement, kRawPlanes.
 absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncoding encoding,
                                                const std::stop_token& stop);
 

@@ -3,9 +3,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bccskel/v1/server_service.grpc.pb.h"
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
+#include "client/channel.h"
 #include "client/connection.h"
 #include "client/grpc_status.h"
 #include "client/labels_call.h"
@@ -15,6 +17,7 @@
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
 #include "proto/wire/result.h"
+#include "proto/wire/shell_points.h"
 #include "proto/wire/skeleton_chunks.h"
 
 // The only place where the client's calls meet gRPC's channels.
@@ -48,6 +51,8 @@ v1::SkeletonizeRequest ConfigRequest(const EncodedVolume& volume, const CallOpti
   config.set_thin_volume_return(options.thin_volume == ThinVolume::kReturn
                                     ? v1::THIN_VOLUME_RETURN_BRICKS
                                     : v1::THIN_VOLUME_RETURN_OMIT);
+  config.set_shell_points_return(options.on_shell_points ? v1::SHELL_POINTS_RETURN_ALL
+                                                         : v1::SHELL_POINTS_RETURN_OMIT);
   config.set_threads(options.threads);
   return request;
 }
@@ -70,6 +75,8 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
       case v1::SkeletonizeResponse::kShellProgress:
         if (options_.on_shell) options_.on_shell(wire::FromMessage(response.shell_progress()));
         return absl::OkStatus();
+      case v1::SkeletonizeResponse::kShellPoints:
+        return TakeShellPoints(response.shell_points());
       case v1::SkeletonizeResponse::kSkeletonChunk:
         return assembler_.Add(response.skeleton_chunk());
       case v1::SkeletonizeResponse::kThinVolumeChunk:
@@ -82,6 +89,12 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
       case v1::SkeletonizeResponse::RESPONSE_NOT_SET:
         return absl::OkStatus();  // a kind of event that this version does not know
     }
+    return absl::OkStatus();
+  }
+
+  absl::Status TakeShellPoints(const v1::ShellPoints& message) const {
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<LatticePoint> points, wire::PointsOf(message));
+    if (options_.on_shell_points) options_.on_shell_points(message.shell(), points);
     return absl::OkStatus();
   }
 
@@ -163,16 +176,15 @@ class GrpcStub : public Stub {
 
 }  // namespace
 
+absl::StatusOr<std::unique_ptr<Stub>> MakeGrpcStub(const Endpoint& endpoint) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<grpc::Channel> channel, OpenChannel(endpoint));
+  return std::make_unique<GrpcStub>(std::move(channel));
+}
+
 std::unique_ptr<Stub> MakeGrpcStub(const std::string& address) {
-  grpc::ChannelArguments arguments;
-  // The retry loop sets the pace; gRPC's own pause after a refused connection must not exceed it.
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
-  // Retries are counted in one place.
-  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
-  return std::make_unique<GrpcStub>(
-      grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+  Endpoint endpoint;
+  endpoint.address = address;
+  return *MakeGrpcStub(endpoint);  // without secrets nothing is refused
 }
 
 }  // namespace bccskel::client

@@ -18,6 +18,9 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
 
 }  // namespace bccskel::cli
 

@@ -25,6 +25,12 @@ ExitCode FailWith(ExitCode code, const absl::Status& error) {
   return code;
 }
 
+ExitCode FailOnServer(const std::string& address, const absl::Status& error,
+                      std::string_view hint) {
+  const std::string message(error.message());
+  return Fail(absl::Status(error.code(), "server " + address + ": " + message), hint);
+}
+
 ExitCode Print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return ExitCode::kOk;

@@ -17,6 +17,10 @@ void Warn(std::string_view message);
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 
+// For what went wrong between the user and a server, which it names.
+ExitCode FailOnServer(const std::string& address, const absl::Status& error,
+                      std::string_view hint = "");
+
 // Prints a command's result. kOutput when standard output takes no more.
 ExitCode Print(std::string_view text);
 

@@ -1,0 +1,110 @@
+#include "client/cli/bench_server.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "client/connection.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+
+namespace bccskel::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// What one client sees.
+struct Share {
+  absl::Status status;
+  uint64_t refused = 0;
+  std::vector<std::chrono::nanoseconds> latency;
+};
+
+class Client {
+ public:
+  Client(std::unique_ptr<client::Stub> stub, const client::EncodedVolume& volume,
+         const std::stop_token& stop)
+      : stub_(std::move(stub)), volume_(volume), stop_(stop) {}
+
+  // Errors: see MeasureServer(); CANCELLED.
+  absl::Status CallOnce() {
+    client::CallOptions options;
+    options.stop = stop_;
+    const auto deadline = client::Stub::Clock::now() + options.timeout;
+    while (true) {
+      const Clock::time_point start = Clock::now();
+      const absl::Status status = stub_->Skeletonize(volume_, options, deadline).status();
+      if (status.ok()) share_.latency.push_back(Clock::now() - start);
+      const auto pause = wire::RetryDelayOf(status);
+      if (!absl::IsUnavailable(status) || !pause.has_value()) return status;
+      ++share_.refused;
+      client::PauseFor(milliseconds(absl::ToInt64Milliseconds(*pause)), stop_);
+    }
+  }
+
+  void CallUntil(Clock::time_point end) {
+    while (share_.status.ok() && Clock::now() < end) share_.status = CallOnce();
+  }
+
+  Share& share() { return share_; }
+
+ private:
+  const std::unique_ptr<client::Stub> stub_;
+  const client::EncodedVolume& volume_;
+  const std::stop_token stop_;
+  Share share_;
+};
+
+absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpoint& endpoint,
+                                                             const client::EncodedVolume& volume,
+                                                             int clients,
+                                                             const std::stop_token& stop) {
+  client::Endpoint alone = endpoint;
+  alone.sharing = client::Endpoint::Sharing::kAlone;
+  std::vector<std::unique_ptr<Client>> all;
+  for (int n = 0; n < clients; ++n) {
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(alone));
+    all.push_back(std::make_unique<Client>(std::move(stub), volume, stop));
+    BCCSKEL_RETURN_IF_ERROR(all.back()->CallOnce());
+    all.back()->share() = Share();
+  }
+  return all;
+}
+
+}  // namespace
+
+std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share) {
+  const auto last = static_cast<double>(measured.latency.size() - 1);
+  return measured.latency[static_cast<size_t>(share * last + 0.5)];
+}
+
+absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
+                                                const client::EncodedVolume& volume, int clients,
+                                                milliseconds duration,
+                                                const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto all, Connect(endpoint, volume, clients, stop));
+  const Clock::time_point start = Clock::now();
+  {
+    std::vector<std::jthread> threads;
+    for (auto& client : all) {
+      threads.emplace_back([&client, end = start + duration] { client->CallUntil(end); });
+    }
+  }
+  ServerMeasurement measured;
+  measured.clients = clients;
+  measured.volume_bytes = volume.bytes.size();
+  measured.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  for (auto& client : all) {
+    const Share& share = client->share();
+    BCCSKEL_RETURN_IF_ERROR(share.status);
+    measured.refused += share.refused;
+    measured.latency.insert(measured.latency.end(), share.latency.begin(), share.latency.end());
+  }
+  std::ranges::sort(measured.latency);
+  return measured;
+}
+
+}  // namespace bccskel::cli

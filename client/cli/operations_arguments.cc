@@ -1,0 +1,82 @@
+#include "client/cli/operations_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include "client/cli/choice_option.h"
+#include "client/cli/server_arguments.h"
+#include "core/shapes/shapes.h"
+
+namespace bccskel::cli {
+namespace {
+
+void AddJson(CLI::App& command, CommonArguments& common) {
+  command.add_flag_callback(
+      "--json", [&common] { common.summary = SummaryStyle::kJson; },
+      "Print the summary as one JSON object");
+}
+
+void AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
+                const char* description) {
+  command
+      .add_option_function<double>(
+          name,
+          [&time](double seconds) {
+            time = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
+          },
+          description)
+      ->check(CLI::Range(0.001, 1e6))
+      ->option_text("SECONDS");
+}
+
+}  // namespace
+
+CLI::App& AddProbe(CLI::App& app, ProbeArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("probe", "Ask a server whether it takes calls");
+  AddServer(command, arguments.server);
+  command
+      .add_option("--service", arguments.service,
+                  "One service, such as bccskel.v1.JobService, instead of the whole server")
+      ->option_text("NAME");
+  AddSeconds(command, "--timeout", arguments.timeout, "Give up after this time (default 5)");
+  AddJson(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddTop(CLI::App& app, TopArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("top", "Watch the queue and the throughput of a server");
+  AddServer(command, arguments.server);
+  command.add_flag_callback(
+      "--once", [&arguments] { arguments.repeat = TopRepeat::kOnce; }, "Show it once");
+  AddSeconds(command, "--interval", arguments.interval, "Between two looks (default 1)");
+  AddJson(command, arguments.common);
+  return command;
+}
+
+CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments) {
+  CLI::App& command = *bench.add_subcommand(
+      "server", "Latency and throughput of a server, for numbers of clients and sizes of volume");
+  AddServer(command, arguments.server);
+  command
+      .add_option("--clients", arguments.clients,
+                  "Clients at the same time, each with its own connection (default 1,2,4,8)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N,...");
+  command
+      .add_option("--points", arguments.points,
+                  "Points of the volume, a ball (default 10000,850000)")
+      ->delimiter(',')
+      ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
+      ->option_text("N,...");
+  AddChoice<VolumeEncoding>(command, "--encoding", arguments.encoding,
+                            "How volumes travel (default raw)",
+                            {{"raw", VolumeEncoding::kRawPlanes},
+                             {"bricks", VolumeEncoding::kBricks},
+                             {"openexr", VolumeEncoding::kOpenExr}});
+  AddSeconds(command, "--seconds", arguments.duration, "For each combination (default 5)");
+  AddJson(command, arguments.common);
+  return command;
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,38 @@
+#include <utility>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/json_text.h"
+#include "client/cli/server_arguments.h"
+#include "client/export/text.h"
+#include "client/operations.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::cli {
+namespace {
+
+absl::Status Probe(const ProbeArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
+  BCCSKEL_ASSIGN_OR_RETURN(const auto operations, client::Operations::Create(endpoint));
+  return operations->CheckHealth(arguments.service, arguments.timeout);
+}
+
+std::string Summary(const ProbeArguments& arguments) {
+  exporting::Text text;
+  if (arguments.common.summary == SummaryStyle::kJson) {
+    text.Add("{\"server\":", JsonString(arguments.server.address),
+             ",\"service\":", JsonString(arguments.service), ",\"status\":\"SERVING\"}\n");
+  } else {
+    text.Add(arguments.server.address, ": serving\n");
+  }
+  return std::move(text).Take();
+}
+
+}  // namespace
+
+ExitCode Run(const ProbeArguments& arguments, const std::stop_token&) {
+  const absl::Status status = Probe(arguments);
+  return status.ok() ? Print(Summary(arguments)) : FailOnServer(arguments.server.address, status);
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,100 @@
+#include "client/cli/top_view.h"
+
+#include "absl/strings/str_format.h"
+#include "client/cli/json_text.h"
+
+namespace bccskel::cli {
+namespace {
+
+using client::ServerStatus;
+
+double Seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+double Mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+// A server that was started anew counts from zero.
+double Rate(uint64_t before, uint64_t after, double seconds) {
+  return after < before || seconds <= 0 ? 0 : static_cast<double>(after - before) / seconds;
+}
+
+// The full width is `whole`.
+std::string Bar(double part, double whole) {
+  constexpr int kWidth = 30;
+  const double share = whole > 0 ? std::min(part / whole, 1.0) : 0;
+  const auto filled = static_cast<size_t>(share * kWidth + 0.5);
+  return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "]";
+}
+
+std::string UptimeText(std::chrono::nanoseconds uptime) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(uptime).count();
+  return absl::StrFormat("%d:%02d:%02d", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+std::string RatesText(const TopRates& rates) {
+  return absl::StrFormat(
+      "per second  %.1f calls   %.1f jobs   %.2f million points   %.2f processors\n", rates.calls,
+      rates.jobs, rates.points / 1e6, rates.processors);
+}
+
+}  // namespace
+
+TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
+  const double seconds = Seconds(after.uptime - before.uptime);
+  const auto rate = [&](uint64_t ServerStatus::*sum) {
+    return Rate(before.*sum, after.*sum, seconds);
+  };
+  TopRates rates;
+  rates.calls = rate(&ServerStatus::calls);
+  rates.jobs = rate(&ServerStatus::jobs);
+  rates.points = rate(&ServerStatus::object_points);
+  if (seconds > 0) {
+    rates.processors = Seconds(after.processor_time - before.processor_time) / seconds;
+  }
+  return rates;
+}
+
+std::string TopText(const std::string& address, const ServerStatus& status,
+                    const std::optional<TopRates>& rates) {
+  std::string text =
+      absl::StrFormat("%s   bccskel-server %s   up %s%s\n", address, status.server_version,
+                      UptimeText(status.uptime), status.draining ? "   draining" : "");
+  absl::StrAppendFormat(&text, "jobs        %d admitted: %d running, %d waiting for threads\n",
+                        status.admitted_jobs, status.running_jobs, status.waiting_jobs);
+  absl::StrAppendFormat(&text, "threads     %s %d of %d\n",
+                        Bar(status.busy_threads, status.threads), status.busy_threads,
+                        status.threads);
+  absl::StrAppendFormat(&text, "reserved    %s %.0f of %.0f MiB\n",
+                        Bar(Mebibytes(status.admitted_bytes), Mebibytes(status.max_admitted_bytes)),
+                        Mebibytes(status.admitted_bytes), Mebibytes(status.max_admitted_bytes));
+  absl::StrAppendFormat(&text, "process     %.0f MiB, %d open files\n",
+                        Mebibytes(status.resident_bytes), status.open_files);
+  if (rates.has_value()) text += RatesText(*rates);
+  absl::StrAppendFormat(
+      &text, "since start %d calls (%d failed)   %d jobs (%d failed)   %.2f million points\n",
+      status.calls, status.failed_calls, status.jobs, status.failed_jobs,
+      static_cast<double>(status.object_points) / 1e6);
+  return text;
+}
+
+std::string TopJson(const ServerStatus& status, const std::optional<TopRates>& rates) {
+  std::string json = absl::StrFormat(
+      R"({"server_version":%s,"uptime_seconds":%.3f,"draining":%s,"jobs":{"admitted":%d,)"
+      R"("waiting":%d,"running":%d},"threads":%d,"busy_threads":%d,"admitted_bytes":%d,)"
+      R"("max_admitted_bytes":%d,"resident_bytes":%d,"open_files":%d,"processor_seconds":%.3f,)"
+      R"("totals":{"calls":%d,"failed_calls":%d,"jobs":%d,"failed_jobs":%d,"object_points":%d})",
+      JsonString(status.server_version), Seconds(status.uptime), status.draining ? "true" : "false",
+      status.admitted_jobs, status.waiting_jobs, status.running_jobs, status.threads,
+      status.busy_threads, status.admitted_bytes, status.max_admitted_bytes, status.resident_bytes,
+      status.open_files, Seconds(status.processor_time), status.calls, status.failed_calls,
+      status.jobs, status.failed_jobs, status.object_points);
+  if (rates.has_value()) {
+    absl::StrAppendFormat(
+        &json, R"(,"per_second":{"calls":%.3f,"jobs":%.3f,"object_points":%.1f,"processors":%.3f})",
+        rates->calls, rates->jobs, rates->points, rates->processors);
+  }
+  return json + "}\n";
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,36 @@
+#ifndef BCCSKEL_CLIENT_ENDPOINT_H_
+#define BCCSKEL_CLIENT_ENDPOINT_H_
+
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace bccskel::client {
+
+// PEM texts.
+struct TlsMaterial {
+  std::string ca;           // who may sign the server's certificate; empty: no TLS
+  std::string certificate;  // the client's own chain, where the server asks for one
+  std::string key;
+};
+
+// Where a server is, and how to be let in.
+struct Endpoint {
+  std::string address = "127.0.0.1:50051";  // HOST:PORT or unix:PATH
+  TlsMaterial tls;
+  std::string token;  // sent with each call; empty: none
+
+  enum class PlaintextToken { kRefuse, kAllow };
+  PlaintextToken plaintext_token = PlaintextToken::kRefuse;  // over a network without TLS
+
+  enum class Sharing { kShared, kAlone };
+  Sharing sharing = Sharing::kShared;  // of one connection with others to the same address
+};
+
+// Errors: FAILED_PRECONDITION for a token that would cross a network in the clear;
+//         INVALID_ARGUMENT for a certificate without a key or TLS, or a key without a certificate.
+absl::Status CheckEndpoint(const Endpoint& endpoint);
+
+}  // namespace bccskel::client
+
+#endif  // BCCSKEL_CLIENT_ENDPOINT_H_
