@@ -9,6 +9,7 @@
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "client/channel.h"
 #include "client/connection.h"
+#include "client/grpc_durable_stub.h"
 #include "client/grpc_status.h"
 #include "client/labels_call.h"
 #include "client/upload_call.h"
@@ -69,6 +70,8 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
     return Assemble();
   }
 
+  using UploadCall::accepted;
+
  private:
   absl::Status Take(v1::SkeletonizeResponse& response) override {
     switch (response.response_case()) {
@@ -128,16 +131,24 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
 class GrpcStub : public Stub {
  public:
   explicit GrpcStub(std::shared_ptr<grpc::Channel> channel)
-      : skeletonization_(v1::SkeletonizationService::NewStub(channel)),
+      : channel_(channel),
+        skeletonization_(v1::SkeletonizationService::NewStub(channel)),
         server_(v1::ServerService::NewStub(channel)) {}
 
   absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) override {
-    return Attempt<SkeletonizeResult>(options.stop, deadline, [&](grpc::ClientContext& context) {
-      const auto stream = skeletonization_->Skeletonize(&context);
-      return SkeletonizeCall(context, *stream, options).Run(volume);
-    });
+    AcceptedCall accepted;
+    auto result =
+        Attempt<SkeletonizeResult>(options.stop, deadline, [&](grpc::ClientContext& context) {
+          const auto stream = skeletonization_->Skeletonize(&context);
+          SkeletonizeCall call(context, *stream, options);
+          auto one_stream = call.Run(volume);
+          accepted = call.accepted();
+          return one_stream;
+        });
+    if (result.ok() || accepted.job.empty()) return result;
+    return AfterStream(result.status(), accepted, volume, options, deadline);
   }
 
   absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
@@ -160,6 +171,26 @@ class GrpcStub : public Stub {
   }
 
  private:
+  // The stream is over, the job is not: goes on with it, or ends it where nobody waits any more.
+  absl::StatusOr<SkeletonizeResult> AfterStream(const absl::Status& error,
+                                                const AcceptedCall& accepted,
+                                                const EncodedVolume& volume,
+                                                const CallOptions& options,
+                                                Clock::time_point deadline) {
+    DurableClient client(MakeDurableStub(channel_));
+    if (absl::IsUnavailable(error)) {
+      const auto left =
+          std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+      return ResumeCall(client, accepted, volume, options, left);
+    }
+    if (absl::IsCancelled(error) || absl::IsDeadlineExceeded(error)) {
+      constexpr std::chrono::seconds kFarewell(5);
+      // Where that fails, the job ends by itself.
+      client.CancelJob(accepted.job, {.timeout = kFarewell, .stop = {}}).status().IgnoreError();
+    }
+    return error;
+  }
+
   template <typename Value, typename Call>
   static absl::StatusOr<Value> Attempt(const std::stop_token& stop, Clock::time_point deadline,
                                        Call call) {
@@ -170,6 +201,7 @@ class GrpcStub : public Stub {
     return call(context);
   }
 
+  std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::SkeletonizationService::StubInterface> skeletonization_;
   std::unique_ptr<v1::ServerService::StubInterface> server_;
 };

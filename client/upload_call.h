@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "client/grpc_status.h"
+#include "client/resume_call.h"
 #include "core/digest/sha256.h"
 
 namespace bccskel::client {
@@ -35,6 +36,9 @@ class UploadCall {
     return reply_error_.ok() ? FromGrpcStatus(ended) : reply_error_;
   }
 
+  // What the server has named if it keeps the call's job; else empty.
+  const AcceptedCall& accepted() const { return accepted_; }
+
   // One reply after the first.
   virtual absl::Status Take(Response& response) = 0;
 
@@ -45,6 +49,9 @@ class UploadCall {
     if (!response.has_accepted()) {
       // Such a server may wait for the volume until the deadline.
       return Fail(absl::DataLossError("the server's first reply does not accept the job"));
+    }
+    if (response.accepted().durable()) {
+      accepted_ = {.upload = response.accepted().upload(), .job = response.accepted().job()};
     }
     constexpr size_t kChunkBytes = 512 * 1024;
     chunk_bytes_ = std::min<size_t>(kChunkBytes, response.accepted().max_chunk_bytes());
@@ -80,6 +87,7 @@ class UploadCall {
   grpc::ClientContext& context_;
   Stream& stream_;
   size_t chunk_bytes_ = 0;
+  AcceptedCall accepted_;
   absl::Status reply_error_;
 };
 

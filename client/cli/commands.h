@@ -19,6 +19,11 @@ ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop)
 ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const JobsArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const WatchArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const CancelArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
 

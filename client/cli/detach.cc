@@ -26,7 +26,7 @@ absl::StatusOr<client::DurableJob> MakeJob(const SkeletonizeArguments& arguments
 
 ExitCode SubmitDetached(const SkeletonizeArguments& arguments, const Volume& object,
                         const std::stop_token& stop) {
-  const auto volume = EncodeForSending(object, client::BestEncodingOf(object), stop);
+  const auto volume = client::EncodeForSending(object, client::BestEncodingOf(object), stop);
   if (!volume.ok()) return Fail(volume.status());
   const absl::StatusOr<client::DurableJob> job = MakeJob(arguments, *volume, stop);
   if (!job.ok()) return FailOnServer(arguments.server.address, job.status());
