@@ -95,8 +95,8 @@ def figure_rows(figures, figure):
 def figures_section(figures):
     names = list(dict.fromkeys(row["figure"] for row in figures))
     lines = ["## Figure by figure, default settings", "",
-             "The first five resemble the shapes that the defaults were tuned on. Radius is that of "
-             "the result minus the true one; with noise balls are smaller, since they stop at the "
+             "The first five resemble the shapes that the defaults were tuned on. Radius is that "
+             "of the result minus the true one; with noise balls are smaller, since they stop at the "
              "first dent. A horse's limbs are spheroids that end in points: there the gap is what "
              "is cut from the last, thin part. A cube has no true tips; its diagonal is kept.", ""]
     head = ["figure", "noise", "tips", "ends", "raw", "smoothed", "largest", "radius", "length",
