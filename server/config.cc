@@ -74,6 +74,11 @@ std::vector<Setting> DurableSettings(DurableOptions& durable) {
                   "Space in it for all tenants together, such as 100GB; 0: no limit"),
       SizeSetting("max-tenant-disk-bytes", durable.max_tenant_disk_bytes, 0,
                   "Space in it for one tenant; 0: no limit"),
+      HoursSetting("keep-uploads", durable.keep_uploads,
+                   "Unfinished uploads go so long after their last byte"),
+      HoursSetting("keep-volumes", durable.keep_volumes, "Volumes go so long after their last use"),
+      HoursSetting("keep-results", durable.keep_results,
+                   "Jobs and their results go so long after their end"),
   };
 }
 

@@ -73,6 +73,7 @@ class SettingsTest(unittest.TestCase):
         self.assertEqual(settings["max-queue"], ("7", "file"))
         self.assertEqual(settings["log-level"], ('"error"', "file"))
         self.assertEqual(settings["drain-ms"], ("25000", "default"))
+        self.assertEqual(settings["keep-results"], ("168", "default"))
 
     def test_what_is_printed_can_be_read_as_a_file(self):
         printed = check_config("--listen", "127.0.0.1:1", "--listen", "unix:/run/x",
