@@ -96,6 +96,9 @@ class DurableClient {
   const Pause pause_;
 };
 
+// For jobs that are known to be kept: outlasts a restart of the server, two minutes and more.
+inline constexpr RetryPolicy kOutlastRestart = {.max_attempts = 30};
+
 // Over gRPC. Errors: as CheckEndpoint().
 absl::StatusOr<std::unique_ptr<DurableStub>> MakeGrpcDurableStub(const Endpoint& endpoint);
 

@@ -177,7 +177,7 @@ class GrpcStub : public Stub {
                                                 const EncodedVolume& volume,
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) {
-    DurableClient client(MakeDurableStub(channel_));
+    DurableClient client(MakeDurableStub(channel_), kOutlastRestart);
     if (absl::IsUnavailable(error)) {
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());

@@ -34,10 +34,18 @@ absl::Status StatusOf(JobState state, const absl::Status& error) {
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<DurableClient>> ClientOf(const ServerArguments& server) {
+absl::StatusOr<std::unique_ptr<DurableClient>> ClientOf(const ServerArguments& server,
+                                                        const client::RetryPolicy& policy) {
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(server));
   BCCSKEL_ASSIGN_OR_RETURN(auto stub, client::MakeGrpcDurableStub(endpoint));
-  return std::make_unique<DurableClient>(std::move(stub));
+  return std::make_unique<DurableClient>(std::move(stub), policy);
+}
+
+absl::StatusOr<std::unique_ptr<DurableClient>> PatientClientOf(const JobArguments& arguments,
+                                                               const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.server));
+  BCCSKEL_RETURN_IF_ERROR(client->GetJob(arguments.job, ShortCalls(stop)).status());
+  return ClientOf(arguments.server, client::kOutlastRestart);
 }
 
 DurableClient::Calls ShortCalls(const std::stop_token& stop) {

@@ -14,7 +14,11 @@
 namespace bccskel::cli {
 
 // Errors: those of EndpointOf() and CheckEndpoint().
-absl::StatusOr<std::unique_ptr<client::DurableClient>> ClientOf(const ServerArguments& server);
+absl::StatusOr<std::unique_ptr<client::DurableClient>> ClientOf(
+    const ServerArguments& server, const client::RetryPolicy& policy = {});
+// The same for waiting on a job, once the server has said that it keeps the job.
+absl::StatusOr<std::unique_ptr<client::DurableClient>> PatientClientOf(
+    const JobArguments& arguments, const std::stop_token& stop);
 
 // Calls that do not wait for a job.
 client::DurableClient::Calls ShortCalls(const std::stop_token& stop);

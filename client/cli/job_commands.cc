@@ -10,7 +10,7 @@ namespace {
 using client::DurableJob;
 
 absl::StatusOr<DurableJob> Watch(const WatchArguments& arguments, const std::stop_token& stop) {
-  BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.job.server));
+  BCCSKEL_ASSIGN_OR_RETURN(const auto client, PatientClientOf(arguments.job, stop));
   BCCSKEL_RETURN_IF_ERROR(AwaitJob(*client, arguments.job.job, arguments.waiting, stop));
   return client->GetJob(arguments.job.job, ShortCalls(stop));
 }
@@ -27,7 +27,7 @@ absl::Status Delete(const JobArguments& arguments, const std::stop_token& stop) 
 
 absl::StatusOr<SkeletonizeResult> Fetch(const FetchArguments& arguments,
                                         const std::stop_token& stop) {
-  BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.job.server));
+  BCCSKEL_ASSIGN_OR_RETURN(const auto client, PatientClientOf(arguments.job, stop));
   BCCSKEL_RETURN_IF_ERROR(AwaitJob(*client, arguments.job.job, arguments.waiting, stop));
   return client->Fetch(arguments.job.job, {.timeout = arguments.waiting.timeout, .stop = stop});
 }

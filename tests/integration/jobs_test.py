@@ -1,0 +1,108 @@
+"""Jobs that a server keeps, as a user of the command line has them."""
+
+import json
+import pathlib
+import signal
+import subprocess
+import time
+
+import harness
+from harness import CLIENT, Server
+
+
+class JobsTest(harness.TestCase):
+    def server(self, name="server"):
+        return Server(self.folder, "--data-dir", self.path("data"), "--threads", "1", name=name)
+
+    def submit(self, server, *more, points=20000):
+        volume = self.generate("torus", points)
+        return self.succeed("submit", volume, "--detach", "--server", server.address, *more).strip()
+
+    def jobs(self, server):
+        listed = self.succeed("jobs", "--json", "--server", server.address)
+        return {job["job"]: job for job in json.loads(listed)["jobs"]}
+
+    def test_a_detached_job_is_watched_fetched_and_deleted(self):
+        with self.server() as server:
+            job = self.submit(server)
+            self.assertTrue(job.startswith("jobs/"), job)
+            self.assertEqual(self.succeed("watch", job, "--server", server.address),
+                             f"{job} succeeded\n")
+            self.succeed("fetch", job, "--server", server.address, "-o", self.path("f.json"))
+            self.succeed("skeletonize", self.path("object.bccb"), "--local", "--json",
+                         "-o", self.path("l.json"))
+            fetched, local = (json.loads(pathlib.Path(self.path(name)).read_text())
+                              for name in ("f.json", "l.json"))
+            self.assertEqual(fetched["sha256"], local["sha256"])
+            self.assertEqual(self.jobs(server)[job]["state"], "succeeded")
+            self.assertIn(job, self.succeed("jobs", "--server", server.address))
+            self.succeed("delete", job, "--server", server.address)
+            self.assertEqual(self.jobs(server), {})
+            self.fail_with(3, "server", "watch", job, "--server", server.address)
+
+    def test_a_job_outlives_the_server(self):
+        with self.server() as server:
+            job = self.submit(server, points=2_000_000)
+            server.process.kill()
+            server.process.wait()
+        with self.server("second") as server:
+            self.succeed("fetch", job, "--server", server.address, "-o", self.path("a.vtp"))
+            self.assertEqual(self.jobs(server)[job]["state"], "succeeded")
+
+    def test_ctrl_c_cancels_a_job_that_is_waited_for_unless_detached(self):
+        for detached in (True, False):
+            with self.server(f"server{detached}") as server:
+                jobs = [self.submit(server, "--shell-width", 1 + n / 8, points=2_000_000)
+                        for n in range(4)]
+                waiting = subprocess.Popen(
+                    [CLIENT, "watch", jobs[-1], "--server", server.address,
+                     "--progress", "always", *(["--detach"] if detached else [])],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                time.sleep(0.5)
+                waiting.send_signal(signal.SIGINT)
+                self.assertIn(waiting.wait(timeout=120), (0, 130))
+                if waiting.returncode == 130:  # else it was quick
+                    ended = {True: "succeeded", False: "cancelled"}[detached]
+                    harness.bccskel("watch", jobs[-1], "--server", server.address)
+                    self.assertEqual(self.jobs(server)[jobs[-1]]["state"], ended)
+
+    def test_cancel_ends_a_job(self):
+        with self.server() as server:
+            jobs = [self.submit(server, "--shell-width", 1 + n / 8, points=2_000_000)
+                    for n in range(3)]
+            said = self.succeed("cancel", jobs[-1], "--server", server.address)
+            self.assertIn(said, (f"{jobs[-1]} cancelled\n", f"{jobs[-1]} succeeded\n"))
+            if "cancelled" in said:
+                self.fail_with(5, "cancelled", "fetch", jobs[-1], "--server", server.address,
+                               "-o", self.path("a.json"))
+
+    def test_wrong_words_are_told(self):
+        volume = self.generate("torus")
+        self.fail_with(2, "--output is required", "submit", volume)
+        self.fail_with(2, "--detach writes no files", "submit", volume, "--detach",
+                       "-o", self.path("a.json"))
+        with Server(self.folder) as server:
+            self.fail_with(3, "--data-dir", "submit", volume, "--detach",
+                           "--server", server.address)
+            self.fail_with(3, "--data-dir", "jobs", "--server", server.address)
+
+    def test_a_call_goes_on_after_the_server_was_killed(self):
+        listen = f"unix:{self.folder}/socket"
+        flags = ("--data-dir", self.path("data"), "--threads", "1")
+        volume = self.path("large.exr")
+        self.succeed("generate", "torus", "--points", 12_000_000, "-o", volume)
+        with Server(self.folder, *flags, name="first", listen=listen) as server:
+            calling = subprocess.Popen(
+                [CLIENT, "submit", volume, "--server", listen, "-o", self.path("a.json")],
+                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            server.wait_for_log("event", "job accepted")
+            server.process.kill()
+            server.process.wait()
+        with Server(self.folder, *flags, name="second", listen=listen) as server:
+            _, error = calling.communicate(timeout=240)
+            self.assertEqual(calling.returncode, 0, error)
+            self.assertEqual([job["attempts"] >= 1 for job in self.jobs(server).values()], [True])
+
+
+if __name__ == "__main__":
+    harness.main()
