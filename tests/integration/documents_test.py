@@ -11,7 +11,8 @@ import harness
 CLI = harness.SOURCES / "client/cli"
 SERVER_PAGE = harness.SOURCES / "server/bccskel-server.1"
 COMMANDS = ("voxelize", "submit", "skeletonize", "labels", "info", "view", "render", "reconstruct",
-            "generate", "bench core", "bench server", "probe", "top")
+            "generate", "jobs", "watch", "cancel", "fetch", "delete", "bench core",
+            "bench server", "probe", "top")
 
 
 def options_of(command):
