@@ -126,6 +126,7 @@ absl::Status Server::OpenData() {
   if (!config_.durable.data_directory.empty()) {
     DurableOptions options = config_.durable;
     options.max_job_bytes = config_.limits.max_bytes;
+    options.max_runs = config_.limits.max_jobs;
     options.algorithm_version = std::string(kAlgorithmVersion);
     BCCSKEL_RETURN_IF_ERROR(work_->OpenLedger(options));
   }

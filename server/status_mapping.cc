@@ -1,10 +1,12 @@
 #include "server/status_mapping.h"
 
+#include <map>
 #include <string>
 #include <utility>
 
 #include "proto/wire/error_details.h"
 #include "server/admission/refusal.h"
+#include "server/durable/fault.h"
 
 namespace bccskel::server {
 namespace {
@@ -58,6 +60,13 @@ absl::Status WithJobLimit(absl::Status status) {
   return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
 }
 
+// What the ledger found, just now or before a restart.
+absl::Status WithFaultReason(absl::Status status, const Fault& fault) {
+  std::map<std::string, std::string> metadata;
+  if (!fault.key.empty()) metadata[fault.key] = fault.value;
+  return wire::WithReason(std::move(status), fault.reason, metadata);
+}
+
 absl::Status WithAllDetails(const absl::Status& status) {
   // Payloads of our own, such as the refusal, stay here.
   absl::Status detailed = wire::FromRpcStatus(wire::ToRpcStatus(status));
@@ -65,6 +74,9 @@ absl::Status WithAllDetails(const absl::Status& status) {
     return WithRefusal(absl::Status(status.code(), status.message()), *refusal);
   }
   if (wire::ErrorInfoOf(detailed).has_value()) return detailed;
+  if (const auto fault = FaultOf(status); fault.has_value()) {
+    return WithFaultReason(std::move(detailed), *fault);
+  }
   if (absl::IsResourceExhausted(status)) return WithJobLimit(std::move(detailed));
   if (absl::IsInvalidArgument(status)) return WithVolumeFault(std::move(detailed));
   return wire::WithReason(std::move(detailed), DefaultReason(status.code()));

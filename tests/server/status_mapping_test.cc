@@ -6,6 +6,7 @@
 
 #include "proto/wire/error_details.h"
 #include "server/admission/refusal.h"
+#include "server/durable/fault.h"
 
 namespace bccskel::server {
 namespace {
@@ -45,6 +46,14 @@ TEST(StatusMapping, AJobsWrongArgumentIsAWrongVolume) {
   EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "VOLUME_INVALID");
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "chunk.data");
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).description(), "no magic number");
+}
+
+TEST(StatusMapping, AFaultOfTheLedgerKeepsItsReason) {
+  const absl::Status poisoned = WithFault(absl::InternalError("ended 3 times"),
+                                          {.reason = "POISONED", .key = "attempts", .value = "3"});
+  const auto info = wire::ErrorInfoOf(Back(ToGrpcStatus(poisoned)));
+  EXPECT_EQ(info->reason(), "POISONED");
+  EXPECT_EQ(info->metadata().at("attempts"), "3");
 }
 
 TEST(StatusMapping, WhatIsOverALimitNamesTheLimit) {
