@@ -19,6 +19,9 @@ Volume Object(std::string_view name, uint64_t points) {
   return *std::move(object);
 }
 
+const SkeletonizeOptions kPaper = {.thinning = {.method = ThinningMethod::kDirectional},
+                                   .distance = DistanceKind::kChamfer};
+
 double Fill(const Volume& object) {
   return static_cast<double>(object.PointCount()) /
          static_cast<double>(object.extent().PointCount());
@@ -55,8 +58,7 @@ TEST(MeasureCore, GivesTheReferencesSkeletonOfEveryObject) {
   for (const char* name : kBenchObjects) {
     if (std::string_view(name) == "thin-tubes") continue;  // box too large for the reference here
     const Volume object = Object(name, 10'000);
-    const auto measured =
-        MeasureCore(object, {.thinning = {.method = ThinningMethod::kDirectional}}, 1, {});
+    const auto measured = MeasureCore(object, kPaper, 1, {});
     ASSERT_TRUE(measured.ok()) << measured.status();
     const auto expected = test::ReferenceDigest(object);
     ASSERT_TRUE(expected.ok()) << expected.status();
@@ -85,8 +87,7 @@ TEST(MeasureCore, HasOneTimingForEachWarmRunAndStagesThatAddUpToNoMoreThanTheWho
 // Distances alone are two bytes for each point of a brick; a hundred would be a mistake of units.
 TEST(MeasureCore, CountsTheMemoryOfTheDistancesAtLeast) {
   const Volume object = Object("ball", 2'000'000);
-  const auto measured =
-      MeasureCore(object, {.thinning = {.method = ThinningMethod::kDirectional}}, 1, {});
+  const auto measured = MeasureCore(object, kPaper, 1, {});
   ASSERT_TRUE(measured.ok()) << measured.status();
   if (!measured->peak_bytes.has_value()) GTEST_SKIP() << "no high-water mark on this system";
   const uint64_t lattice_points = object.brick_count() * kBrickPoints;

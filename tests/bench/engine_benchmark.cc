@@ -19,7 +19,8 @@ namespace {
 
 constexpr uint64_t kSizes[] = {10'000, 100'000, 850'000, 8'000'000, 64'000'000};
 constexpr int kThreads[] = {1, 2};
-const SkeletonizeOptions kPaper = {.thinning = {.method = ThinningMethod::kDirectional}};
+const SkeletonizeOptions kPaper = {.thinning = {.method = ThinningMethod::kDirectional},
+                                   .distance = DistanceKind::kChamfer};
 
 struct Row {
   std::string object;
