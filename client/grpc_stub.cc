@@ -15,6 +15,7 @@
 #include "client/upload_call.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
+#include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
 #include "proto/wire/result.h"
@@ -128,6 +129,13 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
   std::optional<v1::SkeletonSummary> summary_;
 };
 
+// gRPC cancels calls that reach a server in its last moments, which nobody here has asked for.
+absl::Status WithoutForeignCancel(const absl::Status& error, const std::stop_token& stop) {
+  const bool wanted = stop.stop_requested() || wire::ErrorInfoOf(error).has_value();
+  if (!absl::IsCancelled(error) || wanted) return error;
+  return absl::UnavailableError("the server has cancelled the call; it may be about to stop");
+}
+
 class GrpcStub : public Stub {
  public:
   explicit GrpcStub(std::shared_ptr<grpc::Channel> channel)
@@ -147,8 +155,10 @@ class GrpcStub : public Stub {
           accepted = call.accepted();
           return one_stream;
         });
-    if (result.ok() || accepted.job.empty()) return result;
-    return AfterStream(result.status(), accepted, volume, options, deadline);
+    if (result.ok()) return result;
+    const absl::Status error = WithoutForeignCancel(result.status(), options.stop);
+    if (accepted.job.empty()) return error;
+    return AfterStream(error, accepted, volume, options, deadline);
   }
 
   absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,

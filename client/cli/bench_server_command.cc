@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/bench_server.h"
 #include "client/cli/commands.h"
@@ -85,11 +86,12 @@ ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop)
   const absl::Status status = MeasureAll(arguments, stop, all);
   if (!status.ok()) return FailOnServer(arguments.server.address, status);
   if (arguments.common.summary == SummaryStyle::kText) return ExitCode::kOk;
-  std::string json = "{\"server\":" + JsonString(arguments.server.address) + ",\"measured\":[";
+  std::string json =
+      absl::StrCat("{\"server\":", JsonString(arguments.server.address), ",\"measured\":[");
   for (const ServerMeasurement& measured : all) {
-    json += (json.back() == '[' ? "" : ",") + Json(measured);
+    absl::StrAppend(&json, json.back() == '[' ? "" : ",", Json(measured));
   }
-  return Print(json + "]}\n");
+  return Print(absl::StrCat(json, "]}\n"));
 }
 
 }  // namespace bccskel::cli

@@ -92,9 +92,12 @@ void AddMeshJson(Text& text, const MeshStage& stage) {
 }
 
 std::string NotesJson(const std::vector<std::string>& notes) {
-  std::string json;
-  for (const std::string& note : notes) json += (json.empty() ? "" : ",") + JsonString(note);
-  return '[' + json + ']';
+  Text text;
+  for (const std::string& note : notes) {
+    text.Add(&note == notes.data() ? "[" : ",", JsonString(note));
+  }
+  text.Add(notes.empty() ? "[]" : "]");
+  return std::move(text).Take();
 }
 
 void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {

@@ -1,5 +1,6 @@
 #include "client/cli/top_view.h"
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/json_text.h"
 
@@ -24,7 +25,7 @@ std::string Bar(double part, double whole) {
   constexpr int kWidth = 30;
   const double share = whole > 0 ? std::min(part / whole, 1.0) : 0;
   const auto filled = static_cast<size_t>(share * kWidth + 0.5);
-  return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "]";
+  return absl::StrCat("[", std::string(filled, '#'), std::string(kWidth - filled, '.'), "]");
 }
 
 std::string UptimeText(std::chrono::nanoseconds uptime) {
@@ -94,7 +95,8 @@ std::string TopJson(const ServerStatus& status, const std::optional<TopRates>& r
         &json, R"(,"per_second":{"calls":%.3f,"jobs":%.3f,"object_points":%.1f,"processors":%.3f})",
         rates->calls, rates->jobs, rates->points, rates->processors);
   }
-  return json + "}\n";
+  absl::StrAppend(&json, "}\n");
+  return json;
 }
 
 }  // namespace bccskel::cli

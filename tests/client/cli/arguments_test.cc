@@ -78,7 +78,7 @@ TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
                                      .min_component_points = 30,
                                      .min_component_volume = 1.5,
                                      .components = KeptComponents::kLargest};
-  const std::vector<std::string> options = {"--denoise",
+  const std::vector<const char*> options = {"--denoise",
                                             "2",
                                             "--fill-cavities",
                                             "--min-component",
@@ -86,7 +86,7 @@ TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
                                             "--min-component-volume",
                                             "1.5",
                                             "--keep-largest"};
-  const auto with = [&](std::vector<std::string> words) {
+  const auto with = [&](std::vector<const char*> words) {
     words.insert(words.end(), options.begin(), options.end());
     return Parse(words);
   };
@@ -149,7 +149,7 @@ TEST(ArgumentsTest, DefaultsSuitAUserWithAServerOnThisMachine) {
   const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc"});
   const auto& arguments = parsed.as<SkeletonizeArguments>();
   EXPECT_EQ(arguments.place, Place::kServer);
-  EXPECT_EQ(arguments.server, "127.0.0.1:50051");
+  EXPECT_EQ(arguments.server.address, "127.0.0.1:50051");
   EXPECT_EQ(arguments.timeout, std::chrono::hours(1));
   EXPECT_EQ(arguments.common.threads, 0);
   EXPECT_EQ(arguments.common.summary, SummaryStyle::kText);
@@ -164,7 +164,7 @@ TEST(ArgumentsTest, OtherCommandsTakeTheirs) {
             9);
   const Parsed submit = Parse({"submit", "a.exr", "-o", "a.swc", "--server", "unix:/s"});
   EXPECT_EQ(submit.as<SkeletonizeArguments>().accepted, AcceptedInput::kVolumeOnly);
-  EXPECT_EQ(submit.as<SkeletonizeArguments>().server, "unix:/s");
+  EXPECT_EQ(submit.as<SkeletonizeArguments>().server.address, "unix:/s");
   EXPECT_EQ(Parse({"info", "a.off"}).as<InfoArguments>().file, "a.off");
   const Parsed generate = Parse(
       {"generate", "knot", "-o", "a.bccb", "--seed", "4", "--noise", "0.01", "--points", "10000"});
@@ -263,6 +263,44 @@ TEST(ArgumentsTest, TheInputIsNotOverwritten) {
     EXPECT_THAT(parsed.err, HasSubstr("would be overwritten"));
   }
   std::filesystem::remove_all(folder);
+}
+
+TEST(ArgumentsTest, EveryCommandWithAServerTakesWhatLetsTheUserIn) {
+  const std::vector<const char*> options = {
+      "--server",  "host:1",     "--tls-ca",     "ca.pem", "--tls-cert",       "me.pem",
+      "--tls-key", "me-key.pem", "--token-file", "token",  "--plaintext-token"};
+  const auto server_of = [&](std::vector<const char*> words, auto server) {
+    words.insert(words.end(), options.begin(), options.end());
+    return server(Parse(words));
+  };
+  const std::vector<ServerArguments> all = {
+      server_of({"submit", "a.exr", "-o", "a.swc"},
+                [](const Parsed& parsed) { return parsed.as<SkeletonizeArguments>().server; }),
+      server_of({"probe"}, [](const Parsed& parsed) { return parsed.as<ProbeArguments>().server; }),
+      server_of({"top"}, [](const Parsed& parsed) { return parsed.as<TopArguments>().server; }),
+      server_of({"bench", "server"},
+                [](const Parsed& parsed) { return parsed.as<BenchServerArguments>().server; })};
+  for (const ServerArguments& server : all) {
+    EXPECT_EQ(server.address, "host:1");
+    EXPECT_EQ(server.tls_ca, "ca.pem");
+    EXPECT_EQ(server.tls_certificate, "me.pem");
+    EXPECT_EQ(server.tls_key, "me-key.pem");
+    EXPECT_EQ(server.token_file, "token");
+    EXPECT_EQ(server.plaintext_token, client::Endpoint::PlaintextToken::kAllow);
+  }
+}
+
+TEST(ArgumentsTest, BenchServerTakesListsAndRefusesWhatIsOutOfBounds) {
+  const Parsed parsed = Parse({"bench", "server", "--clients", "1,8", "--points", "5000,90000",
+                               "--encoding", "bricks", "--seconds", "0.5"});
+  const auto& arguments = parsed.as<BenchServerArguments>();
+  EXPECT_THAT(arguments.clients, ElementsAre(1, 8));
+  EXPECT_THAT(arguments.points, ElementsAre(5000u, 90000u));
+  EXPECT_EQ(arguments.encoding, VolumeEncoding::kBricks);
+  EXPECT_EQ(arguments.duration, std::chrono::milliseconds(500));
+  for (const char* clients : {"0", "1025", "many"}) {
+    EXPECT_EQ(Parse({"bench", "server", "--clients", clients}).code(), ExitCode::kUsage);
+  }
 }
 
 }  // namespace
