@@ -155,7 +155,7 @@ class DurableLedger final : public Ledger, public RunObserver {
         },
         [value, done = Track(std::move(done))](absl::Status status) {
           if (!status.ok()) return done(std::move(status));
-          done(**std::move(value));
+          done(*std::move(*value));
         });
   }
   // As the runner is to be asked.

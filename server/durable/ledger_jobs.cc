@@ -118,7 +118,7 @@ void DurableLedger::CreateJob(const std::string& tenant, const NewJob& job, Done
                  Apply(*creating->step);
                  if (IsTerminal(creating->step->job.state)) ++cached_;
                }
-               done(*creating->info);
+               done(*std::move(creating->info));
                Schedule();
              });
 }
@@ -230,7 +230,7 @@ void DurableLedger::CancelJob(const std::string& tenant, const std::string& job,
       [this, erased, info, done = Track(std::move(done))](absl::Status status) {
         if (!status.ok()) return done(std::move(status));
         Apply(*erased);
-        done(*info);
+        done(std::move(*info));
         Schedule();
       });
 }

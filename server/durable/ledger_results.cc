@@ -107,8 +107,9 @@ std::map<int64_t, JobEvent> DurableLedger::TakeProgress(Run& run) {
 
 void DurableLedger::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) {
   if (!result.ok()) {
-    return loop_.Post(
-        [this, run = std::move(run), error = result.status()] { RunEnded(run.get(), error); });
+    return loop_.Post([this, run = std::move(run), error = std::move(result).status()] {
+      RunEnded(run.get(), error);
+    });
   }
   const auto held = std::make_shared<std::optional<JobResult>>(*std::move(result));
   files_.Post({.tenant = run->tenant()}, [this, run, held] {

@@ -99,7 +99,8 @@ void Run::OnEnd(absl::StatusOr<JobResult> result) {
     unannounced = progress_.has_value() && !announced_;
     if (!result.ok() && !feed_error_.ok()) result = feed_error_;
   }
-  const absl::Status status = result.status();
+  // A copy of its own: the result goes to another thread.
+  const absl::Status status(result.status().code(), result.status().message());
   if (unannounced) observer_.OnRunProgress(shared_from_this());
   // The run's end is known before the sender hears of it.
   observer_.OnRunEnd(shared_from_this(), std::move(result));

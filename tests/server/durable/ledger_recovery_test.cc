@@ -158,11 +158,15 @@ class KilledServer {
     const pid_t child = fork();
     if (child == 0) Serve(round, pipes[1]);
     close(pipes[1]);
+    std::set<std::string> confirmed;
+    uint32_t n = 0;
+    // Every second server lives long enough to confirm something, however slow the machine is.
+    if (round % 2 == 0 && read(pipes[0], &n, sizeof(n)) == sizeof(n)) {
+      confirmed.insert(RequestOf(round, n));
+    }
     usleep(static_cast<useconds_t>(microseconds));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    std::set<std::string> confirmed;
-    uint32_t n = 0;
     while (read(pipes[0], &n, sizeof(n)) == sizeof(n)) confirmed.insert(RequestOf(round, n));
     close(pipes[0]);
     return confirmed;
