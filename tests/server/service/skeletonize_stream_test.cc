@@ -67,7 +67,7 @@ class FakeRunner : public JobRunner {
 
 class SkeletonizeStreamTest : public testing::Test {
  protected:
-  SkeletonizeStreamTest() : service_(runner_, VolumeLimits()) {
+  SkeletonizeStreamTest() {
     int port = 0;
     grpc::ServerBuilder builder;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
@@ -77,7 +77,10 @@ class SkeletonizeStreamTest : public testing::Test {
   }
 
   FakeRunner runner_;
-  SkeletonizationService service_;
+  const std::unique_ptr<Callers> callers_ = *Callers::Create("");
+  const CallGate gate_{*callers_};
+  UploadWriters writers_;
+  SkeletonizationService service_{gate_, runner_, VolumeLimits(), nullptr, writers_};
   std::unique_ptr<grpc::Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
 };
