@@ -100,7 +100,7 @@ class DurableLedger final : public Ledger, public RunObserver {
     std::string volume;         // its name; empty while it is received
     std::string volume_digest;  // empty until it is decoded
     std::set<int64_t> jobs;
-    bool alone = false;   // beside nothing else from a file
+    int crashes = 0;      // of the server, of the job that it was begun for
     bool ending = false;  // nobody joins any more
   };
   // A job's new state, and the event that tells it; none where the job had ended before.
@@ -231,6 +231,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   Begun StartRun(const JobRow& job, const VolumeRow& volume);
   ActiveRun* EqualRun(const JobRow& job, const VolumeRow& volume);
   std::map<std::string, int> RunsOfTenants() const;
+  int CountRunsFromFiles(int least_crashes) const;
   ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
   void Attach(ActiveRun& run, int64_t job);
   void Detach(int64_t job);

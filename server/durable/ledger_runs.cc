@@ -24,17 +24,21 @@ std::map<std::string, int> DurableLedger::RunsOfTenants() const {
   return runs;
 }
 
+int DurableLedger::CountRunsFromFiles(int least_crashes) const {
+  return static_cast<int>(std::ranges::count_if(runs_, [&](const auto& entry) {
+    return entry.second.source == ActiveRun::Source::kFile && entry.second.crashes >= least_crashes;
+  }));
+}
+
+// Suspects run one at a time: a crash makes one of them more suspect and no more, and those that
+// are innocent soon show it.
 DurableLedger::Begun DurableLedger::BeginNext() {
-  const auto from_files = std::ranges::count_if(
-      runs_, [](const auto& entry) { return entry.second.source == ActiveRun::Source::kFile; });
-  const bool one_is_alone =
-      std::ranges::any_of(runs_, [](const auto& entry) { return entry.second.alone; });
-  if (one_is_alone || from_files >= options_.max_runs) return Begun::kNothingNow;
-  const std::optional<int64_t> first = queue_.First(RunsOfTenants());
+  if (CountRunsFromFiles(0) >= options_.max_runs) return Begun::kNothingNow;
+  const bool one_is_suspect = CountRunsFromFiles(1) > 0;
+  const std::optional<int64_t> first = queue_.First(
+      RunsOfTenants(), one_is_suspect ? RunQueue::Suspects::kWait : RunQueue::Suspects::kWelcome);
   if (!first.has_value()) return Begun::kNothingNow;
   const JobRow job = active_.at(*first).row;
-  // Its next crash is its last: it must be its own.
-  if (job.crashes + 1 >= kCrashesToPoison && from_files > 0) return Begun::kNothingNow;
   return BeginJob(job);
 }
 
@@ -99,7 +103,7 @@ DurableLedger::Begun DurableLedger::StartRun(const JobRow& job, const VolumeRow&
   ActiveRun& active = AddRun(run, job, ActiveRun::Source::kFile);
   active.volume = volume.name;
   active.volume_digest = volume.volume_digest;
-  active.alone = job.crashes + 1 >= kCrashesToPoison;
+  active.crashes = job.crashes;
   Attach(active, job.number);
   // The attempt is counted before it begins.
   EnterState({job.number}, JobState::kRunning, absl::OkStatus(), 0,

@@ -11,7 +11,15 @@ constexpr int64_t kPlacesBackPerCrash = 1000;
 }  // namespace
 
 RunQueue::Place RunQueue::PlaceOf(const JobRow& job) {
-  return {-job.priority, job.number + kPlacesBackPerCrash * job.crashes, job.number};
+  return {-job.priority, job.number + kPlacesBackPerCrash * job.crashes, job.number,
+          job.crashes > 0};
+}
+
+std::optional<int64_t> RunQueue::FirstOf(const Tenant& tenant, Suspects suspects) {
+  for (const auto& [priority, rank, number, suspect] : tenant.places) {
+    if (!suspect || suspects == Suspects::kWelcome) return number;
+  }
+  return std::nullopt;
 }
 
 void RunQueue::Add(const JobRow& job) {
@@ -25,7 +33,8 @@ void RunQueue::Remove(const JobRow& job) {
   if (tenant->second.places.empty()) tenants_.erase(tenant);
 }
 
-std::optional<int64_t> RunQueue::First(const std::map<std::string, int>& at_work_of) const {
+std::optional<int64_t> RunQueue::First(const std::map<std::string, int>& at_work_of,
+                                       Suspects suspects) const {
   std::pair<int, uint64_t> best = {std::numeric_limits<int>::max(), 0};
   std::optional<int64_t> first;
   for (const auto& [name, tenant] : tenants_) {
@@ -33,8 +42,10 @@ std::optional<int64_t> RunQueue::First(const std::map<std::string, int>& at_work
     const std::pair<int, uint64_t> share = {at_work == at_work_of.end() ? 0 : at_work->second,
                                             tenant.last_turn};
     if (first.has_value() && best <= share) continue;
+    const std::optional<int64_t> job = FirstOf(tenant, suspects);
+    if (!job.has_value()) continue;
     best = share;
-    first = std::get<2>(*tenant.places.begin());
+    first = job;
   }
   return first;
 }

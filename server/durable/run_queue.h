@@ -15,26 +15,29 @@ namespace bccskel::server {
 // Jobs that wait to be run. The turn is the tenant's with the fewest jobs at work; among those the
 // one's that had no turn for the longest time. Within a tenant higher priorities come first, then
 // older jobs, but a job that ran while the server crashed stands back behind a thousand others: it
-// may be the reason.
+// may be the reason, and is a suspect.
 // Threads: one at a time.
 class RunQueue {
  public:
   void Add(const JobRow& job);
   void Remove(const JobRow& job);
+  enum class Suspects { kWelcome, kWait };
   // The number of the job whose turn it is. It stays in the queue.
-  std::optional<int64_t> First(const std::map<std::string, int>& at_work_of) const;
+  std::optional<int64_t> First(const std::map<std::string, int>& at_work_of,
+                               Suspects suspects = Suspects::kWelcome) const;
   // The tenant has had a turn.
   void CountTurn(const std::string& tenant);
 
   int size() const { return size_; }
 
  private:
-  using Place = std::tuple<int, int64_t, int64_t>;  // less is earlier
+  using Place = std::tuple<int, int64_t, int64_t, bool>;  // less is earlier
   struct Tenant {
     std::set<Place> places;
     uint64_t last_turn = 0;
   };
   static Place PlaceOf(const JobRow& job);
+  static std::optional<int64_t> FirstOf(const Tenant& tenant, Suspects suspects);
 
   std::map<std::string, Tenant> tenants_;  // those with a job
   uint64_t turns_ = 0;

@@ -141,6 +141,10 @@ TEST(RunQueueTest, LetsTenantsTakeTurnsAndPutsSuspectsBack) {
   }
   EXPECT_EQ(order, (std::vector<int64_t>{3, 4, 2, 1}));
   EXPECT_EQ(queue.First(at_work), std::nullopt);
+  queue.Add(job("a", 1, 0, 1));
+  EXPECT_EQ(queue.First(at_work, RunQueue::Suspects::kWait), std::nullopt);
+  EXPECT_EQ(queue.First(at_work), 1);
+  queue.Remove(job("a", 1, 0, 1));
   queue.Add(job("a", 5));
   queue.Add(job("b", 6));
   EXPECT_EQ(queue.First({{"a", 1}}), 6) << "who has less at work comes first";
