@@ -35,6 +35,8 @@ absl::Status WithRefusal(absl::Status status, Refusal refusal) {
       return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_volume_bytes");
     case Refusal::kTooManyBricks:
       return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
+    case Refusal::kShellPointsTooLarge:
+      return WithReason(std::move(status), "SHELL_POINTS_TOO_LARGE");
     case Refusal::kTooMuchMemory:
       return WithQuota(WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_admitted_bytes");
     case Refusal::kQueueFull:

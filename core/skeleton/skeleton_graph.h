@@ -89,8 +89,8 @@ struct SkeletonGraph {
 };
 
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
-// topology) in canonical order. Placement and pruning levels are not part of it. The byte layout is stated at the
-// definition; it is a public contract.
+// topology) in canonical order. Placement and pruning levels are not part of it. The byte layout is
+// stated at the definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives

@@ -11,6 +11,7 @@ absl::StatusCode CodeOf(Refusal refusal) {
   switch (refusal) {
     case Refusal::kVolumeTooLarge:
     case Refusal::kTooManyBricks:
+    case Refusal::kShellPointsTooLarge:
     case Refusal::kTooMuchMemory:
       return absl::StatusCode::kResourceExhausted;
     case Refusal::kQueueFull:

@@ -70,9 +70,9 @@ class JobListener : public UploadListener {
   virtual void OnVolume(const Volume&) {}
   // `elapsed` since the computation began.
   virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
-  // A serialized v1.ShellPoints, where they are wanted. The job has reserved the memory for all of
-  // them, so they may be kept until the result is let go of.
-  virtual void OnShellPoints(std::string) {}
+  // The points that went with a shell, where they are wanted. Yields the bytes that the listener
+  // keeps of them: the job has reserved memory for that, until the result is let go of.
+  virtual uint64_t OnShellPoints(int32_t, const Volume&) { return 0; }
   // Exactly once, whatever happens.
   virtual void OnEnd(absl::StatusOr<JobResult> result) = 0;
 };

@@ -6,9 +6,8 @@
 #include "core/exec/status_macros.h"
 #include "core/io/volume_encoder.h"
 #include "core/prepare/fill_cavities.h"
-#include "proto/wire/error_details.h"
-#include "proto/wire/shell_points.h"
 #include "server/admission/demand.h"
+#include "server/admission/refusal.h"
 
 namespace bccskel::server {
 namespace {
@@ -61,16 +60,13 @@ int SkeletonizeWork::MostThreads(int threads) const {
   return ThreadsFor(bricks_, request_.threads_wanted, threads);
 }
 
-// What goes beyond the reserved memory is counted and not told.
+// Once they go beyond the reserved memory, no more are told.
 OnShellPoints SkeletonizeWork::ShellPointsTeller() {
   if (request_.shell_points == ShellPointsWanted::kNone) return nullptr;
   const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
   return [this, limit](int32_t shell, const Volume& points) {
-    for (const v1::ShellPoints& message : wire::ShellPointsMessages(shell, points)) {
-      std::string bytes = message.SerializeAsString();
-      shell_points_bytes_ += bytes.size();
-      if (shell_points_bytes_ <= limit) listener_->OnShellPoints(std::move(bytes));
-    }
+    if (shell_points_bytes_ > limit) return;
+    shell_points_bytes_ += listener_->OnShellPoints(shell, points);
   };
 }
 
@@ -99,10 +95,9 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
 absl::Status SkeletonizeWork::CheckShellPoints() const {
   const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
   if (shell_points_bytes_ <= limit) return absl::OkStatus();
-  return wire::WithReason(absl::ResourceExhaustedError(absl::StrCat(
-                              "the points of the shells take ", shell_points_bytes_,
-                              " bytes, the limit for a volume of this size is ", limit)),
-                          "SHELL_POINTS_TOO_LARGE");
+  return Refuse(Refusal::kShellPointsTooLarge,
+                absl::StrCat("the points of the shells take more than ", limit,
+                             " bytes, the limit for a volume of ", bricks_, " bricks"));
 }
 
 void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {

@@ -29,6 +29,9 @@ class MeteredJob final : public JobListener {
   void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override {
     listener_->OnShell(progress, elapsed);
   }
+  uint64_t OnShellPoints(int32_t shell, const Volume& points) override {
+    return listener_->OnShellPoints(shell, points);
+  }
   void OnEnd(absl::StatusOr<JobResult> result) override {
     EndedJob ended = Ended(tenant_, result.status());
     if (result.ok()) {

@@ -3,6 +3,7 @@
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "proto/wire/result.h"
+#include "proto/wire/shell_points.h"
 #include "server/service/job_request.h"
 #include "server/service/response_outbox.h"
 #include "server/service/volume_stream.h"
@@ -28,8 +29,14 @@ class SkeletonizeStream : public VolumeStream<SkeletonizeCall> {
   void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override {
     Report(wire::ToMessage(progress, elapsed), elapsed);
   }
-  void OnShellPoints(std::string points) override {
-    Send([&](ResponseOutbox& outbox) { outbox.Peel(std::move(points)); });
+  uint64_t OnShellPoints(int32_t shell, const Volume& points) override {
+    uint64_t bytes = 0;
+    for (const v1::ShellPoints& message : wire::ShellPointsMessages(shell, points)) {
+      std::string serialized = message.SerializeAsString();
+      bytes += serialized.size();
+      Send([&](ResponseOutbox& outbox) { outbox.Peel(std::move(serialized)); });
+    }
+    return bytes;
   }
 };
 

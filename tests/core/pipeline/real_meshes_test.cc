@@ -138,6 +138,7 @@ TEST_P(RealMeshes, At40000PointsTheEngineAgreesWithTheSlowReference) {
   for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
     const SkeletonizeOptions options = {
         .thinning = {.method = method},
+        .distance = DistanceKind::kChamfer,  // as the reference
         .pruning = {.rule = PruningRule::kNone, .tips = TipPlacement::kAsThinned}};
     EXPECT_EQ(SkeletonOf(object, 2, options).thin.SortedPoints(),
               test::ReferenceThin(object, options.thinning));

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
             {.thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel}}},
         OptionsCase{"ShellWidth", {.thinning = {.shell_width = 2.5}}},
         OptionsCase{"Partial", {.thinning = {.last_shell = 3}}},
-        OptionsCase{"Distance", {.distance = DistanceKind::kEuclidean}},
+        OptionsCase{"Distance", {.distance = DistanceKind::kChamfer}},
         OptionsCase{"Pruning", {.pruning = {.rule = PruningRule::kNone}}},
         OptionsCase{"Tips", {.pruning = {.tips = TipPlacement::kAsThinned}}},
         OptionsCase{"Keep", {.thinning = {.keep = {Blob().front()}}}}),
