@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "absl/container/flat_hash_set.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/distance/distance_field.h"
@@ -53,7 +52,7 @@ absl::Status CheckPruningOptions(const PruningOptions& options);
 
 // For each point of a branch, the threshold of the slope rule above which it goes; infinity where
 // it never does. Points at junctions and tips that have grown have none.
-using PruningLevels = absl::flat_hash_map<LatticePoint, double, LatticePointHash>;
+using PruningLevels = PointMap<double>;
 
 struct PrunedSkeleton {
   Volume thin;

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
-#include "absl/container/flat_hash_map.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/lattice/directions.h"
 #include "core/volume/volume.h"
@@ -22,6 +23,13 @@ struct LatticePointHash {
     return static_cast<size_t>((hash ^ hash >> 32) * 0xd6e8feb86659fd93u);
   }
 };
+
+// Tables of the standard library, since they stay whole when an allocation throws. Abseil's do not:
+// a resize without memory leaves the new capacity with the old block, and the destructor then frees
+// what it never got, which ends the process.
+template <typename Value>
+using PointMap = std::unordered_map<LatticePoint, Value, LatticePointHash>;
+using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
 // The points of a thin volume while branches go and tips move: each with its radius and its
 // neighbors in the set.
@@ -69,7 +77,7 @@ class ThinSet {
     NeighborMask neighbors = 0;
   };
   AxisScale scale_;
-  absl::flat_hash_map<LatticePoint, Entry, LatticePointHash> points_;
+  PointMap<Entry> points_;
 };
 
 // Calls visit(LatticePoint) for the neighbors in `mask`, in the order of kDirections14.

@@ -1,14 +1,11 @@
 #ifndef BCCSKEL_CORE_PRUNING_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
-#include "absl/container/flat_hash_set.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
-
-using PointSet = absl::flat_hash_set<LatticePoint, LatticePointHash>;
 
 // Cuts every branch back, or lets it grow, to where the ridge of the distances ends. Along a ridge
 // the distance hardly changes, into a round cap it falls by 1 per unit and into the corner of a box

@@ -5,7 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "absl/container/flat_hash_set.h"
 #include "core/pruning/thin_set.h"
 #include "core/topology/neighborhood.h"
 #include "core/volume/volume.h"
@@ -15,7 +14,7 @@ namespace bccskel::test {
 // Noise that keeps the topology: about `fraction` of the points on either side of the boundary
 // change sides, one by one, and only where they are simple at their turn.
 inline Volume WithSimpleNoise(const Volume& object, double fraction, uint64_t seed) {
-  absl::flat_hash_set<LatticePoint, LatticePointHash> points;
+  PointSet points;
   object.ForEachPoint([&](LatticePoint p) { points.insert(p); });
   const auto neighbors_of = [&](LatticePoint p) {
     NeighborMask mask = 0;
