@@ -91,6 +91,15 @@ class TestCase(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.args)
         return done.stdout
 
+    def summarize(self, *words):
+        """The JSON summary of a command that must succeed, and warns of the notes in it alone."""
+        done = bccskel(*words, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(done.stdout)
+        warnings = [f"bccskel: warning: {summary['input']}: {note}\n" for note in summary["notes"]]
+        self.assertEqual(done.stderr, "".join(warnings), done.args)
+        return summary
+
     def fail_with(self, code, message, *words, **options):
         """Checks that a command ends with an exit code and a message."""
         done = bccskel(*words, **options)

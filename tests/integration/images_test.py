@@ -37,8 +37,7 @@ def ring(size=(9, 8, 7)):
 class ImagesTest(harness.TestCase):
     def skeletonize(self, source, *words):
         """The summary of a skeleton made here."""
-        return json.loads(self.succeed("skeletonize", source, "--local", "--json", "-o",
-                                       self.path("s.vtp"), *words))
+        return self.summarize("skeletonize", source, "--local", "-o", self.path("s.vtp"), *words)
 
     def write(self, name, content):
         (self.folder / name).write_bytes(content)
@@ -61,6 +60,8 @@ class ImagesTest(harness.TestCase):
                     found = (betti["components"], betti["loops"], betti["cavities"])
                     self.assertEqual(found, topology, stage)
                 self.assertEqual(summary["certificate"]["simple_points_left"], 0)
+                self.assertEqual(len(summary["notes"]), min(topology[2], 1), summary["notes"])
+                self.assertTrue(all("--fill-cavities" in note for note in summary["notes"]))
 
     def test_the_skeleton_lies_in_the_world_of_the_image(self):
         summary = self.skeletonize(self.write_ring())
