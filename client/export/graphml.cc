@@ -54,15 +54,16 @@ void AddLabel(Text& text, const std::vector<uint64_t>& labels, size_t n) {
   if (!labels.empty()) AddData(text, "label", labels[n]);
 }
 
-// The keys that the context needs, and the graph's own data.
+// The keys that the context needs, and the graph's own data. The graph's keys have identifiers of
+// their own, as an option may be called as the data of a node: `cavities`.
 void AddContext(Text& text, const GraphContext& context) {
   if (context.order.has_value()) text.Add(kOrderKeys);
   for (const auto& [name, value] : context.facts) {
-    text.Add("<key id=\"", name, "\" for=\"graph\" attr.name=\"", name,
+    text.Add("<key id=\"graph_", name, "\" for=\"graph\" attr.name=\"", name,
              "\" attr.type=\"string\"/>\n");
   }
   text.Add("<graph id=\"skeleton\" edgedefault=\"undirected\">\n");
-  for (const auto& [name, value] : context.facts) AddData(text, name, value);
+  for (const auto& [name, value] : context.facts) AddData(text, "graph_" + name, value);
   if (!context.facts.empty()) text.Add('\n');
 }
 

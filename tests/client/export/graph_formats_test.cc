@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "client/export/graphml.h"
@@ -126,9 +128,22 @@ TEST(JsonTest, SaysHowTheResultWasMade) {
 
 TEST(GraphMlTest, SaysHowTheResultWasMade) {
   const std::string graphml = GraphMlText(Lollipop(), {.facts = MethodFactsOf(Prepared())});
-  EXPECT_THAT(graphml, HasSubstr("<key id=\"method\" for=\"graph\""));
-  EXPECT_THAT(graphml, HasSubstr("<data key=\"method\">by hand</data>"));
-  EXPECT_THAT(graphml, HasSubstr("<data key=\"prepared\">2 cavities filled</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<key id=\"graph_method\" for=\"graph\" attr.name=\"method\""));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_method\">by hand</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_prepared\">2 cavities filled</data>"));
+}
+
+TEST(GraphMlTest, GivesEachKeyAnIdentifierOfItsOwn) {
+  const std::string graphml = GraphMlText(Lollipop(), {.facts = MethodFactsOf(Prepared())});
+  const std::string start = "<key id=\"";
+  std::set<std::string> seen;
+  for (size_t at = graphml.find(start); at != std::string::npos; at = graphml.find(start, at)) {
+    at += start.size();
+    const std::string id = graphml.substr(at, graphml.find('"', at) - at);
+    EXPECT_TRUE(seen.insert(id).second) << id;
+  }
+  EXPECT_TRUE(seen.contains("cavities"));
+  EXPECT_TRUE(seen.contains("graph_cavities"));
 }
 
 TEST(VtpTest, SaysHowTheResultWasMade) {
