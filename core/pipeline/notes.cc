@@ -20,8 +20,7 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
-      " among the curves; --fill-cavities (PreparingOptions.cavity_filling) fills "
-      "cavities before thinning");
+      " among the curves; --fill-cavities fills cavities before thinning");
 }
 
 void AddPreparing(const SkeletonizeResult& result, Notes& notes) {

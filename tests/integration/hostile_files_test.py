@@ -40,6 +40,8 @@ REFUSED = [
     ("real_elephant-with-holes.off", 3, "not closed (1353 boundary edges"),
     ("real_suzanne_open.obj", 3, "not closed (42 boundary edges"),
 ]
+CAVITY = ("1 cavity leaves a closed surface among the curves; "
+          "--fill-cavities fills cavities before thinning\n")
 ACCEPTED = [
     ("huge_1e30.off", (1, 0, 0), None),
     ("tiny_1e-30.off", (1, 0, 0), None),
@@ -49,9 +51,9 @@ ACCEPTED = [
     ("duplicate_solid.off", (1, 0, 0), "touch or cross"),
     ("inverted.off", (1, 0, 0), None),
     ("mixed_orientation.off", (1, 0, 0), "filled by parity"),
-    ("hollow_sphere.off", (1, 0, 1), None),
+    ("hollow_sphere.off", (1, 0, 1), CAVITY),
     ("hollow_same_orientation.off", (1, 0, 0), "same orientation: filled"),
-    ("matryoshka.off", (2, 0, 1), None),
+    ("matryoshka.off", (2, 0, 1), CAVITY),
     ("two_cubes_one_vertex.off", (1, 0, 0), "touch or cross"),
     ("two_cubes_one_edge.off", (1, 0, 0), "touch or cross"),
     ("valid_relative_crlf_quads.obj", (1, 0, 0), None),
