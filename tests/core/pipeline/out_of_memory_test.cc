@@ -21,11 +21,15 @@ std::atomic<long> allocations_left{kNever};
 std::atomic<Victim> victim{Victim::kOtherThreads};
 thread_local bool is_main_thread = false;
 
-void* AllocateOrThrow(size_t bytes) {
+void* AllocateOrNull(size_t bytes) noexcept {
   const bool counted =
       bytes > kWordsOfAMessage && is_main_thread == (victim == Victim::kMainThread);
-  if (counted && allocations_left != kNever && --allocations_left == 0) throw std::bad_alloc();
-  void* const memory = std::malloc(bytes);
+  if (counted && allocations_left != kNever && --allocations_left == 0) return nullptr;
+  return std::malloc(bytes);
+}
+
+void* AllocateOrThrow(size_t bytes) {
+  void* const memory = AllocateOrNull(bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -34,6 +38,8 @@ void* AllocateOrThrow(size_t bytes) {
 
 void* operator new(size_t bytes) { return AllocateOrThrow(bytes); }
 void* operator new[](size_t bytes) { return AllocateOrThrow(bytes); }
+// The buffers of stable sorts, which do without.
+void* operator new(size_t bytes, const std::nothrow_t&) noexcept { return AllocateOrNull(bytes); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
@@ -42,7 +48,7 @@ void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
 namespace bccskel {
 namespace {
 
-enum class End { kDone, kOutOfMemory };
+enum class End { kNotReached, kDidWithout, kOutOfMemory };
 
 End SkeletonizeWith(const Volume& object, const SkeletonizeOptions& options, long allocations) {
   exec::WorkerTeam team(3);
@@ -50,24 +56,27 @@ End SkeletonizeWith(const Volume& object, const SkeletonizeOptions& options, lon
   context.team = &team;
   context.min_bricks_per_worker = 1;
   allocations_left = allocations;
-  End end = End::kDone;
+  End end = End::kDidWithout;
   try {
     EXPECT_TRUE(Skeletonize(object, options, context).ok());
   } catch (const std::bad_alloc&) {
     end = End::kOutOfMemory;
   }
+  if (allocations_left > 0) end = End::kNotReached;
   allocations_left = kNever;
   return end;
 }
 
-// Every few allocations, up to the first that is not reached any more.
+// One allocation after the other, up to the first that is not reached any more.
 int FailuresOf(Victim which, const SkeletonizeOptions& options) {
   is_main_thread = true;
   victim = which;
   const Volume torus = *GenerateShape(Shape::kTorus, {.points = 5'000});
   int failures = 0;
-  for (long n = 1; SkeletonizeWith(torus, options, n) == End::kOutOfMemory; ++n) {
-    ++failures;
+  End end = End::kDidWithout;
+  for (long n = 1; end != End::kNotReached; ++n) {
+    end = SkeletonizeWith(torus, options, n);
+    if (end == End::kOutOfMemory) ++failures;
   }
   return failures;
 }
