@@ -13,11 +13,11 @@
 #include "client/grpc_status.h"
 #include "client/labels_call.h"
 #include "client/upload_call.h"
+#include "client/volume_declaration.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
-#include "proto/wire/placement.h"
 #include "proto/wire/result.h"
 #include "proto/wire/shell_points.h"
 #include "proto/wire/skeleton_chunks.h"
@@ -27,28 +27,10 @@
 namespace bccskel::client {
 namespace {
 
-v1::VolumeEncoding ToMessage(VolumeEncoding encoding) {
-  switch (encoding) {
-    case VolumeEncoding::kOpenExr:
-      return v1::VOLUME_ENCODING_OPENEXR;
-    case VolumeEncoding::kRawPlanes:
-      return v1::VOLUME_ENCODING_RAW_PLANES;
-    case VolumeEncoding::kBricks:
-      return v1::VOLUME_ENCODING_BRICKS;
-    case VolumeEncoding::kCubicMask:
-      return v1::VOLUME_ENCODING_CUBIC_MASK;
-  }
-  return v1::VOLUME_ENCODING_UNSPECIFIED;  // not reached: the enumerators are exhausted above
-}
-
 v1::SkeletonizeRequest ConfigRequest(const EncodedVolume& volume, const CallOptions& options) {
   v1::SkeletonizeRequest request;
   v1::SkeletonizeConfig& config = *request.mutable_config();
-  v1::VolumeDeclaration& declaration = *config.mutable_volume();
-  declaration.set_encoding(ToMessage(volume.encoding));
-  *declaration.mutable_extent() = wire::ToMessage(volume.extent);
-  declaration.set_size_bytes(volume.bytes.size());
-  declaration.set_max_bricks(volume.bricks);
+  *config.mutable_volume() = DeclarationOf(volume);
   *config.mutable_options() = wire::ToMessage(options.skeletonize);
   config.set_thin_volume_return(options.thin_volume == ThinVolume::kReturn
                                     ? v1::THIN_VOLUME_RETURN_BRICKS

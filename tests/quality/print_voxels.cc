@@ -6,34 +6,13 @@
 #include "core/exec/status_macros.h"
 #include "tests/quality/known_figure.h"
 #include "tests/quality/studies.h"
+#include "tests/support/even_points.h"
 
 namespace bccskel::quality {
 namespace {
 
 using shapes::RoundCone;
 using shapes::Vector;
-
-bool IsEven(LatticePoint p) { return ((p.x | p.y | p.z) & 1) == 0; }
-
-struct Voxels {
-  std::vector<uint8_t> bits;
-  uint64_t count = 0;
-};
-
-// The lattice points whose coordinates are all even form a cubic grid and are half of all.
-Voxels EvenPoints(const Volume& object) {
-  const LatticeExtent& extent = object.extent();
-  const auto nx = static_cast<size_t>(extent.nx), ny = static_cast<size_t>(extent.ny);
-  Voxels voxels{std::vector<uint8_t>((nx * ny * static_cast<size_t>(extent.nz) + 7) / 8)};
-  object.ForEachPoint([&](LatticePoint p) {
-    if (!IsEven(p)) return;
-    const auto x = static_cast<size_t>(p.x / 2), y = static_cast<size_t>(p.y / 2);
-    const size_t n = (static_cast<size_t>(p.z / 2) * ny + y) * nx + x;
-    voxels.bits[n / 8] = static_cast<uint8_t>(voxels.bits[n / 8] | 1u << n % 8);
-    ++voxels.count;
-  });
-  return voxels;
-}
 
 // In voxels: half as many as lattice units.
 std::string InVoxels(const PlacedFigure& placed, const std::vector<RoundCone>& pieces) {
@@ -48,7 +27,7 @@ std::string InVoxels(const PlacedFigure& placed, const std::vector<RoundCone>& p
 }
 
 absl::Status PrintOne(const PlacedFigure& placed, int turn) {
-  const Voxels voxels = EvenPoints(placed.object);
+  const test::Voxels voxels = test::EvenPoints(placed.object);
   const LatticeExtent& extent = placed.object.extent();
   absl::PrintF(
       "{\"figure\": \"%s\", \"turn\": %d, \"shape\": [%d, %d, %d], \"voxels\": %d, \"forks\": %d, "

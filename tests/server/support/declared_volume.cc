@@ -6,32 +6,16 @@
 #include "core/io/volume_encoder.h"
 #include "core/shapes/shapes.h"
 #include "proto/wire/placement.h"
+#include "proto/wire/volume_encoding.h"
 
 namespace bccskel::test {
-namespace {
-
-v1::VolumeEncoding ToMessage(VolumeEncoding encoding) {
-  switch (encoding) {
-    case VolumeEncoding::kOpenExr:
-      return v1::VOLUME_ENCODING_OPENEXR;
-    case VolumeEncoding::kRawPlanes:
-      return v1::VOLUME_ENCODING_RAW_PLANES;
-    case VolumeEncoding::kBricks:
-      return v1::VOLUME_ENCODING_BRICKS;
-    case VolumeEncoding::kCubicMask:
-      return v1::VOLUME_ENCODING_CUBIC_MASK;
-  }
-  return v1::VOLUME_ENCODING_UNSPECIFIED;
-}
-
-}  // namespace
 
 DeclaredVolume Declare(const Volume& volume, VolumeEncoding encoding,
                        VolumeCompression compression) {
   DeclaredVolume declared;
   declared.bytes = *EncodeVolume(volume, {.encoding = encoding, .compression = compression});
   v1::VolumeDeclaration& declaration = declared.declaration;
-  declaration.set_encoding(ToMessage(encoding));
+  declaration.set_encoding(wire::ToMessage(encoding));
   if (encoding == VolumeEncoding::kRawPlanes) {
     declaration.set_compression(compression == VolumeCompression::kZstd
                                     ? v1::VOLUME_COMPRESSION_ZSTD
