@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <string>
 #include <vector>
 
+#include "core/exec/instruction_sets.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -39,6 +41,18 @@ TEST_P(ExactRadiusLaw, IsFoundWithTheSameBitsWhateverTheField) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, ExactRadiusLaw, testing::Range<uint64_t>(0, 3));
+
+TEST(ExactRadii, AreTheSameForEveryInstructionSetAndWithoutTheFieldsValues) {
+  const Volume object = Placed(test::RandomBlob(5, {40, 30, 30}, 3, 20), {0.3, 0.7, 1.5});
+  const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
+  const std::vector<float> expected = *ExactRadii(object, object, *euclidean, {});
+  const DistanceField none(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(), 0);
+  for (const std::string& name : exec::SupportedInstructionSets()) {
+    ASSERT_TRUE(exec::ChooseInstructionSet(name));
+    EXPECT_EQ(*ExactRadii(object, object, none, {}), expected) << name;
+  }
+  exec::ChooseInstructionSet("");
+}
 
 TEST(ExactRadius, OfABackgroundPointIsZero) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
