@@ -1,9 +1,12 @@
 #ifndef BCCSKEL_CORE_EXEC_UNINITIALIZED_H_
 #define BCCSKEL_CORE_EXEC_UNINITIALIZED_H_
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "core/exec/huge_pages.h"
 
 namespace bccskel::exec {
 
@@ -16,6 +19,11 @@ class UninitializedAllocator : public std::allocator<T> {
   struct rebind {
     using other = UninitializedAllocator<U>;
   };
+  T* allocate(size_t count) {
+    T* block = std::allocator<T>::allocate(count);
+    PreferHugePages(block, count * sizeof(T));
+    return block;
+  }
   void construct(T*) noexcept {}
   template <typename... Args>
   void construct(T* at, Args&&... args) {

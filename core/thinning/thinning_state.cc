@@ -1,5 +1,7 @@
 #include "core/thinning/thinning_state.h"
 
+#include "core/exec/huge_pages.h"
+
 namespace bccskel {
 namespace {
 
@@ -45,10 +47,11 @@ const HopTable& Hops() {
 }  // namespace
 
 ThinningState::ThinningState(const Volume& volume, std::span<const LatticePoint> keep)
-    : keys(volume.keys()),
-      object(volume.padded_bricks().begin(), volume.padded_bricks().end()),
-      candidates(volume.brick_count()),
-      neighbors(volume.neighbors()) {
+    : keys(volume.keys()), neighbors(volume.neighbors()) {
+  exec::ReserveLarge(volume.brick_count() + 1, object);
+  object.assign(volume.padded_bricks().begin(), volume.padded_bricks().end());
+  exec::ReserveLarge(volume.brick_count(), candidates);
+  candidates.resize(volume.brick_count());
   for (LatticePoint p : keep) {
     if (!volume.Contains(p)) continue;
     if (kept.empty()) kept.resize(volume.brick_count());

@@ -1,5 +1,6 @@
 #include "core/volume/brick_neighbors.h"
 
+#include "core/exec/huge_pages.h"
 #include "core/lattice/directions.h"
 
 namespace bccskel {
@@ -51,7 +52,9 @@ void LinkPairs(std::span<const BrickKey> keys, Seekers seekers, int position, in
 std::vector<BrickNeighborhood> FindBrickNeighbors(std::span<const BrickKey> keys) {
   BrickNeighborhood nothing;
   nothing.fill(static_cast<BrickIndex>(keys.size()));
-  std::vector<BrickNeighborhood> neighbors(keys.size(), nothing);
+  std::vector<BrickNeighborhood> neighbors;
+  exec::ReserveLarge(keys.size(), neighbors);
+  neighbors.assign(keys.size(), nothing);
   // The odd brick at a position of an even one has the even one at the same position.
   for (int position = 0; position < 8; ++position) {
     LinkPairs(keys, Seekers::kEven, position, position, neighbors);
