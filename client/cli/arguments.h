@@ -187,6 +187,7 @@ struct BenchServerArguments {
 struct BenchCoreArguments {
   CommonArguments common;
   std::string shape = "ball";  // one of kBenchObjects
+  std::string object;          // a file, instead
   uint64_t points = 850'000;
   ThinningMethod method = ThinningMethod::kDirectional;
   int repeat = 11;              // warm runs

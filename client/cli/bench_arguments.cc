@@ -26,10 +26,14 @@ std::function<std::string(const std::string&)> OneOf(const Names& names, const c
 }
 
 void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
-  core.add_option("--shape", arguments.shape, "What to thin (default ball)")
-      ->check(OneOf(kBenchObjects, "shape"))
-      ->option_text(absl::StrJoin(kBenchObjects, "|"));
-  core.add_option("--points", arguments.points, "Points the object shall have (default 850000)")
+  CLI::Option* shape = core.add_option("--shape", arguments.shape, "What to thin (default ball)")
+                           ->check(OneOf(kBenchObjects, "shape"))
+                           ->option_text(absl::StrJoin(kBenchObjects, "|"));
+  core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
+      ->excludes(shape)
+      ->option_text("FILE");
+  core.add_option("--points", arguments.points,
+                  "Points that a shape or a mesh shall have (default 850000)")
       ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
       ->option_text("N");
 }

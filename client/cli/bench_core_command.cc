@@ -7,7 +7,10 @@
 #include "client/cli/bench_objects.h"
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/json_text.h"
+#include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
+#include "client/cli/result_object.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/instruction_sets.h"
@@ -18,6 +21,15 @@ namespace {
 
 using exporting::GroupedDigits;
 using exporting::Text;
+
+absl::StatusOr<Volume> ObjectOf(const BenchCoreArguments& arguments, const exec::Context& context) {
+  if (arguments.object.empty()) return MakeBenchObject(arguments.shape, arguments.points);
+  return LoadObject(arguments.object, {.points = arguments.points}, {}, context);
+}
+
+std::string NameOf(const BenchCoreArguments& arguments) {
+  return arguments.object.empty() ? arguments.shape : std::string(FileName(arguments.object));
+}
 
 std::string WordOf(ThinningMethod wanted) {
   for (const auto& [word, method] : kMethodWords) {
@@ -69,9 +81,9 @@ std::string Json(const BenchCoreArguments& arguments, int threads,
   const double ns = NanosecondsPerPoint(measured);
   Text text;
   text.Add("{\"method\":\"", WordOf(arguments.method), "\",\"isa\":\"",
-           exec::ChosenInstructionSet(), "\",\"threads\":", threads, ",\"shape\":\"",
-           arguments.shape, "\",\"points\":", measured.points, ",\"bricks\":", measured.bricks,
-           ",\"repeat\":", arguments.repeat);
+           exec::ChosenInstructionSet(), "\",\"threads\":", threads,
+           ",\"shape\":", JsonString(NameOf(arguments)), ",\"points\":", measured.points,
+           ",\"bricks\":", measured.bricks, ",\"repeat\":", arguments.repeat);
   text.Add(",\"ns_per_point\":", SpreadJson(WarmSpread(measured, kCore.of, ns)),
            ",\"whole_ns_per_point\":", SpreadJson(WarmSpread(measured, kWhole.of, ns)));
   text.Add(",\"cold\":{\"ns_per_point\":", absl::StrFormat("%.6g", ns * kCore.of(measured.cold)),
@@ -117,7 +129,7 @@ std::string PeakText(const CoreMeasurement& measured) {
 std::string Summary(const BenchCoreArguments& arguments, int threads,
                     const CoreMeasurement& measured) {
   Text text;
-  text.Add("object:      ", arguments.shape, ", ", GroupedDigits(measured.points), " points in ",
+  text.Add("object:      ", NameOf(arguments), ", ", GroupedDigits(measured.points), " points in ",
            GroupedDigits(measured.bricks), " bricks\n");
   text.Add("engine:      ", WordOf(arguments.method), ", ", exec::ChosenInstructionSet(), ", ",
            threads, threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
@@ -130,9 +142,9 @@ std::string Summary(const BenchCoreArguments& arguments, int threads,
 
 ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   if (!exec::ChooseInstructionSet(arguments.instruction_set)) return ExitCode::kUsage;
-  const absl::StatusOr<Volume> object = MakeBenchObject(arguments.shape, arguments.points);
-  if (!object.ok()) return FailWith(ExitCode::kUsage, object.status());
   LocalTeam team(arguments.common.threads, stop);
+  const absl::StatusOr<Volume> object = ObjectOf(arguments, team.context());
+  if (!object.ok()) return Fail(object.status());
   SkeletonizeOptions options = {.thinning = {.method = arguments.method}};
   // The paper's method with the paper's distances.
   if (arguments.method != ThinningMethod::kSymmetric) options.distance = DistanceKind::kChamfer;

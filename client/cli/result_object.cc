@@ -10,27 +10,25 @@
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
-namespace {
 
-absl::StatusOr<Volume> LoadObject(const ResultArguments& arguments, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.object, arguments.image));
-  if (kind == InputKind::kVolume) return ReadVolumeFile(arguments.object, {}, context);
+absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions& grid,
+                                  const ImageArguments& image, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(path, image));
+  if (kind == InputKind::kVolume) return ReadVolumeFile(path, {}, context);
   if (kind == InputKind::kImage) {
-    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImageFile(arguments.object, arguments.image,
-                                                                  KeptVoxels::kNone, context));
+    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
+                             ConvertImageFile(path, image, KeptVoxels::kNone, context));
     return std::move(object.volume);
   }
-  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
-                           VoxelizeFile(arguments.object, arguments.grid, context));
+  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result, VoxelizeFile(path, grid, context));
   return std::move(result.volume);
 }
-
-}  // namespace
 
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, view::ReadResultDocument(arguments.result));
-  BCCSKEL_ASSIGN_OR_RETURN(Volume object, LoadObject(arguments, context));
+  BCCSKEL_ASSIGN_OR_RETURN(Volume object,
+                           LoadObject(arguments.object, arguments.grid, arguments.image, context));
   const uint64_t points = object.PointCount();
   if (points != result.object_points) {
     Warn(arguments.object + ": has " + exporting::GroupedDigits(points) + " points, but " +

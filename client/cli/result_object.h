@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CLIENT_CLI_RESULT_OBJECT_H_
 #define BCCSKEL_CLIENT_CLI_RESULT_OBJECT_H_
 
+#include <string>
+
 #include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
 #include "client/view/result_document.h"
@@ -9,15 +11,20 @@
 
 namespace bccskel::cli {
 
+// A volume as it is, a mesh filled, an image converted.
+// Errors: those of ReadVolumeFile(), VoxelizeFile() and ConvertImageFile(), with the path.
+absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions& grid,
+                                  const ImageArguments& image, const exec::Context& context);
+
 // A result and the object that it was made from.
 struct ResultAndObject {
   view::ResultDocument result;
   Volume object;
 };
 
-// Reads both; a mesh is filled. Warns when the object has not the number of points that the result
+// Reads both. Warns when the object has not the number of points that the result
 // speaks of.
-// Errors: those of ReadResultDocument(), VoxelizeFile() and ReadVolumeFile(), with the path.
+// Errors: those of ReadResultDocument() and LoadObject(), with the path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context);
 

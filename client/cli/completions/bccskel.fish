@@ -92,6 +92,7 @@ __bccskel_option generate -x -l noise -d 'Fraction of boundary points that chang
 __bccskel_option bench -f -a core -d 'From volume to skeleton in memory'
 __bccskel_option bench -f -a server -d 'Latency and throughput of a server'
 __bccskel_option bench -x -l shape -a 'ball torus horse blob tubes tree thin-tubes' -d 'What to thin'
+__bccskel_option bench -r -l object -d 'File to thin instead'
 __bccskel_option bench -x -l isa -d 'Instruction set'
 __bccskel_option bench -x -l method -a 'directional directional-alternating symmetric' -d 'How to thin'
 __bccskel_option bench -x -l repeat -d 'Warm runs'
