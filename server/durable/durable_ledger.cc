@@ -7,7 +7,7 @@
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
-#include "server/durable/names.h"
+#include "server/jobs/random_name.h"
 #include "server/store/sqlite_job_store.h"
 
 namespace bccskel::server {

@@ -6,6 +6,7 @@
 #include "server/durable/durable_ledger.h"
 #include "server/durable/fault.h"
 #include "server/durable/names.h"
+#include "server/jobs/random_name.h"
 
 namespace bccskel::server {
 

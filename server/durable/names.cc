@@ -1,11 +1,9 @@
 #include "server/durable/names.h"
 
 #include <algorithm>
-#include <random>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "core/digest/sha256.h"
 #include "server/durable/fault.h"
 
@@ -21,15 +19,6 @@ bool IsNameCharacter(char c) {
 }
 
 }  // namespace
-
-std::string RandomId() {
-  std::random_device device;
-  std::string id;
-  while (id.size() < kIdDigits) absl::StrAppendFormat(&id, "%08x", device());
-  return id;
-}
-
-std::string RandomName(const std::string& kind) { return absl::StrCat(kind, "/", RandomId()); }
 
 std::string VolumeName(const std::string& declaration, const std::string& blob_digest) {
   return absl::StrCat("volumes/", KeyOf({declaration, blob_digest}).substr(0, kIdDigits));

@@ -8,11 +8,6 @@
 
 namespace bccskel::server {
 
-// `kind`/ and 32 hexadecimal digits that nobody can guess, such as jobs/9f86d081....
-std::string RandomName(const std::string& kind);
-// 32 hexadecimal digits.
-std::string RandomId();
-
 // Bytes and declaration make the volume, so the same give the same name.
 std::string VolumeName(const std::string& declaration, const std::string& blob_digest);
 

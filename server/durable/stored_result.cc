@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/fault.h"
-#include "server/durable/names.h"
+#include "server/jobs/random_name.h"
 
 namespace bccskel::server {
 namespace {

@@ -9,6 +9,7 @@
 #include "server/admission/refusal.h"
 #include "server/decoding/child_decoder.h"
 #include "server/jobs/labels_work.h"
+#include "server/jobs/random_name.h"
 #include "server/jobs/skeletonize_work.h"
 
 namespace bccskel::server {
@@ -46,7 +47,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
       Ticket ticket,
       admission_.Admit(request.origin.tenant, BytesToSkeletonize(request.header, request.size_bytes,
                                                                  request.shell_points)));
-  PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
+  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline};
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
   VolumeIntake::MakeDecoder make_decoder = DecoderFor(request);
   return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
@@ -61,7 +62,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
   BCCSKEL_ASSIGN_OR_RETURN(
       Ticket ticket,
       admission_.Admit(request.origin.tenant, BytesToSkeletonizeLabels(request.header, threads)));
-  PoolJob::Facts facts = {NextName(), request.origin, request.deadline};
+  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline};
   return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
                 std::move(ticket), std::move(facts), decoders_, listener);
 }
@@ -72,8 +73,6 @@ void JobPool::SetTenants(const TenantTable& tenants) {
   decoders_.SetTenants(tenants);
   finishers_.SetTenants(tenants);
 }
-
-std::string JobPool::NextName() { return absl::StrFormat("jobs/%d", next_job_++); }
 
 bool JobPool::InChild(const VolumeHeader& header) const {
   return children_ != nullptr && header.encoding == VolumeEncoding::kOpenExr;

@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_SERVER_JOBS_JOB_POOL_H_
 #define BCCSKEL_SERVER_JOBS_JOB_POOL_H_
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -65,13 +64,11 @@ class JobPool : public JobRunner {
  private:
   std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket, PoolJob::Facts facts,
                               TaskThreads& finishers, std::shared_ptr<UploadListener> listener);
-  std::string NextName();
   bool InChild(const VolumeHeader& header) const;
   VolumeIntake::MakeDecoder DecoderFor(const JobRequest& request);
 
   const Limits limits_;
   Admission admission_;
-  std::atomic<uint64_t> next_job_{1};
   ComputeQueue compute_;
   std::unique_ptr<ChildPool> children_;  // null where nothing is decoded in children
   // Destroyed first: what they run may still post to compute_.

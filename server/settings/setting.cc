@@ -1,7 +1,9 @@
 #include "server/settings/setting.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
+#include <ratio>
 #include <utility>
 
 #include "absl/strings/numbers.h"
@@ -74,14 +76,19 @@ Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,
 }
 
 Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string description) {
-  constexpr int kYear = 24 * 366;
+  using Hours = std::chrono::duration<double, std::ratio<3600>>;
   const auto parse = [&target](const std::string& text) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(const int hours, ParseNumber(text, 1, kYear));
-    target = std::chrono::hours(hours);
+    constexpr double kYear = 24 * 366, kLeast = 0.01;
+    double hours = 0;
+    if (!absl::SimpleAtod(text, &hours) || !(hours >= kLeast && hours <= kYear)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(text, ": must be a number from ", kLeast, " to ", kYear));
+    }
+    target = std::chrono::round<std::chrono::seconds>(Hours(hours));
     return absl::OkStatus();
   };
   return Single(std::move(name), "HOURS", std::move(description), parse,
-                [&target] { return absl::StrCat(target.count() / 3600); });
+                [&target] { return absl::StrCat(Hours(target).count()); });
 }
 
 Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::string> choices,

@@ -34,6 +34,9 @@ absl::Status SystemError(const std::string& what, int number) {
     case EDQUOT:
     case EFBIG:
       return absl::ResourceExhaustedError(message);
+    case ENFILE:
+    case EMFILE:
+      return absl::UnavailableError(message);
     case ENOENT:
       return absl::NotFoundError(message);
     default:
@@ -62,6 +65,8 @@ absl::StatusOr<File> File::OpenToRead(const std::string& path) { return Open(pat
 absl::StatusOr<File> File::OpenToWrite(const std::string& path) {
   return Open(path, O_RDWR | O_CREAT);
 }
+
+absl::StatusOr<File> File::OpenToGoOn(const std::string& path) { return Open(path, O_RDWR); }
 
 absl::StatusOr<uint64_t> File::Size() const {
   struct stat facts = {};

@@ -13,7 +13,8 @@
 namespace bccskel::server {
 
 // The system's error `number` while doing `what`.
-// RESOURCE_EXHAUSTED when disk or quota are full; NOT_FOUND; else INTERNAL.
+// RESOURCE_EXHAUSTED when disk or quota are full; UNAVAILABLE when too many files are open;
+// NOT_FOUND; else INTERNAL.
 absl::Status SystemError(const std::string& what, int number);
 
 // An open file. Errors of all: see SystemError().
@@ -28,6 +29,8 @@ class File {
   static absl::StatusOr<File> OpenToRead(const std::string& path);
   // Readable and writable by the owner only; made where it does not exist.
   static absl::StatusOr<File> OpenToWrite(const std::string& path);
+  // The same, of a file that is there.
+  static absl::StatusOr<File> OpenToGoOn(const std::string& path);
 
   const std::string& path() const { return path_; }
   int fd() const { return fd_; }

@@ -26,27 +26,33 @@ std::string EntryOf(std::string_view bytes) {
 absl::StatusOr<std::unique_ptr<UploadFile>> UploadFile::Open(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(File bytes, File::OpenToWrite(BytesPath(path)));
   BCCSKEL_ASSIGN_OR_RETURN(File chunks, File::OpenToWrite(ChunksPath(path)));
-  std::unique_ptr<UploadFile> upload(new UploadFile(std::move(bytes), std::move(chunks)));
-  BCCSKEL_RETURN_IF_ERROR(upload->Recover());
+  std::unique_ptr<UploadFile> upload(new UploadFile(path));
+  BCCSKEL_RETURN_IF_ERROR(upload->Recover({std::move(bytes), std::move(chunks)}));
   return upload;
 }
 
-absl::Status UploadFile::Recover() {
-  bool whole = true;
-  while (whole) {
-    BCCSKEL_ASSIGN_OR_RETURN(whole, RecoverChunk());
-  }
-  BCCSKEL_RETURN_IF_ERROR(bytes_.Truncate(size_));
-  return chunks_.Truncate(chunks_size_);
+absl::StatusOr<UploadFile::Files> UploadFile::OpenFiles() const {
+  BCCSKEL_ASSIGN_OR_RETURN(File bytes, File::OpenToGoOn(BytesPath(path_)));
+  BCCSKEL_ASSIGN_OR_RETURN(File chunks, File::OpenToGoOn(ChunksPath(path_)));
+  return Files{std::move(bytes), std::move(chunks)};
 }
 
-absl::StatusOr<bool> UploadFile::RecoverChunk() {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string entry, chunks_.ReadAt(chunks_size_, kEntryBytes));
+absl::Status UploadFile::Recover(Files files) {
+  bool whole = true;
+  while (whole) {
+    BCCSKEL_ASSIGN_OR_RETURN(whole, RecoverChunk(files));
+  }
+  BCCSKEL_RETURN_IF_ERROR(files.bytes.Truncate(size_));
+  return files.chunks.Truncate(chunks_size_);
+}
+
+absl::StatusOr<bool> UploadFile::RecoverChunk(const Files& files) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string entry, files.chunks.ReadAt(chunks_size_, kEntryBytes));
   if (entry.size() < kEntryBytes) return false;
   const std::string_view checked = std::string_view(entry).substr(0, kCheckedBytes);
   if (NumberAt<uint32_t>(entry, kCheckedBytes) != Crc32c(checked)) return false;
   const size_t length = NumberAt<uint32_t>(entry, 0);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string chunk, bytes_.ReadAt(size_, length));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string chunk, files.bytes.ReadAt(size_, length));
   if (chunk.size() < length || Crc32c(chunk) != NumberAt<uint32_t>(entry, sizeof(uint32_t))) {
     return false;
   }
@@ -57,12 +63,13 @@ absl::StatusOr<bool> UploadFile::RecoverChunk() {
 }
 
 absl::Status UploadFile::Append(std::string_view bytes) {
-  absl::Status status = bytes_.WriteAt(size_, bytes);
-  if (status.ok()) status = chunks_.WriteAt(chunks_size_, EntryOf(bytes));
+  BCCSKEL_ASSIGN_OR_RETURN(Files files, OpenFiles());
+  absl::Status status = files.bytes.WriteAt(size_, bytes);
+  if (status.ok()) status = files.chunks.WriteAt(chunks_size_, EntryOf(bytes));
   if (!status.ok()) {
     // Best done now, on a full disk; Recover() would do it, too.
-    bytes_.Truncate(size_).IgnoreError();
-    chunks_.Truncate(chunks_size_).IgnoreError();
+    files.bytes.Truncate(size_).IgnoreError();
+    files.chunks.Truncate(chunks_size_).IgnoreError();
     return status;
   }
   sha256_.Add(bytes);
@@ -72,7 +79,8 @@ absl::Status UploadFile::Append(std::string_view bytes) {
 }
 
 absl::StatusOr<Sha256Digest> UploadFile::Seal() {
-  BCCSKEL_RETURN_IF_ERROR(bytes_.Sync());
+  BCCSKEL_ASSIGN_OR_RETURN(Files files, OpenFiles());
+  BCCSKEL_RETURN_IF_ERROR(files.bytes.Sync());
   if (!digest_.has_value()) digest_ = sha256_.Finish();
   return *digest_;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -17,7 +18,9 @@ namespace bccskel::server {
 // The bytes of an unfinished upload, PATH.part, and beside them length and CRC-32C of every chunk,
 // PATH.chunks. What was appended survives the process; after a crash of the machine the chunks that
 // reached the disk whole are what is left.
-// Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.
+// The files are open only while they are used: unfinished uploads may be many and lie about for a
+// day. Who removes them meanwhile ends the upload.
+// Errors of all: those of SystemError().
 // Threads: one at a time.
 class UploadFile {
  public:
@@ -35,13 +38,17 @@ class UploadFile {
   static std::string ChunksPath(const std::string& path) { return path + ".chunks"; }
 
  private:
-  UploadFile(File bytes, File chunks) : bytes_(std::move(bytes)), chunks_(std::move(chunks)) {}
-  absl::Status Recover();
+  struct Files {
+    File bytes;
+    File chunks;
+  };
+  explicit UploadFile(std::string path) : path_(std::move(path)) {}
+  absl::StatusOr<Files> OpenFiles() const;
+  absl::Status Recover(Files files);
   // False for a chunk that is not whole.
-  absl::StatusOr<bool> RecoverChunk();
+  absl::StatusOr<bool> RecoverChunk(const Files& files);
 
-  File bytes_;
-  File chunks_;
+  const std::string path_;
   uint64_t size_ = 0;
   uint64_t chunks_size_ = 0;
   Sha256 sha256_;

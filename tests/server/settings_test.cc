@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
 #include <string>
 
+#include "server/settings/setting.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -29,6 +31,20 @@ TEST(ParseSize, RefusesWhatIsNoSizeOrTooLargeOrTooSmall) {
   for (const char* text : {"", "GB", "-1", "1.5GB", "2 furlongs", "1EB", "20000000TB", "1 2",
                            "18446744073709551616", "9"}) {
     EXPECT_FALSE(ParseSize(text, 10).ok()) << text;
+  }
+}
+
+TEST(HoursSetting, TakesPartsOfAnHourAndShowsWhatItWillReadAgain) {
+  std::chrono::seconds kept(0);
+  const Setting setting = HoursSetting("keep", kept, "");
+  for (const auto& [text, seconds] : {std::pair("168", 604800), {"0.02", 72}, {"0.0123", 44}}) {
+    ASSERT_TRUE(setting.set({text}).ok()) << text;
+    EXPECT_EQ(kept.count(), seconds);
+    ASSERT_TRUE(setting.set({setting.show()}).ok()) << setting.show();
+    EXPECT_EQ(kept.count(), seconds) << setting.show();
+  }
+  for (const char* text : {"", "0", "0.001", "-1", "9000", "nan", "inf", "1h"}) {
+    EXPECT_FALSE(setting.set({text}).ok()) << text;
   }
 }
 

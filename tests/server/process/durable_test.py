@@ -1,102 +1,20 @@
 """Uploads, jobs and results that outlive connections, callers and the server's process."""
 
 import concurrent.futures
-import functools
 import hashlib
 import os
-import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
-import time
 import unittest
 
 import grpc
-import numpy as np
 
 import server_process
+from durable_case import (STUBS, Code, DurableTest, durable, example, jobs, large_requests,
+                          large_volume, service, service_grpc, volume, volume_pb2, volumes)
 from server_process import SOURCE, ServerProcess
-
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-sys.path.insert(0, str(SOURCE / "client/examples"))
-import durable  # noqa: E402  (the stubs made it possible)
-import skeletonize as example  # noqa: E402
-
-jobs, volumes, volume_pb2 = durable.jobs, durable.volumes, durable.volume_pb2
-service, service_grpc = example.service, example.service_grpc
-Code = grpc.StatusCode
-
-
-def volume(radius=24.0, tube=8.0):
-    """A declaration and its bytes."""
-    return example.declare(example.torus(radius, tube), 1.0, (0, 0, 0), np.eye(3))
-
-
-LARGE = (200.0, 60.0)
-durable.CHUNK_BYTES = 1 << 17
-
-
-@functools.cache
-def large_volume():
-    """More than a small job: its one-call job is durable."""
-    return volume(*LARGE)
-
-
-def large_requests():
-    declaration, data = large_volume()
-    yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
-    yield from (service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
-        offset=at, data=data[at:at + durable.CHUNK_BYTES]))
-        for at in range(0, len(data), durable.CHUNK_BYTES))
-    yield service.SkeletonizeRequest(finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
-
-
-class DurableTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.data = pathlib.Path(folder.name) / "data"
-        self.servers = []
-
-    def start(self, *flags):
-        """A server on the data directory; the one before, if any, has to be gone."""
-        server = ServerProcess("--data-dir", str(self.data), "--threads", "1", *flags)
-        self.assertTrue(server.address, server.log_text())
-        self.addCleanup(server.__exit__)
-        self.channel = grpc.insecure_channel(server.address)
-        self.addCleanup(self.channel.close)
-        grpc.channel_ready_future(self.channel).result(server_process.TIMEOUT_S)
-        self.volumes = durable.volumes_grpc.VolumeServiceStub(self.channel)
-        self.jobs = durable.jobs_grpc.JobServiceStub(self.channel)
-        return server
-
-    def kill(self, server):
-        server.stop(signal.SIGKILL)
-
-    def fails(self, code, reason, call):
-        with self.assertRaises(grpc.RpcError) as raised:
-            call()
-        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
-                         (code, reason), raised.exception.details())
-        return raised.exception
-
-    def create(self, name, request_id="", **more):
-        return self.jobs.CreateJob(jobs.CreateJobRequest(
-            volume=name, request_id=request_id, **more)).job
-
-    def get(self, job):
-        return self.jobs.GetJob(jobs.GetJobRequest(job=job)).job
-
-    def finish(self, job):
-        """The states that a watch tells, the last one last."""
-        return [event.state_change.state for event in durable.watch(self.channel, job)
-                if event.HasField("state_change")]
-
-    def files(self):
-        return {path for path in self.data.rglob("*") if path.is_file()}
 
 
 class JobTest(DurableTest):
@@ -316,7 +234,11 @@ class UploadTest(DurableTest):
         sent, committed = 3 * durable.CHUNK_BYTES, -1
         while committed < sent - durable.CHUNK_BYTES:  # the test's time limit ends it
             committed = durable.committed_size(self.volumes, "uploads/killed")
-        self.assertTrue(durable.send_volume(self.channel, declaration, data, "uploads/killed"))
+        rest = list(durable.upload_requests("uploads/killed", declaration, data, committed))
+        self.assertTrue(self.volumes.UploadVolume(iter(rest)).upload.volume)
+        resent = sent + sum(len(request.chunk.data) for request in rest) - len(data)
+        print(f"resent {resent} of {sent} bytes, a chunk has {durable.CHUNK_BYTES}")
+        self.assertLessEqual(resent, durable.CHUNK_BYTES)
 
 
 KILLED_SENDER = """

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,25 @@ TEST_F(BlobStoreTest, DropsAChunkWithoutAnEntry) {
   ASSERT_TRUE((*File::OpenToWrite(BytesPath())).WriteAt(6, "half of a chu").ok());
   ASSERT_TRUE((*File::OpenToWrite(ChunksPath())).WriteAt(12, "half").ok());
   EXPECT_EQ((*blobs_.OpenUpload("clinic", "uploads/1"))->size(), 6u);
+}
+
+TEST_F(BlobStoreTest, KeepsNoFileOfAnUploadOpen) {
+  namespace fs = std::filesystem;
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+  ASSERT_TRUE(upload->Append("first ").ok());
+  EXPECT_EQ(open_files(), before);
+}
+
+TEST_F(BlobStoreTest, DoesNotBringBackAnUploadThatWasRemoved) {
+  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+  ASSERT_TRUE(blobs_.RemoveUpload("clinic", "uploads/1").ok());
+  EXPECT_TRUE(absl::IsNotFound(upload->Append("late")));
+  EXPECT_TRUE(absl::IsNotFound(upload->Seal().status()));
+  EXPECT_TRUE(FilesBelow(folder_.path())->empty());
 }
 
 TEST_F(BlobStoreTest, ReadsBackWhatWasStored) {
