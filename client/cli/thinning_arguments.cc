@@ -40,8 +40,8 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
   command
       .add_option("--pruning-threshold", pruning.threshold,
                   "Margin in lattice units for slope (default 4, for images four voxels), world "
-                  "units for length, radii of "
-                  "the junction for relative-length (default 1)")
+                  "units for length, radii of the junction for relative-length (default 1), passes "
+                  "of thinning for persistence (default 6)")
       ->option_text("X");
   AddChoice<TipPlacement>(command, "--tips", pruning.tips,
                           "Where branches end: where the ridge of the distances does (default), or "

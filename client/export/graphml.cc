@@ -1,5 +1,6 @@
 #include "client/export/graphml.h"
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,7 +35,11 @@ constexpr std::string_view kHead =
     "<key id=\"min_radius\" for=\"edge\" attr.name=\"min_radius\" attr.type=\"double\"/>\n"
     "<key id=\"max_radius\" for=\"edge\" attr.name=\"max_radius\" attr.type=\"double\"/>\n"
     "<key id=\"tortuosity\" for=\"edge\" attr.name=\"tortuosity\" attr.type=\"double\"/>\n"
+    "<key id=\"pruning_level\" for=\"edge\" attr.name=\"pruning_level\" attr.type=\"double\"/>\n"
     "<key id=\"points\" for=\"edge\" attr.name=\"points\" attr.type=\"string\"/>\n";
+constexpr std::string_view kBirthKeys =
+    "<key id=\"birth\" for=\"node\" attr.name=\"birth\" attr.type=\"int\"/>\n"
+    "<key id=\"births\" for=\"edge\" attr.name=\"births\" attr.type=\"string\"/>\n";
 constexpr std::string_view kOrderKeys =
     "<key id=\"root\" for=\"node\" attr.name=\"root\" attr.type=\"string\"/>\n"
     "<key id=\"parent\" for=\"node\" attr.name=\"parent\" attr.type=\"string\"/>\n"
@@ -95,6 +100,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t componen
   AddData(text, "z", p[2]);
   AddData(text, "radius", graph.RadiusOf(node.at));
   AddData(text, "component", component);
+  if (node.at.birth > 0) AddData(text, "birth", node.at.birth);
   AddLabel(text, context.labels.of_nodes, n);
   if (context.order.has_value()) AddNodeOrder(text, context.order->nodes[n]);
   if (node.kind == NodeKind::kClosedSurface) {
@@ -115,6 +121,16 @@ void AddPathPoints(Text& text, const SkeletonGraph& graph, std::span<const Skele
   text.Add("</data>");
 }
 
+void AddBirths(Text& text, std::span<const SkeletonPoint> points) {
+  text.Add("<data key=\"births\">");
+  std::string_view separator;
+  for (const SkeletonPoint& point : points) {
+    text.Add(separator, point.birth);
+    separator = " ";
+  }
+  text.Add("</data>");
+}
+
 void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context) {
   const SkeletonEdge& edge = graph.edges[n];
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
@@ -127,7 +143,9 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
   AddData(text, "min_radius", figures.min_radius);
   AddData(text, "max_radius", figures.max_radius);
   if (figures.tortuosity.has_value()) AddData(text, "tortuosity", *figures.tortuosity);
+  if (std::isfinite(edge.pruning_level)) AddData(text, "pruning_level", edge.pruning_level);
   AddPathPoints(text, graph, points);
+  if (graph.HasBirths()) AddBirths(text, points);
   text.Add("</edge>\n");
 }
 
@@ -136,6 +154,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
 std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context) {
   Text text;
   text.Add(kHead);
+  if (graph.HasBirths()) text.Add(kBirthKeys);
   AddContext(text, context);
   const GraphComponents components = ComponentsOf(graph);
   for (size_t n = 0; n < graph.nodes.size(); ++n) {

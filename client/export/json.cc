@@ -52,6 +52,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
            "\",\"position\":");
   AddPosition(text, graph.PositionOf(node.at));
   text.Add(",\"radius\":", graph.RadiusOf(node.at), ",\"component\":", component);
+  if (node.at.birth > 0) text.Add(",\"birth\":", node.at.birth);
   if (node.kind == NodeKind::kClosedSurface) {
     text.Add(",\"cavities\":", node.cavities, ",\"loops\":", node.loops);
   }
@@ -69,6 +70,10 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
           [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
   AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
+  if (graph.HasBirths()) {
+    text.Add(",\"births\":");
+    AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(p.birth); });
+  }
   text.Add(",\"curve\":");
   AddList(text, ",", SmoothCurve(graph, edge), [&](const WorldPoint& p) { AddPosition(text, p); });
   const EdgeFigures figures = FiguresOf(graph, edge);

@@ -1,6 +1,7 @@
 #include "client/export/vtp.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -66,6 +67,11 @@ void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polyl
   AddArray(text, "Float64", "distance", [&] {
     for (const SkeletonPoint& p : polylines.points) text.Add(p.radius, '\n');
   });
+  if (graph.HasBirths()) {
+    AddArray(text, "Int32", "birth", [&] {
+      for (const SkeletonPoint& p : polylines.points) text.Add(p.birth, '\n');
+    });
+  }
   AddArray(text, "UInt8", "node_kind", [&] {
     for (size_t n = 0; n < polylines.points.size(); ++n) {
       text.Add(n < graph.nodes.size() ? 1 + static_cast<int>(graph.nodes[n].kind) : 0, '\n');
@@ -147,6 +153,10 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
   add("min_radius", [](const EdgeFigures& one) { return one.min_radius; });
   add("max_radius", [](const EdgeFigures& one) { return one.max_radius; });
   add("tortuosity", [](const EdgeFigures& one) { return one.tortuosity.value_or(0); });
+  AddEdgeArray(text, "Float64", "pruning_level", "-1", graph, polylines, [&](size_t n) {
+    const double level = graph.edges[n].pruning_level;
+    return std::isfinite(level) ? level : -1.0;
+  });
   if (!context.labels.of_nodes.empty()) AddLabels(text, context.labels, polylines);
   if (context.order.has_value()) AddOrder(text, graph, polylines, *context.order);
   text.Add("</CellData>\n");

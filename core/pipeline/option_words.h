@@ -30,10 +30,11 @@ inline constexpr Words<DistanceKind, 3> kDistanceWords = {
 inline constexpr Words<StubblePolicy, 3> kStubbleWords = {{{"keep-two", StubblePolicy::kKeepTwo},
                                                            {"literal", StubblePolicy::kLiteral},
                                                            {"none", StubblePolicy::kNone}}};
-inline constexpr Words<PruningRule, 4> kPruningWords = {
+inline constexpr Words<PruningRule, 5> kPruningWords = {
     {{"slope", PruningRule::kSlope},
      {"length", PruningRule::kLength},
      {"relative-length", PruningRule::kRelativeLength},
+     {"persistence", PruningRule::kPersistence},
      {"none", PruningRule::kNone}}};
 inline constexpr Words<TipPlacement, 2> kTipsWords = {
     {{"ridge", TipPlacement::kRidge}, {"as-thinned", TipPlacement::kAsThinned}}};

@@ -13,18 +13,29 @@
 namespace bccskel {
 namespace {
 
-// The points that stay though they may be simple: isthmuses, and those that the caller keeps.
+bool HasCurves(const SkeletonizeOptions& options) {
+  const SkeletonKind kind = options.thinning.kind;
+  return options.thinning.last_shell == 0 &&
+         (kind == SkeletonKind::kCurve || kind == SkeletonKind::kIsthmusCurve);
+}
+
+// The points that stay though they may be simple: isthmuses where they are not made curves of, and
+// those that the caller keeps.
 Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses,
-                    const std::vector<LatticePoint>& keep) {
+                    const SkeletonizeOptions& options) {
   VolumeBuilder spared(thin.extent(), thin.placement());
-  for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
-  for (LatticePoint p : keep) spared.Add(p);
+  if (!HasCurves(options)) {
+    for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
+  }
+  for (LatticePoint p : options.thinning.keep) spared.Add(p);
   absl::StatusOr<Volume> volume = std::move(spared).Build();
   return volume.ok() ? *std::move(volume) : Volume();  // an empty extent has no points
 }
 
-SimplePoints ThatMayGo(SkeletonKind kind) {
-  const bool ends_stay = kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface;
+SimplePoints ThatMayGo(const SkeletonizeOptions& options) {
+  const SkeletonKind kind = options.thinning.kind;
+  const bool ends_stay =
+      HasCurves(options) || kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface;
   return ends_stay ? SimplePoints::kNonEnd : SimplePoints::kAll;
 }
 
@@ -39,8 +50,16 @@ absl::Status Certify(const Volume& object, const Volume& thin, const exec::Conte
       in.components, out.components, in.loops, out.loops, in.cavities, out.cavities));
 }
 
-bool HasCurves(const SkeletonizeOptions& options) {
-  return options.thinning.last_shell == 0 && options.thinning.kind == SkeletonKind::kCurve;
+// 0 if the point never was an isthmus.
+int32_t BirthOf(LatticePoint p, const std::vector<IsthmusBirth>& isthmuses) {
+  const auto found = std::ranges::lower_bound(isthmuses, p, {}, &IsthmusBirth::point);
+  return found != isthmuses.end() && found->point == p ? found->pass : 0;
+}
+
+void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph) {
+  if (isthmuses.empty()) return;
+  for (SkeletonNode& node : graph.nodes) node.at.birth = BirthOf(node.at.point, isthmuses);
+  for (SkeletonPoint& p : graph.points) p.birth = BirthOf(p.point, isthmuses);
 }
 
 // An edge is there as long as a part of it is.
@@ -53,6 +72,13 @@ void SetPruningLevels(const PruningLevels& levels, SkeletonGraph& graph) {
     }
     if (level >= 0) edge.pruning_level = level;
   }
+}
+
+// In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.
+std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses) {
+  std::vector<int32_t> births;
+  thin.ForEachPoint([&](LatticePoint p) { births.push_back(BirthOf(p, isthmuses)); });
+  return births;
 }
 
 Volume PointsOnlyIn(const Volume& more, const Volume& less) {
@@ -115,11 +141,12 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
     BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
-        CountSimplePoints(result_.thin, ThatMayGo(options_.thinning.kind),
-                          SparedPoints(result_.thin, isthmuses_, options_.thinning.keep), context_);
+        CountSimplePoints(result_.thin, ThatMayGo(options_),
+                          SparedPoints(result_.thin, isthmuses_, options_), context_);
     result_.timings.certificate = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, context_));
     SetPruningLevels(levels_, result_.graph);
+    SetBirths(isthmuses_, result_.graph);
     result_.sha256 = SkeletonDigest(result_.graph);
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();
@@ -146,18 +173,26 @@ class Pipeline {
     BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
                              ExactRadii(result_.thin, object, distance, context_));
-    if (HasCurves(options_)) {
-      BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
-                               Prune(result_.thin, radii, object, distance, options_.thinning.keep,
-                                     options_.pruning, context_));
-      if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, pruned.thin));
-      result_.thin = std::move(pruned.thin);
-      radii = std::move(pruned.radii);
-      levels_ = std::move(pruned.levels);
-    }
+    if (HasCurves(options_)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, distance, radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
     return radii;
+  }
+
+  absl::Status PruneCurves(const Volume& object, const DistanceField& distance,
+                           std::vector<float>& radii) {
+    std::vector<int32_t> births;
+    if (options_.thinning.kind == SkeletonKind::kIsthmusCurve) {
+      births = BirthsOf(result_.thin, isthmuses_);
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
+                             Prune({result_.thin, radii, births}, object, distance,
+                                   options_.thinning.keep, options_.pruning, context_));
+    if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, pruned.thin));
+    result_.thin = std::move(pruned.thin);
+    radii = std::move(pruned.radii);
+    levels_ = std::move(pruned.levels);
+    return absl::OkStatus();
   }
 
   const SkeletonizeOptions& options_;
@@ -174,7 +209,14 @@ class Pipeline {
 absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
   BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options.preparing));
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
-  return CheckPruningOptions(options.pruning);
+  BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options.pruning));
+  if (options.pruning.rule == PruningRule::kPersistence &&
+      options.thinning.kind != SkeletonKind::kIsthmusCurve) {
+    return absl::InvalidArgumentError(
+        "pruning by persistence: goes by when points became isthmuses, so it needs the kind "
+        "isthmus-curve");
+  }
+  return absl::OkStatus();
 }
 
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,

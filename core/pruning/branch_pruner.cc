@@ -4,8 +4,8 @@
 #include <limits>
 #include <set>
 
-#include "core/topology/neighborhood.h"
-#include "core/topology/simple_point_table.h"
+#include "core/pruning/persistence.h"
+#include "core/pruning/simple_points.h"
 
 namespace bccskel {
 namespace {
@@ -46,22 +46,37 @@ std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) co
   if (std::ranges::any_of(branch.points, [&](LatticePoint p) { return keep_.contains(p); })) {
     return std::nullopt;
   }
-  const LatticePoint junction = *branch.junction;
-  float ball = 0;
-  for (LatticePoint p : ClusterOf(junction)) ball = std::max(ball, set_.RadiusOf(p));
-  if (rule_ == PruningRule::kSlope) return WorthBySlope(branch, junction, ball);
-  const double unit = rule_ == PruningRule::kLength ? 1.0 : double{ball};
-  const double worth = LengthTo(branch, junction) / unit;
+  const double worth = WorthOf(branch, *branch.junction);
   return worth < threshold_ ? std::optional(worth) : std::nullopt;
 }
 
+double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) const {
+  switch (rule_) {
+    case PruningRule::kLength:
+      return LengthTo(branch, junction);
+    case PruningRule::kRelativeLength:
+      return LengthTo(branch, junction) / BallAt(junction);
+    case PruningRule::kPersistence:
+      return PersistenceOf(set_, branch);
+    default:
+      return WorthBySlope(branch, junction);
+  }
+}
+
+// The largest radius of the cluster.
+double BranchPruner::BallAt(LatticePoint junction) const {
+  float ball = 0;
+  for (LatticePoint p : ClusterOf(junction)) ball = std::max(ball, set_.RadiusOf(p));
+  return ball;
+}
+
 // How far the branch reaches out of the junction's ball, its slope given.
-std::optional<double> BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction,
-                                                 float ball) const {
+double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) const {
+  const double ball = BallAt(junction);
   double worth = -std::numeric_limits<double>::infinity();
   for (LatticePoint p : branch.points) {
     worth = std::max(worth, 0.5 * set_.Between(p, junction) + set_.RadiusOf(p) - ball);
-    if (worth >= threshold_) return std::nullopt;
+    if (worth >= threshold_) break;  // the rest cannot make it spurious
   }
   return worth;
 }
@@ -91,32 +106,17 @@ std::vector<LatticePoint> BranchPruner::ClusterOf(LatticePoint junction) const {
 std::vector<LatticePoint> BranchPruner::Remove(const FreeBranch& branch) {
   std::vector<LatticePoint> removed = branch.points;
   for (LatticePoint p : branch.points) set_.Remove(p);
-  for (LatticePoint p : CleanUpAround(*branch.junction, removed)) {
+  std::set<LatticePoint> around = {*branch.junction};
+  const auto add = [&](LatticePoint q) { around.insert(q); };
+  ForEachNeighbor(*branch.junction, set_.NeighborsOf(*branch.junction), add);
+  for (LatticePoint p : RemoveSimplePoints(set_, around, keep_)) {
+    removed.push_back(p);
+    ForEachNeighbor(p, set_.NeighborsAround(p), add);
+  }
+  for (LatticePoint p : around) {
     if (set_.Contains(p)) JudgeAround(p);
   }
   return removed;
-}
-
-// Removes what is simple now, shallow points first. Returns the places that were looked at.
-std::vector<LatticePoint> BranchPruner::CleanUpAround(LatticePoint junction,
-                                                      std::vector<LatticePoint>& removed) {
-  std::vector<LatticePoint> seen = {junction};
-  std::set<std::pair<float, LatticePoint>> turns = {{set_.RadiusOf(junction), junction}};
-  const auto add = [&](LatticePoint q) {
-    turns.emplace(set_.RadiusOf(q), q);
-    if (std::ranges::find(seen, q) == seen.end()) seen.push_back(q);
-  };
-  ForEachNeighbor(junction, set_.NeighborsOf(junction), add);
-  while (!turns.empty()) {
-    const LatticePoint p = turns.begin()->second;
-    turns.erase(turns.begin());
-    const NeighborMask neighbors = set_.NeighborsOf(p);
-    if (!IsSimpleNonEnd(neighbors) || keep_.contains(p)) continue;
-    set_.Remove(p);
-    removed.push_back(p);
-    ForEachNeighbor(p, neighbors, add);
-  }
-  return seen;
 }
 
 // Looks again at the branches with a free end that start near p.

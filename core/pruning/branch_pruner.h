@@ -29,7 +29,7 @@ class BranchPruner {
   // A point that went, and what its branch was worth.
   using OnRemoved = std::function<void(LatticePoint, double)>;
 
-  // `threshold` in the rule's unit: lattice units, or radii of the junction.
+  // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
   // The arguments must outlive the pruner.
   BranchPruner(ThinSet& set, PruningRule rule, double threshold, const PointSet& keep,
                const exec::Context& context)
@@ -45,14 +45,13 @@ class BranchPruner {
   void JudgeBeyond(LatticePoint p);
 
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
-  std::optional<double> WorthBySlope(const FreeBranch& branch, LatticePoint junction,
-                                     float ball) const;
+  double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
+  double WorthBySlope(const FreeBranch& branch, LatticePoint junction) const;
+  double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
   std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
 
   std::vector<LatticePoint> Remove(const FreeBranch& branch);
-  std::vector<LatticePoint> CleanUpAround(LatticePoint junction,
-                                          std::vector<LatticePoint>& removed);
 
   using Turn = std::pair<double, LatticePoint>;
 

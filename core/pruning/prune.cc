@@ -2,8 +2,10 @@
 
 #include "absl/strings/str_format.h"
 #include "core/distance/exact_radius.h"
+#include "core/exec/status_macros.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/pruning_levels.h"
+#include "core/pruning/simple_points.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kDefaultSlopeMargin = 4;
 constexpr double kDefaultRelativeLength = 1;
+constexpr double kDefaultPersistence = 6;
 
 // In the rule's own unit.
 double ThresholdOf(const PruningOptions& options, const Placement& placement) {
@@ -19,7 +22,28 @@ double ThresholdOf(const PruningOptions& options, const Placement& placement) {
     return options.threshold / WorldUnitsPerLatticeUnit(placement);
   }
   if (options.threshold != 0) return options.threshold;
-  return options.rule == PruningRule::kSlope ? kDefaultSlopeMargin : kDefaultRelativeLength;
+  switch (options.rule) {
+    case PruningRule::kRelativeLength:
+      return kDefaultRelativeLength;
+    case PruningRule::kPersistence:
+      return kDefaultPersistence;
+    default:
+      return kDefaultSlopeMargin;
+  }
+}
+
+PruningRule RuleOfLevels(const PruningOptions& options, const ThinCurves& curves) {
+  const bool by_births = options.rule == PruningRule::kNone && !curves.births.empty();
+  return by_births || options.rule == PruningRule::kPersistence ? PruningRule::kPersistence
+                                                                : PruningRule::kSlope;
+}
+
+absl::Status CheckCurves(const ThinCurves& curves, const PruningOptions& options) {
+  if (options.rule != PruningRule::kPersistence || !curves.births.empty() || curves.thin.empty()) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(
+      "pruning by persistence: needs to know when each point became an isthmus");
 }
 
 }  // namespace
@@ -43,20 +67,22 @@ absl::Status CheckPruningOptions(const PruningOptions& options) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<PrunedSkeleton> Prune(const Volume& thin, std::span<const float> radii,
-                                     const Volume& object, const DistanceField& field,
-                                     std::span<const LatticePoint> keep,
+absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
+                                     const DistanceField& field, std::span<const LatticePoint> keep,
                                      const PruningOptions& options, const exec::Context& context) {
-  if (absl::Status checked = CheckPruningOptions(options); !checked.ok()) return checked;
+  BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options));
+  BCCSKEL_RETURN_IF_ERROR(CheckCurves(curves, options));
+  const Volume& thin = curves.thin;
   if (thin.empty()) return PrunedSkeleton{thin, {}, 0, {}};
-  ThinSet set(thin, radii);
+  ThinSet set(curves);
   const PointSet kept(keep.begin(), keep.end());
+  if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
     pruned.branches_removed = BranchPruner(set, options.rule, threshold, kept, context).Run();
   }
-  pruned.levels = PruningLevelsOf(set, kept, context);
+  pruned.levels = PruningLevelsOf(set, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
     ExactRadius radius(object, field);
     PlaceTips(set, radius, object, kept, context);

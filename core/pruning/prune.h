@@ -19,15 +19,16 @@ namespace bccskel {
 // largest radius of its cluster, D(p) the radius at p.
 enum class PruningRule : uint8_t {
   // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default, 16 where voxels
-  // were
-  // converted exactly: see ForSteps()) at all their points p: the radius falls about as fast as the
-  // branch leaves the junction's ball, so the branch is a
-  // bump of the surface.
+  // were converted exactly: see ForSteps()) at all their points p: the radius falls about as fast
+  // as
+  // the branch leaves the junction's ball, so the branch is a bump of the surface.
   kSlope,
   // Those shorter than the threshold, in world units.
   kLength,
   // Those shorter than threshold * R; the factor is 1 by default.
   kRelativeLength,
+  // Those of a persistence below the threshold: see persistence.h. Needs the births of isthmuses.
+  kPersistence,
   kNone,
 };
 
@@ -50,8 +51,10 @@ PruningOptions ForSteps(const PruningOptions& options, double step);
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 
-// For each point of a branch, the threshold of the slope rule above which it goes; infinity where
-// it never does. Points at junctions and tips that have grown have none.
+// For each point of a branch, the threshold above which it goes; infinity where it never does.
+// Points at junctions and tips that have grown have none. Thresholds are those of pruning by
+// persistence where that was the rule, or none was and births are known; else those of the slope
+// rule.
 using PruningLevels = PointMap<double>;
 
 struct PrunedSkeleton {
@@ -64,12 +67,13 @@ struct PrunedSkeleton {
 // Removes spurious branches and places the tips of the others. Points go and come one by one, each
 // simple at its turn, so the topology stays: loops and components have no end to begin at. A branch
 // with points of `keep` stays.
-// Shapes: `radii` of the points of `thin`, which are points of `object`; `field` belongs to it.
-// Needs:  a thin curve skeleton.
-// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<PrunedSkeleton> Prune(const Volume& thin, std::span<const float> radii,
-                                     const Volume& object, const DistanceField& field,
-                                     std::span<const LatticePoint> keep,
+// Isthmuses that later became simple make curves thick: where births are known, such points go
+// first.
+// Shapes: the points of `curves` are points of `object`, to which `field` belongs.
+// Needs:  a thin curve skeleton, or one of isthmuses with their births.
+// Errors: INVALID_ARGUMENT (options, or persistence without births), CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
+                                     const DistanceField& field, std::span<const LatticePoint> keep,
                                      const PruningOptions& options, const exec::Context& context);
 
 }  // namespace bccskel

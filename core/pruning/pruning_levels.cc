@@ -7,7 +7,8 @@
 
 namespace bccskel {
 
-PruningLevels PruningLevelsOf(ThinSet set, const PointSet& keep, const exec::Context& context) {
+PruningLevels PruningLevelsOf(ThinSet set, PruningRule rule, const PointSet& keep,
+                              const exec::Context& context) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
   set.ForEachBranchPoint([&](LatticePoint p) { levels.emplace(p, kNever); });
@@ -16,7 +17,7 @@ PruningLevels PruningLevelsOf(ThinSet set, const PointSet& keep, const exec::Con
     level = std::max(level, worth);
     if (const auto found = levels.find(p); found != levels.end()) found->second = level;
   };
-  BranchPruner(set, PruningRule::kSlope, kNever, keep, context).Run(record);
+  BranchPruner(set, rule, kNever, keep, context).Run(record);
   return levels;
 }
 

@@ -8,13 +8,14 @@
 
 namespace bccskel {
 
-// Does:  answers every threshold of the slope rule in one run: pruning by a threshold leaves the
+// Does:  answers every threshold of a rule in one run: pruning by a threshold leaves the
 //        points whose level is not below it. Branches go one after the other, the least first; the
 //        level of a branch is the most that it or a branch before it was worth, 0 at least.
 // Why it is right: the rule takes the least first, so pruning by a threshold is the first part of
 //        this run, up to where all branches left are worth the threshold or more.
 // Errors: none; what is left when the context says stop stays at infinity.
-PruningLevels PruningLevelsOf(ThinSet set, const PointSet& keep, const exec::Context& context);
+PruningLevels PruningLevelsOf(ThinSet set, PruningRule rule, const PointSet& keep,
+                              const exec::Context& context);
 
 }  // namespace bccskel
 

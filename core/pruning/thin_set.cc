@@ -5,11 +5,13 @@
 
 namespace bccskel {
 
-ThinSet::ThinSet(const Volume& thin, std::span<const float> radii)
-    : scale_(AxisScaleOf(thin.placement())) {
-  points_.reserve(radii.size());
+ThinSet::ThinSet(const ThinCurves& curves) : scale_(AxisScaleOf(curves.thin.placement())) {
+  points_.reserve(curves.radii.size());
   size_t n = 0;
-  thin.ForEachPoint([&](LatticePoint p) { points_.emplace(p, Entry{radii[n++], 0}); });
+  curves.thin.ForEachPoint([&](LatticePoint p) {
+    points_.emplace(p, Entry{curves.radii[n], curves.births.empty() ? 0 : curves.births[n], 0});
+    ++n;
+  });
   for (auto& [p, entry] : points_) entry.neighbors = NeighborsAround(p);
 }
 
@@ -28,7 +30,7 @@ NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
 
 void ThinSet::Add(LatticePoint p, float radius) {
   const NeighborMask neighbors = NeighborsAround(p);
-  points_.emplace(p, Entry{radius, neighbors});
+  points_.emplace(p, Entry{radius, 0, neighbors});
   for (int bit = 0; bit < kNeighborCount; ++bit) {
     const Direction d(bit);
     if ((neighbors & d.mask()) == 0) continue;

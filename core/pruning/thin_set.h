@@ -31,16 +31,25 @@ template <typename Value>
 using PointMap = std::unordered_map<LatticePoint, Value, LatticePointHash>;
 using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
-// The points of a thin volume while branches go and tips move: each with its radius and its
-// neighbors in the set.
+// A thin volume and what is known of its points, in the order of Volume::ForEachPoint().
+struct ThinCurves {
+  const Volume& thin;
+  std::span<const float> radii;  // lattice units
+  // The pass of thinning in which the point became an isthmus, from 1; 0 for points that never did.
+  // Empty where the kind of skeleton keeps no isthmuses.
+  std::span<const int32_t> births = {};
+};
+
+// The points of a thin volume while branches go and tips move: each with its radius, its birth and
+// its neighbors in the set.
 class ThinSet {
  public:
-  // Shapes: `radii` in lattice units, in the order of Volume::ForEachPoint().
-  ThinSet(const Volume& thin, std::span<const float> radii);
+  explicit ThinSet(const ThinCurves& curves);
 
   bool Contains(LatticePoint p) const { return points_.contains(p); }
   // Of points of the set.
   float RadiusOf(LatticePoint p) const { return points_.at(p).radius; }
+  int32_t BirthOf(LatticePoint p) const { return points_.at(p).birth; }
   NeighborMask NeighborsOf(LatticePoint p) const { return points_.at(p).neighbors; }
   int Degree(LatticePoint p) const;
   // Of any place: the neighbors that are in the set.
@@ -52,7 +61,12 @@ class ThinSet {
   // End points, in lattice order.
   std::vector<LatticePoint> Ends() const;
 
-  // Calls visit(LatticePoint) for the points on plain curves and ends, in any order.
+  // Calls visit(LatticePoint) for all points, in any order.
+  template <typename Visit>
+  void ForEachPoint(Visit visit) const {
+    for (const auto& [p, entry] : points_) visit(p);
+  }
+  // The same for the points on plain curves and ends.
   template <typename Visit>
   void ForEachBranchPoint(Visit visit) const {
     for (const auto& [p, entry] : points_) {
@@ -74,6 +88,7 @@ class ThinSet {
  private:
   struct Entry {
     float radius = 0;
+    int32_t birth = 0;
     NeighborMask neighbors = 0;
   };
   AxisScale scale_;

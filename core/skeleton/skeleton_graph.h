@@ -33,6 +33,9 @@ struct SkeletonPoint {
   // Exact Euclidean distance to the nearest background point in lattice units, half the shortest
   // edge of the cubic cell.
   float radius = 0;
+  // The pass of thinning in which the point became an isthmus, from 1; 0 if it never did, or the
+  // kind of skeleton keeps no isthmuses. Passes go with shells: one a shell, and more at the last.
+  int32_t birth = 0;
 
   friend constexpr auto operator<=>(const SkeletonPoint&, const SkeletonPoint&) = default;
 };
@@ -58,8 +61,9 @@ struct SkeletonEdge {
   uint64_t first_point =
       0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
-  // The threshold of pruning by slope, in lattice units, above which the edge goes: with branches
-  // that end, one after the other. Edges on loops, and one path of a tree, never do.
+  // The threshold of pruning above which the edge goes: with branches that end, one after the
+  // other. Edges on loops, and one path of a tree, never do. By slope, in lattice units, or by
+  // persistence: see PruningLevels.
   double pruning_level = std::numeric_limits<double>::infinity();
 
   friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
@@ -84,13 +88,15 @@ struct SkeletonGraph {
   WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
   // World units.
   double RadiusOf(const SkeletonPoint& p) const;
+  // Whether its kind of skeleton keeps isthmuses and there are any.
+  bool HasBirths() const;
 
   friend bool operator==(const SkeletonGraph&, const SkeletonGraph&) = default;
 };
 
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
-// topology) in canonical order. Placement and pruning levels are not part of it. The byte layout is
-// stated at the definition; it is a public contract.
+// topology) in canonical order. Placement, births and pruning levels are not part of it. The byte
+// layout is stated at the definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives

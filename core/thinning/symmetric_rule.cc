@@ -12,7 +12,7 @@ void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unse
                          MarkBuffer& marks) {
   if (at.step == 0) {
     if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
-      KeepIsthmuses(at.shell, bricks, marks);
+      KeepIsthmuses(at.cycle + 1, bricks, marks);
     }
     return FindSimpleIn(bricks);
   }
@@ -41,23 +41,23 @@ RuleBView SymmetricRule::ViewOf(const PassStep& at, Unsettled* unsettled) {
 }
 
 // Needs: nothing is marked yet, so that the buffer is free.
-void SymmetricRule::KeepIsthmuses(int32_t shell, const BrickLists& bricks, MarkBuffer& scratch) {
+void SymmetricRule::KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBuffer& scratch) {
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);
     MarkedBrick* found = scratch.Room(list.size());
     const size_t count = MarkIsthmuses(state_.View(), sublattice, kind_, list, found);
-    Keep(shell, std::span(found, count));
+    Keep(pass, std::span(found, count));
   }
 }
 
 // Takes points out of the candidates for good.
-void SymmetricRule::Keep(int32_t shell, std::span<const MarkedBrick> points) {
+void SymmetricRule::Keep(int32_t pass, std::span<const MarkedBrick> points) {
   for (const MarkedBrick& m : points) {
     BrickBits& candidates = state_.candidates[m.brick];
     for (size_t k = 0; k < m.marks.words.size(); ++k) candidates.words[k] &= ~m.marks.words[k];
   }
   const std::lock_guard lock(births_mutex_);
-  for (const MarkedBrick& m : points) births_.push_back({m, shell});
+  for (const MarkedBrick& m : points) births_.push_back({m, pass});
 }
 
 std::vector<IsthmusBirth> SymmetricRule::Isthmuses() const {
@@ -65,7 +65,7 @@ std::vector<IsthmusBirth> SymmetricRule::Isthmuses() const {
   for (const Births& births : births_) {
     const BrickCoordinates brick = state_.keys[births.points.brick].coordinates();
     births.points.marks.ForEachSetBit([&](int bit) {
-      isthmuses.push_back({PointOf(brick, bit), births.shell});
+      isthmuses.push_back({PointOf(brick, bit), births.pass});
     });
   }
   std::ranges::sort(isthmuses, {}, &IsthmusBirth::point);

@@ -46,11 +46,11 @@ class SymmetricRule : public PassRule {
  private:
   struct Births {
     MarkedBrick points;
-    int32_t shell = 0;
+    int32_t pass = 0;
   };
 
-  void KeepIsthmuses(int32_t shell, const BrickLists& bricks, MarkBuffer& scratch);
-  void Keep(int32_t shell, std::span<const MarkedBrick> points);
+  void KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBuffer& scratch);
+  void Keep(int32_t pass, std::span<const MarkedBrick> points);
   void FindSimpleIn(BrickLists& bricks);
   RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
 

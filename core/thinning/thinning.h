@@ -80,11 +80,13 @@ struct ThinningTimes {
   std::chrono::nanoseconds cleanup{0};
 };
 
-// A point that its kind of skeleton keeps as an isthmus, and the shell that was being thinned when
-// it first was one. Early births belong to thin parts and to noise on the surface.
+// A point that its kind of skeleton keeps as an isthmus, and the pass in which it first was one,
+// counted from 1 over all shells. There is one pass a shell, and more at the last shell, so the
+// pass is about the depth at which what was around the point had gone. Early births belong to thin
+// parts and to noise on the surface.
 struct IsthmusBirth {
   LatticePoint point;
-  int32_t shell = 0;
+  int32_t pass = 0;
 
   friend bool operator==(const IsthmusBirth&, const IsthmusBirth&) = default;
 };

@@ -138,6 +138,8 @@ v1::PruningRule ToMessage(PruningRule rule) {
       return v1::PRUNING_RULE_LENGTH;
     case PruningRule::kRelativeLength:
       return v1::PRUNING_RULE_RELATIVE_LENGTH;
+    case PruningRule::kPersistence:
+      return v1::PRUNING_RULE_PERSISTENCE;
     case PruningRule::kNone:
       return v1::PRUNING_RULE_NONE;
   }
@@ -153,6 +155,8 @@ absl::StatusOr<PruningRule> FromMessage(v1::PruningRule rule, const std::string&
       return PruningRule::kLength;
     case v1::PRUNING_RULE_RELATIVE_LENGTH:
       return PruningRule::kRelativeLength;
+    case v1::PRUNING_RULE_PERSISTENCE:
+      return PruningRule::kPersistence;
     case v1::PRUNING_RULE_NONE:
       return PruningRule::kNone;
     default:
@@ -299,7 +303,7 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
                            FromMessage(message.preparing(), field + ".preparing"));
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();
-  if (absl::Status checked = CheckThinningOptions(thinning); !checked.ok()) {
+  if (absl::Status checked = CheckSkeletonizeOptions(options); !checked.ok()) {
     return InvalidField(field, std::string(checked.message()));
   }
   return options;

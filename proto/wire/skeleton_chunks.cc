@@ -13,9 +13,9 @@ namespace {
 
 // Most bytes of a row: 5 for each 32-bit varint, 4 for a float, 8 for a double, 10 for a
 // 64-bit one, 1 for a kind.
-constexpr size_t kNodeRowBytes = 1 + 6 * 5;
+constexpr size_t kNodeRowBytes = 1 + 7 * 5;
 constexpr size_t kEdgeRowBytes = 2 * 5 + 10 + 8;
-constexpr size_t kPointRowBytes = 4 * 5;
+constexpr size_t kPointRowBytes = 5 * 5;
 // Tags and lengths of the tables and their columns, and the sequence number.
 constexpr size_t kFramingBytes = 256;
 
@@ -72,8 +72,16 @@ void AppendPoint(const SkeletonPoint& point, Columns& columns) {
 
 template <typename Columns>
 SkeletonPoint PointOfRow(const Columns& columns, int row) {
-  return {{columns.x(row), columns.y(row), columns.z(row)}, columns.radius(row)};
+  const uint32_t birth = columns.birth_size() == 0 ? 0 : columns.birth(row);
+  return {{columns.x(row), columns.y(row), columns.z(row)},
+          columns.radius(row),
+          static_cast<int32_t>(std::min<uint32_t>(birth, INT32_MAX))};
 }
+
+uint32_t BirthInMessage(const SkeletonPoint& point) { return static_cast<uint32_t>(point.birth); }
+
+// A column that may be missing as a whole.
+int RowsOf(int column, int table) { return column == 0 ? table : column; }
 
 absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {
   for (int size : sizes) {
@@ -86,9 +94,9 @@ absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {
 }
 
 absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph) {
-  BCCSKEL_RETURN_IF_ERROR(
-      CheckColumns("node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.radius_size(),
-                            c.loops_size(), c.cavities_size()}));
+  BCCSKEL_RETURN_IF_ERROR(CheckColumns(
+      "node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.radius_size(), c.loops_size(),
+               c.cavities_size(), RowsOf(c.birth_size(), c.kind_size())}));
   for (int row = 0; row < c.kind_size(); ++row) {
     const std::optional<NodeKind> kind = FromMessage(c.kind(row));
     if (!kind.has_value()) {
@@ -99,15 +107,15 @@ absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph)
   return absl::OkStatus();
 }
 
-// An older server sends no levels.
 absl::Status CheckEdgeColumns(const v1::SkeletonEdgeColumns& c) {
-  const int levels = c.pruning_level_size() == 0 ? c.source_size() : c.pruning_level_size();
-  return CheckColumns("edge", {c.source_size(), c.target_size(), c.point_count_size(), levels});
+  return CheckColumns("edge", {c.source_size(), c.target_size(), c.point_count_size(),
+                               RowsOf(c.pruning_level_size(), c.source_size())});
 }
 
 absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
-  BCCSKEL_RETURN_IF_ERROR(
-      CheckColumns("point", {c.x_size(), c.y_size(), c.z_size(), c.radius_size()}));
+  BCCSKEL_RETURN_IF_ERROR(CheckColumns(
+      "point",
+      {c.x_size(), c.y_size(), c.z_size(), c.radius_size(), RowsOf(c.birth_size(), c.x_size())}));
   for (int row = 0; row < c.x_size(); ++row) graph.points.push_back(PointOfRow(c, row));
   return absl::OkStatus();
 }
@@ -161,6 +169,9 @@ absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
 
 }  // namespace
 
+SkeletonChunkPager::SkeletonChunkPager(const SkeletonGraph& graph)
+    : graph_(&graph), births_(graph.HasBirths() ? Births::kSome : Births::kNone) {}
+
 std::optional<v1::SkeletonChunk> SkeletonChunkPager::Next() {
   if (AtEnd() && sequence_ > 0) return std::nullopt;
   v1::SkeletonChunk chunk;
@@ -182,6 +193,7 @@ void SkeletonChunkPager::AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns&
     const SkeletonNode& node = graph_->nodes[node_++];
     columns.add_kind(ToMessage(node.kind));
     AppendPoint(node.at, columns);
+    if (births_ == Births::kSome) columns.add_birth(BirthInMessage(node.at));
     columns.add_loops(node.loops);
     columns.add_cavities(node.cavities);
   }
@@ -202,7 +214,10 @@ void SkeletonChunkPager::AddPoints(size_t& budget_bytes, v1::SkeletonPointColumn
   while (points_edge_ < graph_->edges.size()) {
     const auto points = graph_->PointsOf(graph_->edges[points_edge_]).subspan(edge_point_);
     const size_t rows = TakeRows(points.size(), kPointRowBytes, budget_bytes);
-    for (const SkeletonPoint& point : points.first(rows)) AppendPoint(point, columns);
+    for (const SkeletonPoint& point : points.first(rows)) {
+      AppendPoint(point, columns);
+      if (births_ == Births::kSome) columns.add_birth(BirthInMessage(point));
+    }
     edge_point_ += rows;
     if (rows < points.size()) return;
     ++points_edge_;

@@ -20,7 +20,7 @@ inline constexpr size_t kMaxSkeletonChunkBytes = 256 * 1024;
 // Needs: `graph` outlives the pager and does not change.
 class SkeletonChunkPager {
  public:
-  explicit SkeletonChunkPager(const SkeletonGraph& graph) : graph_(&graph) {}
+  explicit SkeletonChunkPager(const SkeletonGraph& graph);
 
   // The next chunk; nothing after the last one. A graph without nodes has one empty chunk.
   std::optional<v1::SkeletonChunk> Next();
@@ -31,7 +31,11 @@ class SkeletonChunkPager {
   void AddPoints(size_t& budget_bytes, v1::SkeletonPointColumns& columns);
   bool AtEnd() const;
 
+  // Whether points are sent with their births.
+  enum class Births : uint8_t { kNone, kSome };
+
   const SkeletonGraph* graph_;
+  Births births_;
   uint32_t sequence_ = 0;
   size_t node_ = 0;
   size_t edge_ = 0;

@@ -20,7 +20,7 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
                            ComputeDistance(object, DistanceKind::kChamfer, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, ExactRadii(thin, object, distance, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
-                           Prune(thin, radii, object, distance, {}, {}, {}));
+                           Prune({thin, radii}, object, distance, {}, {}, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
   return SkeletonDigest(graph);
 }

@@ -31,14 +31,13 @@ class Thinner {
                              ? result_.last_shell
                              : std::min(options_.last_shell, result_.last_shell);
     for (int32_t shell = 1; shell <= last; ++shell) {
-      shell_ = shell;
       CollectCandidates(shell);
       uint64_t removed = ThinOneCycle();
       while (shell == last && removed > 0) removed = ThinOneCycle();
     }
     if (options_.cleanup == ThinnessCleanup::kOn) CleanUp();
     result_.thin = object_.SortedPoints();
-    for (const auto& [p, shell] : births_) result_.isthmuses.push_back({p, shell});
+    for (const auto& [p, pass] : births_) result_.isthmuses.push_back({p, pass});
     return result_;
   }
 
@@ -105,7 +104,7 @@ class Thinner {
   uint64_t SymmetricPass() {
     std::erase_if(candidates_, [&](LatticePoint p) {
       if (!IsIsthmusToKeep(object_.NeighborsOf(p))) return false;
-      births_[p] = shell_;
+      births_[p] = cycle_ + 1;
       return keep_.insert(p).second;
     });
     std::set<LatticePoint> simple;
@@ -161,7 +160,6 @@ class Thinner {
   std::map<LatticePoint, int32_t> depth_;  // in quarters of a lattice unit
   std::vector<LatticePoint> candidates_;
   std::map<LatticePoint, int32_t> births_;
-  int32_t shell_ = 0;
   int32_t cycle_ = 0;
   ReferenceThinning result_;
 };

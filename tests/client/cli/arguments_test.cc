@@ -122,6 +122,14 @@ TEST(ArgumentsTest, SkeletonizeTakesPruning) {
   EXPECT_THAT(no_length.err, HasSubstr("needs a threshold"));
 }
 
+TEST(ArgumentsTest, SkeletonizeTakesPersistenceWithIsthmusesAlone) {
+  const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc", "--kind", "isthmus-curve",
+                               "--pruning", "persistence"});
+  EXPECT_EQ(parsed.as<SkeletonizeArguments>().skeletonize.pruning.rule, PruningRule::kPersistence);
+  const Parsed curve = Parse({"skeletonize", "a.off", "-o", "a.swc", "--pruning", "persistence"});
+  EXPECT_THAT(curve.err, HasSubstr("isthmus-curve"));
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   const Parsed parsed =
       Parse({"skeletonize",  "a.off",     "-o",           "a.swc",         "--output",

@@ -19,6 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::IsEmpty;
 
 size_t CountOf(std::string_view text, std::string_view part) {
@@ -72,6 +73,43 @@ TEST(GraphMlTest, HasEveryNodeAndEdgeWithItsData) {
   EXPECT_THAT(graphml, HasSubstr("<data key=\"mean_radius\">3</data><data key=\"min_radius\">2"
                                  "</data><data key=\"max_radius\">4</data>"
                                  "<data key=\"tortuosity\">1</data>"));
+}
+
+SkeletonGraph BornLollipop() {
+  SkeletonGraph graph = Lollipop();
+  graph.nodes[0].at.birth = 4;
+  int32_t birth = 4;
+  for (SkeletonPoint& p : graph.points) p.birth = birth++;
+  graph.edges[0].pruning_level = 2.5;
+  return graph;
+}
+
+TEST(Births, AreInEveryFormatOfFigures) {
+  SkeletonizeResult result;
+  result.graph = BornLollipop();
+  EXPECT_THAT(JsonText(result), HasSubstr("\"births\":[4,5,6],"));
+  EXPECT_THAT(JsonText(result), HasSubstr("\"birth\":4}"));
+  const std::string graphml = GraphMlText(result.graph);
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"births\">4 5 6</data>"));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"birth\">4</data>"));
+  EXPECT_THAT(VtpText(result.graph), HasSubstr("Name=\"birth\" format=\"ascii\">\n4\n0\n0\n5\n"));
+}
+
+TEST(Births, AreNamedNowhereWhereThereAreNone) {
+  SkeletonizeResult result;
+  result.graph = Lollipop();
+  for (const std::string& text :
+       {JsonText(result), GraphMlText(result.graph), VtpText(result.graph)}) {
+    EXPECT_THAT(text, Not(HasSubstr("birth")));
+  }
+}
+
+TEST(PruningLevels, AreInEveryFormatOfFigures) {
+  EXPECT_THAT(GraphMlText(BornLollipop()),
+              HasSubstr("<data key=\"pruning_level\">2.5</data>"));
+  // Of the isolated point, the stem and the loop.
+  EXPECT_THAT(VtpText(BornLollipop()),
+              HasSubstr("Name=\"pruning_level\" format=\"ascii\">\n-1\n2.5\n-1\n"));
 }
 
 TEST(GraphMlTest, StatesTheTopologyOfAClosedSurface) {

@@ -115,7 +115,7 @@ TEST(PruningOptions, AreChecked) {
 
 TEST(Pruning, OfNothingIsNothing) {
   const auto field = ComputeDistance(Volume(), DistanceKind::kChamfer, {});
-  const auto pruned = Prune(Volume(), {}, Volume(), *field, {}, {}, {});
+  const auto pruned = Prune({Volume(), {}}, Volume(), *field, {}, {}, {});
   ASSERT_TRUE(pruned.ok()) << pruned.status();
   EXPECT_TRUE(pruned->thin.empty() && pruned->radii.empty());
 }
@@ -129,7 +129,7 @@ TEST(Pruning, StopsWhenAsked) {
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(Prune(thin, *radii, object, *field, {}, {}, context).status().code(),
+  EXPECT_EQ(Prune({thin, *radii}, object, *field, {}, {}, context).status().code(),
             absl::StatusCode::kCancelled);
 }
 

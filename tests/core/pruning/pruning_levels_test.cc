@@ -6,43 +6,36 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distance/exact_radius.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/shapes/shapes.h"
+#include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
 namespace {
 
-// What thinning leaves, before anything is pruned.
-struct Raw {
-  explicit Raw(Volume whole)
-      : object(std::move(whole)),
-        field(*ComputeDistance(object, DistanceKind::kEuclidean, {})),
-        thin(ThinToCurve(object, field, {.method = ThinningMethod::kSymmetric}, {})->thin),
-        radii(*ExactRadii(thin, object, field, {})) {}
+using test::RawCurves;
 
-  PrunedSkeleton PrunedBy(PruningRule rule, double threshold) const {
-    const PruningOptions options = {rule, threshold, TipPlacement::kAsThinned};
-    return *Prune(thin, radii, object, field, {}, options, {});
-  }
-
-  Volume object;
-  DistanceField field;
-  Volume thin;
-  std::vector<float> radii;
+// Curves and the rule that their levels are of.
+struct RuledCurves {
+  RawCurves raw;
+  PruningRule rule;
 };
 
-std::vector<Raw> Objects() {
-  std::vector<Raw> objects;
+std::vector<RuledCurves> Objects() {
+  std::vector<RuledCurves> objects;
+  const auto add = [&](const Volume& object) {
+    objects.push_back({RawCurves(object, SkeletonKind::kCurve), PruningRule::kSlope});
+    objects.push_back({RawCurves(object, SkeletonKind::kIsthmusCurve), PruningRule::kPersistence});
+  };
   for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot, Shape::kHollowBall}) {
     const Volume clean = *GenerateShape(shape, {.points = 30'000});
-    objects.emplace_back(clean);
-    objects.emplace_back(test::WithSimpleNoise(clean, 0.1, 7));
+    add(clean);
+    add(test::WithSimpleNoise(clean, 0.1, 7));
   }
   for (uint64_t seed : {1, 2, 3}) {
-    objects.emplace_back(VolumeOfPoints(test::RandomCloud(seed, {20, 20, 20}, 0.6)));
+    add(VolumeOfPoints(test::RandomCloud(seed, {20, 20, 20}, 0.6)));
   }
   return objects;
 }
@@ -64,11 +57,11 @@ std::vector<double> ThresholdsFor(const PruningLevels& levels) {
 
 TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
   size_t kept = 0, gone = 0;
-  for (const Raw& raw : Objects()) {
+  for (const auto& [raw, rule] : Objects()) {
     const PruningLevels levels = raw.PrunedBy(PruningRule::kNone, 0).levels;
     for (double threshold : ThresholdsFor(levels)) {
       SCOPED_TRACE(threshold);
-      const Volume pruned = raw.PrunedBy(PruningRule::kSlope, threshold).thin;
+      const Volume pruned = raw.PrunedBy(rule, threshold).thin;
       for (const auto& [p, level] : levels) {
         ASSERT_EQ(pruned.Contains(p), level >= threshold);
         ++(level >= threshold ? kept : gone);
@@ -80,9 +73,9 @@ TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
 }
 
 TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
-  for (const Raw& raw : Objects()) {
+  for (const auto& [raw, rule] : Objects()) {
     const PruningLevels before = raw.PrunedBy(PruningRule::kNone, 0).levels;
-    const PrunedSkeleton pruned = raw.PrunedBy(PruningRule::kSlope, 3);
+    const PrunedSkeleton pruned = raw.PrunedBy(rule, 3);
     for (const auto& [p, level] : pruned.levels) {
       EXPECT_GE(level, 3);
       const auto found = before.find(p);
@@ -94,19 +87,23 @@ TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
 
 TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
   for (Shape shape : {Shape::kTorus, Shape::kKnot, Shape::kTree}) {
-    const Raw raw(test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7));
-    const PrunedSkeleton pruned = raw.PrunedBy(PruningRule::kSlope, 1e9);
-    EXPECT_FALSE(pruned.levels.empty());
-    for (const auto& [p, level] : pruned.levels) EXPECT_EQ(level, HUGE_VAL);
-    EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(raw.object, {}));
+    const Volume object = test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7);
+    for (const auto& [kind, rule] : {std::pair(SkeletonKind::kCurve, PruningRule::kSlope),
+                                     {SkeletonKind::kIsthmusCurve, PruningRule::kPersistence}}) {
+      const PrunedSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
+      EXPECT_FALSE(pruned.levels.empty());
+      for (const auto& [p, level] : pruned.levels) EXPECT_EQ(level, HUGE_VAL);
+      EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(object, {}));
+    }
   }
 }
 
 TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
-  const Raw raw(*GenerateShape(Shape::kTree, {.points = 30'000}));
-  const std::vector<LatticePoint> ends = ThinSet(raw.thin, raw.radii).Ends();
+  const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
+  const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
   const PointSet keep(ends.begin(), ends.end());
-  for (const auto& [p, level] : PruningLevelsOf(ThinSet(raw.thin, raw.radii), keep, {})) {
+  for (const auto& [p, level] :
+       PruningLevelsOf(ThinSet({raw.thin, raw.radii}), PruningRule::kSlope, keep, {})) {
     EXPECT_EQ(level, HUGE_VAL);
   }
 }

@@ -132,8 +132,8 @@ TEST_P(SymmetricThinningLaw, IsthmusesStay) {
     const ThinningResult result = Thin(object, Symmetric(kind), 3);
     for (const IsthmusBirth& isthmus : result.isthmuses) {
       EXPECT_TRUE(result.thin.Contains(isthmus.point));
-      EXPECT_GE(isthmus.shell, 1);
-      EXPECT_LE(isthmus.shell, result.last_shell);
+      EXPECT_GE(isthmus.pass, 1);
+      EXPECT_LE(isthmus.pass, static_cast<int32_t>(result.passes));
     }
     if (kind == SkeletonKind::kCurve || kind == SkeletonKind::kKernel) {
       EXPECT_TRUE(result.isthmuses.empty());

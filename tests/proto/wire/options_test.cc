@@ -112,6 +112,17 @@ TEST(Options, RefusePruningByNoLength) {
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.pruning_threshold");
 }
 
+TEST(Options, TakePersistenceWithIsthmusesAlone) {
+  v1::SkeletonizeOptions message;
+  message.set_pruning_rule(v1::PRUNING_RULE_PERSISTENCE);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options");
+  message.set_kind(v1::SKELETON_KIND_ISTHMUS_CURVE);
+  const auto options = FromMessage(message, "options");
+  ASSERT_TRUE(options.ok()) << options.status();
+  EXPECT_EQ(options->pruning.rule, PruningRule::kPersistence);
+  EXPECT_EQ(ToMessage(*options).pruning_rule(), v1::PRUNING_RULE_PERSISTENCE);
+}
+
 TEST(Options, AnEmptyMessageMeansTheDefaults) {
   const auto options = FromMessage(v1::SkeletonizeOptions(), "options");
   ASSERT_TRUE(options.ok()) << options.status();

@@ -36,6 +36,13 @@ SkeletonGraph Chain(uint32_t edges, uint64_t length) {
   return graph;
 }
 
+SkeletonGraph WithBirths(SkeletonGraph graph) {
+  int32_t birth = std::numeric_limits<int32_t>::max();
+  for (SkeletonNode& node : graph.nodes) node.at.birth = birth;
+  for (SkeletonPoint& p : graph.points) p.birth = birth--;
+  return graph;
+}
+
 std::vector<v1::SkeletonChunk> ChunksOf(const SkeletonGraph& graph) {
   std::vector<v1::SkeletonChunk> chunks;
   SkeletonChunkPager pager(graph);
@@ -69,6 +76,7 @@ TEST(SkeletonChunksRoundTrip, SmallGraph) { ExpectSurvives(Chain(3, 5)); }
 TEST(SkeletonChunksRoundTrip, EmptyGraph) { ExpectSurvives(SkeletonGraph()); }
 TEST(SkeletonChunksRoundTrip, ManyNodesAndShortEdges) { ExpectSurvives(Chain(30'000, 2)); }
 TEST(SkeletonChunksRoundTrip, AnEdgeLongerThanAChunk) { ExpectSurvives(Chain(2, 50'000)); }
+TEST(SkeletonChunksRoundTrip, Births) { ExpectSurvives(WithBirths(Chain(3, 5))); }
 
 TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
   SkeletonGraph graph;
@@ -81,13 +89,30 @@ TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
 }
 
 TEST(SkeletonChunks, NeverPassTheirLimit) {
-  for (const SkeletonGraph& graph : {Chain(30'000, 2), Chain(2, 50'000), Chain(3000, 9)}) {
+  for (const SkeletonGraph& graph : {Chain(30'000, 2), Chain(2, 50'000), Chain(3000, 9),
+                                     WithBirths(Chain(30'000, 2)), WithBirths(Chain(2, 50'000))}) {
     const auto chunks = ChunksOf(graph);
     EXPECT_GT(chunks.size(), 1u);
     for (const v1::SkeletonChunk& chunk : chunks) {
       EXPECT_LE(chunk.ByteSizeLong(), kMaxSkeletonChunkBytes);
     }
   }
+}
+
+TEST(SkeletonChunks, HoldNoBirthsWhereThereAreNone) {
+  for (const v1::SkeletonChunk& chunk : ChunksOf(Chain(3, 5))) {
+    EXPECT_EQ(chunk.points().birth_size() + chunk.nodes().birth_size(), 0);
+  }
+}
+
+TEST(SkeletonChunks, WithBirthsForSomePointsAreDataLoss) {
+  const SkeletonGraph graph = WithBirths(Chain(3, 5));
+  auto chunks = ChunksOf(graph);
+  chunks[0].mutable_points()->mutable_birth()->RemoveLast();
+  EXPECT_EQ(Assemble(chunks, SummaryFor(graph)).status().code(), absl::StatusCode::kDataLoss);
+  chunks = ChunksOf(graph);
+  chunks[0].mutable_nodes()->mutable_birth()->RemoveLast();
+  EXPECT_EQ(Assemble(chunks, SummaryFor(graph)).status().code(), absl::StatusCode::kDataLoss);
 }
 
 TEST(SkeletonChunks, AnEmptyGraphHasOneChunk) { EXPECT_EQ(ChunksOf(SkeletonGraph()).size(), 1u); }

@@ -1,0 +1,22 @@
+#ifndef BCCSKEL_CORE_PRUNING_SIMPLE_POINTS_H_
+#define BCCSKEL_CORE_PRUNING_SIMPLE_POINTS_H_
+
+#include <set>
+#include <vector>
+
+#include "core/pruning/thin_set.h"
+
+namespace bccskel {
+
+// Removes points that are simple and no ends, shallow ones first, of equally deep ones in lattice
+// order: of those in `from`, then of their neighbors, and so on. Points of `keep` stay.
+// Returns: the points that went, in turn.
+std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<LatticePoint>& from,
+                                             const PointSet& keep);
+
+// The same for the whole set.
+void RemoveSimplePoints(ThinSet& set, const PointSet& keep);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_SIMPLE_POINTS_H_
