@@ -353,6 +353,24 @@ Complaint ComplaintAbout(const LabelsArguments& arguments) {
   return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
 }
 
+Complaint FetchComplaint(const std::string& object, const std::string& output) {
+  using exporting::SkeletonFormat;
+  const absl::StatusOr<SkeletonFormat> format = exporting::SkeletonFormatOf(output);
+  if (!format.ok()) return IfError(format.status());
+  const bool shows_object = *format == SkeletonFormat::kSvg || *format == SkeletonFormat::kHtml;
+  if (shows_object && object.empty()) {
+    return output + ": shows the object, too: name the volume that was submitted with --object";
+  }
+  return OverwriteComplaint(object, output);
+}
+
+Complaint ComplaintAbout(const FetchArguments& arguments) {
+  for (const std::string& output : arguments.outputs) {
+    if (Complaint c = FetchComplaint(arguments.object, output); c.has_value()) return c;
+  }
+  return arguments.object.empty() ? std::nullopt : VolumeOutputComplaint(arguments.object);
+}
+
 Complaint ComplaintAbout(const InfoArguments& arguments) {
   return ObjectComplaint(arguments.file, {}, arguments.image);
 }

@@ -156,6 +156,7 @@ struct FetchArguments {
   JobArguments job;
   WaitingArguments waiting;
   std::vector<std::string> outputs;
+  std::string object;  // the volume that was submitted; empty: not at hand
 };
 
 // Is the server ready for calls?

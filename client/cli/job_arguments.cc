@@ -5,6 +5,7 @@
 
 #include "client/cli/choice_option.h"
 #include "client/cli/server_arguments.h"
+#include "client/export/skeleton_file.h"
 
 namespace bccskel::cli {
 namespace {
@@ -75,10 +76,15 @@ CLI::App& AddFetch(CLI::App& app, FetchArguments& arguments) {
       AddJobCommand(app, "fetch", "Wait for a job's end and write its result", arguments.job);
   command
       .add_option("-o,--output", arguments.outputs,
-                  "Output file: .json, .graphml, .vtp, .swc or .obj; may be given several times")
+                  "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
+                      "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
+  command
+      .add_option("--object", arguments.object,
+                  "The volume that was submitted, which .svg and .html show")
+      ->option_text("FILE");
   AddWaiting(command, arguments.waiting);
   return command;
 }

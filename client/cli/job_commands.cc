@@ -1,8 +1,15 @@
+#include <algorithm>
+#include <string>
+
+#include "absl/strings/str_cat.h"
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/job_calls.h"
+#include "client/cli/load_object.h"
+#include "client/cli/local_team.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
+#include "core/io/volume_file.h"
 
 namespace bccskel::cli {
 namespace {
@@ -32,6 +39,38 @@ absl::StatusOr<SkeletonizeResult> Fetch(const FetchArguments& arguments,
   return client->Fetch(arguments.job.job, {.timeout = arguments.waiting.timeout, .stop = stop});
 }
 
+// Empty where none is shown.
+absl::StatusOr<Volume> ObjectOf(const FetchArguments& arguments, const exec::Context& context) {
+  if (arguments.object.empty()) return Volume();
+  return ReadVolumeFile(arguments.object, {}, context);
+}
+
+std::string TitleOf(const FetchArguments& arguments) {
+  return arguments.object.empty() ? arguments.job.job : std::string(FileName(arguments.object));
+}
+
+bool IsVolumeFile(const std::string& path) {
+  const auto format = exporting::SkeletonFormatOf(path);
+  return format.ok() && *format == exporting::SkeletonFormat::kVolume;
+}
+
+// Whether the result has what the files show.
+absl::Status CheckFetched(const FetchArguments& arguments, const Volume& object,
+                          const SkeletonizeResult& result) {
+  const uint64_t points = object.PointCount();
+  if (!arguments.object.empty() && points != result.object_points) {
+    return absl::InvalidArgumentError(absl::StrCat(arguments.object, ": has ", points,
+                                                   " points; the volume of ", arguments.job.job,
+                                                   " had ", result.object_points));
+  }
+  const auto volume = std::ranges::find_if(arguments.outputs, IsVolumeFile);
+  const bool missing = result.thin.PointCount() == 0 && result.object_points > 0;
+  if (volume == arguments.outputs.end() || !missing) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(*volume, ": ", arguments.job.job,
+                                                 " was made without its thinned volume; ",
+                                                 "submit -o ", *volume, " asks for it"));
+}
+
 ExitCode Finish(const JobArguments& arguments, const absl::StatusOr<DurableJob>& job) {
   if (!job.ok()) return FailOnServer(arguments.server.address, job.status());
   return Print(JobSummary(arguments.common, *job));
@@ -56,10 +95,14 @@ ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop) {
 }
 
 ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
+  LocalTeam team(arguments.job.common.threads, stop);
+  const absl::StatusOr<Volume> object = ObjectOf(arguments, team.context());
+  if (!object.ok()) return Fail(object.status());
   const absl::StatusOr<SkeletonizeResult> result = Fetch(arguments, stop);
   if (!result.ok()) return FailOnServer(arguments.job.server.address, result.status());
-  const Volume no_object;  // the formats of this command do not show it
-  const exporting::Subject subject = {*result, no_object, arguments.job.job};
+  const absl::Status fits = CheckFetched(arguments, *object, *result);
+  if (!fits.ok()) return Fail(fits);
+  const exporting::Subject subject = {*result, *object, TitleOf(arguments), team.context()};
   for (const std::string& path : arguments.outputs) {
     const absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());

@@ -14,8 +14,8 @@ class JobsTest(harness.TestCase):
     def server(self, name="server"):
         return Server(self.folder, "--data-dir", self.path("data"), "--threads", "1", name=name)
 
-    def submit(self, server, *more, points=20000):
-        volume = self.generate("torus", points)
+    def submit(self, server, *more, points=20000, shape="torus"):
+        volume = self.generate(shape, points)
         return self.succeed("submit", volume, "--detach", "--server", server.address, *more).strip()
 
     def jobs(self, server):
@@ -39,6 +39,37 @@ class JobsTest(harness.TestCase):
             self.succeed("delete", job, "--server", server.address)
             self.assertEqual(self.jobs(server), {})
             self.fail_with(3, "server", "watch", job, "--server", server.address)
+
+    def test_a_result_is_fetched_in_every_format(self):
+        endings = ("json", "graphml", "vtp", "swc", "obj", "svg", "html")
+        with self.server() as server:
+            job = self.submit(server, shape="horse")  # no loop, which SWC cannot hold
+            local, fetched = ([self.path(f"{which}.{ending}") for ending in endings]
+                              for which in ("local", "fetched"))
+            self.succeed("skeletonize", self.path("object.bccb"), "--local",
+                         *(word for path in local for word in ("-o", path)))
+            self.succeed("fetch", job, "--server", server.address, "--object",
+                         self.path("object.bccb"),
+                         *(word for path in fetched for word in ("-o", path)))
+            for mine, theirs in zip(local, fetched):
+                if not mine.endswith((".json", ".html")):  # those say how long it took
+                    self.assertEqual(pathlib.Path(mine).read_bytes(),
+                                     pathlib.Path(theirs).read_bytes(), mine)
+            self.assertIn("<html", pathlib.Path(fetched[-1]).read_text())
+
+    def test_fetch_says_what_it_cannot_write(self):
+        with self.server() as server:
+            job = self.submit(server)
+            fetch = ("fetch", job, "--server", server.address)
+            self.fail_with(2, "no output format has this ending", *fetch, "-o", self.path("a.txt"))
+            self.fail_with(2, "--object", *fetch, "-o", self.path("a.html"))
+            self.fail_with(2, "ends in .exr or .bccb", *fetch, "-o", self.path("a.json"),
+                           "--object", self.path("a.stl"))
+            self.fail_with(3, "without its thinned volume", *fetch, "-o", self.path("a.exr"))
+            other = self.path("other.bccb")
+            self.succeed("generate", "ball", "--points", "5000", "-o", other)
+            self.fail_with(3, "points; the volume of", *fetch, "-o", self.path("a.svg"),
+                           "--object", other)
 
     def test_a_job_outlives_the_server(self):
         with self.server() as server:

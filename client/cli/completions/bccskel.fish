@@ -82,7 +82,7 @@ __bccskel_option 'submit skeletonize labels' -x -l last-shell -d 'Stop after thi
 __bccskel_option 'submit skeletonize labels' -f -l no-cleanup -d 'Leave simple points'
 __bccskel_option 'submit skeletonize watch fetch' -x -l progress -a 'auto always never' -d 'Show the shells'
 __bccskel_option 'submit skeletonize watch fetch probe' -x -l timeout -d 'Give up after this many seconds'
-__bccskel_option 'view render reconstruct' -r -l object -d 'What the result was made from'
+__bccskel_option 'view render reconstruct fetch' -r -l object -d 'What the result was made from'
 __bccskel_option render -x -l size -d 'Pixels of the picture'
 __bccskel_option render -x -l turn -d 'Walk around the object'
 __bccskel_option render -x -l climb -d 'Look from above'
