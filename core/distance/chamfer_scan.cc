@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <functional>
+#include <utility>
 
 #include "core/distance/chamfer_rows.h"
+#include "core/distance/chamfer_section.h"
+#include "core/distance/layer_team.h"
 #include "core/exec/status_macros.h"
 
 // Does:  chamfer distance to the background for every point of the stored bricks.
@@ -19,120 +24,76 @@
 namespace bccskel {
 namespace {
 
-template <typename T>
-class DistanceScan {
- public:
-  DistanceScan(const Volume& object, const ChamferWeights& weights, const RunTables* runs,
-               T* values)
-      : bricks_(object.brick_count()),
-        view_{object.padded_bricks().data(), object.neighbors().data(), values, weights, runs} {
-    const std::span<const BrickKey> keys = object.keys();
-    for (BrickIndex n = 0; n < keys.size(); ++n) {
-      const BrickCoordinates brick = keys[n].coordinates();
-      if (n == 0 || brick.bz != keys[n - 1].coordinates().bz) slabs_.push_back({n, n, {}});
-      slabs_.back().last = n + 1;
-      slabs_.back().bricks[static_cast<size_t>(brick.sublattice)].push_back(n);
-    }
+std::vector<BrickSlab> SlabsOf(const Volume& object) {
+  std::vector<BrickSlab> slabs;
+  const std::span<const BrickKey> keys = object.keys();
+  for (BrickIndex n = 0; n < keys.size(); ++n) {
+    const BrickCoordinates brick = keys[n].coordinates();
+    if (n == 0 || brick.bz != keys[n - 1].coordinates().bz) slabs.push_back({n, n, {}});
+    slabs.back().last = n + 1;
+    slabs.back().bricks[static_cast<size_t>(brick.sublattice)].push_back(n);
   }
+  return slabs;
+}
 
-  absl::Status Run(const exec::Context& context) {
-    context.Run([&](int worker) {
-      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context.threads());
-      for (size_t s = mine.begin; s < mine.end && !context.ShouldStop(); ++s) {
+// Both scans over a section.
+template <typename T>
+class SectionScan {
+ public:
+  // Called on each worker with its share of a slab whose distances are final.
+  using OnFinal = std::function<void(BrickIndex first, BrickIndex last)>;
+
+  SectionScan(ChamferSection<T>& section, const ChamferWeights& weights, const RunTables* runs,
+              const exec::Context& context)
+      : slabs_(section.slabs()), view_(section.View(weights, runs)), context_(context) {}
+
+  void Rise() const {
+    context_.Run([&](int worker) {
+      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context_.threads());
+      for (size_t s = mine.begin; s < mine.end && !context_.ShouldStop(); ++s) {
         SweepWithinLayers(view_, slabs_[s].first, slabs_[s].last);
       }
     });
-    Team team(WorkersFor(context), context);
-    if (team.size() == 1) {
-      JoinAll(0, team);
-    } else {
-      context.Run([&](int worker) {
-        if (worker >= team.size()) return;
-        team.Guard([&] { JoinAll(worker, team); });
-      });
-    }
-    return context.StopStatus();
+    LayerTeam team(WorkersFor(), context_);
+    team.Run([&](int worker) {
+      for (const BrickSlab& slab : slabs_) {
+        Raise(slab, worker, team);
+        if (!team.GoOn(worker)) return;
+      }
+    });
+  }
+
+  void Fall(const OnFinal& on_final) const {
+    LayerTeam team(WorkersFor(), context_);
+    team.Run([&](int worker) {
+      for (size_t s = slabs_.size(); s-- > 0;) {
+        const BrickSlab& slab = slabs_[s];
+        Lower(slab, worker, team);
+        const exec::Share share = team.ShareOf(slab.size(), worker);
+        on_final(slab.first + static_cast<BrickIndex>(share.begin),
+                 slab.first + static_cast<BrickIndex>(share.end));
+        if (!team.GoOn(worker)) return;
+      }
+    });
   }
 
  private:
-  // The bricks of one bz.
-  struct Slab {
-    BrickIndex first = 0;
-    BrickIndex last = 0;
-    std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
-  };
-
-  // Workers that go from layer to layer together.
-  class Team {
-   public:
-    Team(int size, const exec::Context& context)
-        : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
-
-    int size() const { return size_; }
-    template <typename Part>
-    void Guard(Part part) {
-      barrier_.Guard(part);
-    }
-    // How many are still at it.
-    int present() const { return alone_ ? 1 : size_; }
-
-    void Meet(int worker) {
-      if (present() == 1) return;
-      const exec::Barrier::Duration blocked = barrier_.Wait();
-      if (worker == 0) patience_.Blocked(blocked);
-    }
-
-    // Whether this worker goes on to the next slab. All decide the same, or some would wait for
-    // others for ever.
-    bool GoOn(int worker) {
-      if (alone_) return !context_.ShouldStop();
-      if (worker == 0) {
-        stopped_ = context_.ShouldStop();
-        leave_ = patience_.Lost();
-      }
-      Meet(worker);
-      if (stopped_ || (leave_ && worker != 0)) return false;
-      if (leave_) alone_ = true;
-      return true;
-    }
-
-   private:
-    const int size_;
-    const exec::Context& context_;
-    exec::Barrier barrier_;
-    exec::Patience patience_;  // worker 0's
-    // Written by worker 0 before a meeting that all others reach after they have read the last
-    // value.
-    bool stopped_ = false;
-    bool leave_ = false;
-    bool alone_ = false;  // read by worker 0 only once the others leave
-  };
-
   // What counts is the work between two meetings: a layer of a slab, not all bricks. A layer of a
   // quarter of the bricks that a worker needs elsewhere is enough.
-  int WorkersFor(const exec::Context& context) const {
-    return slabs_.empty() ? 1 : context.WorkersFor(4 * bricks_ / slabs_.size());
+  int WorkersFor() const {
+    size_t bricks = 0;
+    for (const BrickSlab& slab : slabs_) bricks += slab.size();
+    return slabs_.empty() ? 1 : context_.WorkersFor(4 * bricks / slabs_.size());
   }
 
-  void JoinAll(int worker, Team& team) const {
-    for (const Slab& slab : slabs_) {
-      Raise(slab, worker, team);
-      if (!team.GoOn(worker)) return;
-    }
-    for (size_t s = slabs_.size(); s-- > 0;) {
-      Lower(slabs_[s], worker, team);
-      if (!team.GoOn(worker)) return;
-    }
-  }
-
-  void Raise(const Slab& slab, int worker, Team& team) const {
+  void Raise(const BrickSlab& slab, int worker, LayerTeam& team) const {
     for (int k = 0; k < kBrickZ; ++k) {
       Join(slab, Sublattice::kEven, k, ScanDirection::kUpward, worker, team);
       Join(slab, Sublattice::kOdd, k, ScanDirection::kUpward, worker, team);
     }
   }
 
-  void Lower(const Slab& slab, int worker, Team& team) const {
+  void Lower(const BrickSlab& slab, int worker, LayerTeam& team) const {
     for (int k = kBrickZ - 1; k >= 0; --k) {
       Join(slab, Sublattice::kOdd, k, ScanDirection::kDownward, worker, team);
       Join(slab, Sublattice::kEven, k, ScanDirection::kDownward, worker, team);
@@ -140,18 +101,18 @@ class DistanceScan {
   }
 
   // Layers follow each other, so the workers meet after each.
-  void Join(const Slab& slab, Sublattice sublattice, int k, ScanDirection direction, int worker,
-            Team& team) const {
+  void Join(const BrickSlab& slab, Sublattice sublattice, int k, ScanDirection direction,
+            int worker, LayerTeam& team) const {
     const std::span<const BrickIndex> bricks = slab.bricks[static_cast<size_t>(sublattice)];
-    const exec::Share share = exec::ShareOf(bricks.size(), worker, team.present());
+    const exec::Share share = team.ShareOf(bricks.size(), worker);
     JoinLayers(view_, sublattice, bricks.subspan(share.begin, share.end - share.begin), k,
                direction);
     team.Meet(worker);
   }
 
-  const size_t bricks_;
+  const std::span<const BrickSlab> slabs_;
   const DistanceView<T> view_;
-  std::vector<Slab> slabs_;
+  const exec::Context& context_;
 };
 
 // Counts of every point of the stored bricks and of the padding brick.
@@ -160,11 +121,89 @@ absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
                                                   const ChamferWeights& weights,
                                                   const RunTables* runs,
                                                   const exec::Context& context) {
-  exec::UninitializedVector<T> values((object.brick_count() + 1) * kBrickPoints);
-  std::fill(values.end() - kBrickPoints, values.end(), T{0});  // the padding brick
-  BCCSKEL_RETURN_IF_ERROR(DistanceScan<T>(object, weights, runs, values.data()).Run(context));
-  return values;
+  const std::vector<BrickSlab> slabs = SlabsOf(object);
+  ChamferSection<T> section(object, slabs);
+  const SectionScan<T> scan(section, weights, runs, context);
+  scan.Rise();
+  scan.Fall([](BrickIndex, BrickIndex) {});
+  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  return std::move(section).TakeValues();
 }
+
+// Scans an object section by section: all from below, where each leaves its top layer, then all
+// from above, where each but the last is scanned from below once more.
+template <typename T>
+class Stream {
+ public:
+  Stream(const Volume& object, const ChamferWeights& weights, const RunTables* runs,
+         const exec::Context& context, size_t at_once)
+      : object_(object),
+        weights_(weights),
+        runs_(runs),
+        context_(context),
+        slabs_(SlabsOf(object)) {
+    size_t points = 0;
+    for (size_t s = 0; s < slabs_.size(); ++s) {
+      if (points == 0 || points + slabs_[s].size() * kBrickPoints > at_once) {
+        starts_.push_back(s);
+        points = 0;
+      }
+      points += slabs_[s].size() * kBrickPoints;
+    }
+    starts_.push_back(slabs_.size());
+  }
+
+  // Returns the largest distance, or one that is not below `limit` and then was too large.
+  absl::StatusOr<uint32_t> Run(uint32_t limit, DistanceSink& sink) {
+    for (size_t n = 0; n + 1 < sections(); ++n) {
+      tops_.push_back(Risen(n).TopLayer());
+      BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    }
+    std::atomic<uint32_t> largest = 0;
+    for (size_t n = sections(); n-- > 0 && largest < limit;) {
+      Finish(n, sink, largest);
+      BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    }
+    return largest.load();
+  }
+
+ private:
+  using Layer = typename ChamferSection<T>::Layer;
+
+  size_t sections() const { return starts_.size() - 1; }
+
+  ChamferSection<T> Risen(size_t n) const {
+    ChamferSection<T> section(object_, slabs_, starts_[n], starts_[n + 1]);
+    if (n > 0) section.SetLayerBelow(tops_[n - 1]);
+    SectionScan<T>(section, weights_, runs_, context_).Rise();
+    return section;
+  }
+
+  void Finish(size_t n, DistanceSink& sink, std::atomic<uint32_t>& largest) {
+    ChamferSection<T> section = Risen(n);
+    if (n + 1 < sections()) section.SetLayerAbove(bottom_);
+    const auto take = [&](BrickIndex first, BrickIndex last) {
+      uint32_t most = 0;
+      for (BrickIndex brick = first; brick < last; ++brick) {
+        most = std::max(most, sink.Take(section.start() + brick, section.Of(brick)));
+      }
+      uint32_t before = largest.load();
+      while (before < most && !largest.compare_exchange_weak(before, most)) {
+      }
+    };
+    SectionScan<T>(section, weights_, runs_, context_).Fall(take);
+    bottom_ = section.BottomLayer();
+  }
+
+  const Volume& object_;
+  const ChamferWeights weights_;
+  const RunTables* const runs_;
+  const exec::Context& context_;
+  const std::vector<BrickSlab> slabs_;
+  std::vector<size_t> starts_;  // of the sections, and the end
+  std::vector<Layer> tops_;     // of the sections, as seen from below
+  Layer bottom_;                // of the section above
+};
 
 // Made once for equal spacing: small objects would spend more time on them than on their points.
 RunTables RunTablesOf(const ChamferWeights& weights) {
@@ -196,6 +235,24 @@ absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind 
   BCCSKEL_ASSIGN_OR_RETURN(auto values, Scan<uint32_t>(object, wide, nullptr, context));
   const uint32_t largest = LargestOf(std::span<const uint32_t>(values));
   return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
+}
+
+absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::Context& context,
+                           DistanceSink& sink, size_t at_once) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  const ChamferWeights weights = ShortWeights(scale);
+  if (FitShortRows(weights)) {
+    const RunTables runs = RunTablesOf(weights);
+    sink.Begin(InUnitOf(kind, weights, scale), runs.limit());
+    Stream<uint16_t> stream(object, weights, &runs, context, at_once);
+    BCCSKEL_ASSIGN_OR_RETURN(const uint32_t largest, stream.Run(runs.limit(), sink));
+    if (largest < runs.limit()) return absl::OkStatus();
+  }
+  constexpr size_t kMostWide = size_t{1} << 26;
+  const ChamferWeights wide = LongWeights(scale);
+  sink.Begin(InUnitOf(kind, wide, scale), UINT32_MAX);
+  Stream<uint32_t> stream(object, wide, nullptr, context, std::min(at_once, kMostWide));
+  return stream.Run(UINT32_MAX, sink).status();
 }
 
 }  // namespace bccskel

@@ -1,6 +1,10 @@
 #ifndef BCCSKEL_CORE_DISTANCE_CHAMFER_SCAN_H_
 #define BCCSKEL_CORE_DISTANCE_CHAMFER_SCAN_H_
 
+#include <cstddef>
+#include <cstdint>
+
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/distance/distance_field.h"
 
@@ -9,6 +13,30 @@ namespace bccskel {
 // ComputeDistance() for kChamfer and kChamferOptimal.
 absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind kind,
                                              const exec::Context& context);
+
+// Takes distances brick by brick, in any order, where nobody needs all of them at a time.
+// Threads: Take() is called on several workers at once, for different bricks.
+class DistanceSink {
+ public:
+  virtual ~DistanceSink() = default;
+
+  // What was taken so far is void: distances come in these counts, all below `limit`.
+  virtual void Begin(const ChamferWeights& weights, uint32_t limit) = 0;
+  // Shapes: kBrickPoints in bit order, of the object's brick. Returns the largest.
+  virtual uint32_t Take(BrickIndex brick, const uint16_t* distances) = 0;
+  virtual uint32_t Take(BrickIndex brick, const uint32_t* distances) = 0;
+};
+
+// More lattice points than this are not measured all at once.
+inline constexpr size_t kMostPointsAtOnce = 1'000'000'000;
+
+// The distances of ComputeChamfer().
+// Cost:   2 bytes per lattice point of the object's bricks. Of objects with more than `at_once`
+//         lattice points, and of deep ones, some slabs of bricks have distances at a time and one
+//         layer of the others; that takes the first scan twice.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::Context& context,
+                           DistanceSink& sink, size_t at_once = kMostPointsAtOnce);
 
 }  // namespace bccskel
 

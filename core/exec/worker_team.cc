@@ -22,6 +22,23 @@ void Pause() {
 #endif
 }
 
+// Returns whether it came true in time. With more workers than processors the others cannot come
+// while this one spins.
+template <typename Condition>
+bool SpinUntil(size_t workers, Condition condition) {
+  static const size_t processors = std::thread::hardware_concurrency();
+  if (condition()) return true;
+  if (workers > processors) return false;
+  const Clock::time_point end = Clock::now() + kSpinTime;
+  do {
+    for (int pause = 0; pause < kPausesPerLook; ++pause) {
+      if (condition()) return true;
+      Pause();
+    }
+  } while (Clock::now() < end);
+  return false;
+}
+
 }  // namespace
 
 WorkerTeam::WorkerTeam(int size) : size_(size) {
@@ -47,6 +64,7 @@ void WorkerTeam::Run(const std::function<void(int)>& work) {
   }
   wake_.notify_all();
   Try(work, 0);
+  SpinUntil(static_cast<size_t>(size_), [this] { return running_ == 0; });
   std::unique_lock lock(mutex_);
   done_.wait(lock, [this] { return running_ == 0; });
   if (thrown_ != nullptr) std::rethrow_exception(std::exchange(thrown_, nullptr));
@@ -65,6 +83,7 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   uint64_t seen = 0;
   while (true) {
     const std::function<void(int)>* work = nullptr;
+    SpinUntil(static_cast<size_t>(size_), [&] { return generation_ != seen; });
     {
       std::unique_lock lock(mutex_);
       if (!wake_.wait(lock, stop, [&] { return generation_ != seen; })) return;
@@ -77,48 +96,41 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   }
 }
 
-// Returns false when the time was not enough.
-bool Barrier::SpinUntilPast(uint32_t phase) const {
-  // With more workers than processors the others cannot come while this one spins.
-  static const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  if (size_ > processors) return false;
-  const Clock::time_point end = Clock::now() + kSpinTime;
-  do {
-    for (int pause = 0; pause < kPausesPerLook; ++pause) {
-      if (phase_.load(std::memory_order_acquire) != phase) return true;
-      Pause();
-    }
-  } while (Clock::now() < end);
-  return false;
+Barrier::Duration Barrier::Wait(int worker) {
+  if (meetings_.size() == 1) return {};
+  std::atomic<uint32_t>& own = meetings_[static_cast<size_t>(worker)].count;
+  const uint32_t count = own.fetch_add(1) + 1;
+  own.notify_all();
+  CheckWhole();
+  Duration blocked = {};
+  for (const Meetings& other : meetings_) blocked += WaitFor(other, count);
+  CheckWhole();
+  return blocked;
 }
 
-Barrier::Duration Barrier::Wait() {
-  if (size_ == 1) return {};
-  const uint32_t phase = phase_.load(std::memory_order_acquire);
-  CheckWhole();
-  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
-    arrived_.store(0, std::memory_order_relaxed);
-    phase_.fetch_add(1, std::memory_order_acq_rel);
-    phase_.notify_all();
-    return {};
-  }
-  if (SpinUntilPast(phase)) {
-    CheckWhole();
-    return {};
-  }
+// Counts may be one ahead: who has seen all come goes on to the next meeting.
+Barrier::Duration Barrier::WaitFor(const Meetings& other, uint32_t count) const {
+  const auto has_come = [&] {
+    const uint32_t theirs = other.count.load(std::memory_order_acquire);
+    return static_cast<int32_t>(theirs - count) >= 0;
+  };
+  if (SpinUntil(meetings_.size(), has_come)) return {};
   const Clock::time_point start = Clock::now();
-  phase_.wait(phase, std::memory_order_acquire);
-  CheckWhole();
+  while (!has_come()) other.count.wait(count - 1, std::memory_order_acquire);
   return Clock::now() - start;
 }
 
-// A new phase lets go of everyone who waits; whoever comes later sees that the barrier is broken.
+// Counts that are far ahead let go of everyone who waits; whoever comes later sees that the barrier
+// is broken.
 void Barrier::Break(std::exception_ptr cause) {
   if (breaking_.exchange(true)) return;
   cause_ = std::move(cause);
   broken_.store(true, std::memory_order_release);
-  phase_.fetch_add(1, std::memory_order_acq_rel);
-  phase_.notify_all();
+  constexpr uint32_t kFarAhead = uint32_t{1} << 30;
+  for (Meetings& meetings : meetings_) {
+    meetings.count.fetch_add(kFarAhead, std::memory_order_acq_rel);
+    meetings.count.notify_all();
+  }
 }
 
 }  // namespace bccskel::exec

@@ -2,10 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <variant>
+
+#include "core/exec/status_macros.h"
 
 namespace bccskel {
 namespace {
+
+// Of a brick's points.
+struct DistanceExtremes {
+  uint32_t smallest;
+  uint32_t largest;
+};
 
 ShellRule RuleFor(const ChamferWeights& weights, double shell_width) {
   return ShellRule(
@@ -14,38 +24,60 @@ ShellRule RuleFor(const ChamferWeights& weights, double shell_width) {
 
 // For objects deeper than 16 bits and for the rare width whose borders single precision misses.
 template <typename T>
-Shells::Range SliceExactly(const ShellRule& rule, const BrickBits& object, const T* distances,
-                           ShellPlanes& planes) {
-  Shells::Range range = {INT32_MAX, 0};
+DistanceExtremes SliceExactly(const ShellRule& rule, const BrickBits& object, const T* distances,
+                              ShellPlanes& planes) {
+  DistanceExtremes found = {UINT32_MAX, 0};
   planes = {};
   object.ForEachSetBit([&](int bit) {
-    const int32_t shell = rule(distances[bit]);
-    range.first = std::min(range.first, shell);
-    range.last = std::max(range.last, shell);
+    const uint32_t distance = distances[bit];
+    found = {std::min(found.smallest, distance), std::max(found.largest, distance)};
+    const int32_t shell = rule(distance);
     for (int b = 0; b < kShellPlanes; ++b) {
       if ((shell >> b & 1) != 0) planes[static_cast<size_t>(b)].Set(bit);
     }
   });
-  return range;
+  return found;
 }
 
-// Slices one brick after the other by the fastest exact way.
-class Slicer {
+// Slices bricks of chamfer distances by the fastest exact way.
+class ChamferSlicer {
  public:
-  Slicer(const Volume& object, const DistanceField& distance, double width)
-      : object_(object),
-        distance_(distance),
-        euclidean_(width),
-        chamfer_(RuleFor(distance.weights(), width)) {
-    if (distance.kind() != DistanceKind::kEuclidean) {
-      fast_ = MakeFloatRule(chamfer_, distance.largest());
-    }
+  // Needs: no distance is above `largest`.
+  ChamferSlicer(const ChamferWeights& weights, double width, uint32_t largest)
+      : rule_(RuleFor(weights, width)), fast_(MakeFloatRule(rule_, largest)) {}
+
+  DistanceExtremes operator()(const BrickBits& object, const uint16_t* distances,
+                              ShellPlanes& planes) const {
+    if (!fast_.exact) return SliceExactly(rule_, object, distances, planes);
+    const DistanceRange range = SliceBrick(fast_.rule, distances, planes);
+    return {range.smallest, range.largest};
+  }
+  DistanceExtremes operator()(const BrickBits& object, const uint32_t* distances,
+                              ShellPlanes& planes) const {
+    return SliceExactly(rule_, object, distances, planes);
+  }
+  Shells::Range ShellsOf(const DistanceExtremes& range) const {
+    return {rule_(range.smallest), rule_(range.largest)};
+  }
+
+ private:
+  const ShellRule rule_;
+  const CheckedFloatRule fast_;
+};
+
+// Slices a field, one brick after the other.
+class FieldSlicer {
+ public:
+  FieldSlicer(const Volume& object, const DistanceField& distance, double width)
+      : object_(object), distance_(distance), euclidean_(width) {
+    if (distance.kind() == DistanceKind::kEuclidean) return;
+    chamfer_.emplace(distance.weights(), width, distance.largest());
   }
 
   Shells::Range operator()(size_t brick, ShellPlanes& planes) const {
     return std::visit(
         [&](const auto& values) {
-          return Slice(brick, values.data() + brick * kBrickPoints, planes);
+          return Slice(object_.bricks()[brick], values.data() + brick * kBrickPoints, planes);
         },
         distance_.values());
   }
@@ -56,45 +88,82 @@ class Slicer {
     const SquaredRange range = SliceBrick(euclidean_, squares, planes);
     return {euclidean_(range.smallest), euclidean_(range.largest)};
   }
-  Shells::Range Slice(size_t, const float* squares, ShellPlanes& planes) const {
+  Shells::Range Slice(const BrickBits&, const float* squares, ShellPlanes& planes) const {
     return SliceSquares(squares, planes);
   }
-  Shells::Range Slice(size_t brick, const uint16_t* distances, ShellPlanes& planes) const {
-    if (distance_.kind() == DistanceKind::kEuclidean) return SliceSquares(distances, planes);
-    if (!fast_.exact) return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
-    const DistanceRange range = SliceBrick(fast_.rule, distances, planes);
-    return {chamfer_(range.smallest), chamfer_(range.largest)};
+  Shells::Range Slice(const BrickBits& object, const uint16_t* distances,
+                      ShellPlanes& planes) const {
+    if (!chamfer_.has_value()) return SliceSquares(distances, planes);
+    return chamfer_->ShellsOf((*chamfer_)(object, distances, planes));
   }
-  Shells::Range Slice(size_t brick, const uint32_t* distances, ShellPlanes& planes) const {
-    return SliceExactly(chamfer_, object_.bricks()[brick], distances, planes);
+  Shells::Range Slice(const BrickBits& object, const uint32_t* distances,
+                      ShellPlanes& planes) const {
+    return chamfer_->ShellsOf((*chamfer_)(object, distances, planes));
   }
 
   const Volume& object_;
   const DistanceField& distance_;
   const EuclideanShellRule euclidean_;
-  const ShellRule chamfer_;
-  CheckedFloatRule fast_ = {};
+  std::optional<ChamferSlicer> chamfer_;
 };
 
-}  // namespace
+using PlanesOfBricks = exec::UninitializedVector<ShellPlanes>;
+
+PlanesOfBricks PlanesFor(const Volume& object) {
+  PlanesOfBricks planes(object.brick_count() + 1);
+  planes.back() = {};
+  return planes;
+}
+
+// Slices distances while they are at hand.
+class StreamSlicer : public DistanceSink {
+ public:
+  StreamSlicer(const Volume& object, double width)
+      : object_(object), width_(width), planes_(PlanesFor(object)), ranges_(object.brick_count()) {}
+
+  void Begin(const ChamferWeights& weights, uint32_t limit) override {
+    slice_.emplace(weights, width_, limit - 1);
+  }
+  uint32_t Take(BrickIndex brick, const uint16_t* distances) override {
+    return Slice(brick, distances);
+  }
+  uint32_t Take(BrickIndex brick, const uint32_t* distances) override {
+    return Slice(brick, distances);
+  }
+  Shells Finish() && { return Shells(std::move(planes_), std::move(ranges_)); }
+
+ private:
+  template <typename T>
+  uint32_t Slice(BrickIndex brick, const T* distances) {
+    const DistanceExtremes found = (*slice_)(object_.bricks()[brick], distances, planes_[brick]);
+    ranges_[brick] = slice_->ShellsOf(found);
+    return found.largest;
+  }
+
+  const Volume& object_;
+  const double width_;
+  std::optional<ChamferSlicer> slice_;
+  PlanesOfBricks planes_;
+  std::vector<Shells::Range> ranges_;
+};
 
 Shells SliceAll(const Volume& object, const DistanceField& distance, double width,
                 const exec::Context& context) {
-  const Slicer slice(object, distance, width);
-  Shells shells;
-  shells.planes_.resize(object.brick_count() + 1);
-  shells.planes_.back() = {};
-  shells.ranges_.resize(object.brick_count());
+  const FieldSlicer slice(object, distance, width);
+  PlanesOfBricks planes = PlanesFor(object);
+  std::vector<Shells::Range> ranges(object.brick_count());
   context.Run([&](int worker) {
     const exec::Share share = exec::ShareOf(object.brick_count(), worker, context.threads());
-    for (size_t n = share.begin; n < share.end; ++n) {
-      shells.ranges_[n] = slice(n, shells.planes_[n]);
-    }
+    for (size_t n = share.begin; n < share.end; ++n) ranges[n] = slice(n, planes[n]);
   });
-  for (const Shells::Range& range : shells.ranges_) {
-    shells.last_ = std::max(shells.last_, range.last);
-  }
-  return shells;
+  return Shells(std::move(planes), std::move(ranges));
+}
+
+}  // namespace
+
+Shells::Shells(exec::UninitializedVector<ShellPlanes> planes, std::vector<Range> ranges)
+    : planes_(std::move(planes)), ranges_(std::move(ranges)) {
+  for (const Range& range : ranges_) last_ = std::max(last_, range.last);
 }
 
 int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width) {
@@ -119,6 +188,14 @@ Shells BuildShells(const Volume& object, const DistanceField& distance, double s
                    const exec::Context& context) {
   const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
   return SliceAll(object, distance, width, context);
+}
+
+absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
+                                    const exec::Context& context, size_t at_once) {
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  StreamSlicer slicer(object, width);
+  BCCSKEL_RETURN_IF_ERROR(StreamChamfer(object, kind, context, slicer, at_once));
+  return std::move(slicer).Finish();
 }
 
 Shells BuildDepths(const Volume& object, const DistanceField& distance,

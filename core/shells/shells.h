@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "absl/status/statusor.h"
+#include "core/distance/chamfer_scan.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/exec/uninitialized.h"
@@ -34,6 +36,10 @@ class Shells {
     int32_t last = 0;
   };
 
+  Shells() = default;
+  // Shapes: planes for each brick and the padding brick.
+  Shells(exec::UninitializedVector<ShellPlanes> planes, std::vector<Range> ranges);
+
   int32_t last() const { return last_; }
   const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
   size_t brick_count() const { return ranges_.size(); }
@@ -43,7 +49,6 @@ class Shells {
   std::span<const ShellPlanes> planes() const { return planes_; }
 
  private:
-  friend Shells SliceAll(const Volume&, const DistanceField&, double, const exec::Context&);
   exec::UninitializedVector<ShellPlanes> planes_;
   std::vector<Range> ranges_;
   int32_t last_ = 0;
@@ -53,6 +58,14 @@ class Shells {
 // Needs: kMinShellWidth <= shell_width <= kMaxShellWidth; `distance` belongs to `object`.
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context);
+
+// The same from chamfer distances that nobody needs afterwards: measured and sliced in one go, in
+// less memory. `at_once` as for StreamChamfer().
+// Needs:  not kEuclidean.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
+                                    const exec::Context& context,
+                                    size_t at_once = kMostPointsAtOnce);
 
 // Thinner shells that tell which of two neighbors is deeper, but no longer the shells of a whole
 // brick apart: those of neighbors differ by less than 16, so planes 0 to 4 are enough.

@@ -37,41 +37,50 @@ namespace {
 // One run, stage by stage.
 class Thinning {
  public:
-  Thinning(const Volume& object, const DistanceField& distance, const ThinningOptions& options,
-           const exec::Context& context, const OnShellPoints& on_points)
+  Thinning(const Volume& object, const ThinningOptions& options, const exec::Context& context,
+           const OnShellPoints& on_points)
       : object_(object),
-        distance_(distance),
         options_(options),
         context_(context),
         on_points_(on_points),
         state_(object, options.keep) {}
 
-  absl::StatusOr<ThinningResult> Run() {
-    const Shells shells = BuildShells(object_, distance_, options_.shell_width, context_);
-    result_.last_shell = shells.last();
+  absl::StatusOr<ThinningResult> Run(const DistanceField& distance) && {
+    const Shells shells = BuildShells(object_, distance, options_.shell_width, context_);
+    if (options_.method != ThinningMethod::kSymmetric) return std::move(*this).Run(shells);
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-    const bool symmetric = options_.method == ThinningMethod::kSymmetric;
-    BCCSKEL_RETURN_IF_ERROR(symmetric ? SweepSymmetrically(shells) : SweepByDirections(shells));
-    // A symmetric pass removes something as long as anything is simple.
-    if (options_.cleanup == ThinnessCleanup::kOn && !symmetric) {
+    // A symmetric pass removes something as long as anything is simple: nothing to clean up.
+    BCCSKEL_RETURN_IF_ERROR(SweepSymmetrically(shells, distance));
+    return std::move(*this).Finish();
+  }
+
+  // Needs: a directional method.
+  absl::StatusOr<ThinningResult> Run(const Shells& shells) && {
+    BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    BCCSKEL_RETURN_IF_ERROR(SweepByDirections(shells));
+    if (options_.cleanup == ThinnessCleanup::kOn) {
       BCCSKEL_ASSIGN_OR_RETURN(result_.removed_by_cleanup, CleanUpThinness(context_, state_));
       if (peeled_.has_value()) on_points_(shells.last() + 1, peeled_->Take(state_.object));
     }
     result_.times.cleanup = clock_.Lap();
+    return std::move(*this).Finish();
+  }
+
+ private:
+  ThinningResult Finish() && {
     result_.thin = std::move(state_).ToVolume(object_);
     result_.times.passes += clock_.Lap();
     return std::move(result_);
   }
 
- private:
   absl::Status SweepByDirections(const Shells& shells) {
     const bool alternating = options_.method == ThinningMethod::kDirectionalAlternating;
     DirectionRule rule(state_, alternating ? DirectionOrder::kAlternating : DirectionOrder::kSame);
     return Sweep(shells, rule);
   }
 
-  absl::Status SweepSymmetrically(const Shells& shells) {
-    const Shells depth = BuildDepths(object_, distance_, context_);
+  absl::Status SweepSymmetrically(const Shells& shells, const DistanceField& distance) {
+    const Shells depth = BuildDepths(object_, distance, context_);
     SymmetricRule rule(depth, options_.kind, state_);
     BCCSKEL_RETURN_IF_ERROR(Sweep(shells, rule));
     result_.isthmuses = rule.Isthmuses();
@@ -80,6 +89,7 @@ class Thinning {
 
   absl::Status Sweep(const Shells& shells, PassRule& rule) {
     result_.times.shells = clock_.Lap();
+    result_.last_shell = shells.last();
     const int32_t last =
         options_.last_shell == 0 ? shells.last() : std::min(options_.last_shell, shells.last());
     const bool has_stubble = EndPointsOf(options_.kind) == EndPoints::kStay;
@@ -96,7 +106,6 @@ class Thinning {
   }
 
   const Volume& object_;
-  const DistanceField& distance_;
   const ThinningOptions& options_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
@@ -113,7 +122,18 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceF
                                            const exec::Context& context,
                                            const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  return Thinning(object, distance, options, context, on_points).Run();
+  return Thinning(object, options, context, on_points).Run(distance);
+}
+
+absl::StatusOr<ThinningResult> ThinByDirections(const Volume& object, const Shells& shells,
+                                                const ThinningOptions& options,
+                                                const exec::Context& context,
+                                                const OnShellPoints& on_points) {
+  BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
+  if (options.method == ThinningMethod::kSymmetric) {
+    return absl::InvalidArgumentError("the symmetric method needs distances besides shells");
+  }
+  return Thinning(object, options, context, on_points).Run(shells);
 }
 
 }  // namespace bccskel

@@ -116,6 +116,13 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceF
                                            const exec::Context& context,
                                            const OnShellPoints& on_points = nullptr);
 
+// The directional methods need no more than the shells of options.shell_width, so the distances
+// can be gone. Otherwise as ThinToCurve().
+absl::StatusOr<ThinningResult> ThinByDirections(const Volume& object, const Shells& shells,
+                                                const ThinningOptions& options,
+                                                const exec::Context& context,
+                                                const OnShellPoints& on_points = nullptr);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_THINNING_THINNING_H_

@@ -73,9 +73,9 @@ TEST(Barrier, LetsNobodyPassBeforeAllHaveCome) {
     team.Run([&](int worker) {
       for (int phase = 1; phase <= kPhases; ++phase) {
         phase_of[static_cast<size_t>(worker)] = phase;
-        barrier.Wait();
+        barrier.Wait(worker);
         for (int other : phase_of) early += other != phase ? 1 : 0;
-        barrier.Wait();
+        barrier.Wait(worker);
       }
     });
     EXPECT_EQ(early, 0) << size << " workers";
@@ -91,7 +91,7 @@ TEST(Barrier, WaitsForAWorkerThatSleeps) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));  // far longer than any spinning
       written = 7;
     }
-    barrier.Wait();
+    barrier.Wait(worker);
     if (worker == 0) seen = written;
   });
   EXPECT_EQ(seen, 7);
@@ -122,7 +122,7 @@ TEST(Barrier, GuardedPartsEndTogetherWhenOneThrows) {
       const auto part = [&](int worker) {
         for (int phase = 0; phase < 10; ++phase) {
           if (phase == 5 && worker == thrower) throw std::bad_alloc();
-          barrier.Wait();
+          barrier.Wait(worker);
         }
         ++ended;
       };

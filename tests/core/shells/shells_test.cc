@@ -116,6 +116,78 @@ void ExpectEuclideanShells(const Volume& object, double wanted) {
   }
 }
 
+void ExpectSameShells(const Volume& object, const Shells& some, const Shells& expected) {
+  EXPECT_EQ(some.last(), expected.last());
+  ASSERT_EQ(some.brick_count(), expected.brick_count());
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    ASSERT_EQ(some.RangeOf(n).first, expected.RangeOf(n).first);
+    ASSERT_EQ(some.RangeOf(n).last, expected.RangeOf(n).last);
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      for (size_t b = 0; b < kShellPlanes; ++b) {
+        ASSERT_EQ(some.planes()[n][b].Test(bit), expected.planes()[n][b].Test(bit));
+      }
+    });
+  }
+}
+
+void ExpectStreamedShells(const Volume& object, DistanceKind kind) {
+  const auto distance = ComputeDistance(object, kind, exec::Context());
+  const Shells expected = BuildShells(object, *distance, 1, exec::Context());
+  constexpr size_t kSlabBySlab = 1;
+  for (const size_t at_once : {kMostPointsAtOnce, size_t{40'000}, kSlabBySlab}) {
+    for (int threads : {1, 3}) {
+      for (double patience : {1e9, -1e9}) {  // never and at once on with one worker
+        exec::WorkerTeam team(threads);
+        exec::Context context;
+        context.team = &team;
+        context.min_bricks_per_worker = 1;
+        context.patience = patience;
+        const auto shells = StreamShells(object, kind, 1, context, at_once);
+        ASSERT_TRUE(shells.ok()) << shells.status();
+        ExpectSameShells(object, *shells, expected);
+      }
+    }
+  }
+}
+
+TEST(StreamedShells, AreThoseOfAllDistancesAtOnce) {
+  for (uint64_t seed = 0; seed < 2; ++seed) {
+    for (const auto& points : {test::RandomBlob(seed, {60, 50, 50}, 3, 45),
+                               test::RandomCloud(seed, {37, 21, 60}, 0.9)}) {
+      ExpectStreamedShells(VolumeOfPoints(points), DistanceKind::kChamfer);
+      ExpectStreamedShells(VolumeOfPoints(points), DistanceKind::kChamferOptimal);
+    }
+  }
+  ExpectStreamedShells(Volume(), DistanceKind::kChamfer);
+}
+
+TEST(StreamedShells, AreExactWhereDistancesNeedMoreThan16Bits) {
+  const LatticeExtent extent = {1400, 24, 24};
+  VolumeBuilder builder(extent, {.spacing = {1, 60, 60}});
+  for (Sublattice sublattice : kSublattices) {
+    for (int32_t k = 0; k < extent.nz; ++k) {
+      for (int32_t j = 0; j < extent.ny; ++j) {
+        for (int32_t i = 0; i < extent.nx; ++i) builder.Add(PointAt(sublattice, i, j, k));
+      }
+    }
+  }
+  const Volume box = *std::move(builder).Build();
+  const auto distance = ComputeDistance(box, DistanceKind::kChamfer, exec::Context());
+  ASSERT_TRUE(std::holds_alternative<exec::UninitializedVector<uint32_t>>(distance->values()));
+  const auto shells = StreamShells(box, DistanceKind::kChamfer, 1, exec::Context());
+  ExpectSameShells(box, *shells, BuildShells(box, *distance, 1, exec::Context()));
+}
+
+TEST(StreamedShells, StopWhenAsked) {
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
+  EXPECT_EQ(StreamShells(object, DistanceKind::kChamfer, 1, context, 1).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
 TEST(Shells, HoldEuclideanShellsForAnySpacingOnEveryInstructionSet) {
   const std::vector<LatticePoint> points = test::RandomBlob(5, {60, 50, 50}, 3, 45);
   for (const std::string& name : exec::SupportedInstructionSets()) {

@@ -1,0 +1,119 @@
+#ifndef BCCSKEL_CORE_DISTANCE_CHAMFER_SECTION_H_
+#define BCCSKEL_CORE_DISTANCE_CHAMFER_SECTION_H_
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/distance/chamfer_rows.h"
+#include "core/exec/uninitialized.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// The bricks of one bz.
+struct BrickSlab {
+  BrickIndex first = 0;
+  BrickIndex last = 0;
+  std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
+
+  size_t size() const { return last - first; }
+};
+
+// Slabs that follow each other, with numbers of their own for their bricks, and room for their
+// distances. Lies between the slabs before and after it, of which it has the layer beside it.
+template <typename T>
+class ChamferSection {
+ public:
+  // One layer of a slab's bricks.
+  static constexpr size_t kLayer = kBrickX * kBrickY;
+  using Layer = exec::UninitializedVector<T>;
+
+  // All of the object.
+  ChamferSection(const Volume& object, std::span<const BrickSlab> slabs)
+      : ChamferSection(object, slabs, 0, slabs.size()) {}
+
+  // The slabs [first, last) of all.
+  ChamferSection(const Volume& object, std::span<const BrickSlab> all, size_t first, size_t last)
+      : below_(first > 0 ? all[first - 1].size() : 0),
+        above_(last < all.size() ? all[last].size() : 0),
+        start_(first < last ? all[first].first - static_cast<BrickIndex>(below_) : 0) {
+    const BrickIndex end = first < last ? all[last - 1].last + static_cast<BrickIndex>(above_) : 0;
+    padding_ = end - start_;
+    for (const BrickSlab& slab : all.subspan(first, last - first)) slabs_.push_back(Moved(slab));
+    bricks_ = object.bricks().data() + start_;
+    neighbors_ = object.neighbors();
+    if (padding_ != object.brick_count()) Renumber();
+    values_.resize((size_t{padding_} + 1) * kBrickPoints);
+    std::fill(values_.end() - kBrickPoints, values_.end(), T{0});
+  }
+
+  std::span<const BrickSlab> slabs() const { return slabs_; }
+  // What to add to a brick's number for its number in the volume.
+  BrickIndex start() const { return start_; }
+  DistanceView<T> View(const ChamferWeights& weights, const RunTables* runs) {
+    return {bricks_, neighbors_.data(), values_.data(), weights, runs};
+  }
+  const T* Of(BrickIndex brick) const { return values_.data() + size_t{brick} * kBrickPoints; }
+  exec::UninitializedVector<T> TakeValues() && { return std::move(values_); }
+
+  // The layers at the section's sides, and those beside it: what one section takes from the next.
+  Layer TopLayer() const { return LayerOf(slabs_.back().first, slabs_.back().size(), kBrickZ - 1); }
+  Layer BottomLayer() const { return LayerOf(slabs_.front().first, slabs_.front().size(), 0); }
+  void SetLayerBelow(const Layer& layer) { SetLayer(0, layer, kBrickZ - 1); }
+  void SetLayerAbove(const Layer& layer) {
+    SetLayer(padding_ - static_cast<BrickIndex>(above_), layer, 0);
+  }
+
+ private:
+  BrickSlab Moved(BrickSlab slab) const {
+    slab.first -= start_;
+    slab.last -= start_;
+    for (std::vector<BrickIndex>& bricks : slab.bricks) {
+      for (BrickIndex& n : bricks) n -= start_;
+    }
+    return slab;
+  }
+
+  void Renumber() {
+    own_neighbors_.assign(neighbors_.begin() + start_, neighbors_.begin() + start_ + padding_);
+    for (BrickNeighborhood& near : own_neighbors_) {
+      for (BrickIndex& n : near) n = n >= start_ && n - start_ < padding_ ? n - start_ : padding_;
+    }
+    neighbors_ = own_neighbors_;
+  }
+
+  T* LayerAt(BrickIndex brick, int k) {
+    return values_.data() + size_t{brick} * kBrickPoints + kLayer * static_cast<size_t>(k);
+  }
+  Layer LayerOf(BrickIndex first, size_t bricks, int k) const {
+    Layer layer(bricks * kLayer);
+    for (size_t n = 0; n < bricks; ++n) {
+      const T* from = Of(first + static_cast<BrickIndex>(n)) + kLayer * static_cast<size_t>(k);
+      std::copy_n(from, kLayer, layer.data() + n * kLayer);
+    }
+    return layer;
+  }
+  void SetLayer(BrickIndex first, const Layer& layer, int k) {
+    for (size_t n = 0; n < layer.size() / kLayer; ++n) {
+      std::copy_n(layer.data() + n * kLayer, kLayer,
+                  LayerAt(first + static_cast<BrickIndex>(n), k));
+    }
+  }
+
+  size_t below_;  // bricks beside it
+  size_t above_;
+  BrickIndex start_;
+  BrickIndex padding_ = 0;
+  std::vector<BrickSlab> slabs_;
+  const BrickBits* bricks_ = nullptr;
+  std::span<const BrickNeighborhood> neighbors_;
+  std::vector<BrickNeighborhood> own_neighbors_;
+  exec::UninitializedVector<T> values_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_DISTANCE_CHAMFER_SECTION_H_
