@@ -90,13 +90,17 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
   return *std::move(builder).Build();
 }
 
+DistanceField NoDistances(DistanceKind kind) {
+  return DistanceField(kind, ChamferWeights(), DistanceField::Values(), 0);
+}
+
 // Radii of a few points are searched for one by one. A search costs about as much as measuring
 // 24 bricks, so for many it is cheaper to measure all; both give the same bits.
 absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceField& distance,
                           const exec::Context& context) {
   if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
   if (24 * thin.PointCount() <= object.brick_count()) return absl::OkStatus();
-  distance = DistanceField(distance.kind(), distance.weights(), DistanceField::Values(), 0);
+  distance = NoDistances(distance.kind());
   BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, DistanceKind::kEuclidean, context));
   return absl::OkStatus();
 }
@@ -134,10 +138,9 @@ class Pipeline {
 
   absl::Status RunFrom(const Volume& object) {
     result_.object_points = object.PointCount();
-    BCCSKEL_ASSIGN_OR_RETURN(DistanceField distance,
-                             ComputeDistance(object, options_.distance, context_));
-    result_.timings.distance = clock_.Lap();
-    BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
+    DistanceField distance = NoDistances(options_.distance);
+    BCCSKEL_RETURN_IF_ERROR(NeedsDistances() ? ThinInField(object, distance)
+                                             : ThinInShells(object));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
     BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
@@ -153,10 +156,35 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  absl::Status Thin(const Volume& object, const DistanceField& distance) {
+  // The directional methods only look at shells, and radii are found without chamfer distances.
+  bool NeedsDistances() const {
+    return options_.thinning.method == ThinningMethod::kSymmetric ||
+           options_.distance == DistanceKind::kEuclidean;
+  }
+
+  absl::Status ThinInField(const Volume& object, DistanceField& distance) {
+    BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, options_.distance, context_));
+    result_.timings.distance = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(
         ThinningResult thinned,
         ThinToCurve(object, distance, options_.thinning, context_, on_points_));
+    TakeOver(std::move(thinned));
+    return absl::OkStatus();
+  }
+
+  absl::Status ThinInShells(const Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const Shells shells,
+        StreamShells(object, options_.distance, options_.thinning.shell_width, context_));
+    result_.timings.distance = clock_.Lap();
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ThinningResult thinned,
+        ThinByDirections(object, shells, options_.thinning, context_, on_points_));
+    TakeOver(std::move(thinned));
+    return absl::OkStatus();
+  }
+
+  void TakeOver(ThinningResult thinned) {
     result_.thin = std::move(thinned.thin);
     result_.last_shell = thinned.last_shell;
     result_.timings.shells = thinned.times.shells;
@@ -164,7 +192,6 @@ class Pipeline {
     result_.timings.cleanup = thinned.times.cleanup;
     isthmuses_ = std::move(thinned.isthmuses);
     clock_.Lap();
-    return absl::OkStatus();
   }
 
   // Returns the radii of the points that stay.
