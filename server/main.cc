@@ -35,6 +35,9 @@ void AllowManyConnections() {
   setrlimit(RLIMIT_NOFILE, &files);
 }
 
+// A file at the limit of its size (ulimit -f) is an error of writing, not the end of the server.
+void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
+
 void ServeUntilStopped(const sigset_t& signals, Server& server) {
   constexpr timespec kBetweenLooks = {.tv_sec = 1, .tv_nsec = 0};
   while (true) {
@@ -69,6 +72,7 @@ int Serve(const ServerConfig& config) {
   const sigset_t signals = Signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   AllowManyConnections();
+  OutliveFullFiles();
   const Logging logging(config.log_level);
   LogWhatGrpcSays();
   const auto server = Server::Start(config);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "core/version/version.h"
 #include "server/durable/ledger.h"
 #include "server/durable/message_codec.h"
+#include "server/identity/tls_files.h"
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
@@ -34,6 +36,23 @@ constexpr std::chrono::milliseconds kLastReplies(100);
 // A network sees neither reflection nor admin calls unless it is meant to.
 bool AdminsShareThePublicListener(const ServerConfig& config) {
   return config.admin_listen.empty() && std::ranges::all_of(config.listen, IsOfThisMachine);
+}
+
+std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
+  if (!tls.enabled()) return std::nullopt;
+  const auto end = CertificateEnd(tls);
+  if (!end.ok()) return 0;
+  return std::chrono::duration<double>(end->time_since_epoch()).count();
+}
+
+std::optional<ServerGauges::Stored> StoredGauges(const Ledger* ledger) {
+  if (ledger == nullptr) return std::nullopt;
+  const Ledger::Usage usage = ledger->usage();
+  return ServerGauges::Stored{.disk_bytes = usage.disk_bytes,
+                              .uploads = usage.uploads,
+                              .queued_jobs = usage.queued,
+                              .running_jobs = usage.running,
+                              .reused_results = usage.cached};
 }
 
 }  // namespace
@@ -180,6 +199,8 @@ ServerGauges Server::Gauges() const {
   now.admitted_bytes = admitted.bytes;
   now.max_admitted_bytes = config_.limits.max_bytes;
   now.draining = draining_ ? 1 : 0;
+  now.certificate_end = CertificateEndSeconds(config_.tls);
+  now.stored = StoredGauges(work_->ledger());
   return now;
 }
 

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "server/durable/ledger.h"
+#include "server/store/disk_quota.h"
 
 namespace bccskel::server {
 namespace {
@@ -28,6 +29,14 @@ std::optional<Fault> FaultOf(const absl::Status& status) {
   const std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
   if (parts.size() != 3) return std::nullopt;
   return Fault{.reason = parts[0], .key = parts[1], .value = parts[2]};
+}
+
+absl::Status WithDiskFault(const absl::Status& status) {
+  if (!absl::IsResourceExhausted(status) || FaultOf(status).has_value()) return status;
+  const std::string quota = ExceededQuota(status);
+  const bool full = quota.empty();  // then the message names files and statements
+  return WithFault(full ? absl::ResourceExhaustedError("the server's disk is full") : status,
+                   {.reason = kDiskFull, .key = "limit", .value = full ? "max_disk_bytes" : quota});
 }
 
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {

@@ -17,8 +17,13 @@ struct Fault {
   std::string key;  // of the metadata; empty: none
   std::string value;
 };
+inline constexpr char kDiskFull[] = "DISK_FULL";
 absl::Status WithFault(absl::Status status, const Fault& fault);
 std::optional<Fault> FaultOf(const absl::Status& status);
+
+// A quota that is used up, or a full disk, as callers may see it; other errors as they are. The
+// fault's value is the limit as ServerService names it.
+absl::Status WithDiskFault(const absl::Status& status);
 
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
 

@@ -4,6 +4,7 @@
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
 
+#include <ctime>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -60,6 +61,20 @@ absl::Status CheckTlsFiles(const TlsFiles& files) {
     return Bad(files.client_ca, "cannot be read as PEM certificates");
   }
   return absl::OkStatus();
+}
+
+absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files) {
+  const SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
+  if (context == nullptr) return absl::InternalError("OpenSSL gives no context");
+  if (SSL_CTX_use_certificate_chain_file(context.get(), files.certificate.c_str()) != 1) {
+    return Bad(files.certificate, "cannot be read as a PEM certificate");
+  }
+  std::tm end = {};
+  const X509* const certificate = SSL_CTX_get0_certificate(context.get());
+  if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) {
+    return Bad(files.certificate, "does not say when it ends");
+  }
+  return std::chrono::system_clock::from_time_t(timegm(&end));
 }
 
 }  // namespace bccskel::server

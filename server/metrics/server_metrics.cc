@@ -65,6 +65,19 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
   };
 }
 
+std::vector<MetricFamily> FamiliesOf(const ServerGauges::Stored& stored) {
+  return {
+      GaugeNow("bccskel_disk_used_bytes", "Volumes, results and declared uploads on disk",
+               static_cast<double>(stored.disk_bytes)),
+      GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
+      GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued_jobs),
+      GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running_jobs),
+      Sample(MetricType::Counter, "bccskel_results_reused_total",
+             "Stored jobs that were given a result that was there",
+             static_cast<double>(stored.reused_results)),
+  };
+}
+
 std::vector<MetricFamily> FamiliesOf(const ProcessFigures& process) {
   return {
       Sample(MetricType::Counter, "process_cpu_seconds_total", "User and system time",
@@ -79,13 +92,24 @@ std::vector<MetricFamily> FamiliesOf(const ProcessFigures& process) {
   };
 }
 
+void Append(std::vector<MetricFamily> more, std::vector<MetricFamily>& all) {
+  for (MetricFamily& family : more) all.push_back(std::move(family));
+}
+
 // What is asked when the page is read.
 class Seen : public prometheus::Collectable {
  public:
   explicit Seen(ServerMetrics::GaugeSource gauges) : gauges_(std::move(gauges)) {}
   std::vector<MetricFamily> Collect() const override {
-    std::vector<MetricFamily> all = FamiliesOf(gauges_());
-    for (MetricFamily& family : FamiliesOf(ReadProcessFigures())) all.push_back(std::move(family));
+    const ServerGauges now = gauges_();
+    std::vector<MetricFamily> all = FamiliesOf(now);
+    if (now.certificate_end.has_value()) {
+      all.push_back(GaugeNow("bccskel_certificate_not_after_seconds",
+                             "When the served certificate ends, in seconds since 1970",
+                             *now.certificate_end));
+    }
+    if (now.stored.has_value()) Append(FamiliesOf(*now.stored), all);
+    Append(FamiliesOf(ReadProcessFigures()), all);
     return all;
   }
 

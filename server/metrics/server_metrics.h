@@ -27,6 +27,18 @@ struct ServerGauges {
   uint64_t admitted_bytes = 0;
   uint64_t max_admitted_bytes = 0;
   int draining = 0;  // 1 from the stop signal on
+  // Of the certificate that is served, in seconds since 1970; 0 where it cannot be read; nothing
+  // without TLS.
+  std::optional<double> certificate_end;
+  // What the data directory holds; nothing without one.
+  struct Stored {
+    uint64_t disk_bytes = 0;
+    int uploads = 0;  // unfinished
+    int queued_jobs = 0;
+    int running_jobs = 0;
+    uint64_t reused_results = 0;  // since the start
+  };
+  std::optional<Stored> stored;
 };
 
 // A call that has ended.

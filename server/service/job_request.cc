@@ -60,6 +60,12 @@ absl::StatusOr<ShellPointsWanted> ShellPointsOf(v1::ShellPointsReturn shell_poin
   }
 }
 
+// A job that is not durable always ends with its stream.
+absl::Status CheckDisconnectPolicy(v1::DisconnectPolicy policy) {
+  if (v1::DisconnectPolicy_IsValid(policy)) return absl::OkStatus();
+  return InvalidField("config.on_disconnect", absl::StrCat("unknown ", int{policy}));
+}
+
 // The compression whose decoder needs the most memory stands for those that a volume's own bytes
 // name later.
 VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
@@ -141,6 +147,7 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   }
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));
+  BCCSKEL_RETURN_IF_ERROR(CheckDisconnectPolicy(config.on_disconnect()));
   BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));
   request.threads_wanted = config.threads();
   return request;

@@ -7,6 +7,7 @@
 #include "proto/wire/error_details.h"
 #include "server/admission/refusal.h"
 #include "server/durable/fault.h"
+#include "server/logging/json_log.h"
 
 namespace bccskel::server {
 namespace {
@@ -22,8 +23,6 @@ const char* ReasonOfCode(absl::StatusCode code, const LedgerReasons& reasons) {
       return reasons.exists;
     case absl::StatusCode::kFailedPrecondition:
       return reasons.precondition;
-    case absl::StatusCode::kResourceExhausted:
-      return "DISK_FULL";
     case absl::StatusCode::kDataLoss:
       return "STORED_DATA_DAMAGED";
     default:
@@ -41,7 +40,14 @@ absl::Status WithDetails(absl::Status status, const Fault& fault) {
   std::map<std::string, std::string> metadata;
   if (!fault.key.empty()) metadata[fault.key] = fault.value;
   status = wire::WithReason(std::move(status), fault.reason, metadata);
+  if (fault.reason == kDiskFull) return wire::WithQuota(std::move(status), fault.value);
   return fault.reason == "FIELD_INVALID" ? WithFieldOfMessage(std::move(status)) : status;
+}
+
+// Paths and statements are for the log.
+absl::Status WithoutDetails(const absl::Status& status) {
+  Log(LogLevel::kError, "storage failed", {{"message", std::string(status.message())}});
+  return absl::InternalError("the server cannot read or write what it keeps");
 }
 
 }  // namespace
@@ -50,12 +56,11 @@ absl::Status WithLedgerReason(absl::Status status, const LedgerReasons& reasons)
   if (status.ok() || RefusalOf(status).has_value() || wire::ErrorInfoOf(status).has_value()) {
     return status;
   }
+  status = WithDiskFault(status);
   if (const auto fault = FaultOf(status)) return WithDetails(std::move(status), *fault);
+  if (absl::IsInternal(status)) return WithoutDetails(status);
   const char* const reason = ReasonOfCode(status.code(), reasons);
-  if (reason == nullptr) return status;
-  status = wire::WithReason(std::move(status), reason);
-  if (!absl::IsResourceExhausted(status)) return status;
-  return wire::WithQuota(std::move(status), "max_disk_bytes");
+  return reason == nullptr ? status : wire::WithReason(std::move(status), reason);
 }
 
 }  // namespace bccskel::server

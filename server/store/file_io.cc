@@ -36,7 +36,7 @@ absl::Status SystemError(const std::string& what, int number) {
       return absl::ResourceExhaustedError(message);
     case ENFILE:
     case EMFILE:
-      return absl::UnavailableError(message);
+      return absl::UnavailableError("too many files are open");
     case ENOENT:
       return absl::NotFoundError(message);
     default:

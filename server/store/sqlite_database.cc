@@ -60,6 +60,7 @@ SqliteDatabase::~SqliteDatabase() {
 }
 
 absl::Status SqliteDatabase::Execute(const char* sql) {
+  errno = 0;
   const int code = sqlite3_exec(database_, sql, nullptr, nullptr, nullptr);
   return code == SQLITE_OK ? absl::OkStatus() : ErrorOf(code, sql);
 }
@@ -69,11 +70,13 @@ int64_t SqliteDatabase::LastRow() const { return sqlite3_last_insert_rowid(datab
 int SqliteDatabase::Changes() const { return sqlite3_changes(database_); }
 
 absl::Status SqliteDatabase::ErrorOf(int code, const char* doing) const {
-  const int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
+  // SQLite forgets the system's error where a COMMIT fails; errno has it still.
+  int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
+  if (system_error == 0) system_error = errno;
   return absl::Status(
       CodeOf(code, system_error),
       absl::StrCat(path_, ": ", database_ == nullptr ? "out of memory" : sqlite3_errmsg(database_),
-                   " (SQLite code ", code, " at: ", doing, ")"));
+                   " (SQLite code ", code, ", errno ", system_error, " at: ", doing, ")"));
 }
 
 absl::StatusOr<sqlite3_stmt*> SqliteDatabase::Prepared(const char* sql) {
@@ -128,6 +131,7 @@ void SqliteQuery::Bind(int index, const Blob& value) {
 absl::StatusOr<bool> SqliteQuery::Next() {
   BCCSKEL_RETURN_IF_ERROR(status_);
   column_ = 0;
+  errno = 0;
   const int code = sqlite3_step(statement_);
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;

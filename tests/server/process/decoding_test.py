@@ -8,7 +8,6 @@ import time
 import unittest
 
 import grpc
-from google.protobuf.internal.decoder import _DecodeVarint32
 
 import server_process
 from server_process import ServerProcess
@@ -19,12 +18,7 @@ SKELETONIZE = "/bccskel.v1.SkeletonizationService/Skeletonize"
 def seed(name):
     """The requests of a seed of the fuzzer, as bytes: a whole, good call."""
     data = (server_process.SOURCE / "tests/fuzz/seeds/request" / name).read_bytes()
-    messages, at = [], 1
-    while at < len(data):
-        size, at = _DecodeVarint32(data, at)
-        messages.append(data[at:at + size])
-        at += size
-    return messages
+    return list(server_process.framed(data))
 
 
 def processes():

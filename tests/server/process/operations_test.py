@@ -13,7 +13,6 @@ import tempfile
 import threading
 import time
 import unittest
-import urllib.request
 
 import grpc
 
@@ -142,9 +141,7 @@ class MetricsTest(unittest.TestCase):
                 stub = example.service_grpc.SkeletonizationServiceStub(channel)
                 with self.assertRaises(grpc.RpcError):
                     list(stub.Skeletonize(iter([example.service.SkeletonizeRequest()])))
-            with urllib.request.urlopen(page, timeout=server_process.TIMEOUT_S) as answer:
-                lines = dict(line.rsplit(" ", 1) for line in answer.read().decode().splitlines()
-                             if not line.startswith("#"))
+            lines = server_process.metrics(page)
         method = 'method="/bccskel.v1.SkeletonizationService/Skeletonize"'
         for name, value in {
                 f'bccskel_calls_total{{code="OK",{method},reason=""}}': 1,
@@ -256,6 +253,10 @@ class CommandsTest(unittest.TestCase):
         for row in measured:
             self.assertGreater(row["calls"], 0)
             self.assertLessEqual(row["latency_ms"]["p50"], row["latency_ms"]["p99"])
+            shares = row["median_ms"]
+            self.assertLessEqual({"encode", "upload", "decode", "thinning", "download"}, set(shares))
+            self.assertGreater(shares["thinning"], 0)
+            self.assertLess(shares["thinning"], row["latency_ms"]["max"])
 
     def test_every_command_with_a_server_takes_a_token_from_a_file(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import urllib.request
 
 BINARY = os.environ["BCCSKEL_SERVER"]
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
@@ -59,10 +60,31 @@ class ServerProcess:
         raise RuntimeError("no VmHWM")
 
 
+def metrics(page):
+    """The lines of a metrics page: the values, as text, by name and labels."""
+    with urllib.request.urlopen(page, timeout=TIMEOUT_S) as answer:
+        lines = answer.read().decode().splitlines()
+    return dict(line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
+
+
 def run_to_end(*flags):
     """For flags with which the server does not start."""
     return subprocess.run([BINARY, *flags], capture_output=True, text=True, timeout=TIMEOUT_S,
                           check=False)
+
+
+def framed(seed):
+    """The requests of a fuzzer's seed: a byte, then each with its size as a varint before it."""
+    at = 1
+    while at < len(seed):
+        size, shift = 0, 0
+        while True:
+            byte, at = seed[at], at + 1
+            size, shift = size | (byte & 0x7F) << shift, shift + 7
+            if byte < 0x80:
+                break
+        yield seed[at:at + size]
+        at += size
 
 
 def generate_stubs(folder):

@@ -122,6 +122,20 @@ class TlsTest(unittest.TestCase):
                 self.assertTrue(list(replies)[-1].HasField("summary"))
             self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK)
 
+    def test_the_metrics_say_when_the_certificate_ends_also_after_a_new_one_came(self):
+        def end_on_page():
+            return float(server_process.metrics(page)["bccskel_certificate_not_after_seconds"])
+
+        live, later = self.ours.issue("ending"), self.ours.issue("later", days=30)
+        with ServerProcess(*self.flags(live), "--metrics-listen", "127.0.0.1:0") as server:
+            page = server.line_after("metrics at ")
+            for pair in (live, later):
+                os.replace(pair.certificate, live.certificate)
+                decoded = ssl._ssl._test_decode_cert(str(live.certificate))
+                self.assertEqual(end_on_page(), ssl.cert_time_to_seconds(decoded["notAfter"]))
+            live.certificate.unlink()
+            self.assertEqual(end_on_page(), 0)
+
     def test_files_that_cannot_work_are_named_before_the_server_listens(self):
         expired = self.ours.issue("old", days=0)
         other_key = self.theirs.issue("other").key

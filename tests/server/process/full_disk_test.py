@@ -1,0 +1,111 @@
+"""A server whose disk is full: who asks for more is told so, and nothing that was confirmed is lost."""
+
+import os
+import resource
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import grpc
+
+from durable_case import (Code, DurableTest, durable, example, jobs, large_volume, service, volume,
+                          volume_pb2, volumes)
+
+KIB = 1 << 10
+UNLIMITED = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+
+
+class FullTablesTest(DurableTest):
+    """SQLite itself can write no more: its log has come to the limit of a file's size."""
+
+    def fill(self, name):
+        """Makes jobs until one is refused: those that were confirmed, and the refusal."""
+        made = []
+        while len(made) < 10_000:
+            options = service.SkeletonizeConfig(options={"shell_width": 1 + len(made) / 1e4}).options
+            try:
+                made.append(self.create(name, f"job-{len(made)}", options=options).name)
+            except grpc.RpcError as error:
+                return made, error
+        return self.fail("the tables were never full")
+
+    def test_jobs_are_refused_while_the_tables_cannot_grow_and_those_confirmed_are_done(self):
+        server = self.start()
+        name = durable.send_volume(self.channel, *volume())
+        log = self.data / "jobs.db-wal"
+        limit = log.stat().st_size + 200 * KIB
+        resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+        made, refusal = self.fill(name)
+        self.assertEqual((refusal.code(), example.error_reason(refusal)),
+                         (Code.RESOURCE_EXHAUSTED, "DISK_FULL"))
+        self.assertEqual(refusal.details(), "the server's disk is full")
+        print(f"{len(made)} jobs were confirmed before the tables were full")
+        # It goes on: with what it knows, and with what needs no disk.
+        self.assertEqual(self.get(made[-1]).name, made[-1])
+        self.assertEqual(example.skeletonize(self.channel, example.torus())
+                         .summary.certificate.skeleton.loops, 1)
+        resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, UNLIMITED)
+        for job in made:
+            self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
+        self.assertTrue(self.create(name, "afterwards").name)
+
+    def test_a_kill_while_the_tables_are_full_loses_no_confirmed_job(self):
+        server = self.start()
+        name = durable.send_volume(self.channel, *volume())
+        limit = (self.data / "jobs.db-wal").stat().st_size + 100 * KIB
+        resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+        made, _ = self.fill(name)
+        server.stop(signal.SIGKILL)
+        self.start()
+        listed = {job.name for job in self.jobs.ListJobs(jobs.ListJobsRequest(page_size=1000)).jobs}
+        self.assertLessEqual(set(made), listed)
+        self.assertEqual(self.finish(made[-1])[-1], jobs.JOB_STATE_SUCCEEDED)
+
+
+class SmallDiskTest(DurableTest):
+    """A disk of 8 MiB of its own, where this may be mounted."""
+
+    def setUp(self):
+        super().setUp()
+        disk = tempfile.mkdtemp()
+        self.addCleanup(os.rmdir, disk)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8m", "none", disk],
+                                 capture_output=True, text=True, check=False)
+        if mounted.returncode != 0:
+            self.skipTest(f"no disk may be mounted here: {mounted.stderr.strip()}")
+        self.addCleanup(subprocess.run, ["umount", "--lazy", disk], check=True)
+        self.data = self.data.__class__(disk) / "data"
+
+    def chunks(self, upload, declaration, size):
+        yield volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
+            upload=upload, volume=declaration))
+        for at in range(0, size, durable.CHUNK_BYTES):
+            yield volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
+                offset=at, data=bytes(durable.CHUNK_BYTES)))
+
+    def test_an_upload_that_does_not_fit_is_refused_and_the_others_go_on(self):
+        self.start()
+        name = durable.send_volume(self.channel, *volume())
+        first = self.create(name, "first").name
+        self.assertEqual(self.finish(first)[-1], jobs.JOB_STATE_SUCCEEDED)
+        declaration = large_volume()[0]
+        declaration = declaration.__class__.FromString(declaration.SerializeToString())
+        declaration.extent.nx = declaration.extent.ny = 1024
+        declaration.size_bytes = 2 * 1024 * 1024 * 4 * ((declaration.extent.nz + 31) // 32)
+        error = self.fails(Code.RESOURCE_EXHAUSTED, "DISK_FULL", lambda: self.volumes.UploadVolume(
+            self.chunks("uploads/large", declaration, declaration.size_bytes)))
+        committed = durable.committed_size(self.volumes, "uploads/large")
+        print(f"{committed} bytes of {declaration.size_bytes} fitted: {error.details()}")
+        self.assertEqual(example.skeletonize(self.channel, example.torus())
+                         .summary.certificate.skeleton.loops, 1)
+        # What makes room works without room.
+        self.volumes.DeleteUpload(volumes.DeleteUploadRequest(upload="uploads/large"))
+        again = self.create(name, "second", options=service.SkeletonizeConfig(
+            options={"shell_width": 2}).options).name
+        self.assertEqual(self.finish(again)[-1], jobs.JOB_STATE_SUCCEEDED)
+        self.assertTrue(durable.read_skeleton(self.channel, first).summary.sha256)
+
+
+if __name__ == "__main__":
+    unittest.main()
