@@ -66,8 +66,12 @@ absl::StatusOr<std::string> DurableClient::Upload(const EncodedVolume& volume, c
 absl::StatusOr<std::string> DurableClient::FinishUpload(const std::string& upload,
                                                         const EncodedVolume& volume,
                                                         const Calls& calls) {
-  return Retry(calls,
-               [&](auto deadline) { return stub_->Upload(upload, volume, calls.stop, deadline); });
+  return Retry(calls, [&](auto deadline) -> absl::StatusOr<std::string> {
+    absl::StatusOr<std::string> sent = stub_->Upload(upload, volume, calls.stop, deadline);
+    if (!absl::IsOutOfRange(sent.status())) return sent;
+    // The server has other bytes than it said: those of a stream that broke came late.
+    return absl::UnavailableError(sent.status().message());
+  });
 }
 
 absl::StatusOr<DurableJob> DurableClient::CreateJob(NewJob job, const Calls& calls) {

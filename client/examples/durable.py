@@ -25,14 +25,18 @@ CALL_S, STREAM_S = 60, 3600
 ENDED = (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED, jobs.JOB_STATE_CANCELLED)
 
 
-def patiently(attempt, patience_s=120):
+# OUT_OF_RANGE: bytes of a broken stream came after the question how many there are.
+AGAIN = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.OUT_OF_RANGE)
+
+
+def patiently(attempt, patience_s=120, again=AGAIN[:1]):
     """Tries again while the server is away or busy; everything here may be repeated."""
     give_up, pause = time.monotonic() + patience_s, 0.1
     while True:
         try:
             return attempt()
         except grpc.RpcError as error:
-            if error.code() != grpc.StatusCode.UNAVAILABLE or time.monotonic() > give_up:
+            if error.code() not in again or time.monotonic() > give_up:
                 raise
         time.sleep(pause)
         pause = min(2 * pause, 5)
@@ -70,7 +74,7 @@ def send_volume(channel, declaration, data, upload=None):
     upload = upload or f"uploads/{uuid.uuid4()}"
     return patiently(lambda: stub.UploadVolume(
         upload_requests(upload, declaration, data, committed_size(stub, upload)),
-        timeout=STREAM_S)).upload.volume
+        timeout=STREAM_S), again=AGAIN).upload.volume
 
 
 def create_job(channel, volume, **wanted):

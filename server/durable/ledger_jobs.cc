@@ -208,7 +208,10 @@ void DurableLedger::ListJobs(const std::string& tenant, const JobQuery& query, D
         for (const JobRow& row : rows) {
           if (page.jobs.size() == static_cast<size_t>(size)) break;
           page.next_token = TokenOf(row.number, states);
-          page.jobs.push_back(PlainInfoOf(row));
+          BCCSKEL_ASSIGN_OR_RETURN(JobInfo info, InfoOf(store, row));
+          info.summary.clear();
+          info.progress.reset();
+          page.jobs.push_back(std::move(info));
         }
         if (rows.size() <= static_cast<size_t>(size)) page.next_token.clear();
         return page;

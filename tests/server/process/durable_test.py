@@ -113,6 +113,22 @@ class JobTest(DurableTest):
         self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_FAILED)
         self.assertEqual(self.get(job).error.code, Code.INVALID_ARGUMENT.value[0])
 
+    def test_the_metrics_say_what_is_kept(self):
+        server = self.start("--metrics-listen", "127.0.0.1:0")
+        page = server.line_after("metrics at ")
+        declaration, data = volume()
+        name = durable.send_volume(self.channel, declaration, data)
+        for _ in range(2):
+            self.finish(self.create(name).name)
+        self.volumes.UploadVolume(iter([volumes.UploadVolumeRequest(
+            config=volumes.UploadVolumeConfig(upload="uploads/begun", volume=declaration))]))
+        kept = server_process.metrics(page)
+        result_bytes = self.jobs.ListJobs(jobs.ListJobsRequest()).jobs[0].result_bytes
+        for figure, value in {"bccskel_uploads_unfinished": 1, "bccskel_durable_jobs_queued": 0,
+                              "bccskel_durable_jobs_running": 0, "bccskel_results_reused_total": 1,
+                              "bccskel_disk_used_bytes": 2 * len(data) + result_bytes}.items():
+            self.assertEqual(float(kept[figure]), value, figure)
+
     def test_without_a_data_directory_the_calls_name_the_flag(self):
         with ServerProcess() as server, grpc.insecure_channel(server.address) as channel:
             stub = durable.jobs_grpc.JobServiceStub(channel)
@@ -341,6 +357,28 @@ class OneCallTest(DurableTest):
         self.assertTrue(large[0].accepted.durable)
         self.assertTrue(large[-1].HasField("summary"))
         self.assertEqual(self.get(large[0].accepted.job).summary.sha256, large[-1].summary.sha256)
+
+    def test_a_call_that_asks_for_the_points_of_shells_is_not_durable_whatever_its_policy(self):
+        self.start()
+        stub = service_grpc.SkeletonizationServiceStub(self.channel)
+        requests = list(large_requests())
+        requests[0].config.shell_points_return = service.SHELL_POINTS_RETURN_ALL
+        requests[0].config.on_disconnect = service.DISCONNECT_POLICY_CONTINUE
+        replies = list(stub.Skeletonize(iter(requests)))
+        self.assertFalse(replies[0].accepted.durable)
+        self.assertEqual(replies[0].accepted.upload, "")
+        self.assertTrue(any(reply.HasField("shell_points") for reply in replies))
+        self.assertTrue(replies[-1].HasField("summary"))
+        self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: self.get(replies[0].accepted.job))
+
+    def test_an_unknown_policy_is_refused(self):
+        self.start()
+        requests = list(large_requests())
+        requests[0].config.on_disconnect = 9
+        stub = service_grpc.SkeletonizationServiceStub(self.channel)
+        error = self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID",
+                           lambda: list(stub.Skeletonize(iter(requests))))
+        self.assertIn("on_disconnect", error.details())
 
     def test_a_cancelled_call_ends_its_job_only_where_asked(self):
         self.start()
