@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <ranges>
 #include <vector>
 
 #include "core/pruning/branch_walk.h"
@@ -10,15 +11,20 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.4;       // of the way from the anchor
-constexpr double kAnchorRadii = 3;   // how far back the anchor lies, in radii
+// How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
+// like a round cap, the end of a pointed limb by less until its tip.
+constexpr double kSlope = 0.75;
+constexpr double kLeastGain = 0.5;   // a tip farther out is better by this, or noise has made it
+constexpr double kAnchorRadii = 4;   // how far back the anchor lies, in radii
 constexpr double kAnchorMargin = 5;  // and in lattice units
+constexpr double kLeastAim = 4;      // from the anchor to what gives the limb its direction
 constexpr double kCutRadii = 1.75;   // a cut takes the way into a cap or a corner at most, in radii
-constexpr double kCutMargin = 4;     // and in lattice units
+constexpr double kCutMargin = 6;     // and in lattice units: noise makes the radii smaller
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
-constexpr float kLeastRadius = 2;      // in lattice units, of a new point
+constexpr float kLeastRadius = 2;      // in lattice units, of a tip
+constexpr float kThickRadius = 6;      // limbs that reach it do not end in hair
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
 
 class TipPlacer {
@@ -33,8 +39,12 @@ class TipPlacer {
     if (!anchor.has_value() || branch.points.empty()) return;
     anchor_ = *anchor;
     path_.assign(branch.points.rbegin(), branch.points.rend());
-    Trim();
+    CutHair();
+    const size_t first = FirstCut();
+    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim ? path_.back() : path_[first];
+    CutAfter(BestFrom(first));
     Extend();
+    CutAfter(SafestFrom(first));
   }
 
  private:
@@ -52,16 +62,19 @@ class TipPlacer {
       return anchor;
     }
     if (branch.junction.has_value()) return branch.junction;
-    const auto deepest =
-        std::ranges::max_element(points, {}, [this](LatticePoint p) { return set_.RadiusOf(p); });
-    const LatticePoint anchor = *deepest;
-    points.erase(deepest, points.end());
-    return anchor;
+    const LatticePoint middle = points[points.size() / 2];
+    points.resize(points.size() / 2);
+    return middle;
   }
 
-  double Merit(LatticePoint p) const {
-    return kSlope * set_.Between(p, anchor_) + set_.RadiusOf(p);
+  // How far p lies from the anchor along the limb, by the law of cosines.
+  double Along(LatticePoint p) const {
+    const double ap = set_.Between(anchor_, p), pq = set_.Between(p, aim_),
+                 aq = set_.Between(anchor_, aim_);
+    return (ap * ap + aq * aq - pq * pq) / (2 * aq);
   }
+
+  double Merit(LatticePoint p) const { return kSlope * Along(p) + set_.RadiusOf(p); }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
   size_t BestFrom(size_t first) const {
@@ -72,6 +85,13 @@ class TipPlacer {
     return best;
   }
 
+  // Position in the path of the first point that is about as good as the best.
+  size_t SafestFrom(size_t first) const {
+    const double enough = Merit(path_[BestFrom(first)]) - kLeastGain;
+    while (Merit(path_[first]) < enough) ++first;
+    return first;
+  }
+
   void CutAfter(size_t last) {
     while (path_.size() > last + 1 && !keep_.contains(path_.back())) {
       set_.Remove(path_.back());
@@ -79,22 +99,28 @@ class TipPlacer {
     }
   }
 
+  // In noise a thick limb may end in a path through the outermost points, where no tip is.
+  void CutHair() {
+    const auto radius = [this](LatticePoint p) { return set_.RadiusOf(p); };
+    if (std::ranges::max(path_ | std::views::transform(radius)) < kThickRadius) return;
+    size_t last = path_.size() - 1;
+    while (radius(path_[last]) < kLeastRadius) --last;
+    CutAfter(last);
+  }
+
   // Position in the path of the first point that may become the tip. What is cut off must lie in
   // the cap that the new tip is the center of: a body behind a short limb has a larger distance
   // than the limb, but the limb is no part of it.
   size_t FirstCut() const {
-    double length = 0;
-    for (size_t n = path_.size() - 1; n > 0; --n) {
-      length += set_.Between(path_[n], path_[n - 1]);
-      if (length > kCutRadii * set_.RadiusOf(path_[n - 1]) + kCutMargin) return n;
+    size_t first = path_.size() - 1;
+    while (first > 0 && set_.Between(path_.back(), path_[first - 1]) <=
+                            kCutRadii * set_.RadiusOf(path_[first - 1]) + kCutMargin) {
+      --first;
     }
-    return 0;
+    return first;
   }
 
-  void Trim() { CutAfter(BestFrom(FirstCut())); }
-
   void Extend() {
-    const size_t old_size = path_.size();
     double best = Merit(path_.back());
     while (const std::optional<LatticePoint> next = NextTip()) {
       const float radius = radius_.At(*next);
@@ -105,7 +131,6 @@ class TipPlacer {
       if (merit < best - kPatience) break;
       best = std::max(best, merit);
     }
-    CutAfter(BestFrom(old_size - 1));
   }
 
   // The object point to go on to; its only neighbor in the set is the tip.
@@ -145,6 +170,7 @@ class TipPlacer {
   const Volume& object_;
   const PointSet& keep_;
   LatticePoint anchor_;
+  LatticePoint aim_;                // the limb runs from the anchor to here
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
 };
 

@@ -7,10 +7,10 @@
 
 namespace bccskel {
 
-// Cuts every branch back, or lets it grow, to where the ridge of the distances ends. Along a ridge
-// the distance hardly changes, into a round cap it falls by 1 per unit and into the corner of a box
-// by 0.58: so the tip is the place with the largest sum of the distance and 0.4 of the way from an
-// anchor further back.
+// Cuts every branch back, or lets it grow, to where the ridge of the distances ends. Seen along the
+// limb the distance hardly changes on a ridge, falls ever faster toward a point, and by 1 per unit
+// into a round cap or off into the corner of a box: so the tip is the place with the largest sum of
+// the distance and 0.75 of the way along the limb.
 // Points of `keep` are not cut off.
 // Errors: none; stops early when the context says so.
 void PlaceTips(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep,

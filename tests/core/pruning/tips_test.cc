@@ -61,6 +61,32 @@ TEST(Tips, LieWhereTheAxisOfACapsuleEnds) {
   }
 }
 
+// Near its tips the ridge of the distances falls, up to 1 per unit where it ends.
+TEST(Tips, LieWhereTheMedialLineOfASpheroidEnds) {
+  const double along = 70, across = 14, reach = along - across * across / along;
+  const std::array<double, 3> axis = {0.48, 0.6, 0.64};
+  VolumeBuilder builder({64, 64, 64});
+  for (Sublattice s : kSublattices) {
+    for (int32_t n = 0; n < 64 * 64 * 64; ++n) {
+      const LatticePoint p = PointAt(s, n % 64, n / 64 % 64, n / 64 / 64);
+      const std::array<double, 3> from = {p.x - 64.0, p.y - 64.0, p.z - 64.0};
+      const double t = from[0] * axis[0] + from[1] * axis[1] + from[2] * axis[2];
+      const double off = from[0] * from[0] + from[1] * from[1] + from[2] * from[2] - t * t;
+      if (t * t / (along * along) + off / (across * across) <= 1) builder.Add(p);
+    }
+  }
+  const auto result = Skeletonize(*std::move(builder).Build(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  ASSERT_EQ(result->graph.nodes.size(), 2u);
+  for (const SkeletonNode& node : result->graph.nodes) {
+    const LatticePoint p = node.at.point;
+    const double way = p.x < 64 ? -reach : reach;
+    EXPECT_LT(
+        std::hypot(p.x - 64 - way * axis[0], p.y - 64 - way * axis[1], p.z - 64 - way * axis[2]),
+        4);
+  }
+}
+
 // Along the branch of a leg the distance falls from that of the body to that of the leg.
 TEST(Tips, OfAShortLegStayOutsideTheBody) {
   const std::array<double, 3> center = {30, 30, 30}, above = {30, 30, 30.5}, foot = {30, 30, 66};
