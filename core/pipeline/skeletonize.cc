@@ -9,6 +9,7 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/method_in_words.h"
+#include "core/skeleton/center_curves.h"
 
 namespace bccskel {
 namespace {
@@ -67,8 +68,8 @@ void SetPruningLevels(const PruningLevels& levels, SkeletonGraph& graph) {
   for (SkeletonEdge& edge : graph.edges) {
     double level = -1;
     for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-      const auto found = levels.find(p.point);
-      if (found != levels.end()) level = std::max(level, found->second);
+      const double* found = levels.Find(p.point);
+      if (found != nullptr) level = std::max(level, *found);
     }
     if (level >= 0) edge.pruning_level = level;
   }
@@ -150,6 +151,9 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, context_));
     SetPruningLevels(levels_, result_.graph);
     SetBirths(isthmuses_, result_.graph);
+    if (options_.distance == DistanceKind::kEuclidean) {
+      BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
+    }
     result_.sha256 = SkeletonDigest(result_.graph);
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();

@@ -55,7 +55,7 @@ absl::Status CheckPruningOptions(const PruningOptions& options);
 // Points at junctions and tips that have grown have none. Thresholds are those of pruning by
 // persistence where that was the rule, or none was and births are known; else those of the slope
 // rule.
-using PruningLevels = PointMap<double>;
+using PruningLevels = PointTable<double>;
 
 struct PrunedSkeleton {
   Volume thin;

@@ -11,11 +11,11 @@ PruningLevels PruningLevelsOf(ThinSet set, PruningRule rule, const PointSet& kee
                               const exec::Context& context) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
-  set.ForEachBranchPoint([&](LatticePoint p) { levels.emplace(p, kNever); });
+  set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, kNever); });
   double level = 0;
   const auto record = [&](LatticePoint p, double worth) {
     level = std::max(level, worth);
-    if (const auto found = levels.find(p); found != levels.end()) found->second = level;
+    if (double* found = levels.Find(p); found != nullptr) *found = level;
   };
   BranchPruner(set, rule, kNever, keep, context).Run(record);
   return levels;

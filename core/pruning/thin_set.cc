@@ -6,13 +6,25 @@
 namespace bccskel {
 
 ThinSet::ThinSet(const ThinCurves& curves) : scale_(AxisScaleOf(curves.thin.placement())) {
-  points_.reserve(curves.radii.size());
+  points_.Reserve(curves.radii.size());
   size_t n = 0;
   curves.thin.ForEachPoint([&](LatticePoint p) {
-    points_.emplace(p, Entry{curves.radii[n], curves.births.empty() ? 0 : curves.births[n], 0});
+    points_.Set(p, {curves.radii[n], curves.births.empty() ? 0 : curves.births[n], 0});
     ++n;
   });
-  for (auto& [p, entry] : points_) entry.neighbors = NeighborsAround(p);
+  curves.thin.ForEachPoint([&](LatticePoint p) { LinkForward(p); });
+}
+
+void ThinSet::LinkForward(LatticePoint p) {
+  Entry& entry = *points_.Find(p);
+  for (int bit = 0; bit < kNeighborCount; ++bit) {
+    const Direction d(bit), back = d.Opposite();
+    if (back.bit() < bit) continue;
+    Entry* other = points_.Find(p + d.offset());
+    if (other == nullptr) continue;
+    entry.neighbors = static_cast<NeighborMask>(entry.neighbors | d.mask());
+    other->neighbors = static_cast<NeighborMask>(other->neighbors | back.mask());
+  }
 }
 
 int ThinSet::Degree(LatticePoint p) const {
@@ -23,44 +35,44 @@ NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
   NeighborMask mask = 0;
   for (int bit = 0; bit < kNeighborCount; ++bit) {
     const Direction d(bit);
-    if (points_.contains(p + d.offset())) mask |= d.mask();
+    if (Contains(p + d.offset())) mask |= d.mask();
   }
   return mask;
 }
 
 void ThinSet::Add(LatticePoint p, float radius) {
   const NeighborMask neighbors = NeighborsAround(p);
-  points_.emplace(p, Entry{radius, 0, neighbors});
+  points_.Set(p, {radius, 0, neighbors});
   for (int bit = 0; bit < kNeighborCount; ++bit) {
     const Direction d(bit);
     if ((neighbors & d.mask()) == 0) continue;
-    points_.at(p + d.offset()).neighbors |= d.Opposite().mask();
+    points_.Find(p + d.offset())->neighbors |= d.Opposite().mask();
   }
 }
 
 void ThinSet::Remove(LatticePoint p) {
   const NeighborMask neighbors = NeighborsOf(p);
-  points_.erase(p);
+  points_.Remove(p);
   for (int bit = 0; bit < kNeighborCount; ++bit) {
     const Direction d(bit);
     if ((neighbors & d.mask()) == 0) continue;
-    NeighborMask& mask = points_.at(p + d.offset()).neighbors;
+    NeighborMask& mask = points_.Find(p + d.offset())->neighbors;
     mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
   }
 }
 
 std::vector<LatticePoint> ThinSet::Ends() const {
   std::vector<LatticePoint> ends;
-  for (const auto& [p, entry] : points_) {
+  points_.ForEach([&](LatticePoint p, const Entry& entry) {
     if (std::has_single_bit(entry.neighbors)) ends.push_back(p);
-  }
+  });
   std::ranges::sort(ends);
   return ends;
 }
 
 Volume ThinSet::ToVolume(const Volume& thin) const {
   VolumeBuilder builder(thin.extent(), thin.placement());
-  for (const auto& [p, entry] : points_) builder.Add(p);
+  ForEachPoint([&](LatticePoint p) { builder.Add(p); });
   return *std::move(builder).Build();
 }
 

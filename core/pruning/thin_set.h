@@ -5,30 +5,19 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
 #include "core/lattice/directions.h"
+#include "core/pruning/point_table.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
 
-struct LatticePointHash {
-  size_t operator()(LatticePoint p) const {
-    const auto part = [](int32_t v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
-    uint64_t hash = part(p.x) * 0x9e3779b97f4a7c15u + part(p.y) * 0xc2b2ae3d27d4eb4fu;
-    hash = (hash ^ hash >> 29) + part(p.z) * 0x165667b19e3779f9u;
-    return static_cast<size_t>((hash ^ hash >> 32) * 0xd6e8feb86659fd93u);
-  }
-};
-
-// Tables of the standard library, since they stay whole when an allocation throws. Abseil's do not:
-// a resize without memory leaves the new capacity with the old block, and the destructor then frees
-// what it never got, which ends the process.
-template <typename Value>
-using PointMap = std::unordered_map<LatticePoint, Value, LatticePointHash>;
+// A table of the standard library, since it stays whole when an allocation throws. Abseil's does
+// not: a resize without memory leaves the new capacity with the old block, and the destructor then
+// frees what it never got, which ends the process.
 using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
 // A thin volume and what is known of its points, in the order of Volume::ForEachPoint().
@@ -46,11 +35,11 @@ class ThinSet {
  public:
   explicit ThinSet(const ThinCurves& curves);
 
-  bool Contains(LatticePoint p) const { return points_.contains(p); }
+  bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
   // Of points of the set.
-  float RadiusOf(LatticePoint p) const { return points_.at(p).radius; }
-  int32_t BirthOf(LatticePoint p) const { return points_.at(p).birth; }
-  NeighborMask NeighborsOf(LatticePoint p) const { return points_.at(p).neighbors; }
+  float RadiusOf(LatticePoint p) const { return points_.Find(p)->radius; }
+  int32_t BirthOf(LatticePoint p) const { return points_.Find(p)->birth; }
+  NeighborMask NeighborsOf(LatticePoint p) const { return points_.Find(p)->neighbors; }
   int Degree(LatticePoint p) const;
   // Of any place: the neighbors that are in the set.
   NeighborMask NeighborsAround(LatticePoint p) const;
@@ -64,14 +53,14 @@ class ThinSet {
   // Calls visit(LatticePoint) for all points, in any order.
   template <typename Visit>
   void ForEachPoint(Visit visit) const {
-    for (const auto& [p, entry] : points_) visit(p);
+    points_.ForEach([&](LatticePoint p, const Entry&) { visit(p); });
   }
   // The same for the points on plain curves and ends.
   template <typename Visit>
   void ForEachBranchPoint(Visit visit) const {
-    for (const auto& [p, entry] : points_) {
+    points_.ForEach([&](LatticePoint p, const Entry& entry) {
       if (std::popcount(static_cast<unsigned>(entry.neighbors)) <= 2) visit(p);
-    }
+    });
   }
 
   // Straight distance in lattice units.
@@ -91,8 +80,11 @@ class ThinSet {
     int32_t birth = 0;
     NeighborMask neighbors = 0;
   };
+  // Each pair of neighbors is found from one of them.
+  void LinkForward(LatticePoint p);
+
   AxisScale scale_;
-  PointMap<Entry> points_;
+  PointTable<Entry> points_;
 };
 
 // Calls visit(LatticePoint) for the neighbors in `mask`, in the order of kDirections14.

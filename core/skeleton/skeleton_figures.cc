@@ -5,10 +5,10 @@
 #include <numeric>
 #include <span>
 
+#include "core/skeleton/curve_smoothing.h"
+
 namespace bccskel {
 namespace {
-
-constexpr size_t kReach = 4;
 
 double Between(const WorldPoint& a, const WorldPoint& b) {
   const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
@@ -19,36 +19,6 @@ double LengthOfCurve(std::span<const WorldPoint> curve) {
   double length = 0;
   for (size_t n = 1; n < curve.size(); ++n) length += Between(curve[n - 1], curve[n]);
   return length;
-}
-
-// The mean of the points from `first` on, `count` of them, in a list that may close on itself.
-WorldPoint MeanOf(std::span<const WorldPoint> points, size_t first, size_t count) {
-  WorldPoint mean = {0, 0, 0};
-  for (size_t n = 0; n < count; ++n) {
-    for (size_t axis = 0; axis < 3; ++axis) mean[axis] += points[(first + n) % points.size()][axis];
-  }
-  for (double& coordinate : mean) coordinate /= static_cast<double>(count);
-  return mean;
-}
-
-std::vector<WorldPoint> SmoothOpen(std::span<const WorldPoint> points) {
-  std::vector<WorldPoint> curve(points.size());
-  for (size_t n = 0; n < points.size(); ++n) {
-    const size_t reach = std::min({kReach, n, points.size() - 1 - n});
-    curve[n] = MeanOf(points, n - reach, 2 * reach + 1);
-  }
-  return curve;
-}
-
-// First and last point are the same.
-std::vector<WorldPoint> SmoothClosed(std::span<const WorldPoint> points) {
-  const std::span<const WorldPoint> once = points.first(points.size() - 1);
-  const size_t reach = std::min(kReach, (once.size() - 1) / 4);
-  std::vector<WorldPoint> curve(points.size());
-  for (size_t n = 0; n < curve.size(); ++n) {
-    curve[n] = MeanOf(once, n + once.size() - reach, 2 * reach + 1);
-  }
-  return curve;
 }
 
 // The place, or the one on the way to it that is as far from `from` as may be.
@@ -95,14 +65,14 @@ void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigu
 }  // namespace
 
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  std::vector<WorldPoint> points;
-  for (const SkeletonPoint& p : graph.PointsOf(edge)) points.push_back(graph.PositionOf(p));
-  const bool closed = edge.source == edge.target && points.size() > 2 &&
-                      graph.nodes[edge.source].kind == NodeKind::kLoop;
-  std::vector<WorldPoint> curve = closed ? SmoothClosed(points) : SmoothOpen(points);
+  std::vector<WorldPoint> middles;
+  for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+    middles.push_back(graph.ShiftedPositionOf(p));
+  }
+  std::vector<WorldPoint> curve = MeansAlong(middles, ShapeOf(graph, edge));
   for (size_t n = 0; n < curve.size(); ++n) {
-    const double reach = graph.RadiusOf(graph.PointsOf(edge)[n]) / 2;
-    curve[n] = Within(reach, points[n], curve[n]);
+    const SkeletonPoint& p = graph.PointsOf(edge)[n];
+    curve[n] = Within(graph.RadiusOf(p) / 2, graph.PositionOf(p), curve[n]);
   }
   return curve;
 }

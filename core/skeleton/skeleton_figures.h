@@ -42,10 +42,10 @@ GraphComponents ComponentsOf(const SkeletonGraph& graph);
 ComponentFigures TotalOf(const GraphComponents& components);
 
 // The curve through the points of an edge, one place for each, in world units: the mean of the
-// point and up to four on either side. A path on a lattice is a staircase, up to 24 % too long;
-// this is not. No place is farther from its point than half the radius there, so the curve stays
-// inside the object. First and last point stay; a closed curve without junction is smooth all
-// around.
+// point and up to four on either side, each moved to the middle by its shift. A path on a lattice
+// is a staircase, up to 24 % too long; this is not. No place is farther from its point than half
+// the radius there, so the curve stays inside the object. First and last point stay; a closed curve
+// without junction is smooth all around.
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
 }  // namespace bccskel

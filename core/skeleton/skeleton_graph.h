@@ -27,6 +27,9 @@ enum class NodeKind : uint8_t {
   kClosedSurface,  // what a cavity leaves: a cluster with cavities
 };
 
+// Parts of a lattice unit in which SkeletonPoint::shift counts.
+inline constexpr int kShiftUnits = 64;
+
 // A skeleton point: where it is and the radius of the largest ball around it inside the object.
 struct SkeletonPoint {
   LatticePoint point;
@@ -36,6 +39,10 @@ struct SkeletonPoint {
   // The pass of thinning in which the point became an isthmus, from 1; 0 if it never did, or the
   // kind of skeleton keeps no isthmuses. Passes go with shells: one a shell, and more at the last.
   int32_t birth = 0;
+  // How far the middle of the object across the curve lies from the smooth curve, along each axis
+  // of the lattice in parts of a lattice unit: see CenterCurves(). 0 for nodes, and where distances
+  // are not Euclidean.
+  std::array<int16_t, 3> shift = {0, 0, 0};
 
   friend constexpr auto operator<=>(const SkeletonPoint&, const SkeletonPoint&) = default;
 };
@@ -86,17 +93,20 @@ struct SkeletonGraph {
     return std::span(points).subspan(edge.first_point, edge.point_count);
   }
   WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
+  // The place and its shift.
+  WorldPoint ShiftedPositionOf(const SkeletonPoint& p) const;
   // World units.
   double RadiusOf(const SkeletonPoint& p) const;
   // Whether its kind of skeleton keeps isthmuses and there are any.
   bool HasBirths() const;
+  bool HasShifts() const;
 
   friend bool operator==(const SkeletonGraph&, const SkeletonGraph&) = default;
 };
 
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
-// topology) in canonical order. Placement, births and pruning levels are not part of it. The byte
-// layout is stated at the definition; it is a public contract.
+// topology) in canonical order. Placement, births, shifts and pruning levels are not part of it.
+// The byte layout is stated at the definition; it is a public contract.
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives

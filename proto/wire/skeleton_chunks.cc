@@ -11,11 +11,11 @@
 namespace bccskel::wire {
 namespace {
 
-// Most bytes of a row: 5 for each 32-bit varint, 4 for a float, 8 for a double, 10 for a
-// 64-bit one, 1 for a kind.
+// Most bytes of a row: 5 for each 32-bit varint, 3 for a 16-bit one, 4 for a float, 8 for a double,
+// 10 for a 64-bit one, 1 for a kind.
 constexpr size_t kNodeRowBytes = 1 + 7 * 5;
 constexpr size_t kEdgeRowBytes = 2 * 5 + 10 + 8;
-constexpr size_t kPointRowBytes = 5 * 5;
+constexpr size_t kPointRowBytes = 5 * 5 + 3 * 3;
 // Tags and lengths of the tables and their columns, and the sequence number.
 constexpr size_t kFramingBytes = 256;
 
@@ -80,6 +80,20 @@ SkeletonPoint PointOfRow(const Columns& columns, int row) {
 
 uint32_t BirthInMessage(const SkeletonPoint& point) { return static_cast<uint32_t>(point.birth); }
 
+void AppendShift(const SkeletonPoint& point, v1::SkeletonPointColumns& columns) {
+  columns.add_shift_x(point.shift[0]);
+  columns.add_shift_y(point.shift[1]);
+  columns.add_shift_z(point.shift[2]);
+}
+
+// What is no shift at all is taken for the nearest one that is.
+std::array<int16_t, 3> ShiftOfRow(const v1::SkeletonPointColumns& columns, int row) {
+  const auto part = [](int32_t v) {
+    return static_cast<int16_t>(std::clamp<int32_t>(v, INT16_MIN, INT16_MAX));
+  };
+  return {part(columns.shift_x(row)), part(columns.shift_y(row)), part(columns.shift_z(row))};
+}
+
 // A column that may be missing as a whole.
 int RowsOf(int column, int table) { return column == 0 ? table : column; }
 
@@ -114,9 +128,14 @@ absl::Status CheckEdgeColumns(const v1::SkeletonEdgeColumns& c) {
 
 absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
   BCCSKEL_RETURN_IF_ERROR(CheckColumns(
-      "point",
-      {c.x_size(), c.y_size(), c.z_size(), c.radius_size(), RowsOf(c.birth_size(), c.x_size())}));
-  for (int row = 0; row < c.x_size(); ++row) graph.points.push_back(PointOfRow(c, row));
+      "point", {c.x_size(), c.y_size(), c.z_size(), c.radius_size(),
+                RowsOf(c.birth_size(), c.x_size()), RowsOf(c.shift_x_size(), c.x_size())}));
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckColumns("point", {c.shift_x_size(), c.shift_y_size(), c.shift_z_size()}));
+  for (int row = 0; row < c.x_size(); ++row) {
+    graph.points.push_back(PointOfRow(c, row));
+    if (c.shift_x_size() > 0) graph.points.back().shift = ShiftOfRow(c, row);
+  }
   return absl::OkStatus();
 }
 
@@ -170,7 +189,9 @@ absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
 }  // namespace
 
 SkeletonChunkPager::SkeletonChunkPager(const SkeletonGraph& graph)
-    : graph_(&graph), births_(graph.HasBirths() ? Births::kSome : Births::kNone) {}
+    : graph_(&graph),
+      births_(graph.HasBirths() ? Births::kSome : Births::kNone),
+      shifts_(graph.HasShifts() ? Shifts::kSome : Shifts::kNone) {}
 
 std::optional<v1::SkeletonChunk> SkeletonChunkPager::Next() {
   if (AtEnd() && sequence_ > 0) return std::nullopt;
@@ -217,6 +238,7 @@ void SkeletonChunkPager::AddPoints(size_t& budget_bytes, v1::SkeletonPointColumn
     for (const SkeletonPoint& point : points.first(rows)) {
       AppendPoint(point, columns);
       if (births_ == Births::kSome) columns.add_birth(BirthInMessage(point));
+      if (shifts_ == Shifts::kSome) AppendShift(point, columns);
     }
     edge_point_ += rows;
     if (rows < points.size()) return;

@@ -31,11 +31,13 @@ class SkeletonChunkPager {
   void AddPoints(size_t& budget_bytes, v1::SkeletonPointColumns& columns);
   bool AtEnd() const;
 
-  // Whether points are sent with their births.
+  // Whether points are sent with their births and shifts.
   enum class Births : uint8_t { kNone, kSome };
+  enum class Shifts : uint8_t { kNone, kSome };
 
   const SkeletonGraph* graph_;
   Births births_;
+  Shifts shifts_;
   uint32_t sequence_ = 0;
   size_t node_ = 0;
   size_t edge_ = 0;

@@ -43,9 +43,9 @@ std::vector<RuledCurves> Objects() {
 // Thresholds at, just below and just above levels of the object, and between.
 std::vector<double> ThresholdsFor(const PruningLevels& levels) {
   std::vector<double> all = {0.25, 1, 4, 1000};
-  for (const auto& [p, level] : levels) {
+  levels.ForEach([&](LatticePoint, double level) {
     if (std::isfinite(level) && level > 0) all.push_back(level);
-  }
+  });
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<double> some;
@@ -62,10 +62,10 @@ TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
     for (double threshold : ThresholdsFor(levels)) {
       SCOPED_TRACE(threshold);
       const Volume pruned = raw.PrunedBy(rule, threshold).thin;
-      for (const auto& [p, level] : levels) {
+      levels.ForEach([&](LatticePoint p, double level) {
         ASSERT_EQ(pruned.Contains(p), level >= threshold);
         ++(level >= threshold ? kept : gone);
-      }
+      });
     }
   }
   EXPECT_GT(kept, 0u);
@@ -76,12 +76,12 @@ TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
   for (const auto& [raw, rule] : Objects()) {
     const PruningLevels before = raw.PrunedBy(PruningRule::kNone, 0).levels;
     const PrunedSkeleton pruned = raw.PrunedBy(rule, 3);
-    for (const auto& [p, level] : pruned.levels) {
+    pruned.levels.ForEach([&](LatticePoint p, double level) {
       EXPECT_GE(level, 3);
-      const auto found = before.find(p);
-      if (found == before.end()) continue;  // a branch point now, a junction before
-      EXPECT_EQ(found->second, level);
-    }
+      const double* found = before.Find(p);
+      if (found == nullptr) return;  // a branch point now, a junction before
+      EXPECT_EQ(*found, level);
+    });
   }
 }
 
@@ -92,7 +92,7 @@ TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
                                      {SkeletonKind::kIsthmusCurve, PruningRule::kPersistence}}) {
       const PrunedSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
       EXPECT_FALSE(pruned.levels.empty());
-      for (const auto& [p, level] : pruned.levels) EXPECT_EQ(level, HUGE_VAL);
+      pruned.levels.ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
       EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(object, {}));
     }
   }
@@ -102,10 +102,8 @@ TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
   const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
   const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
   const PointSet keep(ends.begin(), ends.end());
-  for (const auto& [p, level] :
-       PruningLevelsOf(ThinSet({raw.thin, raw.radii}), PruningRule::kSlope, keep, {})) {
-    EXPECT_EQ(level, HUGE_VAL);
-  }
+  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), PruningRule::kSlope, keep, {})
+      .ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ SkeletonGraph WithBirths(SkeletonGraph graph) {
   return graph;
 }
 
+SkeletonGraph WithShifts(SkeletonGraph graph) {
+  int16_t most = std::numeric_limits<int16_t>::max();
+  for (SkeletonPoint& p : graph.points) p.shift = {most, 0, static_cast<int16_t>(-most)};
+  return graph;
+}
+
 std::vector<v1::SkeletonChunk> ChunksOf(const SkeletonGraph& graph) {
   std::vector<v1::SkeletonChunk> chunks;
   SkeletonChunkPager pager(graph);
@@ -77,6 +83,7 @@ TEST(SkeletonChunksRoundTrip, EmptyGraph) { ExpectSurvives(SkeletonGraph()); }
 TEST(SkeletonChunksRoundTrip, ManyNodesAndShortEdges) { ExpectSurvives(Chain(30'000, 2)); }
 TEST(SkeletonChunksRoundTrip, AnEdgeLongerThanAChunk) { ExpectSurvives(Chain(2, 50'000)); }
 TEST(SkeletonChunksRoundTrip, Births) { ExpectSurvives(WithBirths(Chain(3, 5))); }
+TEST(SkeletonChunksRoundTrip, Shifts) { ExpectSurvives(WithShifts(Chain(3, 5))); }
 
 TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
   SkeletonGraph graph;
@@ -89,8 +96,9 @@ TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
 }
 
 TEST(SkeletonChunks, NeverPassTheirLimit) {
-  for (const SkeletonGraph& graph : {Chain(30'000, 2), Chain(2, 50'000), Chain(3000, 9),
-                                     WithBirths(Chain(30'000, 2)), WithBirths(Chain(2, 50'000))}) {
+  for (const SkeletonGraph& graph :
+       {Chain(30'000, 2), Chain(2, 50'000), Chain(3000, 9), WithBirths(Chain(30'000, 2)),
+        WithShifts(WithBirths(Chain(2, 50'000)))}) {
     const auto chunks = ChunksOf(graph);
     EXPECT_GT(chunks.size(), 1u);
     for (const v1::SkeletonChunk& chunk : chunks) {
@@ -113,6 +121,16 @@ TEST(SkeletonChunks, WithBirthsForSomePointsAreDataLoss) {
   chunks = ChunksOf(graph);
   chunks[0].mutable_nodes()->mutable_birth()->RemoveLast();
   EXPECT_EQ(Assemble(chunks, SummaryFor(graph)).status().code(), absl::StatusCode::kDataLoss);
+}
+
+TEST(SkeletonChunks, WithShiftsForSomePointsAreDataLoss) {
+  const SkeletonGraph graph = WithShifts(Chain(3, 5));
+  for (auto column :
+       {&v1::SkeletonPointColumns::mutable_shift_x, &v1::SkeletonPointColumns::mutable_shift_y}) {
+    auto chunks = ChunksOf(graph);
+    (chunks[0].mutable_points()->*column)()->RemoveLast();
+    EXPECT_EQ(Assemble(chunks, SummaryFor(graph)).status().code(), absl::StatusCode::kDataLoss);
+  }
 }
 
 TEST(SkeletonChunks, AnEmptyGraphHasOneChunk) { EXPECT_EQ(ChunksOf(SkeletonGraph()).size(), 1u); }

@@ -1,0 +1,158 @@
+#include "core/skeleton/center_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/distance/chamfer_weights.h"
+#include "core/skeleton/curve_smoothing.h"
+#include "core/skeleton/stop_poll.h"
+
+namespace bccskel {
+namespace {
+
+constexpr int kRings = 4;            // of samples from the curve to the rim of the disc
+constexpr double kLeastStep = 1;     // between samples, in lattice units
+constexpr size_t kTangentReach = 2;  // points on either side that give the curve's way
+
+double Dot(const Coordinates& a, const Coordinates& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Coordinates Cross(const Coordinates& a, const Coordinates& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// a + t * b.
+Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
+  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
+}
+
+// Two directions of length 1, across `way` and each other. Needs: `way` has length 1.
+std::array<Coordinates, 2> Across(const Coordinates& way) {
+  const auto least = std::ranges::min_element(way, {}, [](double v) { return std::abs(v); });
+  Coordinates axis = {0, 0, 0};
+  axis[static_cast<size_t>(least - way.begin())] = 1;
+  Coordinates u = Cross(way, axis);
+  u = Sum({0, 0, 0}, 1 / std::sqrt(Dot(u, u)), u);
+  return {u, Cross(way, u)};
+}
+
+// Places are in lattice units along the axes of the lattice, so stretched where spacings differ.
+class DiscCenters {
+ public:
+  DiscCenters(const Volume& object, const DistanceField& field)
+      : object_(object), field_(field), scale_(AxisScaleOf(object.placement())) {}
+
+  Coordinates PlaceOf(LatticePoint p) const {
+    return {scale_[0] * p.x, scale_[1] * p.y, scale_[2] * p.z};
+  }
+
+  // The way from `middle` to the center of the disc across `way` around it, along the disc.
+  Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) const {
+    const double step = std::max(radius / kRings, kLeastStep);
+    const int rings = static_cast<int>(radius / step);
+    const auto [u, v] = Across(way);
+    Coordinates sum = {0, 0, 0};
+    double weights = 0;
+    for (int i = -rings; i <= rings; ++i) {
+      for (int j = -rings; j <= rings; ++j) {
+        if (i * i + j * j > rings * rings) continue;
+        const LatticePoint p = PointNear(Sum(Sum(middle, i * step, u), j * step, v));
+        const double weight = SquaredDistance(p);
+        sum = Sum(sum, weight, Sum(PlaceOf(p), -1, middle));
+        weights += weight;
+      }
+    }
+    if (weights == 0) return {0, 0, 0};
+    const Coordinates center = Sum({0, 0, 0}, 1 / weights, sum);
+    return Sum(center, -Dot(center, way), way);
+  }
+
+  std::array<int16_t, 3> ShiftOf(const Coordinates& way) const {
+    std::array<int16_t, 3> shift;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double units = std::nearbyint(way[axis] / scale_[axis] * kShiftUnits);
+      shift[axis] = static_cast<int16_t>(std::clamp(units, -32767.0, 32767.0));
+    }
+    return shift;
+  }
+
+ private:
+  // A lattice point next to the place: the nearest where spacings are equal.
+  LatticePoint PointNear(const Coordinates& place) const {
+    std::array<std::array<int32_t, 3>, 2> best;
+    std::array<double, 2> squares = {0, 0};
+    for (int32_t odd : {0, 1}) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double at = place[axis] / scale_[axis];
+        const int32_t near = 2 * static_cast<int32_t>(std::nearbyint((at - odd) / 2)) + odd;
+        const double off = scale_[axis] * (near - at);
+        best[static_cast<size_t>(odd)][axis] = near;
+        squares[static_cast<size_t>(odd)] += off * off;
+      }
+    }
+    const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
+    return {x, y, z};
+  }
+
+  double SquaredDistance(LatticePoint p) const {
+    if (!object_.extent().Contains(p)) return 0;
+    const BrickAddress address = AddressOf(p);
+    const std::optional<BrickIndex> brick = object_.Find(BrickKey(address.brick));
+    if (!brick.has_value()) return 0;
+    const double distance = field_.ToLatticeUnits(field_.At(*brick, address.bit));
+    return distance * distance;
+  }
+
+  const Volume& object_;
+  const DistanceField& field_;
+  const AxisScale scale_;
+};
+
+// The way of the curve at a place, of length 1; none where it stands still.
+Coordinates WayAt(std::span<const Coordinates> curve, size_t n, CurveShape shape) {
+  size_t before = n - std::min(n, kTangentReach);
+  size_t after = std::min(n + kTangentReach, curve.size() - 1);
+  if (shape == CurveShape::kClosed) {
+    const size_t once = curve.size() - 1;
+    before = (n + once - std::min(once, kTangentReach)) % once;
+    after = (n + kTangentReach) % once;
+  }
+  const Coordinates way = Sum(curve[after], -1, curve[before]);
+  const double length = std::sqrt(Dot(way, way));
+  return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
+}
+
+// The first and the last point of an open curve are its nodes' and stay.
+void CenterEdge(const DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape,
+                StopPoll& poll, SkeletonGraph& graph) {
+  const std::span<SkeletonPoint> points =
+      std::span(graph.points).subspan(edge.first_point, edge.point_count);
+  std::vector<Coordinates> places;
+  for (const SkeletonPoint& p : points) places.push_back(centers.PlaceOf(p.point));
+  const std::vector<Coordinates> curve = MeansAlong(places, shape);
+  const size_t skip = shape == CurveShape::kClosed ? 0 : 1;
+  for (size_t n = skip; n + skip < points.size() && !poll.Stopped(); ++n) {
+    const Coordinates way = WayAt(curve, n, shape);
+    if (Dot(way, way) == 0) continue;
+    points[n].shift = centers.ShiftOf(centers.WayToCenter(curve[n], way, points[n].radius));
+  }
+}
+
+}  // namespace
+
+absl::Status CenterCurves(const Volume& object, const DistanceField& field,
+                          const exec::Context& context, SkeletonGraph& graph) {
+  const DiscCenters centers(object, field);
+  StopPoll poll(context);
+  for (const SkeletonEdge& edge : graph.edges) {
+    CenterEdge(centers, edge, ShapeOf(graph, edge), poll, graph);
+  }
+  return poll.Stopped() ? context.StopStatus() : absl::OkStatus();
+}
+
+}  // namespace bccskel

@@ -1,0 +1,144 @@
+#include "core/skeleton/center_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/pipeline/skeletonize.h"
+#include "core/shapes/shapes.h"
+#include "core/skeleton/skeleton_figures.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kRadius = 9;  // world units
+constexpr WorldPoint kAxis = {20.3, 19.6, 0};
+
+// A round bar along z, on a grid whose cells have two units along x and y and `height` along z.
+Volume Bar(double height) {
+  VolumeBuilder builder({20, 20, 30}, {.spacing = {2, 2, height}});
+  const Placement placement = {.spacing = {2, 2, height}};
+  for (int32_t z = 2; z < 58; ++z) {
+    for (int32_t y = z % 2; y < 40; y += 2) {
+      for (int32_t x = z % 2; x < 40; x += 2) {
+        const WorldPoint p = placement.ToWorld({x, y, z});
+        if (std::hypot(p[0] - kAxis[0], p[1] - kAxis[1]) <= kRadius) builder.Add({x, y, z});
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+// A straight edge along z beside the axis.
+SkeletonGraph Beside(const Volume& bar) {
+  SkeletonGraph graph;
+  graph.placement = bar.placement();
+  for (int32_t z = 6; z <= 54; z += 2) graph.points.push_back({{22, 22, z}, 6});
+  graph.nodes = {{NodeKind::kEnd, graph.points.front()}, {NodeKind::kEnd, graph.points.back()}};
+  graph.edges = {{0, 1, 0, graph.points.size()}};
+  return graph;
+}
+
+double MeanOffset(const SkeletonGraph& graph) {
+  double sum = 0;
+  const std::vector<WorldPoint> curve = SmoothCurve(graph, graph.edges[0]);
+  for (const WorldPoint& p : curve) sum += std::hypot(p[0] - kAxis[0], p[1] - kAxis[1]);
+  return sum / static_cast<double>(curve.size());
+}
+
+TEST(CenterCurves, PullsACurveToTheMiddle) {
+  for (double height : {2.0, 3.0, 5.0}) {
+    const Volume bar = Bar(height);
+    const auto field = ComputeDistance(bar, DistanceKind::kEuclidean, {});
+    SkeletonGraph graph = Beside(bar);
+    const double before = MeanOffset(graph);
+    EXPECT_GT(before, 2.5);
+    ASSERT_TRUE(CenterCurves(bar, *field, {}, graph).ok());
+    EXPECT_TRUE(graph.HasShifts());
+    EXPECT_LT(MeanOffset(graph), 0.65 * before) << height;
+  }
+}
+
+TEST(CenterCurves, LeavesNodesWhereTheyAre) {
+  const Volume bar = Bar(2);
+  const auto field = ComputeDistance(bar, DistanceKind::kEuclidean, {});
+  SkeletonGraph graph = Beside(bar);
+  ASSERT_TRUE(CenterCurves(bar, *field, {}, graph).ok());
+  const std::vector<WorldPoint> curve = SmoothCurve(graph, graph.edges[0]);
+  EXPECT_EQ(curve.front(), graph.PositionOf(graph.points.front()));
+  EXPECT_EQ(curve.back(), graph.PositionOf(graph.points.back()));
+}
+
+TEST(CenterCurves, StopsWhenAsked) {
+  const Volume bar = Bar(2);
+  const auto field = ComputeDistance(bar, DistanceKind::kEuclidean, {});
+  SkeletonGraph graph = Beside(bar);
+  graph.points.resize(5000, graph.points.back());
+  graph.edges[0].point_count = 5000;
+  std::stop_source source;
+  exec::Context context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_EQ(CenterCurves(bar, *field, context, graph).code(), absl::StatusCode::kCancelled);
+}
+
+SkeletonGraph Unshifted(SkeletonGraph graph) {
+  for (SkeletonPoint& p : graph.points) p.shift = {0, 0, 0};
+  return graph;
+}
+
+// How far the curve around the ring is from the plane in which the ring lies, on average.
+double OffPlane(const SkeletonGraph& graph, double plane) {
+  double sum = 0;
+  for (const WorldPoint& p : SmoothCurve(graph, graph.edges[0])) sum += std::abs(p[2] - plane);
+  return sum / static_cast<double>(graph.points.size());
+}
+
+TEST(CenteredCurves, OfARingLieInItsPlane) {
+  const Volume ring = *GenerateShape(Shape::kTorus, {.points = 60'000, .noise = 0});
+  const auto result = Skeletonize(ring, {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  ASSERT_EQ(result->graph.edges.size(), 1u);
+  double middle = 0;
+  ring.ForEachPoint([&](LatticePoint p) { middle += ring.placement().ToWorld(p)[2]; });
+  middle /= static_cast<double>(ring.PointCount());
+  EXPECT_LE(OffPlane(result->graph, middle), OffPlane(Unshifted(result->graph), middle));
+}
+
+TEST(CenteredCurves, StayInsideTheObjectAndNearTheirPoints) {
+  for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot}) {
+    const Volume object = *GenerateShape(shape, {.points = 40'000, .noise = 0.05});
+    const SkeletonGraph graph = Skeletonize(object, {}, {})->graph;
+    for (const SkeletonEdge& edge : graph.edges) {
+      const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+      for (size_t n = 0; n < curve.size(); ++n) {
+        const SkeletonPoint& p = graph.PointsOf(edge)[n];
+        const WorldPoint at = graph.PositionOf(p);
+        const double way =
+            std::hypot(curve[n][0] - at[0], curve[n][1] - at[1], curve[n][2] - at[2]);
+        ASSERT_LE(way, graph.RadiusOf(p) / 2 * (1 + 1e-12));
+      }
+    }
+  }
+}
+
+TEST(CenteredCurves, AreMadeOfEuclideanDistancesAlone) {
+  const Volume object = *GenerateShape(Shape::kTree, {.points = 20'000});
+  EXPECT_TRUE(Skeletonize(object, {}, {})->graph.HasShifts());
+  for (DistanceKind kind : {DistanceKind::kChamfer, DistanceKind::kChamferOptimal}) {
+    EXPECT_FALSE(Skeletonize(object, {.distance = kind}, {})->graph.HasShifts());
+  }
+}
+
+TEST(CenteredCurves, AreTheSameForAnyThreadCount) {
+  const Volume object = *GenerateShape(Shape::kTree, {.points = 40'000});
+  const SkeletonGraph expected = Skeletonize(object, {}, {})->graph;
+  exec::WorkerTeam team(3);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  EXPECT_EQ(Skeletonize(object, {}, context)->graph, expected);
+}
+
+}  // namespace
+}  // namespace bccskel
