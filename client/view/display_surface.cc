@@ -85,6 +85,14 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
   return later.ok() ? *std::move(later) : Volume();
 }
 
+// How many layers an object is shown by, if all were as large as its surface.
+int32_t LayersFor(const DisplaySurface& object, int32_t last_shell, const PeelingLimits& limits) {
+  const size_t affordable = limits.full_triangles / std::max<size_t>(object.full_triangles, 1);
+  const auto most = static_cast<size_t>(std::min(limits.layers, last_shell - 1));
+  const auto least = static_cast<size_t>(limits.least_layers);
+  return static_cast<int32_t>(std::min(most, std::max(affordable, least)));
+}
+
 // `later(shell)` is what is left when that many shells are gone.
 absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
                                    const std::function<Volume(int32_t)>& later,
@@ -93,7 +101,8 @@ absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
   BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
                            MakeDisplaySurface(object, limits.object_triangles, context));
   peeling.layers.push_back({0, std::move(whole)});
-  const int32_t layers = std::min(limits.layers, last_shell - 1);
+  if (last_shell < 2) return peeling;
+  const int32_t layers = LayersFor(peeling.layers.front().surface, last_shell, limits);
   for (int32_t n = 1; n <= layers; ++n) {
     const int32_t shell = n * (last_shell - 1) / layers;
     BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface surface,
@@ -108,9 +117,12 @@ absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
                                                   const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractSurface(object, context));
+  const size_t full_triangles = mesh.triangles.size();
   SmoothSurface(mesh, {});
   Simplify(mesh, most_triangles);
-  return InWorld(mesh, object.placement());
+  DisplaySurface surface = InWorld(mesh, object.placement());
+  surface.full_triangles = full_triangles;
+  return surface;
 }
 
 absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,

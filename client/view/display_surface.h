@@ -19,6 +19,7 @@ namespace bccskel::view {
 struct DisplaySurface {
   std::vector<WorldPoint> vertices;
   std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
+  size_t full_triangles = 0;               // before simplification
 };
 
 // Simplification keeps to the budget unless topology forbids it; then it comes close.
@@ -36,6 +37,10 @@ struct PeelingLimits {
   size_t object_triangles = 100'000;
   size_t layer_triangles = 20'000;
   int32_t layers = 20;
+  // Layers are made of whole surfaces, which takes seconds for each ten million triangles: large
+  // objects have fewer layers, so that they take no more than these together, but this many stay.
+  size_t full_triangles = 40'000'000;
+  int32_t least_layers = 4;
 };
 
 struct Peeling {
