@@ -14,7 +14,7 @@
 namespace bccskel {
 namespace {
 
-constexpr int kRings = 4;            // of samples from the curve to the rim of the disc
+constexpr int kRings = 3;            // of samples from the curve to the rim of the disc
 constexpr double kLeastStep = 1;     // between samples, in lattice units
 constexpr size_t kTangentReach = 2;  // points on either side that give the curve's way
 
@@ -41,6 +41,10 @@ std::array<Coordinates, 2> Across(const Coordinates& way) {
   return {u, Cross(way, u)};
 }
 
+// The nearest whole number. Needs: more than -1024. No call of the library, which has to ask how to
+// round.
+int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }
+
 // Places are in lattice units along the axes of the lattice, so stretched where spacings differ.
 class DiscCenters {
  public:
@@ -52,7 +56,7 @@ class DiscCenters {
   }
 
   // The way from `middle` to the center of the disc across `way` around it, along the disc.
-  Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) const {
+  Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) {
     const double step = std::max(radius / kRings, kLeastStep);
     const int rings = static_cast<int>(radius / step);
     const auto [u, v] = Across(way);
@@ -89,7 +93,7 @@ class DiscCenters {
     for (int32_t odd : {0, 1}) {
       for (size_t axis = 0; axis < 3; ++axis) {
         const double at = place[axis] / scale_[axis];
-        const int32_t near = 2 * static_cast<int32_t>(std::nearbyint((at - odd) / 2)) + odd;
+        const int32_t near = 2 * Rounded((at - odd) / 2) + odd;
         const double off = scale_[axis] * (near - at);
         best[static_cast<size_t>(odd)][axis] = near;
         squares[static_cast<size_t>(odd)] += off * off;
@@ -99,18 +103,32 @@ class DiscCenters {
     return {x, y, z};
   }
 
-  double SquaredDistance(LatticePoint p) const {
+  double SquaredDistance(LatticePoint p) {
     if (!object_.extent().Contains(p)) return 0;
     const BrickAddress address = AddressOf(p);
-    const std::optional<BrickIndex> brick = object_.Find(BrickKey(address.brick));
+    const std::optional<BrickIndex> brick = Find(address.brick);
     if (!brick.has_value()) return 0;
     const double distance = field_.ToLatticeUnits(field_.At(*brick, address.bit));
     return distance * distance;
   }
 
+  // Samples lie close together, most of them in the same two bricks.
+  std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
+    LastBrick& last = last_[static_cast<size_t>(brick.sublattice)];
+    const BrickKey key(brick);
+    if (last.key != key) last = {key, object_.Find(key)};
+    return last.brick;
+  }
+
+  struct LastBrick {
+    std::optional<BrickKey> key;
+    std::optional<BrickIndex> brick;
+  };
+
   const Volume& object_;
   const DistanceField& field_;
   const AxisScale scale_;
+  std::array<LastBrick, 2> last_;  // by sublattice
 };
 
 // The way of the curve at a place, of length 1; none where it stands still.
@@ -128,8 +146,8 @@ Coordinates WayAt(std::span<const Coordinates> curve, size_t n, CurveShape shape
 }
 
 // The first and the last point of an open curve are its nodes' and stay.
-void CenterEdge(const DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape,
-                StopPoll& poll, SkeletonGraph& graph) {
+void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape, StopPoll& poll,
+                SkeletonGraph& graph) {
   const std::span<SkeletonPoint> points =
       std::span(graph.points).subspan(edge.first_point, edge.point_count);
   std::vector<Coordinates> places;
@@ -147,7 +165,7 @@ void CenterEdge(const DiscCenters& centers, const SkeletonEdge& edge, CurveShape
 
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph) {
-  const DiscCenters centers(object, field);
+  DiscCenters centers(object, field);
   StopPoll poll(context);
   for (const SkeletonEdge& edge : graph.edges) {
     CenterEdge(centers, edge, ShapeOf(graph, edge), poll, graph);

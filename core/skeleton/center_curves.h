@@ -17,7 +17,7 @@ namespace bccskel {
 //        and noise draws single points aside, while the distances around them still know the
 //        middle. Inside the ball everything is object, so no neighboring limb draws the curve to
 //        its side.
-// Cost:  up to 49 distances per point of the graph.
+// Cost:  up to 29 distances per point of the graph.
 // Shapes: `field` belongs to `object`, whose points the graph's are.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
