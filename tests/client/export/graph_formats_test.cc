@@ -19,8 +19,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::IsEmpty;
+using testing::Not;
 
 size_t CountOf(std::string_view text, std::string_view part) {
   size_t count = 0;
@@ -105,8 +105,7 @@ TEST(Births, AreNamedNowhereWhereThereAreNone) {
 }
 
 TEST(PruningLevels, AreInEveryFormatOfFigures) {
-  EXPECT_THAT(GraphMlText(BornLollipop()),
-              HasSubstr("<data key=\"pruning_level\">2.5</data>"));
+  EXPECT_THAT(GraphMlText(BornLollipop()), HasSubstr("<data key=\"pruning_level\">2.5</data>"));
   // Of the isolated point, the stem and the loop.
   EXPECT_THAT(VtpText(BornLollipop()),
               HasSubstr("Name=\"pruning_level\" format=\"ascii\">\n-1\n2.5\n-1\n"));
