@@ -130,6 +130,9 @@ absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
   return std::move(section).TakeValues();
 }
 
+// Of a section, where an object has several; a slab with more is one all the same.
+constexpr size_t kSectionPoints = size_t{1} << 22;
+
 // Scans an object section by section: all from below, where each leaves its top layer, then all
 // from above, where each but the last is scanned from below once more.
 template <typename T>
@@ -142,9 +145,11 @@ class Stream {
         runs_(runs),
         context_(context),
         slabs_(SlabsOf(object)) {
+    const bool all_at_once = object.brick_count() * kBrickPoints <= at_once;
+    const size_t most = all_at_once ? at_once : std::min(at_once, kSectionPoints);
     size_t points = 0;
     for (size_t s = 0; s < slabs_.size(); ++s) {
-      if (points == 0 || points + slabs_[s].size() * kBrickPoints > at_once) {
+      if (points == 0 || points + slabs_[s].size() * kBrickPoints > most) {
         starts_.push_back(s);
         points = 0;
       }
@@ -248,10 +253,9 @@ absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::
     BCCSKEL_ASSIGN_OR_RETURN(const uint32_t largest, stream.Run(runs.limit(), sink));
     if (largest < runs.limit()) return absl::OkStatus();
   }
-  constexpr size_t kMostWide = size_t{1} << 26;
   const ChamferWeights wide = LongWeights(scale);
   sink.Begin(InUnitOf(kind, wide, scale), UINT32_MAX);
-  Stream<uint32_t> stream(object, wide, nullptr, context, std::min(at_once, kMostWide));
+  Stream<uint32_t> stream(object, wide, nullptr, context, at_once);
   return stream.Run(UINT32_MAX, sink).status();
 }
 

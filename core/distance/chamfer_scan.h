@@ -27,13 +27,15 @@ class DistanceSink {
   virtual uint32_t Take(BrickIndex brick, const uint32_t* distances) = 0;
 };
 
-// More lattice points than this are not measured all at once.
-inline constexpr size_t kMostPointsAtOnce = 1'000'000'000;
+// More lattice points than this are not measured all at once. On a ball of 67 million points on
+// fresh memory sections take 0.4 to 0.6 s of processor time, all at once 0.7 to 0.8 s and twice the
+// memory; while distances stay in cache, scanning twice would only cost.
+inline constexpr size_t kMostPointsAtOnce = size_t{1} << 24;
 
 // The distances of ComputeChamfer().
-// Cost:   2 bytes per lattice point of the object's bricks. Of objects with more than `at_once`
-//         lattice points, and of deep ones, some slabs of bricks have distances at a time and one
-//         layer of the others; that takes the first scan twice.
+// Cost:   2 bytes per lattice point of the object's bricks, 4 of deep ones. Of objects with more
+//         than `at_once` lattice points some slabs of bricks have distances at a time, and the
+//         others one layer; that takes the first scan twice.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::Context& context,
                            DistanceSink& sink, size_t at_once = kMostPointsAtOnce);

@@ -33,6 +33,16 @@ float Square(double unit, int32_t n) {
   return static_cast<float>(length * length);
 }
 
+// Of a brick's cells along an axis, the first one at `low`.
+template <size_t kCells>
+std::array<float, kCells> SquaresOfCells(double unit, int32_t low) {
+  std::array<float, kCells> squares;
+  for (size_t cell = 0; cell < kCells; ++cell) {
+    squares[cell] = Square(unit, low + 2 * static_cast<int32_t>(cell));
+  }
+  return squares;
+}
+
 bool IsFull(const BrickBits& bits) {
   uint64_t all = ~uint64_t{0};
   for (uint64_t word : bits.words) all &= word;
@@ -125,19 +135,17 @@ void ExactRadius::MeasureAxes(LatticePoint p) {
   MeasureGaps(0, p.x);
   MeasureGaps(1, p.y);
   MeasureGaps(2, p.z);
-  for (size_t axis : {1, 2}) {
-    std::vector<SquaredRows>& rows = rows_[axis - 1];
-    rows.resize(gaps_[axis].size());
-    const size_t rows_per_cell = axis == 1 ? 1 : kBrickY;
-    for (size_t n = 0; n < rows.size(); ++n) {
-      const int32_t low = LowAt(axis, n) - (axis == 1 ? p.y : p.z);
-      std::array<float, kBrickZ> squares;
-      for (int32_t cell = 0; cell < kBrickCells[axis]; ++cell) {
-        squares[static_cast<size_t>(cell)] = Square(scale_[axis], low + 2 * cell);
-      }
-      for (size_t row = 0; row < rows[n].size(); ++row) {
-        rows[n][row] = squares[row / rows_per_cell % static_cast<size_t>(kBrickCells[axis])];
-      }
+  for (size_t axis : {1, 2}) rows_[axis - 1].resize(gaps_[axis].size());
+  for (size_t n = 0; n < rows_[0].size(); ++n) {
+    const auto squares = SquaresOfCells<kBrickY>(scale_[1], LowAt(1, n) - p.y);
+    for (size_t row = 0; row < squares.size() * kBrickZ; ++row) {
+      rows_[0][n][row] = squares[row % squares.size()];
+    }
+  }
+  for (size_t n = 0; n < rows_[1].size(); ++n) {
+    const auto squares = SquaresOfCells<kBrickZ>(scale_[2], LowAt(2, n) - p.z);
+    for (size_t row = 0; row < squares.size() * kBrickY; ++row) {
+      rows_[1][n][row] = squares[row / kBrickY];
     }
   }
 }
