@@ -25,7 +25,27 @@ struct Totals {
   uint64_t edges = 0;
   uint64_t simple_points_left = 0;
   BettiNumbers topology;
+  BettiNumbers unprepared;               // of the labels that were prepared
+  std::vector<PreparingStep> preparing;  // each step's sums; none: nothing was prepared
 };
+
+void Add(const BettiNumbers& one, BettiNumbers& sum) {
+  sum.components += one.components;
+  sum.loops += one.loops;
+  sum.cavities += one.cavities;
+}
+
+// Every label goes through the same kinds of steps.
+void Add(const std::vector<PreparingStep>& one, std::vector<PreparingStep>& sum) {
+  for (const PreparingStep& step : one) {
+    auto same = std::ranges::find(sum, step.kind, &PreparingStep::kind);
+    if (same == sum.end()) same = sum.insert(sum.end(), {.kind = step.kind});
+    same->points_added += step.points_added;
+    same->points_removed += step.points_removed;
+    const bool passes = step.kind == PreparingStepKind::kDenoise;
+    same->count = passes ? std::max(same->count, step.count) : same->count + step.count;
+  }
+}
 
 Totals TotalsOf(const std::vector<LabelFigures>& labels) {
   Totals totals;
@@ -36,11 +56,19 @@ Totals TotalsOf(const std::vector<LabelFigures>& labels) {
     totals.nodes += label.nodes;
     totals.edges += label.edges;
     totals.simple_points_left += label.certificate.simple_points_left;
-    totals.topology.components += label.certificate.skeleton.components;
-    totals.topology.loops += label.certificate.skeleton.loops;
-    totals.topology.cavities += label.certificate.skeleton.cavities;
+    Add(label.certificate.skeleton, totals.topology);
+    if (label.certificate.unprepared.has_value()) {
+      Add(*label.certificate.unprepared, totals.unprepared);
+    }
+    Add(label.preparing, totals.preparing);
   }
   return totals;
+}
+
+void AddPreparing(Text& text, const Totals& totals) {
+  if (totals.preparing.empty()) return;
+  text.Add("\ngiven:     ", exporting::BettiPhrase(totals.unprepared),
+           "\nprepared:  ", PreparingPhrase(totals.preparing));
 }
 
 std::string SummaryText(const LabelsSummary& summary) {
@@ -57,11 +85,13 @@ std::string SummaryText(const LabelsSummary& summary) {
     text.Add("; ", GroupedDigits(summary.left_out), " with fewer than ",
              summary.arguments.min_voxels, " voxels left out");
   }
+  AddPreparing(text, totals);
+  const char* from = totals.preparing.empty() ? "voxels" : "prepared object";
   text.Add("\nobjects:   ", GroupedDigits(totals.object_points), " points, ",
            exporting::BettiPhrase(totals.topology),
            "\nskeletons: ", GroupedDigits(totals.skeleton_points), " points, ",
            GroupedDigits(totals.nodes), " nodes, ", GroupedDigits(totals.edges),
-           " edges\ncheck:     topology kept from every label's voxels on, ",
+           " edges\ncheck:     topology kept from every label's ", from, " on, ",
            totals.simple_points_left, " simple points left\ntime:      ", seconds, " s\n");
   for (const WrittenFile& file : summary.files) {
     text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
@@ -114,6 +144,7 @@ LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
           .nodes = result.graph.nodes.size(),
           .edges = result.graph.edges.size(),
           .certificate = result.certificate,
+          .preparing = result.preparing,
           .sha256 = result.sha256};
 }
 

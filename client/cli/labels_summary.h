@@ -21,6 +21,7 @@ struct LabelFigures {
   size_t nodes = 0;
   size_t edges = 0;
   Certificate certificate;
+  std::vector<PreparingStep> preparing;
   std::string sha256;
 };
 LabelFigures FiguresOf(const LabelSkeleton& skeleton);

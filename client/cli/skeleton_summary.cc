@@ -32,17 +32,6 @@ std::string Decimals(double seconds) {
   return text;
 }
 
-// "denoised in 2 passes (+3 -40 points), 5 cavities filled (+60 points)".
-std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
-  Text text;
-  for (const PreparingStep& step : steps) {
-    text.Add(&step == steps.data() ? "" : ", ", WordsFor(step));
-    if (step.points_added > 0) text.Add(" +", GroupedDigits(step.points_added));
-    if (step.points_removed > 0) text.Add(" -", GroupedDigits(step.points_removed));
-  }
-  return std::move(text).Take();
-}
-
 std::string CheckPhrase(const Certificate& certificate) {
   if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
   Text text;
@@ -110,6 +99,16 @@ void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {
 }
 
 }  // namespace
+
+std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
+  Text text;
+  for (const PreparingStep& step : steps) {
+    text.Add(&step == steps.data() ? "" : ", ", WordsFor(step));
+    if (step.points_added > 0) text.Add(" +", GroupedDigits(step.points_added));
+    if (step.points_removed > 0) text.Add(" -", GroupedDigits(step.points_removed));
+  }
+  return std::move(text).Take();
+}
 
 std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   const SkeletonizeResult& result = summary.result;

@@ -71,6 +71,17 @@ class LabelsTest(harness.TestCase):
             self.assertEqual((rows[:, 6] == -1).sum(), 1)
             self.assertTrue((self.folder / f"{label}.exr").exists())
 
+    def test_the_summary_adds_up_what_preparing_did(self):
+        labels = numpy.zeros((9, 9, 30), "u1")
+        labels[1:8, 1:8, 1:8] = 1
+        labels[1:8, 1:8, 10:18] = 2
+        labels[4, 4, 4] = labels[4, 4, 12] = labels[4, 4, 14] = 0  # cavities
+        numpy.save(self.image, labels)
+        text = self.succeed("labels", self.image, "--fill-cavities", "-o", self.path("all.json"))
+        self.assertIn("given:     2 components, 0 loops, 3 cavities\n", text)
+        self.assertRegex(text, r"prepared:  3 cavities filled \+[0-9]+\n")
+        self.assertIn("from every label's prepared object on", text)
+
     def test_files_of_all_labels_say_which_is_which(self):
         names = [self.path(name) for name in ("all.vtp", "all.graphml", "all.json")]
         self.labels(*(word for name in names for word in ("-o", name)))
