@@ -37,7 +37,7 @@ struct PeelingLimits {
   size_t object_triangles = 100'000;
   size_t layer_triangles = 20'000;
   int32_t layers = 20;
-  // Layers are made of whole surfaces, which takes long where they have millions of triangles: large
+  // Each layer is made of a whole surface, which takes long for millions of triangles: large
   // objects have fewer layers, so that they take no more than these together, but this many stay.
   size_t full_triangles = 40'000'000;
   int32_t least_layers = 4;
