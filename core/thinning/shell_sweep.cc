@@ -14,10 +14,6 @@
 namespace bccskel {
 namespace {
 
-// A brick of an object thinned to the end is visited again and again, so half as many as elsewhere
-// are worth a worker.
-constexpr size_t kBrickVisits = 2;
-
 // One worker's bricks and buffers.
 struct alignas(64) Worker {
   exec::Share bricks = {0, 0};
@@ -53,7 +49,7 @@ class ShellSweep {
                                                       : kDirectionsUnsettled | kEndPointsUnsettled),
         unsettled_(groups() * kUnsettledGroup),
         enabled_(unsettled_.size()),
-        workers_(static_cast<size_t>(context.WorkersFor(kBrickVisits * state.brick_count()))),
+        workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
         barrier_(static_cast<int>(workers_.size())),
         points_at_start_(CountPoints(state.object)),
         patience_(context.patience) {
