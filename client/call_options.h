@@ -18,6 +18,14 @@ namespace bccskel::client {
 // Whether the thinned volume comes back beside the graph.
 enum class ThinVolume { kOmit, kReturn };
 
+// Where the time of a call went that is not in StageTimings.
+struct CallTimes {
+  std::chrono::nanoseconds upload{0};    // from the call's start until all of the volume is sent
+  std::chrono::nanoseconds queue{0};     // on the server, before the first stage
+  std::chrono::nanoseconds decode{0};    // on the server, mostly while the volume arrives
+  std::chrono::nanoseconds download{0};  // from the first of the skeleton to the last of the call
+};
+
 // Everything about one call but the volume. The defaults suit a program without a user waiting.
 struct CallOptions {
   SkeletonizeOptions skeletonize = {};
@@ -34,6 +42,8 @@ struct CallOptions {
   // shells in order, a large one in several parts; then, as shell `last_shell + 1`, what cleaning
   // up and pruning take. Lossless; called as on_shell is.
   std::function<void(int32_t shell, std::span<const LatticePoint>)> on_shell_points = {};
+  // Called once, at the end of an attempt that succeeds on one stream.
+  std::function<void(const CallTimes&)> on_times = {};
 };
 
 // Everything about one call for labels but the volume.

@@ -50,6 +50,7 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
   absl::StatusOr<SkeletonizeResult> Run(const EncodedVolume& volume) {
     BCCSKEL_RETURN_IF_ERROR(Converse(ConfigRequest(volume, options_), volume.bytes));
     if (!summary_.has_value()) return absl::DataLossError("the server ended without a summary");
+    TellTimes();
     return Assemble();
   }
 
@@ -64,6 +65,7 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
       case v1::SkeletonizeResponse::kShellPoints:
         return TakeShellPoints(response.shell_points());
       case v1::SkeletonizeResponse::kSkeletonChunk:
+        if (!first_chunk_at_.has_value()) first_chunk_at_ = Clock::now();
         return assembler_.Add(response.skeleton_chunk());
       case v1::SkeletonizeResponse::kThinVolumeChunk:
         return TakeThinVolume(response.thin_volume_chunk());
@@ -92,6 +94,16 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
     return absl::OkStatus();
   }
 
+  void TellTimes() const {
+    if (!options_.on_times) return;
+    const wire::JobFacts facts = wire::FactsOf(*summary_);
+    const Clock::time_point now = Clock::now();
+    options_.on_times({.upload = UploadTime(),
+                       .queue = facts.queued,
+                       .decode = facts.decoded,
+                       .download = now - first_chunk_at_.value_or(now)});
+  }
+
   absl::StatusOr<SkeletonizeResult> Assemble() {
     BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, std::move(assembler_).Finish(*summary_));
     if (options_.thin_volume == ThinVolume::kReturn) {
@@ -109,6 +121,7 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
   wire::SkeletonAssembler assembler_;
   std::string thin_bytes_;
   std::optional<v1::SkeletonSummary> summary_;
+  std::optional<Clock::time_point> first_chunk_at_;
 };
 
 // gRPC cancels calls that reach a server in its last moments, which nobody here has asked for.

@@ -5,6 +5,7 @@
 #include <grpcpp/support/sync_stream.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -19,6 +20,7 @@ namespace bccskel::client {
 template <typename Request, typename Response>
 class UploadCall {
  public:
+  using Clock = std::chrono::steady_clock;
   using Stream = grpc::ClientReaderWriterInterface<Request, Response>;
 
   // Needs: both outlive the call.
@@ -31,10 +33,14 @@ class UploadCall {
     // A write that fails means that the call has ended; Finish() knows why.
     const bool sent =
         stream_.Write(config) && ReadAccepted() && SendVolume(bytes) && stream_.WritesDone();
+    sent_at_ = Clock::now();
     if (sent) ReadReplies();
     const grpc::Status ended = stream_.Finish();
     return reply_error_.ok() ? FromGrpcStatus(ended) : reply_error_;
   }
+
+  // How long it took until all was sent.
+  Clock::duration UploadTime() const { return sent_at_ - started_at_; }
 
   // What the server has named if it keeps the call's job; else empty.
   const AcceptedCall& accepted() const { return accepted_; }
@@ -86,6 +92,8 @@ class UploadCall {
 
   grpc::ClientContext& context_;
   Stream& stream_;
+  const Clock::time_point started_at_ = Clock::now();
+  Clock::time_point sent_at_ = started_at_;
   size_t chunk_bytes_ = 0;
   AcceptedCall accepted_;
   absl::Status reply_error_;

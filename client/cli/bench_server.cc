@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 struct Share {
   absl::Status status;
   uint64_t refused = 0;
-  std::vector<std::chrono::nanoseconds> latency;
+  std::vector<ServedCall> calls;
 };
 
 class Client {
@@ -31,13 +31,20 @@ class Client {
 
   // Errors: see MeasureServer(); CANCELLED.
   absl::Status CallOnce() {
+    ServedCall call;
     client::CallOptions options;
     options.stop = stop_;
+    options.on_times = [&call](const client::CallTimes& times) { call.way = times; };
     const auto deadline = client::Stub::Clock::now() + options.timeout;
     while (true) {
       const Clock::time_point start = Clock::now();
-      const absl::Status status = stub_->Skeletonize(volume_, options, deadline).status();
-      if (status.ok()) share_.latency.push_back(Clock::now() - start);
+      const auto result = stub_->Skeletonize(volume_, options, deadline);
+      call.latency = Clock::now() - start;
+      if (result.ok()) {
+        call.stages = result->timings;
+        share_.calls.push_back(call);
+      }
+      const absl::Status& status = result.status();
       const auto pause = wire::RetryDelayOf(status);
       if (!absl::IsUnavailable(status) || !pause.has_value()) return status;
       ++share_.refused;
@@ -76,9 +83,34 @@ absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpo
 
 }  // namespace
 
+std::vector<TimeShare> SharesOfCalls() {
+  std::vector<TimeShare> shares = {
+      {"upload", [](const ServedCall& call) { return call.way.upload; }},
+      {"queue", [](const ServedCall& call) { return call.way.queue; }},
+      {"decode", [](const ServedCall& call) { return call.way.decode; }}};
+  for (const Stage& stage : kStages) {
+    shares.push_back({stage.name, [&stage](const ServedCall& call) {
+                        return std::chrono::nanoseconds(call.stages.*stage.time);
+                      }});
+  }
+  shares.push_back({"download", [](const ServedCall& call) { return call.way.download; }});
+  shares.push_back({"rest", [](const ServedCall& call) {
+                      return call.latency - call.way.upload - call.stages.total - call.way.download;
+                    }});
+  return shares;
+}
+
+std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share) {
+  std::vector<std::chrono::nanoseconds> values;
+  for (const ServedCall& call : measured.calls) values.push_back(share.of(call));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share) {
-  const auto last = static_cast<double>(measured.latency.size() - 1);
-  return measured.latency[static_cast<size_t>(share * last + 0.5)];
+  const auto last = static_cast<double>(measured.calls.size() - 1);
+  return measured.calls[static_cast<size_t>(share * last + 0.5)].latency;
 }
 
 absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
@@ -101,9 +133,9 @@ absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint
     const Share& share = client->share();
     BCCSKEL_RETURN_IF_ERROR(share.status);
     measured.refused += share.refused;
-    measured.latency.insert(measured.latency.end(), share.latency.begin(), share.latency.end());
+    measured.calls.insert(measured.calls.end(), share.calls.begin(), share.calls.end());
   }
-  std::ranges::sort(measured.latency);
+  std::ranges::sort(measured.calls, {}, &ServedCall::latency);
   return measured;
 }
 
