@@ -22,13 +22,14 @@ import report
 HERE = pathlib.Path(__file__).resolve().parent
 FETCH = HERE.parent.parent / "docker" / "fetch-models"
 
-# Of the Debian package libcgal-demo, with surfaces that are closed and do not cross; and shapes of `bccskel generate`.
+# Of the Debian package libcgal-demo, with surfaces that are closed and do not cross; and shapes of
+# `bccskel generate`.
 MESHES = ("elephant", "armadillo", "dino", "triceratops", "diplodocus", "hand", "cactus", "bear",
           "knot2", "turbine")
 SHAPES = ("torus", "horse", "tree")
 GROWING = MESHES[:3]  # as in the paper, the first three
 TABLE_POINTS = 850_000
-GROWTH_POINTS = tuple(25_000 * 2**n for n in range(9))  # to 6.4 million
+GROWTH_POINTS = tuple(25_000 * 2**n for n in range(8))  # to 3.2 million
 PICTURE_SIZE = "640x480"
 METHODS = ("directional", "symmetric")
 
@@ -36,7 +37,7 @@ METHODS = ("directional", "symmetric")
 # one second" on one thread of an Intel dual-core processor, "approximately a half second" on two.
 PAPER_MS = {1: 1000, 2: 500}
 
-Model = collections.namedtuple("Model", "name object result runs")
+Model = collections.namedtuple("Model", "name summary runs")
 
 
 class Commands:
@@ -64,9 +65,10 @@ class Commands:
                                    "--threads", threads, "--repeat", repeat, "--json"))
 
     def skeletonize(self, volume):
+        """The file of the result and the summary."""
         result = volume.with_suffix(".json")
-        self.run("skeletonize", volume, "--local", "-o", result)
-        return result
+        summary = self.run("skeletonize", volume, "--local", "-o", result, "--json")
+        return result, json.loads(summary)
 
 
 def say(text):
@@ -99,12 +101,12 @@ def measure_models(commands, meshes, output, repeat):
             volume = commands.voxelize(meshes / f"{name}.off", TABLE_POINTS)
         else:
             volume = commands.generate(name)
-        result = commands.skeletonize(volume)
+        result, summary = commands.skeletonize(volume)
         commands.run("render", result, "--object", volume, "--size", PICTURE_SIZE,
                      "-o", output / f"{name}.png")
         runs = {(method, threads): commands.bench(volume, method, threads, repeat)
                 for method in METHODS for threads in (1, 2)}
-        models.append(Model(name, volume, json.loads(result.read_text()), runs))
+        models.append(Model(name, summary, runs))
     return models
 
 
@@ -133,18 +135,12 @@ def plot_growth(rows, path):
     figure.savefig(path, metadata={"Date": None})
 
 
-def skeleton_points(result):
-    """Edges share their first and last point with nodes."""
-    return (sum(len(edge["points"]) - 2 for edge in result["edges"])
-            + sum(len(node["points"]) for node in result["nodes"]))
-
-
 def model_row(model):
-    runs = model.runs
-    certificate = model.result["certificate"]["skeleton"]
+    summary, runs = model.summary, model.runs
+    betti = summary["certificate"]["skeleton"]
     cells = [f"![{model.name}]({model.name}.png)", model.name,
-             f"{runs['directional', 1]['points']:,}", f"{skeleton_points(model.result):,}",
-             f"{certificate['components']}, {certificate['loops']}, {certificate['cavities']}"]
+             f"{summary['object_points']:,}", f"{summary['skeleton_points']:,}",
+             f"{betti['components']}, {betti['loops']}, {betti['cavities']}"]
     for method in METHODS:
         cells += [f"{milliseconds(runs[method, 1]):.1f}", f"{milliseconds(runs[method, 2]):.1f}",
                   f"{milliseconds(runs[method, 1], 'whole_ns_per_point'):.1f}"]
