@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Measures how good skeletons are and prints a report as markdown.
 
 Usage: report.py BUILD_FOLDER [--output report.md] [--plot offsets.svg] [--points N] [--turns N]
