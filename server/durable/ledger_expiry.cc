@@ -43,6 +43,7 @@ void DurableLedger::ExpireJobs() {
   const auto erased = std::make_shared<Erased>();
   loop_.Post(
       [this, oldest, erased](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs, store.JobsEndedBefore(oldest));
         for (const JobRow& job : jobs) BCCSKEL_RETURN_IF_ERROR(EraseJob(store, job, *erased));
         return absl::OkStatus();
@@ -57,6 +58,7 @@ void DurableLedger::ExpireVolumes() {
   const auto erased = std::make_shared<Erased>();
   loop_.Post(
       [this, oldest, erased](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
         for (const VolumeRow& row : volumes) {
           if (row.used >= oldest) continue;

@@ -76,6 +76,8 @@ void DurableLedger::Seal(const std::shared_ptr<Finishing>& finishing) {
 
 absl::Status DurableLedger::StoreVolume(JobStore& store, Finishing& finishing) {
   VolumeRow& volume = finishing.volume;
+  finishing.new_blob = true;
+  finishing.step.reset();
   BCCSKEL_ASSIGN_OR_RETURN(UploadRow upload,
                            FindUploadRow(store, volume.tenant, finishing.session->row().name));
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> others,

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
+#include <optional>
 #include <utility>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
@@ -24,14 +25,22 @@ uint32_t BitsOf(const std::vector<JobState>& states) {
   return states.empty() ? kAllStates : bits;
 }
 
-std::string TokenOf(int64_t last, uint32_t states) { return absl::StrCat(last, "-", states); }
+// Of the last job of a page. Made of what its tenant knows of that job: a token tells nothing of
+// other tenants, and holds when the job is deleted meanwhile.
+std::string TokenOf(const JobPosition& last, uint32_t states) {
+  return absl::WebSafeBase64Escape(
+      absl::StrCat(last.created.time_since_epoch().count(), " ", last.name, " ", states));
+}
 
-absl::StatusOr<int64_t> PositionOf(const std::string& token, uint32_t states) {
-  if (token.empty()) return std::numeric_limits<int64_t>::max();
-  const std::vector<std::string> parts = absl::StrSplit(token, '-');
-  int64_t last = 0;
-  if (parts.size() == 2 && absl::SimpleAtoi(parts[0], &last) && TokenOf(last, states) == token) {
-    return last;
+absl::StatusOr<std::optional<JobPosition>> PositionOf(const std::string& token, uint32_t states) {
+  if (token.empty()) return std::nullopt;
+  std::string text;
+  absl::WebSafeBase64Unescape(token, &text);
+  const std::vector<std::string> parts = absl::StrSplit(text, ' ');
+  int64_t created = 0;
+  if (parts.size() == 3 && absl::SimpleAtoi(parts[0], &created)) {
+    const JobPosition position = {.created = Time(Time::duration(created)), .name = parts[1]};
+    if (TokenOf(position, states) == token) return position;
   }
   return absl::InvalidArgumentError("page_token: did not come with a page of these states");
 }
@@ -126,6 +135,7 @@ void DurableLedger::CreateJob(const std::string& tenant, const NewJob& job, Done
 
 absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
   const NewJob& wanted = creating.wanted;
+  creating.step.reset();
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
@@ -201,13 +211,13 @@ void DurableLedger::ListJobs(const std::string& tenant, const JobQuery& query, D
       [this, tenant, query](JobStore& store) -> absl::StatusOr<JobPage> {
         const int size = std::clamp(query.page_size, 1, kMostPerPage);
         const uint32_t states = BitsOf(query.states);
-        BCCSKEL_ASSIGN_OR_RETURN(const int64_t before, PositionOf(query.page_token, states));
+        BCCSKEL_ASSIGN_OR_RETURN(const auto after, PositionOf(query.page_token, states));
         BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> rows,
-                                 store.ListJobs(tenant, before, states, size + 1));
+                                 store.ListJobs(tenant, after, states, size + 1));
         JobPage page;
         for (const JobRow& row : rows) {
           if (page.jobs.size() == static_cast<size_t>(size)) break;
-          page.next_token = TokenOf(row.number, states);
+          page.next_token = TokenOf({.created = row.created, .name = row.name}, states);
           BCCSKEL_ASSIGN_OR_RETURN(JobInfo info, InfoOf(store, row));
           info.summary.clear();
           info.progress.reset();
@@ -225,6 +235,7 @@ void DurableLedger::CancelJob(const std::string& tenant, const std::string& job,
   const auto info = std::make_shared<JobInfo>();
   loop_.Post(
       [this, tenant, job, erased, info](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
         BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, *erased));
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, FindJobRow(store, tenant, job));
@@ -257,6 +268,7 @@ void DurableLedger::DeleteJob(const std::string& tenant, const std::string& job,
   const auto erased = std::make_shared<Erased>();
   loop_.Post(
       [this, tenant, job, erased](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
         return EraseJob(store, row, *erased);
       },

@@ -30,6 +30,7 @@ void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
   loop_.Post(
       [this, tenant = active.tenant, volume = active.volume, options = active.options, digest,
        result](JobStore& store) -> absl::Status {
+        *result = 0;
         BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.FindVolume(tenant, volume));
         if (row.has_value() && row->volume_digest != digest) {
           row->volume_digest = digest;
@@ -40,9 +41,9 @@ void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
         if (stored.has_value()) *result = stored->number;
         return absl::OkStatus();
       },
-      [this, run, result](const absl::Status&) {
+      [this, run, result](const absl::Status& status) {
         // Without the answer the run just goes on.
-        if (*result != 0) return GiveStoredResult(run, *result);
+        if (status.ok() && *result != 0) return GiveStoredResult(run, *result);
         JoinEqual(run);
       });
 }
@@ -81,7 +82,7 @@ void DurableLedger::OnRunProgress(std::shared_ptr<Run> run) {
   const auto events = std::make_shared<std::map<int64_t, JobEvent>>();
   loop_.Post(
       [this, run = std::move(run), events](JobStore&) {
-        *events = TakeProgress(*run);
+        if (events->empty()) *events = TakeProgress(*run);
         return absl::OkStatus();
       },
       [this, events](const absl::Status&) {
@@ -150,6 +151,7 @@ void DurableLedger::StoreResult(Run* run, const ResultRow& row) {
 
 absl::Status DurableLedger::StoreResultOf(JobStore& store, Storing& storing) {
   const ActiveRun& active = runs_.at(storing.run);
+  storing.steps.clear();
   storing.row.key = ResultKey(active.volume_digest, active.options);
   BCCSKEL_ASSIGN_OR_RETURN(storing.number, store.InsertResult(storing.row));
   for (const int64_t job : active.jobs) {

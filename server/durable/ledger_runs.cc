@@ -174,6 +174,7 @@ void DurableLedger::EnterState(std::set<int64_t> jobs, JobState state, const abs
   const auto steps = std::make_shared<std::vector<Step>>();
   loop_.Post(
       [this, jobs, state, error, result, steps](JobStore& store) -> absl::Status {
+        steps->clear();
         for (const int64_t job : jobs) {
           BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, state, error, result, *steps));
         }

@@ -82,8 +82,10 @@ absl::Status DurableLedger::StoreUpload(JobStore& store, Opening& opening) {
   BCCSKEL_ASSIGN_OR_RETURN(opening.existing,
                            store.FindUpload(opening.row.tenant, opening.row.name));
   if (opening.existing.has_value()) return CheckSameUpload(store, opening);
-  BCCSKEL_RETURN_IF_ERROR(quota_.Take(opening.row.tenant, opening.row.size_bytes));
-  opening.counted = true;
+  if (!opening.counted) {
+    BCCSKEL_RETURN_IF_ERROR(quota_.Take(opening.row.tenant, opening.row.size_bytes));
+    opening.counted = true;
+  }
   BCCSKEL_RETURN_IF_ERROR(store.InsertUpload(opening.row));
   return opening.job.has_value() ? StoreReceivingJob(store, opening) : absl::OkStatus();
 }
@@ -105,6 +107,7 @@ absl::Status DurableLedger::CheckSameUpload(JobStore& store, const Opening& open
 absl::Status DurableLedger::StoreReceivingJob(JobStore& store, Opening& opening) {
   BCCSKEL_RETURN_IF_ERROR(CheckRoomForJob());
   BCCSKEL_ASSIGN_OR_RETURN(opening.event, journal_.Insert(store, *opening.job));
+  if (opening.run != nullptr) return absl::OkStatus();
   opening.run = std::make_shared<Run>(*this, opening.row.tenant, operations_.Begin());
   absl::Status started = opening.run->Start(runner_, *std::move(opening.request));
   if (!started.ok()) opening.run = nullptr;
@@ -221,6 +224,7 @@ void DurableLedger::EndUpload(const std::string& tenant, const std::string& uplo
   const auto erased = std::make_shared<Erased>();
   loop_.Post(
       [this, tenant, upload, state, error, erased](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
         return EraseUpload(store, row, state, error, *erased);
       },

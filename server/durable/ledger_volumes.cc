@@ -60,6 +60,7 @@ void DurableLedger::DeleteVolume(const std::string& tenant, const std::string& v
   const auto erased = std::make_shared<Erased>();
   loop_.Post(
       [this, tenant, volume, erased](JobStore& store) -> absl::Status {
+        *erased = {};
         BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, FindVolumeRow(store, tenant, volume));
         BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(tenant, volume));
         if (!user.has_value()) return EraseVolume(store, row, *erased);

@@ -40,23 +40,27 @@ void GroupCommit::Serve(std::stop_token stop) {
   }
 }
 
-void GroupCommit::Write(std::vector<Entry>& batch) {
-  if (std::ranges::none_of(batch, [](const Entry& entry) { return entry.change != nullptr; })) {
-    return;
-  }
-  const absl::Status written = WriteAll(batch);
+// What a transaction fails with, as for want of room, may be the doing of one change: the others
+// are found by halves.
+void GroupCommit::Write(std::span<Entry> batch) {
+  if (std::ranges::none_of(batch, &Entry::IsToWrite)) return;
+  const absl::Status begun = store_->Begin();
+  const absl::Status written = begun.ok() ? WriteAll(batch) : begun;
   ++commits_;
   if (written.ok()) return;
   store_->Rollback();
+  if (begun.ok() && batch.size() > 1) {
+    Write(batch.first(batch.size() / 2));
+    return Write(batch.subspan(batch.size() / 2));
+  }
   for (Entry& entry : batch) {
-    if (entry.change != nullptr && entry.status.ok()) entry.status = written;
+    if (entry.IsToWrite()) entry.status = written;
   }
 }
 
-absl::Status GroupCommit::WriteAll(std::vector<Entry>& batch) {
-  BCCSKEL_RETURN_IF_ERROR(store_->Begin());
+absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
   for (Entry& entry : batch) {
-    if (entry.change != nullptr) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
+    if (entry.IsToWrite()) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
   }
   return store_->Commit();
 }

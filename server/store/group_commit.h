@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -21,7 +22,9 @@ namespace bccskel::server {
 // Threads: safe.
 class GroupCommit {
  public:
-  // Runs within the shared transaction. An error takes back what it did, and nothing else.
+  // Runs within the shared transaction. An error takes back what it did, and nothing else. Runs
+  // again, in a smaller transaction, where the shared one fails: what it told its end before is
+  // void.
   using Change = std::function<absl::Status(JobStore& store)>;
   // Runs after the transaction is on disk, with the change's error, or that of the transaction.
   using Done = std::function<void(absl::Status)>;
@@ -45,12 +48,14 @@ class GroupCommit {
     Change change;  // null: none
     Done done;
     absl::Status status = absl::OkStatus();
+
+    bool IsToWrite() const { return change != nullptr && status.ok(); }
   };
 
   void Serve(std::stop_token stop);
-  void Write(std::vector<Entry>& batch);
+  void Write(std::span<Entry> batch);
+  absl::Status WriteAll(std::span<Entry> batch);
   absl::Status RunStep(Entry& entry);
-  absl::Status WriteAll(std::vector<Entry>& batch);
 
   const std::unique_ptr<JobStore> store_;
   std::atomic<uint64_t> commits_ = 0;

@@ -58,8 +58,10 @@ class JobStore {
                                                         const std::string& name) = 0;
   virtual absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
                                                                  const std::string& request_id) = 0;
-  // With numbers below `before`, in one of the states (a bit each, by number), newest first.
-  virtual absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant, int64_t before,
+  // Those that come after `after`, or all, in one of the states (a bit each, by number): newest
+  // first, and by name where they are of the same time.
+  virtual absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant,
+                                                       const std::optional<JobPosition>& after,
                                                        uint32_t states, int most) = 0;
   virtual absl::StatusOr<std::vector<JobRow>> UnfinishedJobs() = 0;  // oldest first
   virtual absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time) = 0;

@@ -83,6 +83,12 @@ struct JobRow {
   std::optional<Time> ended;
 };
 
+// A job's place among its tenant's, which tells nothing of others and outlasts the job.
+struct JobPosition {
+  Time created;
+  std::string name;
+};
+
 struct EventRow {
   int64_t job = 0;  // a JobRow's number
   uint64_t sequence = 0;

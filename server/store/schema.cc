@@ -49,6 +49,11 @@ CREATE TABLE events(
 ALTER TABLE jobs ADD COLUMN threads INTEGER NOT NULL DEFAULT 0;
 CREATE INDEX jobs_by_end ON jobs(ended) WHERE state >= 3;
 )",
+    // 3: jobs are listed by what their tenant may know.
+    R"(
+DROP INDEX jobs_by_tenant;
+CREATE INDEX jobs_by_creation ON jobs(tenant, created, name);
+)",
 };
 
 absl::StatusOr<int> VersionOf(SqliteDatabase& database) {

@@ -1,6 +1,7 @@
 #include "server/store/sqlite_job_store.h"
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "core/exec/status_macros.h"
@@ -12,6 +13,8 @@ namespace bccskel::server {
 namespace {
 
 using std::chrono::duration_cast, std::chrono::microseconds;
+
+constexpr int64_t kNeverMicros = std::numeric_limits<int64_t>::max();
 
 int64_t Number(uint64_t value) { return static_cast<int64_t>(value); }
 int64_t Number(JobState state) { return static_cast<int64_t>(state); }
@@ -201,12 +204,15 @@ class SqliteJobStore final : public JobStore {
                        " FROM jobs WHERE tenant = ? AND request_id = ? AND request_id != ''",
                        tenant, request_id);
   }
-  absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant, int64_t before,
+  absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant,
+                                               const std::optional<JobPosition>& after,
                                                uint32_t states, int most) override {
+    const int64_t created = after.has_value() ? Micros(after->created) : kNeverMicros;
+    const std::string name = after.has_value() ? after->name : std::string();
     return All<JobRow>("SELECT " BCCSKEL_JOB_COLUMNS
-                       " FROM jobs WHERE tenant = ? AND number < ? AND (1 << state) & ? != 0"
-                       " ORDER BY number DESC LIMIT ?",
-                       tenant, before, int64_t{states}, int64_t{most});
+                       " FROM jobs WHERE tenant = ? AND (created, name) < (?, ?)"
+                       " AND (1 << state) & ? != 0 ORDER BY created DESC, name DESC LIMIT ?",
+                       tenant, created, name, int64_t{states}, int64_t{most});
   }
   absl::StatusOr<std::vector<JobRow>> UnfinishedJobs() override {
     return All<JobRow>("SELECT " BCCSKEL_JOB_COLUMNS " FROM jobs WHERE state < 3 ORDER BY number");

@@ -180,32 +180,6 @@ TEST_F(LedgerJobsTest, KeepsAVolumeThatAJobNeeds) {
   EXPECT_TRUE(erase().ok());
 }
 
-TEST_F(LedgerJobsTest, ListsJobsPageByPageNewestFirst) {
-  const std::string volume = Upload("clinic", "volume");
-  std::vector<std::string> names;
-  for (int n = 0; n < 5; ++n) names.push_back(CreateName("clinic", JobOf(volume)));
-  for (const std::string& name : names) WaitForEnd("clinic", name);
-  CreateName("other", JobOf(Upload("other", "volume")));
-  Ledger::JobQuery query;
-  query.page_size = 2;
-  std::vector<std::string> listed;
-  do {
-    const auto page = Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); });
-    ASSERT_TRUE(page.ok()) << page.status();
-    EXPECT_LE(page->jobs.size(), 2u);
-    for (const JobInfo& job : page->jobs) listed.push_back(job.name);
-    query.page_token = page->next_token;
-  } while (!query.page_token.empty());
-  EXPECT_EQ(listed, std::vector<std::string>(names.rbegin(), names.rend()));
-  query.states = {JobState::kFailed};
-  EXPECT_THAT(Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); })->jobs,
-              IsEmpty());
-  query.page_token = "1-63";
-  EXPECT_EQ(
-      Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); }).status().code(),
-      absl::StatusCode::kInvalidArgument);
-}
-
 TEST_F(LedgerJobsTest, TellsEventsInOrderAndProgressInBetween) {
   runner_->Hold();
   const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));

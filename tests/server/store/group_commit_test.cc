@@ -1,6 +1,7 @@
 #include "server/store/group_commit.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,6 +80,54 @@ TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
   EXPECT_TRUE(store->FindJob("clinic", "jobs/before")->has_value());
   EXPECT_FALSE(store->FindJob("clinic", "jobs/failed")->has_value());
   EXPECT_TRUE(store->FindJob("clinic", "jobs/after")->has_value());
+}
+
+// While it lives, files end at `bytes`.
+class LimitedFiles {
+ public:
+  explicit LimitedFiles(uint64_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limited = {.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~LimitedFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_ = {};
+};
+
+// A tenant whose job does not fit on the disk must not be another's error, let alone a reader's.
+TEST(GroupCommitTest, ATransactionThatFailsIsTheErrorOfNoOtherChange) {
+  const TemporaryFolder folder;
+  GroupCommit commit(Open(folder));
+  std::promise<void> go;
+  commit.Post([&] { go.get_future().wait(); });
+  JobRow large = Job("jobs/large");
+  large.options.assign(1 << 20, 'x');
+  std::vector<absl::StatusCode> codes;
+  const auto remember = [&](const absl::Status& status) { codes.push_back(status.code()); };
+  std::string read;
+  commit.Post(Insert("jobs/before"), remember);
+  commit.Post([&](JobStore& store) { return store.InsertJob(large).status(); }, remember);
+  commit.Post(
+      [&](JobStore& store) -> absl::Status {
+        read = (*store.FindJob("clinic", "jobs/before"))->name;
+        read += (*store.FindJob("clinic", "jobs/large")).has_value() ? " and the large one" : "";
+        return absl::OkStatus();
+      },
+      remember);
+  commit.Post(Insert("jobs/after"), remember);
+  std::promise<void> done;
+  commit.Post([&] { done.set_value(); });
+  {
+    const LimitedFiles limited(512 << 10);
+    go.set_value();
+    done.get_future().wait();
+  }
+  using enum absl::StatusCode;
+  EXPECT_EQ(codes, (std::vector{kOk, kResourceExhausted, kOk, kOk}));
+  EXPECT_EQ(read, "jobs/before");
 }
 
 TEST(GroupCommitTest, TakesChangesFromManyThreads) {

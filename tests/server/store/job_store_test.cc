@@ -108,13 +108,14 @@ TEST_F(JobStoreTest, FindsNothingOfAnotherTenant) {
   EXPECT_FALSE(store_->FindVolume("other", "volumes/1")->has_value());
   EXPECT_THAT(*store_->FindVolumesOf("other", "ab"), IsEmpty());
   EXPECT_THAT(*store_->FindVolumesOf("clinic", "cd"), testing::SizeIs(1));
-  EXPECT_THAT(*store_->ListJobs("other", 1000, ~0u, 10), IsEmpty());
+  EXPECT_THAT(*store_->ListJobs("other", std::nullopt, ~0u, 10), IsEmpty());
 }
 
 TEST_F(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
   for (int n = 1; n <= 4; ++n) {
     JobRow job = Job("clinic", "jobs/" + std::to_string(n));
     if (n == 2) job.state = JobState::kFailed;
+    job.created = Time(std::chrono::seconds(n / 2));  // 2 and 3 are of one time
     Insert(job);
   }
   const auto names = [](const std::vector<JobRow>& jobs) {
@@ -122,9 +123,14 @@ TEST_F(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
     for (const JobRow& job : jobs) all += job.name.substr(5);
     return all;
   };
-  EXPECT_EQ(names(*store_->ListJobs("clinic", 1000, ~0u, 10)), "4321");
-  EXPECT_EQ(names(*store_->ListJobs("clinic", 4, ~0u, 2)), "32");
-  EXPECT_EQ(names(*store_->ListJobs("clinic", 1000, 1u << 4, 10)), "2");
+  const auto after = [](int n) {
+    return JobPosition{.created = Time(std::chrono::seconds(n / 2)),
+                       .name = "jobs/" + std::to_string(n)};
+  };
+  EXPECT_EQ(names(*store_->ListJobs("clinic", std::nullopt, ~0u, 10)), "4321");
+  EXPECT_EQ(names(*store_->ListJobs("clinic", after(4), ~0u, 2)), "32");
+  EXPECT_EQ(names(*store_->ListJobs("clinic", after(3), ~0u, 2)), "21");
+  EXPECT_EQ(names(*store_->ListJobs("clinic", std::nullopt, 1u << 4, 10)), "2");
 }
 
 TEST_F(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
@@ -246,6 +252,7 @@ TEST(SchemaTest, TakesOverAFileOfVersion1) {
   next.threads = 2;
   EXPECT_EQ(*(*store)->InsertJob(next), 6) << "numbers go on growing";
   EXPECT_EQ((*(*store)->FindJob("clinic", "jobs/new"))->threads, 2);
+  EXPECT_THAT(*(*store)->ListJobs("clinic", std::nullopt, ~0u, 10), testing::SizeIs(2));
 }
 
 TEST(SchemaTest, StatesTheVersionThatItWrites) {
