@@ -11,11 +11,14 @@ Unsettled DirectionRule::LooksFor(const PassStep& at) const {
   return static_cast<Unsettled>(1u << DirectionOf(at).bit());
 }
 
-void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled*, MarkBuffer& marks) {
+void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled*, MarkBuffer& marks,
+                         BrickLists& thin) {
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);
-    MarkedBrick* room = marks.Room(list.size());
-    marks.Add(MarkRemovable(state_.View(), sublattice, DirectionOf(at), list, room));
+    const FoundBricks found = MarkRemovable(state_.View(), sublattice, DirectionOf(at), list,
+                                            marks.Room(list.size()), thin.Room(sublattice));
+    marks.Add(found.marked);
+    thin.Add(sublattice, found.thin);
   }
 }
 

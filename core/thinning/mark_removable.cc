@@ -20,22 +20,35 @@ constexpr Step StepOf(Sublattice sublattice) {
   return sublattice == Sublattice::kEven ? Step::kDown : Step::kUp;
 }
 
-// Conditions 1 to 4. `kAxes` are the axes of d.
+// At most one of four planes.
+HWY_INLINE Plane AtMostOne(const Plane& a, const Plane& b, const Plane& c, const Plane& d,
+                           const Plane& among) {
+  const Plane two = Or(And(a, b), And(c, d));
+  return AndNot(Or(two, And(Or(a, b), Or(c, d))), among);
+}
+
+struct RemovableAndThin {
+  Plane removable;
+  Plane thin;
+};
+
+// Conditions 1 to 4, and what Thin() finds. `kAxes` are the axes of d.
 template <Sublattice kSublattice, int kAxes>
-HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick) {
+HWY_INLINE RemovableAndThin Removable(const ObjectView& view, BrickIndex brick) {
   constexpr Step kStep = StepOf(kSublattice);
   const PlaneReader<kStep> read{view.object, view.neighbors[brick]};
   const Plane own = LoadPlane(view.object[brick]);
   Plane diagonal[8];
   read.AllDiagonals(diagonal);
   constexpr int kBack = 7 ^ kAxes;
-  Plane removable =
-      AndNot(diagonal[kBack], And(And(own, LoadPlane(view.candidates[brick])), diagonal[kAxes]));
+  const Plane candidates = And(own, LoadPlane(view.candidates[brick]));
+  Plane removable = AndNot(diagonal[kBack], And(candidates, diagonal[kAxes]));
   // On each axis, with e the D6 step to d's side: "d's sign on this axis only" => e, and -e =>
   // "d's sign on the other two". Moving along an axis lies on d's side for an odd brick iff the
   // direction is positive there; in terms of moved axes both sublattices read alike.
   constexpr Step kOther = kStep == Step::kDown ? Step::kUp : Step::kDown;
   Plane right = diagonal[kAxes ^ 1];
+  Plane axial[6];
   const auto imply = [&]<int kAxis>(std::integral_constant<int, kAxis>) HWY_ATTR {
     constexpr bool kMoved = ((kAxes >> kAxis) & 1) != 0;
     const Plane toward = read.template Axial < kAxis, kMoved ? kStep : kOther > (own);
@@ -45,18 +58,13 @@ HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick) {
     removable = AndNot(AndNot(toward, alone), removable);
     removable = AndNot(AndNot(opposite, away), removable);
     right = Or(right, Or(toward, opposite));
+    axial[2 * kAxis] = toward;
+    axial[2 * kAxis + 1] = away;
   };
   imply(std::integral_constant<int, 0>());
   imply(std::integral_constant<int, 1>());
   imply(std::integral_constant<int, 2>());
-  return And(removable, right);
-}
-
-// At most one of four planes.
-HWY_INLINE Plane AtMostOne(const Plane& a, const Plane& b, const Plane& c, const Plane& d,
-                           const Plane& among) {
-  const Plane two = Or(And(a, b), And(c, d));
-  return AndNot(Or(two, And(Or(a, b), Or(c, d))), among);
+  return {And(removable, right), AtMostOne(axial[2], axial[3], axial[4], axial[5], candidates)};
 }
 
 HWY_INLINE Plane Thin(const ObjectView& view, BrickIndex brick) {
@@ -102,8 +110,8 @@ HWY_INLINE Plane PossiblySimple(const ObjectView& view, BrickIndex brick) {
   return And(adjacent, And(own, LoadPlane(view.candidates[brick])));
 }
 
-// Both loops always write and then advance by a comparison: an early-out branch on such data is
-// mispredicted too often to pay.
+// All these loops always write and then advance by a comparison: an early-out branch on such data
+// is mispredicted too often to pay.
 template <typename Test>
 HWY_INLINE size_t KeepIf(std::span<const BrickIndex> bricks, BrickIndex* kept, Test test) {
   size_t count = 0;
@@ -125,14 +133,23 @@ HWY_INLINE size_t MarkIf(std::span<const BrickIndex> bricks, MarkedBrick* marked
   return count;
 }
 
-using MarkFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*);
+using MarkFunction = FoundBricks (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*,
+                                     BrickIndex*);
 
 template <Sublattice kSublattice, int kDirection>
-size_t MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
-                     MarkedBrick* marked) {
-  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
-    return Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
-  });
+FoundBricks MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
+                          MarkedBrick* marked, BrickIndex* thin) {
+  FoundBricks found;
+  for (BrickIndex brick : bricks) {
+    const RemovableAndThin planes =
+        Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
+    StorePlane(planes.removable, marked[found.marked].marks);
+    marked[found.marked].brick = brick;
+    found.marked += IsEmpty(planes.removable) ? 0 : 1;
+    thin[found.thin] = brick;
+    found.thin += IsEmpty(planes.thin) ? 0 : 1;
+  }
+  return found;
 }
 
 template <Sublattice kSublattice, int... kDirections>
@@ -140,12 +157,14 @@ constexpr std::array<MarkFunction, 8> MarkTable(std::integer_sequence<int, kDire
   return {MarkDirection<kSublattice, kDirections>...};
 }
 
-size_t MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
-                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {
+FoundBricks MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
+                                std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                                BrickIndex* thin) {
   static constexpr std::array<MarkFunction, 8> kTables[2] = {
       MarkTable<Sublattice::kEven>(std::make_integer_sequence<int, 8>()),
       MarkTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
-  return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, marked);
+  return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, marked,
+                                                                          thin);
 }
 size_t KeepThinBricksTarget(const ObjectView& view, std::span<const BrickIndex> bricks,
                             BrickIndex* kept) {
@@ -186,9 +205,10 @@ HWY_EXPORT(KeepThinBricksTarget);
 HWY_EXPORT(MarkEndPointsTarget);
 HWY_EXPORT(MarkPossiblySimpleTarget);
 
-size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                     std::span<const BrickIndex> bricks, MarkedBrick* marked) {
-  return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked);
+FoundBricks MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                          std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                          BrickIndex* thin) {
+  return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked, thin);
 }
 size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks,
                       BrickIndex* kept) {

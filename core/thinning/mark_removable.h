@@ -39,23 +39,32 @@ struct MarkedBrick {
   BrickIndex brick = 0;
 };
 
-// Conditions 1 to 4 along d for all candidates of the given bricks.
-// Shapes: `bricks` all of `sublattice`; `marked` has room for bricks.size().
-// Returns: how many bricks have marks; they come in the order of `bricks`.
-size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                     std::span<const BrickIndex> bricks, MarkedBrick* marked);
+struct FoundBricks {
+  size_t marked = 0;
+  size_t thin = 0;
+};
+
+// Conditions 1 to 4 along d for all candidates of the given bricks; and which of them
+// KeepThinBricks() would keep, since both look at the same neighbors.
+// Shapes: `bricks` all of `sublattice`; `marked` and `thin` have room for bricks.size().
+// Returns: how many bricks have marks, and how many are thin; both come in the order of `bricks`.
+FoundBricks MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                          std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                          BrickIndex* thin);
 
 // The bricks that hold candidates with at most one object neighbor along y and z by D6 steps; the
 // others have no end points. Shapes: `kept` has room for bricks.size().
 // Returns: how many bricks were written to `kept`, in the order of `bricks`.
 size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept);
 
-// The end points among the candidates of the given bricks. Shapes and result as MarkRemovable().
+// The end points among the candidates of the given bricks. Shapes: `bricks` all of
+// `sublattice`; `marked` has room for bricks.size().
+// Returns: how many bricks have marks; they come in the order of `bricks`.
 size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked);
 
 // Points with two adjacent object neighbors among the candidates: every simple point that is not an
-// end point is one of them. Shapes and result as MarkRemovable().
+// end point is one of them. Shapes and result as MarkEndPoints().
 size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
                           std::span<const BrickIndex> bricks, MarkedBrick* marked);
 

@@ -50,9 +50,10 @@ class PassRule {
   virtual Unsettled LooksFor(const PassStep& at) const = 0;
 
   // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the
-  // pass gets, and unsettle listed bricks again.
-  virtual void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
-                    MarkBuffer& marks) = 0;
+  // pass gets, and unsettle listed bricks again. The first step lists the bricks that
+  // KeepThinBricks() keeps in `thin`.
+  virtual void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
+                    BrickLists& thin) = 0;
   // After the last step, while workers remove.
   virtual void Finish(const BrickLists& bricks) = 0;
 };

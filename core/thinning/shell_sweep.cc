@@ -23,8 +23,8 @@ struct alignas(64) Worker {
 
   BrickLists to_do;
   BrickLists end_points_to_do;
-  std::vector<BrickIndex> thin;  // bricks that may have end points
-  MarkBuffer marks;              // of this pass
+  BrickLists thin;   // bricks that may have end points
+  MarkBuffer marks;  // of this pass
 
   // Bricks of other workers that border on points removed here. Written in one pass and read by
   // their owners in the next, hence two.
@@ -49,12 +49,14 @@ class ShellSweep {
                                                       : kDirectionsUnsettled | kEndPointsUnsettled),
         unsettled_(groups() * kUnsettledGroup),
         enabled_(unsettled_.size()),
+        changed_(unsettled_.size(), -1),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
         barrier_(static_cast<int>(workers_.size())),
         points_at_start_(CountPoints(state.object)),
         patience_(context.patience) {
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
+      if (!sleeps()) unsettled_[n] |= kBesideSleeper;
     }
   }
 
@@ -81,6 +83,7 @@ class ShellSweep {
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
           if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
+        if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
       } while (shell == last_ && TotalRemoved() != before);
       if (index == 0) Report(shell);
@@ -108,7 +111,7 @@ class ShellSweep {
   static void Reserve(Worker& worker, size_t bricks) {
     worker.to_do.Reserve(bricks);
     worker.end_points_to_do.Reserve(bricks);
-    worker.thin.resize(bricks);
+    worker.thin.Reserve(bricks);
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
@@ -121,7 +124,10 @@ class ShellSweep {
     first.bricks.end = state_.brick_count();
     SortByFirstShell(first);
     Reserve(first, state_.brick_count());
-    for (Unsettled& brick : unsettled_) brick &= static_cast<Unsettled>(~kBorderBrick);
+    for (Unsettled& brick : unsettled_) {
+      if ((brick & kBorderBrick) == 0) continue;
+      brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
+    }
     return true;
   }
 
@@ -160,10 +166,28 @@ class ShellSweep {
         .unsettled = unsettled_.data(),
         .enabled = enabled_.data(),
         .watched = watched_,
+        .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
     };
     worker.shell_points[static_cast<size_t>(shell & 1)] =
         ::bccskel::OpenShell(view, shell, worker.opening);
     std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last == shell; });
+  }
+
+  // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.
+  bool sleeps() const { return rule_.passes_per_cycle() > 1; }
+
+  // Bricks around which nothing has changed in this cycle have been looked at in all its passes,
+  // so they are settled.
+  void FallAsleep(const Worker& worker, int32_t cycle) {
+    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
+      if ((unsettled_[n] & kAwake) == 0 || changed_[n] == cycle) continue;
+      const BrickNeighborhood& near = state_.neighbors[n];
+      if (std::ranges::any_of(near, [&](BrickIndex b) { return changed_[b] == cycle; })) continue;
+      unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
+      for (const BrickIndex b : near) {
+        if (Owns(worker, b)) unsettled_[b] |= kBesideSleeper;
+      }
+    }
   }
 
   // One more than full groups, so that there is room for the padding brick.
@@ -177,17 +201,18 @@ class ShellSweep {
     }
     TakeOverUnsettled(worker);
     worker.marks.Clear();
+    worker.thin.SetCounts(0, 0);
     TakeUnsettled(unsettled_, worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
                   worker.to_do, worker.end_points_to_do);
     for (; at.step < rule_.steps(); ++at.step) {
-      rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks);
+      rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks, worker.thin);
       if (at.step + 1 == rule_.steps()) MarkStubble(worker);
       Meet(index);  // nobody reads any more what the next step changes
       if (stopped_) return false;
     }
     if (index == 0) alone_ = alone_ || patience_.Lost();
     rule_.Finish(worker.to_do);
-    Remove(worker);
+    Remove(worker, at.cycle);
     Meet(index);  // the new object is complete
     worker.parity ^= 1;
     return true;
@@ -211,13 +236,14 @@ class ShellSweep {
   // Whether an end point is a stubble point depends on points up to three steps away, so a brick
   // with end points stays unsettled for them.
   void MarkStubble(Worker& worker) {
+    if (stubble_ == StubblePolicy::kNone) return;
     const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
-      const size_t thin =
-          KeepThinBricks(view, worker.end_points_to_do.Of(sublattice), worker.thin.data());
-      MarkedBrick* marked = worker.marks.Room(thin);
-      const size_t count =
-          MarkEndPoints(view, sublattice, std::span(worker.thin).first(thin), marked);
+      worker.thin.Add(sublattice, KeepThinBricks(view, worker.end_points_to_do.Of(sublattice),
+                                                 worker.thin.Room(sublattice)));
+      const std::span<const BrickIndex> thin = worker.thin.Of(sublattice);
+      MarkedBrick* marked = worker.marks.Room(thin.size());
+      const size_t count = MarkEndPoints(view, sublattice, thin, marked);
       for (const MarkedBrick& m : std::span(marked, count)) {
         unsettled_[m.brick] |= kEndPointsUnsettled;
         const BrickBits stubble = SelectStubble(state_, m, stubble_);
@@ -228,7 +254,7 @@ class ShellSweep {
     }
   }
 
-  void Remove(Worker& worker) {
+  void Remove(Worker& worker, int32_t cycle) {
     std::vector<BrickIndex>& elsewhere = worker.seen_elsewhere[worker.parity];
     elsewhere.clear();
     const RemovalView view = {.object = state_.object.data(),
@@ -236,6 +262,8 @@ class ShellSweep {
                               .neighbors = state_.neighbors.data(),
                               .unsettled = unsettled_.data(),
                               .enabled = enabled_.data(),
+                              .changed = changed_.data(),
+                              .cycle = cycle,
                               .first = static_cast<BrickIndex>(worker.bricks.begin),
                               .last = static_cast<BrickIndex>(worker.bricks.end),
                               .none = static_cast<BrickIndex>(state_.brick_count())};
@@ -278,6 +306,7 @@ class ShellSweep {
   const Unsettled watched_;
   std::vector<Unsettled> unsettled_;
   std::vector<Unsettled> enabled_;  // watched_ once the brick has candidates, before that 0
+  std::vector<int32_t> changed_;    // the cycle in which a brick last lost points
   std::vector<Worker> workers_;
   exec::Barrier barrier_;
   const uint64_t points_at_start_;

@@ -9,8 +9,9 @@ SymmetricRule::SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningSta
 }
 
 void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
-                         MarkBuffer& marks) {
+                         MarkBuffer& marks, BrickLists& thin) {
   if (at.step == 0) {
+    if (EndPointsOf(kind_) == EndPoints::kStay) ListThin(bricks, thin);
     if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
       KeepIsthmuses(at.cycle + 1, bricks, marks);
     }
@@ -70,6 +71,13 @@ std::vector<IsthmusBirth> SymmetricRule::Isthmuses() const {
   }
   std::ranges::sort(isthmuses, {}, &IsthmusBirth::point);
   return isthmuses;
+}
+
+void SymmetricRule::ListThin(const BrickLists& bricks, BrickLists& thin) const {
+  for (Sublattice sublattice : kSublattices) {
+    thin.Add(sublattice,
+             KeepThinBricks(state_.View(), bricks.Of(sublattice), thin.Room(sublattice)));
+  }
 }
 
 void SymmetricRule::FindSimpleIn(BrickLists& bricks) {

@@ -36,8 +36,8 @@ class SymmetricRule : public PassRule {
   int passes_per_cycle() const override { return 1; }
   int steps() const override { return 4; }
   Unsettled LooksFor(const PassStep&) const override { return kDirectionsUnsettled; }
-  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
-            MarkBuffer& marks) override;
+  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
+            BrickLists& thin) override;
   void Finish(const BrickLists& bricks) override;
 
   // The points kept as isthmuses, in lattice order. Needs: no pass is running.
@@ -51,6 +51,7 @@ class SymmetricRule : public PassRule {
 
   void KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBuffer& scratch);
   void Keep(int32_t pass, std::span<const MarkedBrick> points);
+  void ListThin(const BrickLists& bricks, BrickLists& thin) const;
   void FindSimpleIn(BrickLists& bricks);
   RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
 

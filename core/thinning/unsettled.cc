@@ -101,27 +101,28 @@ HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled looked_for) {
   GroupBits bits;
 #if HWY_TARGET == HWY_SCALAR
   for (size_t n = 0; n < kUnsettledGroup; ++n) {
-    bits.found |= ((group[n] & looked_for) != 0 ? 1u : 0u) << n;
+    bits.found |= ((group[n] & (looked_for | kAwake)) != 0 ? 1u : 0u) << n;
     bits.end_points |= ((group[n] & kEndPointsUnsettled) != 0 ? 1u : 0u) << n;
     bits.odd |= (group[n] >> 15 & 1u) << n;
     group[n] = static_cast<Unsettled>(group[n] & ~(looked_for | kEndPointsUnsettled));
   }
 #else
   const hn::CappedTag<Unsettled, kUnsettledGroup> tag;
-  const auto any = hn::Set(tag, looked_for), ends = hn::Set(tag, kEndPointsUnsettled);
-  const auto odd = hn::Set(tag, kOddBrick), taken = hn::Or(any, ends);
+  const auto any = hn::Set(tag, static_cast<Unsettled>(looked_for | kAwake));
+  const auto ends = hn::Set(tag, kEndPointsUnsettled), odd = hn::Set(tag, kOddBrick);
+  const auto settled = hn::Set(tag, static_cast<Unsettled>(looked_for | kEndPointsUnsettled));
   const auto zero = hn::Zero(tag);
   for (size_t n = 0; n < kUnsettledGroup; n += hn::Lanes(tag)) {
     const auto lanes = hn::LoadU(tag, group + n);
     // Most groups are at rest.
-    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, taken), zero))) continue;
+    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, hn::Or(any, ends)), zero))) continue;
     const auto store = [&](auto mask, uint32_t& to) HWY_ATTR {
       hn::StoreMaskBits(tag, mask, reinterpret_cast<uint8_t*>(&to) + n / 8);
     };
     store(hn::Ne(hn::And(lanes, any), zero), bits.found);
     store(hn::TestBit(lanes, ends), bits.end_points);
     store(hn::TestBit(lanes, odd), bits.odd);
-    hn::StoreU(hn::AndNot(taken, lanes), tag, group + n);
+    hn::StoreU(hn::AndNot(settled, lanes), tag, group + n);
   }
 #endif
   return bits;
@@ -157,7 +158,8 @@ void TakeUnsettledTarget(std::span<Unsettled> unsettled, size_t first, size_t la
   ListWriter even = {lists.storage()[0]}, odd = {lists.storage()[1]};
   ListWriter even_ends = {end_lists.storage()[0]}, odd_ends = {end_lists.storage()[1]};
   for (size_t at = first; at < last; at += kUnsettledGroup) {
-    const GroupBits bits = TakeGroup(unsettled.data() + at, looked_for);
+    GroupBits bits = TakeGroup(unsettled.data() + at, looked_for);
+    bits.end_points &= ~bits.found;
     if ((bits.found | bits.end_points) == 0) continue;
     even.Append(bits.found & ~bits.odd, at);
     odd.Append(bits.found & bits.odd, at);
@@ -167,6 +169,13 @@ void TakeUnsettledTarget(std::span<Unsettled> unsettled, size_t first, size_t la
   lists.SetCounts(even.count, odd.count);
   end_lists.SetCounts(even_ends.count, odd_ends.count);
 }
+
+// Adds the number of set bits, lane by lane: lanes are added up once, not for every brick.
+HWY_INLINE BrickLane PlusBits(BrickLane sum, const Plane& plane) {
+  for (size_t n = 0; n < kVectors; ++n) sum = hn::Add(sum, hn::PopulationCount(plane.v[n]));
+  return sum;
+}
+HWY_INLINE uint64_t TotalOf(BrickLane sum) { return hn::GetLane(hn::SumOfLanes(BrickTag(), sum)); }
 
 HWY_INLINE Sides SidesOf(const BrickBits& removed) {
   uint64_t any = 0;
@@ -184,11 +193,13 @@ HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
   const Plane left_over = AndNot(LoadPlane(m.marks), LoadPlane(view.object[m.brick]));
   StorePlane(left_over, view.object[m.brick]);
   const bool done = IsEmpty(And(left_over, LoadPlane(view.candidates[m.brick])));
+  constexpr Unsettled kKind = kOddBrick | kBorderBrick | kBesideSleeper;
   const auto stays = static_cast<Unsettled>(done ? 0 : 0xffff);
   const auto enabled = static_cast<Unsettled>(view.enabled[m.brick] & stays);
   view.enabled[m.brick] = enabled;
-  view.unsettled[m.brick] = static_cast<Unsettled>(
-      (view.unsettled[m.brick] & (kOddBrick | kBorderBrick | stays)) | enabled);
+  view.unsettled[m.brick] =
+      static_cast<Unsettled>((view.unsettled[m.brick] & (kKind | stays)) | enabled);
+  view.changed[m.brick] = view.cycle;
 }
 
 // Whether other workers remove points at the same time.
@@ -224,11 +235,12 @@ HWY_NOINLINE void UnsettleAcrossBorder(const RemovalView& view, BrickIndex brick
 template <Company kCompany>
 uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
                    std::vector<BrickIndex>& elsewhere) {
-  uint64_t removed = 0;
+  BrickLane removed = hn::Zero(BrickTag());
   for (const MarkedBrick& m : marked) {
-    removed += CountBits(LoadPlane(m.marks));
+    removed = PlusBits(removed, LoadPlane(m.marks));
     const Unsettled kind = view.unsettled[m.brick];
     RemoveFromBrick(view, m);
+    if ((kind & (kBorderBrick | kBesideSleeper)) == 0) continue;
     const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
     if ((kind & kBorderBrick) == 0) {
       UnsettleAround<kCompany>(view, m.brick, wakes);
@@ -236,7 +248,7 @@ uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
       UnsettleAcrossBorder(view, m.brick, wakes, elsewhere);
     }
   }
-  return removed;
+  return TotalOf(removed);
 }
 
 uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick> marked,
@@ -246,31 +258,31 @@ uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick
              : RemoveAll<Company::kOthers>(view, marked, elsewhere);
 }
 
-// Makes the points of one shell candidates. Returns how many there are.
-HWY_INLINE uint64_t OpenInBrick(const ShellPlanes& planes, int32_t shell, const Plane& may_go,
-                                BrickBits& candidates) {
+// Makes the points of one shell candidates. Returns them.
+HWY_INLINE Plane OpenInBrick(const ShellPlanes& planes, int32_t shell, const Plane& may_go,
+                             BrickBits& candidates) {
   Plane opened = may_go;
   for (size_t b = 0; b < kShellPlanes; ++b) {
     const Plane plane = LoadPlane(planes[b]);
     opened = (shell >> b & 1) != 0 ? And(plane, opened) : AndNot(plane, opened);
   }
   StorePlane(Or(opened, LoadPlane(candidates)), candidates);
-  return CountBits(opened);
+  return opened;
 }
 
 uint64_t OpenShellTarget(const OpeningView& view, int32_t shell,
                          std::span<const BrickIndex> bricks) {
-  uint64_t points = 0;
+  BrickLane points = hn::Zero(BrickTag());
   for (const BrickIndex n : bricks) {
     Plane may_go = LoadPlane(view.object[n]);
     if (view.kept != nullptr) may_go = AndNot(LoadPlane(view.kept[n]), may_go);
-    const uint64_t opened = OpenInBrick(view.planes[n], shell, may_go, view.candidates[n]);
-    points += opened;
-    const auto woken = static_cast<Unsettled>(opened != 0 ? view.watched : 0);
-    view.enabled[n] |= woken;
-    view.unsettled[n] |= woken;
+    const Plane opened = OpenInBrick(view.planes[n], shell, may_go, view.candidates[n]);
+    points = PlusBits(points, opened);
+    const auto some = static_cast<Unsettled>(IsEmpty(opened) ? 0 : 0xffff);
+    view.enabled[n] |= static_cast<Unsettled>(view.watched & some);
+    view.unsettled[n] |= static_cast<Unsettled>(view.woken & some);
   }
-  return points;
+  return TotalOf(points);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -18,11 +18,17 @@
 namespace bccskel {
 
 // For each brick: bit d says that points may have become removable along direction d, bit 8 that
-// there may be end points; bits 14 and 15 never change and say that the brick borders on bricks of
-// other workers and that it is of the odd sublattice.
+// there may be end points. A brick whose shell has just opened is awake: it is looked at in every
+// pass, whatever these bits say, since nearly all such bricks change and telling 14 neighbors of
+// each change would cost more than looking. It falls asleep after a cycle in which neither it nor a
+// brick around has changed; from then on changes beside it unsettle it. Bits 13 to 15 say that it
+// has to tell the bricks around of its changes: sleepers, or bricks of other workers; and that it
+// is of the odd sublattice.
 using Unsettled = uint16_t;
 inline constexpr Unsettled kEndPointsUnsettled = 1 << 8;
 inline constexpr Unsettled kDirectionsUnsettled = kEndPointsUnsettled - 1;
+inline constexpr Unsettled kAwake = 1 << 9;
+inline constexpr Unsettled kBesideSleeper = 1 << 13;
 inline constexpr Unsettled kBorderBrick = 1 << 14;
 inline constexpr Unsettled kOddBrick = 1 << 15;
 
@@ -47,13 +53,23 @@ class BrickLists {
   std::array<BrickIndex*, 2> storage() { return {storage_[0].data(), storage_[1].data()}; }
   void SetCounts(size_t even, size_t odd) { count_ = {even, odd}; }
 
+  // Where the next ones go, of which Add() then keeps some.
+  BrickIndex* Room(Sublattice sublattice) {
+    const auto s = static_cast<size_t>(sublattice);
+    return storage_[s].data() + count_[s];
+  }
+  void Add(Sublattice sublattice, size_t count) {
+    count_[static_cast<size_t>(sublattice)] += count;
+  }
+
  private:
   std::array<std::vector<BrickIndex>, 2> storage_;
   std::array<size_t, 2> count_ = {0, 0};
 };
 
-// Lists the bricks in [first, last) that are unsettled in one of the directions of `looked_for`,
-// and those that are for end points; both are then settled until something beside them is removed.
+// Lists the bricks in [first, last) that are awake or unsettled in one of the directions of
+// `looked_for`, and of the others those that are for end points; all are then settled until
+// something beside them is removed.
 // Needs: first is a multiple of kUnsettledGroup, and so is last or the rest of its group is zero;
 //        the lists have room for last - first.
 void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Unsettled looked_for,
@@ -66,14 +82,15 @@ struct RemovalView {
   const BrickNeighborhood* neighbors = nullptr;
   Unsettled* unsettled = nullptr;
   Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
-  BrickIndex first = 0;          // own bricks
+  int32_t* changed = nullptr;    // the cycle in which points were last removed
+  int32_t cycle = 0;
+  BrickIndex first = 0;  // own bricks
   BrickIndex last = 0;
   BrickIndex none = 0;  // the padding brick
 };
 
-// Removes the marked points, unsettles the bricks that see them, and appends to `elsewhere` those
-// outside [first, last).
-// Returns: the number of points removed.
+// Removes the marked points, unsettles the sleeping bricks that see them, and appends to
+// `elsewhere` those outside [first, last). Returns: the number of points removed.
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere);
 
@@ -86,6 +103,7 @@ struct OpeningView {
   Unsettled* unsettled = nullptr;
   Unsettled* enabled = nullptr;
   Unsettled watched = 0;  // what is looked for in a brick with candidates
+  Unsettled woken = 0;    // and what becomes of one with new ones
 };
 
 // Condition 5: makes the points of one shell in the given bricks candidates.
