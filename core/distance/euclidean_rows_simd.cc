@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "core/distance/euclidean_rows.h"
@@ -8,8 +7,11 @@
 #define HWY_TARGET_INCLUDE "core/distance/euclidean_rows_simd.cc"
 // Compiles the rest of this file once per instruction set, so it comes before other Highway
 // headers.
+// clang-format off
 #include "hwy/foreach_target.h"
+#include "core/distance/row_ends-inl.h"
 #include "hwy/highway.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace bccskel {
@@ -34,83 +36,19 @@ HWY_INLINE Vector<uint16_t> Sum(Vector<uint16_t> a, Vector<uint16_t> b) {
   return hn::SaturatedAdd(a, b);
 }
 
-using RunTag = hn::CappedTag<int32_t, kBrickX>;
-using Run = hn::Vec<RunTag>;
-
-// The bits 0..i of 16, for i from -1 to 15.
-alignas(64) constexpr std::array<int32_t, kBrickX + 1> kBitsUpTo = {
-    0x0000, 0x0001, 0x0003, 0x0007, 0x000f, 0x001f, 0x003f, 0x007f, 0x00ff,
-    0x01ff, 0x03ff, 0x07ff, 0x0fff, 0x1fff, 0x3fff, 0x7fff, 0xffff};
-
-// The highest bit, or `none` where there is none: whole numbers of 16 bits are exact as floats,
-// whose exponent tells. Without branches, since rows at a boundary come in all kinds.
-HWY_INLINE Run HighestBit(Run bits, int32_t none) {
-  const RunTag ints;
-  const auto exponent =
-      hn::ShiftRight<23>(hn::BitCast(ints, hn::ConvertTo(hn::RebindToFloat<RunTag>(), bits)));
-  return hn::IfThenElse(hn::Eq(bits, hn::Zero(ints)), hn::Set(ints, none),
-                        hn::Sub(exponent, hn::Set(ints, 127)));
-}
-
-// A row's background, and how far the object goes on beside it, in points.
-struct RowEnds {
-  int32_t background;  // a bit per point
-  int32_t left;
-  int32_t right;
-
-  // How many object points there are in a row: up to point i, and from point i on.
-  HWY_INLINE Run UpTo(int32_t i) const {
-    const RunTag ints;
-    const auto bits =
-        hn::And(hn::Set(ints, background), hn::LoadU(ints, &kBitsUpTo[Position(i + 1)]));
-    return hn::Sub(hn::Iota(ints, i), HighestBit(bits, -1 - left));
-  }
-  HWY_INLINE Run From(int32_t i) const {
-    const RunTag ints;
-    const auto bits =
-        hn::AndNot(hn::LoadU(ints, &kBitsUpTo[Position(i)]), hn::Set(ints, background));
-    const auto lowest = hn::And(bits, hn::Neg(bits));
-    return hn::Sub(HighestBit(lowest, kBrickX + right), hn::Iota(ints, i));
-  }
-  static size_t Position(int32_t i) { return static_cast<size_t>(i); }
-};
-
-// Stores the squared lengths of `units` lattice units along x.
-HWY_INLINE void StoreSquares(Run units, float unit_square, float* to) {
-  const hn::RebindToFloat<RunTag> tag;
-  const auto length = hn::ConvertTo(tag, units);
-  hn::StoreU(hn::Mul(hn::Mul(length, length), hn::Set(tag, unit_square)), tag, to);
-}
-HWY_INLINE void StoreSquares(Run units, uint16_t, uint16_t* to) {
-  const hn::Rebind<uint16_t, RunTag> tag;
-  const auto length = hn::Min(units, hn::Set(RunTag(), 255));
-  hn::StoreU(hn::DemoteTo(tag, hn::Mul(length, length)), tag, to);
-}
-
-// Squared distances along x to the background of a row: at its points, and at the places between
-// them, which lie to the right of even points and to the left of odd ones.
+// Looking outward takes a step per unit of distance. Floats stop after as many steps, which is when
+// the search of a whole column takes no longer; whole numbers never come so far.
 template <typename T>
-HWY_INLINE void MeasureRow(const RowEnds& row, Sublattice sublattice, T unit_square, T* own,
-                           T* between) {
-  const RunTag ints;
-  const bool even = sublattice == Sublattice::kEven;
-  for (int32_t i = 0; i < kBrickX; i += static_cast<int32_t>(hn::Lanes(ints))) {
-    const auto up_to = row.UpTo(i), from = row.From(i);
-    const auto run = hn::Min(up_to, from);
-    const auto run_between =
-        even ? hn::Min(up_to, row.From(i + 1)) : hn::Min(row.UpTo(i - 1), from);
-    StoreSquares(hn::Add(run, run), unit_square, own + i);
-    const auto odd = hn::Add(hn::Add(run_between, run_between), hn::Set(ints, 1));
-    StoreSquares(odd, unit_square, between + i);
-  }
-}
+inline constexpr size_t kMostSteps = 512;
+template <>
+inline constexpr size_t kMostSteps<float> = 16;
 
-// The least of `best` and of what rows ever farther to both sides add to the squares of their
-// distances: the n-th pair of rows, kPitch values apart, lies squares[n * kStride] away. Rows hold
-// at least `least`.
+// Lowers `best` to what rows ever farther to both sides add to the squares of their distances: the
+// n-th pair of rows, kPitch values apart, lies squares[n * kStride] away. Rows hold at least
+// `least`. Returns whether nothing nearer can be farther away.
 template <size_t kStride, size_t kPitch, typename T>
-HWY_INLINE Vector<T> LookOutward(Vector<T> best, const T* before, const T* after, const T* squares,
-                                 T least) {
+HWY_INLINE bool LookOutward(Vector<T>& best, const T* before, const T* after, const T* squares,
+                            T least) {
   const Tag<T> tag;
   const auto nearest = hn::Set(tag, least);
   const auto look = [&](Vector<T> square) HWY_ATTR {
@@ -118,12 +56,13 @@ HWY_INLINE Vector<T> LookOutward(Vector<T> best, const T* before, const T* after
     before -= kPitch;
     after += kPitch;
   };
-  for (;; squares += 2 * kStride) {
+  for (size_t step = 0; step < kMostSteps<T>; step += 2, squares += 2 * kStride) {
     const auto square = hn::Set(tag, squares[0]);
-    if (hn::AllFalse(tag, hn::Gt(best, Sum(square, nearest)))) return best;
+    if (hn::AllFalse(tag, hn::Gt(best, Sum(square, nearest)))) return true;
     look(square);
     look(hn::Set(tag, squares[kStride]));
   }
+  return false;
 }
 
 // The rows of one layer of a stack along y, with rows of background before and after.
@@ -156,30 +95,54 @@ HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStac
   }
 }
 
-// A brick's rows of a layer.
+// A brick's rows of a layer. Returns whether they are settled; here and below.
 template <typename T>
-HWY_INLINE void WriteOwnRows(const SquaredLengths<T>& lengths, const T* rows, T* to) {
+HWY_INLINE bool WriteOwnRows(const SquaredLengths<T>& lengths, const T* rows, T* to) {
   const Tag<T> tag;
   for (size_t i = 0; i < kLayerPoints; i += hn::Lanes(tag)) {
     const T* at = rows + i;
-    const auto best = LookOutward<2, kBrickX, T>(hn::LoadU(tag, at), at - kBrickX, at + kBrickX,
-                                                 lengths.y.data() + 2, 0);
+    auto best = hn::LoadU(tag, at);
+    if (!LookOutward<2, kBrickX, T>(best, at - kBrickX, at + kBrickX, lengths.y.data() + 2, 0)) {
+      return false;
+    }
     hn::StoreU(best, tag, to + i);
   }
+  return true;
 }
 
 // The places between those rows and the next ones.
 template <typename T>
-HWY_INLINE void WriteBetween(const SquaredLengths<T>& lengths, const T* rows, T* to) {
+HWY_INLINE bool WriteBetween(const SquaredLengths<T>& lengths, const T* rows, T* to) {
   const Tag<T> tag;
   for (size_t i = 0; i < kLayerPoints; i += hn::Lanes(tag)) {
     const T* at = rows + i;
     const auto nearest = hn::Min(hn::LoadU(tag, at), hn::LoadU(tag, at + kBrickX));
-    const auto best =
-        LookOutward<2, kBrickX, T>(Sum(nearest, hn::Set(tag, lengths.y[1])), at - kBrickX,
-                                   at + 2 * kBrickX, lengths.y.data() + 3, lengths.x);
+    auto best = Sum(nearest, hn::Set(tag, lengths.y[1]));
+    if (!LookOutward<2, kBrickX, T>(best, at - kBrickX, at + 2 * kBrickX, lengths.y.data() + 3,
+                                    lengths.x)) {
+      return false;
+    }
     hn::StoreU(best, tag, to + i);
   }
+  return true;
+}
+
+// A brick's band of rows in all its layers, from a column of both sublattices.
+template <typename T>
+HWY_INLINE bool WriteAcross(const SquaredLengths<T>& lengths, const T* row, T* to) {
+  const Tag<T> tag;
+  constexpr size_t kBand = kBandPoints<T>;
+  for (size_t k = 0; k < kBrickZ; ++k, to += kLayerPoints, row += 2 * kBand) {
+    for (size_t i = 0; i < kBand; i += hn::Lanes(tag)) {
+      const T* at = row + i;
+      auto best = hn::LoadU(tag, at);
+      if (!LookOutward<1, kBand, T>(best, at - kBand, at + kBand, lengths.z.data() + 1, 0)) {
+        return false;
+      }
+      hn::StoreU(best, tag, to + i);
+    }
+  }
+  return true;
 }
 
 // Where the distances between the points of layer k of a brick go; null if nobody needs them.
@@ -195,21 +158,106 @@ HWY_INLINE T* BesideLayer(const EuclideanView<T>& view, BrickIndex brick, Sublat
   return is_outermost && near[4] != view.padding ? layer(near[4], kBrickZ) : nullptr;
 }
 
+// The rows of a column, `step` units apart, and what becomes of them where looking outward takes
+// too long. The farther along the column a place is, the farther along is the row that it takes its
+// distance from: so the place in the middle halves the rows left to the places on either side, and
+// a column takes a few steps per row, not one per unit of distance.
+// Source: Aggarwal, Klawe, Moran, Shor and Wilber, Geometric applications of a matrix-searching
+// algorithm, 1987.
+template <typename T>
+class Column {
+ public:
+  Column(std::span<const T> rows, size_t step, std::span<const T> squares)
+      : rows_(rows), step_(step), squares_(squares) {}
+
+  bool is_settled() const { return !settled_.empty(); }
+  // Settles rows 2 units apart, `count` of them, the first one so far from the column's first row.
+  HWY_INLINE void Settle(size_t place, size_t count) {
+    first_place_ = place;
+    settled_.resize(count * kBandPoints<T>);
+    Search(0, count, {0, rows_.size() / kBandPoints<T> - 1});
+  }
+  // Writes settled rows from the n-th on, each so many values after the one before.
+  void Write(size_t n, size_t count, size_t pitch, T* to) const {
+    for (const size_t end = n + count; n < end; ++n, to += pitch) {
+      std::copy_n(settled_.data() + n * kBandPoints<T>, kBandPoints<T>, to);
+    }
+  }
+
+ private:
+  struct RowRange {
+    size_t first = 0;
+    size_t last = 0;
+  };
+
+  // Places begin..end - 1, which take their distances from these rows.
+  void Search(size_t begin, size_t end, RowRange rows) {
+    if (begin == end) return;
+    const size_t middle = begin + (end - begin) / 2;
+    const RowRange nearest = TakeLeast(middle, rows);
+    Search(begin, middle, {rows.first, nearest.last});
+    Search(middle + 1, end, {nearest.first, rows.last});
+  }
+
+  // Of all points of a row together: results must not depend on the size of vectors.
+  HWY_INLINE RowRange TakeLeast(size_t n, RowRange rows) {
+    const Tag<T> tag;
+    const size_t place = first_place_ + 2 * n;
+    const T* squares = squares_.data();
+    const auto one = hn::Set(tag, T{1});
+    RowRange nearest = {rows.last, rows.first};
+    for (size_t i = 0; i < kBandPoints<T>; i += hn::Lanes(tag)) {
+      auto best = hn::Set(tag, hwy::HighestValue<T>());
+      auto at = hn::Set(tag, static_cast<T>(rows.first)), from = at;
+      const T* values = rows_.data() + rows.first * kBandPoints<T> + i;
+      for (size_t row = rows.first; row <= rows.last; ++row, values += kBandPoints<T>) {
+        const size_t foot = row * step_;
+        const T square = squares[foot < place ? place - foot : foot - place];
+        const auto sum = Sum(hn::LoadU(tag, values), hn::Set(tag, square));
+        from = hn::IfThenElse(hn::Lt(sum, best), at, from);
+        best = hn::Min(best, sum);
+        at = hn::Add(at, one);
+      }
+      hn::StoreU(best, tag, settled_.data() + n * kBandPoints<T> + i);
+      const auto first = static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, from)));
+      const auto last = static_cast<size_t>(hn::GetLane(hn::MaxOfLanes(tag, from)));
+      nearest = {std::min(nearest.first, first), std::max(nearest.last, last)};
+    }
+    return nearest;
+  }
+
+  std::span<const T> rows_;
+  size_t step_;
+  std::span<const T> squares_;
+  size_t first_place_ = 0;
+  std::vector<T> settled_;
+};
+
 template <typename T>
 HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
                              Sublattice sublattice, BrickStack stack,
                              const SideRuns<uint32_t>& runs, BrickIndex first) {
   LayerRows<T> rows(stack.size(), lengths.x);
   // The place that belongs to a row lies after it for even points, before it for odd ones.
-  const size_t back = sublattice == Sublattice::kEven ? 0 : kBrickX;
+  const size_t back = sublattice == Sublattice::kEven ? 0 : 1;
+  const size_t count = kBrickY * stack.size();
   for (size_t k = 0; k < kBrickZ; ++k) {
     ReadLayer(view, lengths.x, stack, k, runs, first, sublattice, rows);
+    Column<T> own(rows.own, 2, lengths.y), between(rows.between, 2, lengths.y);
     size_t at = kBorderRows * kBrickX;
     for (size_t n = 0; n < stack.size(); ++n, at += kLayerPoints) {
-      T* own = view.own + size_t{stack[n]} * kBrickPoints + k * kLayerPoints;
-      WriteOwnRows(lengths, rows.own.data() + at, own);
+      T* to = view.own + size_t{stack[n]} * kBrickPoints + k * kLayerPoints;
+      if (!own.is_settled() && !WriteOwnRows(lengths, rows.own.data() + at, to)) {
+        own.Settle(2 * kBorderRows, count);
+      }
+      if (own.is_settled()) own.Write(n * kBrickY, kBrickY, kBrickX, to);
       T* beside = BesideLayer(view, stack[n], sublattice, k);
-      if (beside != nullptr) WriteBetween(lengths, rows.between.data() + at - back, beside);
+      if (beside == nullptr) continue;
+      const T* places = rows.between.data() + at - back * kBrickX;
+      if (!between.is_settled() && !WriteBetween(lengths, places, beside)) {
+        between.Settle(2 * (kBorderRows - back) + 1, count);
+      }
+      if (between.is_settled()) between.Write(n * kBrickY, kBrickY, kBrickX, beside);
     }
   }
 }
@@ -245,22 +293,18 @@ HWY_INLINE void ReadColumn(const EuclideanView<T>& view, BrickStack stack, Subla
 template <typename T>
 HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
                                    Sublattice sublattice, BrickStack stack) {
-  const Tag<T> tag;
   constexpr size_t kBand = kBandPoints<T>;
-  std::vector<T> column((2 * kBrickZ * stack.size() + 2 * kBorderRows) * kBand);
+  std::vector<T> rows((2 * kBrickZ * stack.size() + 2 * kBorderRows) * kBand);
   for (size_t first = 0; first < kLayerPoints; first += kBand) {
-    ReadColumn(view, stack, sublattice, first, column);
-    const T* row = column.data() + kBorderRows * kBand;
-    for (BrickIndex brick : stack) {
-      T* own = view.own + size_t{brick} * kBrickPoints + first;
-      for (size_t k = 0; k < kBrickZ; ++k, own += kLayerPoints, row += 2 * kBand) {
-        for (size_t i = 0; i < kBand; i += hn::Lanes(tag)) {
-          const T* at = row + i;
-          hn::StoreU(LookOutward<1, kBand, T>(hn::LoadU(tag, at), at - kBand, at + kBand,
-                                              lengths.z.data() + 1, 0),
-                     tag, own + i);
-        }
+    ReadColumn(view, stack, sublattice, first, rows);
+    Column<T> column(rows, 1, lengths.z);
+    const T* row = rows.data() + kBorderRows * kBand;
+    for (size_t n = 0; n < stack.size(); ++n, row += 2 * kBrickZ * kBand) {
+      T* to = view.own + size_t{stack[n]} * kBrickPoints + first;
+      if (!column.is_settled() && !WriteAcross(lengths, row, to)) {
+        column.Settle(kBorderRows, kBrickZ * stack.size());
       }
+      if (column.is_settled()) column.Write(n * kBrickZ, kBrickZ, kLayerPoints, to);
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_rows.h"
+#include "core/distance/nearest_background.h"
 #include "core/exec/status_macros.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
@@ -19,9 +20,9 @@
 //   step away along both axes. A scan ends at the first background point of its own column, where
 //   everything farther is farther.
 // Cost:  as much memory again as the result, and an eighth. One or two rows of 16 points look
-// outward
-//   together, until no point can find anything nearer: about a step per lattice unit of distance,
-//   each two or three cycles for all of them.
+//   outward together, until no point can find anything nearer: about a step per lattice unit of
+//   distance, each two or three cycles for all of them. Columns of floats, which objects deeper
+//   than 254 units have, are searched by halves where they are deep.
 
 namespace bccskel {
 namespace {
@@ -155,6 +156,30 @@ uint32_t LargestRank(std::span<const float> squares) {
   return largest;
 }
 
+// Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
+// tells what to try first.
+bool IsDeepInside(const Volume& object, BrickIndex brick) {
+  // Those on either side whose farthest point is nearer than 255 units to any point of the brick.
+  static constexpr struct {
+    size_t direction;
+    int bricks;
+  } kReaches[] = {{12, 14}, {13, 14}, {8, 6}, {9, 6}, {10, 30}, {11, 30}};
+  for (const auto& [direction, bricks] : kReaches) {
+    BrickIndex n = brick;
+    for (int step = 0; step <= bricks; ++step, n = object.neighbors()[n][direction]) {
+      if (!IsFull(object.padded_bricks()[n])) return false;
+    }
+  }
+  return true;
+}
+
+bool IsDeep(const Volume& object) {
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    if (IsDeepInside(object, n)) return true;
+  }
+  return false;
+}
+
 template <typename T>
 absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context& context) {
   exec::UninitializedVector<T> squares((object.brick_count() + 1) * kBrickPoints);
@@ -167,7 +192,7 @@ absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context&
 }  // namespace
 
 absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec::Context& context) {
-  if (AxisScaleOf(object.placement()) == kIsotropic) {
+  if (AxisScaleOf(object.placement()) == kIsotropic && !IsDeep(object)) {
     absl::StatusOr<DistanceField> whole = Measure<uint16_t>(object, context);
     if (!whole.ok() || whole->largest() < kFirstUnsureSquare) return whole;
   }

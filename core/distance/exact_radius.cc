@@ -43,12 +43,6 @@ std::array<float, kCells> SquaresOfCells(double unit, int32_t low) {
   return squares;
 }
 
-bool IsFull(const BrickBits& bits) {
-  uint64_t all = ~uint64_t{0};
-  for (uint64_t word : bits.words) all &= word;
-  return ~all == 0;
-}
-
 }  // namespace
 
 ExactRadius::ExactRadius(const Volume& object, const DistanceField& field)

@@ -7,6 +7,13 @@
 
 namespace bccskel {
 
+// Whether a brick has no background.
+inline bool IsFull(const BrickBits& bits) {
+  uint64_t all = ~uint64_t{0};
+  for (uint64_t word : bits.words) all &= word;
+  return ~all == 0;
+}
+
 // Where a point is, seen from a brick. Shapes: both arrays have a number for each of the brick's 32
 // rows, row 4k + j.
 struct RowSearch {

@@ -133,11 +133,29 @@ TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {
   }
 }
 
+// Columns that are too deep to look outward from every point; whole numbers always look outward.
+TEST(Euclidean, OfDeepColumnsIsTheSameInFloatsAsInWholeNumbers) {
+  const std::vector<LatticePoint> points = test::RandomBlob(3, {70, 70, 70}, 9, 60);
+  const Volume even = Placed(points, {1.0, 1.0, 1.0});
+  const Volume all_but_even = Placed(points, {1.0, 1.0 + 1e-12, 1.0 - 1e-12});
+  ASSERT_NE(AxisScaleOf(all_but_even.placement()), kIsotropic);
+  const auto whole = ComputeDistance(even, DistanceKind::kEuclidean, exec::Context());
+  const auto floats = ComputeDistance(all_but_even, DistanceKind::kEuclidean, exec::Context());
+  ASSERT_GT(whole->ToLatticeUnits(whole->largest()), 40);
+  even.ForEachPoint([&](LatticePoint p) {
+    const BrickAddress at = AddressOf(p);
+    const BrickIndex n = *even.Find(BrickKey(at.brick));
+    ASSERT_EQ(floats->ToLatticeUnits(floats->At(n, at.bit)),
+              whole->ToLatticeUnits(whole->At(n, at.bit)));
+  });
+}
+
 void ExpectTheSameEverywhere(const Volume& object);
 
 TEST(Euclidean, IsTheSameForAnyThreadCountAndInstructionSet) {
   ExpectTheSameEverywhere(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7}));
   ExpectTheSameEverywhere(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.0, 1.0}));
+  ExpectTheSameEverywhere(Placed(test::RandomBlob(5, {70, 70, 70}, 9, 60), {1.0, 0.9, 0.8}));
 }
 
 void ExpectTheSameEverywhere(const Volume& object) {
