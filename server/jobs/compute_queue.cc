@@ -27,7 +27,8 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
   Entry entry = 0;
   {
     std::lock_guard lock(mutex_);
-    entry = queue_.Push(claim.origin, now_(), {claim.most_threads, claim.bricks, std::move(work)});
+    entry = queue_.Push(claim.origin, now_(),
+                        {claim.origin.tenant, claim.most_threads, claim.bricks, std::move(work)});
     NoteWaiting();
   }
   wake_.notify_one();
@@ -83,24 +84,28 @@ void ComputeQueue::Run(Taken taken, int threads) {
   if (!queue_.empty()) wake_.notify_one();  // the tenant may have been at its cap
 }
 
-bool ComputeQueue::GiveWay(const Turn& turn) {
-  std::unique_lock lock(mutex_);
-  std::optional<Taken> next = queue_.Take([&turn](const Waiting& waiting) {
-    return waiting.most_threads == 1 && waiting.bricks <= turn.bricks_ / kTimesSmaller;
+std::optional<ComputeQueue::Taken> ComputeQueue::TakeSmaller(const Turn& turn) {
+  const Clock::time_point now = turn.WorkedUntil();
+  std::lock_guard lock(mutex_);
+  std::optional<Taken> next = queue_.Take([&](const Waiting& waiting) {
+    if (waiting.most_threads > 1 || waiting.bricks > turn.bricks_ / kTimesSmaller) return false;
+    const auto found = turn.not_before_.find(waiting.tenant);
+    return found == turn.not_before_.end() || now >= found->second;
   });
   NoteWaiting();
-  lock.unlock();
-  if (!next.has_value()) return false;
-  Run(*std::move(next), 1);
-  return true;
+  return next;
 }
 
 void ComputeQueue::Turn::GiveWay() {
   if (queue_.waiting_ == 0 || std::this_thread::get_id() != thread_) return;
+  std::optional<Taken> next = queue_.TakeSmaller(*this);
+  if (!next.has_value()) return;
+  const std::string tenant = next->tenant;
   const Clock::time_point start = queue_.now_();
-  if (start < not_before_ || !queue_.GiveWay(*this)) return;
-  const Clock::time_point end = queue_.now_();
-  not_before_ = end + (end - start);
+  queue_.Run(*std::move(next), 1);
+  const Clock::duration took = queue_.now_() - start;
+  rested_ += took;
+  not_before_[tenant] = WorkedUntil() + took;
 }
 
 }  // namespace bccskel::server

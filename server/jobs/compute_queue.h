@@ -6,8 +6,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -20,8 +23,9 @@ namespace bccskel::server {
 // small jobs run side by side. Results do not depend on the number of threads.
 //
 // A job at work gives way to small ones that wait: to those that take one thread and have at most
-// half of its bricks. They run on its thread while it rests; afterwards it has at least as
-// much time to itself as they took, so that it always goes on at half speed or more.
+// half of its bricks. They run on its thread while it rests; afterwards it gives way to their
+// tenant only when it has had as much time as they took. So beside one other tenant it goes on at
+// half speed or more, and nobody waits for what it owes to others.
 class ComputeQueue {
  public:
   using Clock = std::chrono::steady_clock;
@@ -62,6 +66,7 @@ class ComputeQueue {
 
  private:
   struct Waiting {
+    std::string tenant;
     int most_threads;
     uint64_t bricks;
     Work work;
@@ -70,7 +75,7 @@ class ComputeQueue {
 
   void Serve(std::stop_token stop);
   void Run(Taken taken, int threads);
-  bool GiveWay(const Turn& turn);
+  std::optional<Taken> TakeSmaller(const Turn& turn);
   void NoteWaiting() { waiting_ = static_cast<int>(queue_.size()); }  // needs: mutex_ held
 
   const int threads_;
@@ -97,12 +102,15 @@ class ComputeQueue::Turn {
   friend class ComputeQueue;
   Turn(ComputeQueue& queue, int threads, uint64_t bricks)
       : queue_(queue), threads_(threads), bricks_(bricks) {}
+  // What its clock would show had it stood still at rest.
+  Clock::time_point WorkedUntil() const { return queue_.now_() - rested_; }
 
   ComputeQueue& queue_;
   const int threads_;
   const uint64_t bricks_;
   const std::thread::id thread_ = std::this_thread::get_id();
-  Clock::time_point not_before_ = Clock::time_point::min();  // the next time that it gives way
+  Clock::duration rested_{};
+  std::map<std::string, Clock::time_point> not_before_;  // on that clock, again to this tenant
 };
 
 }  // namespace bccskel::server

@@ -117,12 +117,15 @@ class GivingWay : public testing::Test {
     queue_.Post({.origin = {}, .most_threads = 1, .bricks = kLargeBricks}, large);
     while (queue_.usage() != Usage()) std::this_thread::yield();
   }
-  void PostSmall(const std::string& name, uint64_t bricks = kLargeBricks / 2,
-                 int most_threads = 1) {
-    queue_.Post({.origin = {}, .most_threads = most_threads, .bricks = bricks}, [=, this](Turn&) {
-      order_ += name;
-      now_ms_ += kSmallMs;
-    });
+  void PostSmall(const std::string& name, uint64_t bricks = kLargeBricks / 2, int most_threads = 1,
+                 const std::string& tenant = "") {
+    JobOrigin origin;
+    origin.tenant = tenant;
+    queue_.Post({.origin = origin, .most_threads = most_threads, .bricks = bricks},
+                [=, this](Turn&) {
+                  order_ += name;
+                  now_ms_ += kSmallMs;
+                });
   }
 
   static constexpr int kSmallMs = 10;
@@ -157,6 +160,18 @@ TEST_F(GivingWay, AfterwardsTheLargeOneHasAsMuchTime) {
     order_ += "|";
   });
   EXPECT_EQ(order_, "s|t|");
+}
+
+TEST_F(GivingWay, NoTenantWaitsForWhatAnotherHasTaken) {
+  RunLarge([this](Turn& turn) {
+    for (const char* name : {"a", "a"}) PostSmall(name, 1, 1, "greedy");
+    turn.GiveWay();
+    for (const char* name : {"b", "b"}) PostSmall(name, 1, 1, "clinic");
+    turn.GiveWay();
+    turn.GiveWay();
+    order_ += "|";
+  });
+  EXPECT_EQ(order_.substr(0, 3), "ab|");
 }
 
 TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
