@@ -117,6 +117,9 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   command.add_flag_callback(
       "--detach", [&arguments] { arguments.waiting = Waiting::kDetach; },
       "Print the job's name and end; the server keeps the job (see fetch)");
+  command.add_flag_callback(
+      "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
+      "With --detach: keep the thinned volume, too, which fetch can write then");
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "client/call_options.h"
 #include "client/cli/exit_code.h"
 #include "client/cli/image_arguments.h"
 #include "client/cli/server_arguments.h"
@@ -61,6 +62,7 @@ struct SkeletonizeArguments {
   std::optional<RootChoice> root;  // the trees are ordered from there
   Place place = Place::kServer;
   Waiting waiting = Waiting::kForResult;
+  client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;

@@ -71,6 +71,9 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
   if (detached && !arguments.outputs.empty()) {
     return "--detach writes no files; bccskel fetch does, when the job has ended";
   }
+  if (!detached && arguments.thin_volume == client::ThinVolume::kReturn) {
+    return "--thin-volume is for --detach; without it -o FILE.exr or FILE.bccb asks for the volume";
+  }
   for (const std::string& output : arguments.outputs) {
     if (Complaint c = IfError(exporting::SkeletonFormatOf(output).status()); c.has_value())
       return c;

@@ -18,6 +18,7 @@ absl::StatusOr<client::DurableJob> MakeJob(const SkeletonizeArguments& arguments
   client::NewJob job;
   BCCSKEL_ASSIGN_OR_RETURN(job.volume, client->Upload(volume, calls));
   job.options = arguments.skeletonize;
+  job.thin_volume = arguments.thin_volume;
   job.threads = arguments.common.threads;
   return client->CreateJob(std::move(job), calls);
 }

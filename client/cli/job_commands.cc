@@ -68,7 +68,7 @@ absl::Status CheckFetched(const FetchArguments& arguments, const Volume& object,
   if (volume == arguments.outputs.end() || !missing) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(*volume, ": ", arguments.job.job,
                                                  " was made without its thinned volume; ",
-                                                 "submit -o ", *volume, " asks for it"));
+                                                 "submit --detach --thin-volume keeps it"));
 }
 
 ExitCode Finish(const JobArguments& arguments, const absl::StatusOr<DurableJob>& job) {

@@ -57,6 +57,16 @@ class JobsTest(harness.TestCase):
                                      pathlib.Path(theirs).read_bytes(), mine)
             self.assertIn("<html", pathlib.Path(fetched[-1]).read_text())
 
+    def test_the_thinned_volume_of_a_detached_job_is_fetched_where_it_was_asked_for(self):
+        with self.server() as server:
+            job = self.submit(server, "--thin-volume")
+            for ending in ("bccb", "exr"):
+                local, fetched = self.path(f"local.{ending}"), self.path(f"fetched.{ending}")
+                self.succeed("skeletonize", self.path("object.bccb"), "--local", "-o", local)
+                self.succeed("fetch", job, "--server", server.address, "-o", fetched)
+                self.assertEqual(pathlib.Path(local).read_bytes(),
+                                 pathlib.Path(fetched).read_bytes())
+
     def test_fetch_says_what_it_cannot_write(self):
         with self.server() as server:
             job = self.submit(server)
@@ -65,7 +75,7 @@ class JobsTest(harness.TestCase):
             self.fail_with(2, "--object", *fetch, "-o", self.path("a.html"))
             self.fail_with(2, "ends in .exr or .bccb", *fetch, "-o", self.path("a.json"),
                            "--object", self.path("a.stl"))
-            self.fail_with(3, "without its thinned volume", *fetch, "-o", self.path("a.exr"))
+            self.fail_with(3, "--thin-volume keeps it", *fetch, "-o", self.path("a.exr"))
             other = self.path("other.bccb")
             self.succeed("generate", "ball", "--points", "5000", "-o", other)
             self.fail_with(3, "points; the volume of", *fetch, "-o", self.path("a.svg"),
@@ -111,6 +121,8 @@ class JobsTest(harness.TestCase):
         volume = self.generate("torus")
         self.fail_with(2, "--output is required", "submit", volume)
         self.fail_with(2, "--detach writes no files", "submit", volume, "--detach",
+                       "-o", self.path("a.json"))
+        self.fail_with(2, "--thin-volume is for --detach", "submit", volume, "--thin-volume",
                        "-o", self.path("a.json"))
         with Server(self.folder) as server:
             self.fail_with(3, "--data-dir", "submit", volume, "--detach",

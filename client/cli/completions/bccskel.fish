@@ -55,6 +55,7 @@ __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe 
 __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe top' -f -l plaintext-token -d 'Send the token without TLS, too'
 __bccskel_option jobs -x -l limit -d 'The newest ones only'
 __bccskel_option 'submit watch fetch' -f -l detach -d 'Leave the job to the server'
+__bccskel_option submit -f -l thin-volume -d 'With --detach: keep the thinned volume, too'
 __bccskel_option probe -x -l service -d 'One service instead of the whole server'
 __bccskel_option top -f -l once -d 'Show it once'
 __bccskel_option top -x -l interval -d 'Seconds between two looks'
