@@ -48,6 +48,7 @@ class ShellSweep {
         watched_(plan.stubble == StubblePolicy::kNone ? kDirectionsUnsettled
                                                       : kDirectionsUnsettled | kEndPointsUnsettled),
         unsettled_(groups() * kUnsettledGroup),
+        busy_groups_(groups()),
         enabled_(unsettled_.size()),
         changed_(unsettled_.size(), -1),
         workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
@@ -133,7 +134,7 @@ class ShellSweep {
 
   void TakeOver(Worker& other, Worker& first) {
     for (std::vector<BrickIndex>& seen : other.seen_elsewhere) {
-      for (BrickIndex n : seen) unsettled_[n] |= enabled_[n];
+      for (BrickIndex n : seen) UnsettledView().Add(n, enabled_[n]);
     }
     const auto not_reached = std::span(other.by_first_shell).subspan(other.reached);
     first.by_first_shell.insert(first.by_first_shell.end(), not_reached.begin(), not_reached.end());
@@ -163,7 +164,7 @@ class ShellSweep {
         .kept = state_.kept.empty() ? nullptr : state_.kept.data(),
         .planes = shells_.planes().data(),
         .candidates = state_.candidates.data(),
-        .unsettled = unsettled_.data(),
+        .unsettled = UnsettledView(),
         .enabled = enabled_.data(),
         .watched = watched_,
         .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
@@ -177,18 +178,25 @@ class ShellSweep {
   bool sleeps() const { return rule_.passes_per_cycle() > 1; }
 
   // Bricks around which nothing has changed in this cycle have been looked at in all its passes,
-  // so they are settled.
+  // so they are settled. All that are awake were listed in the last one.
   void FallAsleep(const Worker& worker, int32_t cycle) {
-    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
-      if ((unsettled_[n] & kAwake) == 0 || changed_[n] == cycle) continue;
-      const BrickNeighborhood& near = state_.neighbors[n];
-      if (std::ranges::any_of(near, [&](BrickIndex b) { return changed_[b] == cycle; })) continue;
-      unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
-      for (const BrickIndex b : near) {
-        if (Owns(worker, b)) unsettled_[b] |= kBesideSleeper;
+    for (Sublattice sublattice : kSublattices) {
+      for (const BrickIndex n : worker.to_do.Of(sublattice)) {
+        if ((unsettled_[n] & kAwake) == 0 || ChangedAround(n, cycle)) continue;
+        unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
+        for (const BrickIndex near : state_.neighbors[n]) {
+          if (Owns(worker, near)) unsettled_[near] |= kBesideSleeper;
+        }
       }
     }
   }
+
+  bool ChangedAround(BrickIndex n, int32_t cycle) const {
+    const auto changed = [&](BrickIndex brick) { return changed_[brick] == cycle; };
+    return changed(n) || std::ranges::any_of(state_.neighbors[n], changed);
+  }
+
+  UnsettledBricks UnsettledView() { return {unsettled_.data(), busy_groups_.data()}; }
 
   // One more than full groups, so that there is room for the padding brick.
   size_t groups() const { return state_.brick_count() / kUnsettledGroup + 1; }
@@ -202,7 +210,7 @@ class ShellSweep {
     TakeOverUnsettled(worker);
     worker.marks.Clear();
     worker.thin.SetCounts(0, 0);
-    TakeUnsettled(unsettled_, worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
+    TakeUnsettled(UnsettledView(), worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
                   worker.to_do, worker.end_points_to_do);
     for (; at.step < rule_.steps(); ++at.step) {
       rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks, worker.thin);
@@ -228,7 +236,7 @@ class ShellSweep {
   void TakeOverUnsettled(const Worker& worker) {
     for (const Worker& other : workers_) {
       for (BrickIndex n : other.seen_elsewhere[worker.parity ^ 1]) {
-        if (Owns(worker, n)) unsettled_[n] |= enabled_[n];
+        if (Owns(worker, n)) UnsettledView().Add(n, enabled_[n]);
       }
     }
   }
@@ -260,7 +268,7 @@ class ShellSweep {
     const RemovalView view = {.object = state_.object.data(),
                               .candidates = state_.candidates.data(),
                               .neighbors = state_.neighbors.data(),
-                              .unsettled = unsettled_.data(),
+                              .unsettled = UnsettledView(),
                               .enabled = enabled_.data(),
                               .changed = changed_.data(),
                               .cycle = cycle,
@@ -305,8 +313,9 @@ class ShellSweep {
   ThinningState& state_;
   const Unsettled watched_;
   std::vector<Unsettled> unsettled_;
-  std::vector<Unsettled> enabled_;  // watched_ once the brick has candidates, before that 0
-  std::vector<int32_t> changed_;    // the cycle in which a brick last lost points
+  std::vector<uint8_t> busy_groups_;  // as in UnsettledBricks
+  std::vector<Unsettled> enabled_;    // watched_ once the brick has candidates, before that 0
+  std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
   std::vector<Worker> workers_;
   exec::Barrier barrier_;
   const uint64_t points_at_start_;

@@ -1,5 +1,6 @@
 #include "core/thinning/unsettled.h"
 
+#include <algorithm>
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
@@ -52,6 +53,8 @@ constexpr std::array<std::array<Unsettled, 14>, 2> kWakes = [] {
 // to 5 the high ones.
 using Sides = uint32_t;
 
+constexpr Unsettled kSomeToDo = kDirectionsUnsettled | kEndPointsUnsettled | kAwake;
+
 // Whether points at these sides have neighbors in the brick at a position.
 constexpr bool Sees(Sublattice sublattice, Sides sides, int position) {
   const Sides low = sides & 7, high = sides >> 3;
@@ -94,6 +97,7 @@ struct GroupBits {
   uint32_t found = 0;
   uint32_t end_points = 0;
   uint32_t odd = 0;
+  bool rest = true;  // nothing to do in any pass
 };
 
 // Reads a group and settles it.
@@ -104,18 +108,20 @@ HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled looked_for) {
     bits.found |= ((group[n] & (looked_for | kAwake)) != 0 ? 1u : 0u) << n;
     bits.end_points |= ((group[n] & kEndPointsUnsettled) != 0 ? 1u : 0u) << n;
     bits.odd |= (group[n] >> 15 & 1u) << n;
+    bits.rest = bits.rest && (group[n] & kSomeToDo) == 0;
     group[n] = static_cast<Unsettled>(group[n] & ~(looked_for | kEndPointsUnsettled));
   }
 #else
   const hn::CappedTag<Unsettled, kUnsettledGroup> tag;
   const auto any = hn::Set(tag, static_cast<Unsettled>(looked_for | kAwake));
   const auto ends = hn::Set(tag, kEndPointsUnsettled), odd = hn::Set(tag, kOddBrick);
+  const auto some = hn::Set(tag, kSomeToDo);
   const auto settled = hn::Set(tag, static_cast<Unsettled>(looked_for | kEndPointsUnsettled));
   const auto zero = hn::Zero(tag);
   for (size_t n = 0; n < kUnsettledGroup; n += hn::Lanes(tag)) {
     const auto lanes = hn::LoadU(tag, group + n);
-    // Most groups are at rest.
-    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, hn::Or(any, ends)), zero))) continue;
+    if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, some), zero))) continue;
+    bits.rest = false;
     const auto store = [&](auto mask, uint32_t& to) HWY_ATTR {
       hn::StoreMaskBits(tag, mask, reinterpret_cast<uint8_t*>(&to) + n / 8);
     };
@@ -153,16 +159,22 @@ struct ListWriter {
   }
 };
 
-void TakeUnsettledTarget(std::span<Unsettled> unsettled, size_t first, size_t last,
+void TakeUnsettledTarget(const UnsettledBricks& unsettled, size_t first, size_t last,
                          Unsettled looked_for, BrickLists& lists, BrickLists& end_lists) {
   ListWriter even = {lists.storage()[0]}, odd = {lists.storage()[1]};
   ListWriter even_ends = {end_lists.storage()[0]}, odd_ends = {end_lists.storage()[1]};
   for (size_t at = first; at < last; at += kUnsettledGroup) {
-    GroupBits bits = TakeGroup(unsettled.data() + at, looked_for);
+    uint8_t& some = unsettled.groups[at / kUnsettledGroup];
+    if (some == 0) continue;
+    GroupBits bits = TakeGroup(unsettled.bricks + at, looked_for);
+    // Bricks that are found may become unsettled again in this pass, so their group does not rest
+    // before the next one.
+    some = bits.rest ? 0 : 1;
     bits.end_points &= ~bits.found;
     if ((bits.found | bits.end_points) == 0) continue;
     even.Append(bits.found & ~bits.odd, at);
     odd.Append(bits.found & bits.odd, at);
+    if (bits.end_points == 0) continue;
     even_ends.Append(bits.end_points & ~bits.odd, at);
     odd_ends.Append(bits.end_points & bits.odd, at);
   }
@@ -197,8 +209,8 @@ HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
   const auto stays = static_cast<Unsettled>(done ? 0 : 0xffff);
   const auto enabled = static_cast<Unsettled>(view.enabled[m.brick] & stays);
   view.enabled[m.brick] = enabled;
-  view.unsettled[m.brick] =
-      static_cast<Unsettled>((view.unsettled[m.brick] & (kKind | stays)) | enabled);
+  Unsettled& unsettled = view.unsettled.bricks[m.brick];
+  unsettled = static_cast<Unsettled>((unsettled & (kKind | stays)) | enabled);
   view.changed[m.brick] = view.cycle;
 }
 
@@ -212,8 +224,7 @@ HWY_INLINE void UnsettleAround(const RemovalView& view, BrickIndex brick, const 
     BrickIndex n = neighbors[position];
     // The padding brick belongs to nobody, so several workers must not write to it.
     if (kCompany == Company::kOthers && n == view.none) n = brick;
-    view.unsettled[n] =
-        static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & wakes[position]));
+    view.unsettled.Add(n, view.enabled[n] & wakes[position]);
   }
 }
 
@@ -224,8 +235,7 @@ HWY_NOINLINE void UnsettleAcrossBorder(const RemovalView& view, BrickIndex brick
     const BrickIndex n = view.neighbors[brick][position];
     if (wakes[position] == 0 || n == view.none) continue;
     if (n >= view.first && n < view.last) {
-      view.unsettled[n] =
-          static_cast<Unsettled>(view.unsettled[n] | (view.enabled[n] & wakes[position]));
+      view.unsettled.Add(n, view.enabled[n] & wakes[position]);
     } else {
       elsewhere.push_back(n);
     }
@@ -238,7 +248,7 @@ uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
   BrickLane removed = hn::Zero(BrickTag());
   for (const MarkedBrick& m : marked) {
     removed = PlusBits(removed, LoadPlane(m.marks));
-    const Unsettled kind = view.unsettled[m.brick];
+    const Unsettled kind = view.unsettled.bricks[m.brick];
     RemoveFromBrick(view, m);
     if ((kind & (kBorderBrick | kBesideSleeper)) == 0) continue;
     const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
@@ -270,17 +280,26 @@ HWY_INLINE Plane OpenInBrick(const ShellPlanes& planes, int32_t shell, const Pla
   return opened;
 }
 
+// Planes are read from far away, a brick in some place at a time: a processor waits for fewer lines
+// at once than it can have under way.
+constexpr size_t kAhead = 6;
+HWY_INLINE void PrefetchPlanes(const ShellPlanes& planes) {
+  for (const BrickBits& plane : planes) __builtin_prefetch(&plane, 0, 2);
+}
+
 uint64_t OpenShellTarget(const OpeningView& view, int32_t shell,
                          std::span<const BrickIndex> bricks) {
   BrickLane points = hn::Zero(BrickTag());
-  for (const BrickIndex n : bricks) {
+  for (size_t at = 0; at < bricks.size(); ++at) {
+    const BrickIndex n = bricks[at];
+    PrefetchPlanes(view.planes[bricks[std::min(at + kAhead, bricks.size() - 1)]]);
     Plane may_go = LoadPlane(view.object[n]);
     if (view.kept != nullptr) may_go = AndNot(LoadPlane(view.kept[n]), may_go);
     const Plane opened = OpenInBrick(view.planes[n], shell, may_go, view.candidates[n]);
     points = PlusBits(points, opened);
     const auto some = static_cast<Unsettled>(IsEmpty(opened) ? 0 : 0xffff);
     view.enabled[n] |= static_cast<Unsettled>(view.watched & some);
-    view.unsettled[n] |= static_cast<Unsettled>(view.woken & some);
+    view.unsettled.Add(n, view.woken & some);
   }
   return TotalOf(points);
 }
@@ -296,8 +315,8 @@ HWY_EXPORT(TakeUnsettledTarget);
 HWY_EXPORT(RemoveMarkedTarget);
 HWY_EXPORT(OpenShellTarget);
 
-void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Unsettled looked_for,
-                   BrickLists& found, BrickLists& end_points) {
+void TakeUnsettled(const UnsettledBricks& unsettled, size_t first, size_t last,
+                   Unsettled looked_for, BrickLists& found, BrickLists& end_points) {
   HWY_DYNAMIC_DISPATCH(TakeUnsettledTarget)
   (unsettled, first, last, looked_for, found, end_points);
 }

@@ -35,6 +35,19 @@ inline constexpr Unsettled kOddBrick = 1 << 15;
 // Ranges of bricks start at multiples of this, and arrays of Unsettled are padded to one.
 inline constexpr size_t kUnsettledGroup = 32;
 
+// Arrays for all bricks. Copies share them.
+struct UnsettledBricks {
+  Unsettled* bricks = nullptr;
+  // One for each group: 0 says that all its bricks are settled and asleep. Most are, and so passes
+  // do not read the bricks.
+  uint8_t* groups = nullptr;
+
+  void Add(BrickIndex brick, Unsettled bits) const {
+    bricks[brick] = static_cast<Unsettled>(bricks[brick] | bits);
+    groups[brick / kUnsettledGroup] = 1;
+  }
+};
+
 // Bricks listed for a pass, by sublattice. The storage is as long as the list can get, and a
 // register longer; it is never cleared, so refilling it costs nothing.
 class BrickLists {
@@ -72,15 +85,15 @@ class BrickLists {
 // something beside them is removed.
 // Needs: first is a multiple of kUnsettledGroup, and so is last or the rest of its group is zero;
 //        the lists have room for last - first.
-void TakeUnsettled(std::span<Unsettled> unsettled, size_t first, size_t last, Unsettled looked_for,
-                   BrickLists& found, BrickLists& end_points);
+void TakeUnsettled(const UnsettledBricks& unsettled, size_t first, size_t last,
+                   Unsettled looked_for, BrickLists& found, BrickLists& end_points);
 
 // What a removal changes.
 struct RemovalView {
   BrickBits* object = nullptr;
   const BrickBits* candidates = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
-  Unsettled* unsettled = nullptr;
+  UnsettledBricks unsettled;
   Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
   int32_t* changed = nullptr;    // the cycle in which points were last removed
   int32_t cycle = 0;
@@ -100,7 +113,7 @@ struct OpeningView {
   const BrickBits* kept = nullptr;  // points that never go; null if there are none
   const ShellPlanes* planes = nullptr;
   BrickBits* candidates = nullptr;
-  Unsettled* unsettled = nullptr;
+  UnsettledBricks unsettled;
   Unsettled* enabled = nullptr;
   Unsettled watched = 0;  // what is looked for in a brick with candidates
   Unsettled woken = 0;    // and what becomes of one with new ones
