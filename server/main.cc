@@ -10,6 +10,8 @@
 #include <thread>
 #include <variant>
 
+#include "absl/synchronization/mutex.h"
+#include "core/exec/large_blocks.h"
 #include "server/config.h"
 #include "server/decoding/decoding_child.h"
 #include "server/logging/grpc_log.h"
@@ -41,6 +43,9 @@ void AllowManyConnections() {
 // A file at the limit of its size (ulimit -f) is an error of writing, not the end of the server.
 void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
 
+// Debian's build of gRPC's locks looks for deadlocks at every one of them.
+void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
+
 // Left alone, the allocator raises its thresholds up to 64 MiB with what it sees freed and makes
 // eight arenas a processor, each of which keeps what its largest job has left: 105 of 110 MiB in
 // mixed load. With these limits large blocks go back to the system at once: 18 MiB, and 38 while a
@@ -58,8 +63,10 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
   constexpr timespec kBetweenLooks = {.tv_sec = 1, .tv_nsec = 0};
   constexpr int kLooksBetweenTrims = 30;
   for (int looks = 1;; ++looks) {
-    // What is free between blocks in use.
-    if (looks % kLooksBetweenTrims == 0) malloc_trim(0);
+    if (looks % kLooksBetweenTrims == 0) {
+      exec::ProcessLargeBlocks().ReleaseUnused();
+      malloc_trim(0);  // what is free between blocks in use
+    }
     const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {
@@ -91,6 +98,7 @@ int Serve(const ServerConfig& config) {
   const sigset_t signals = Signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   KeepLittleFreeMemory();
+  TakeLocksAsTheyCome();
   AllowManyConnections();
   OutliveFullFiles();
   const Logging logging(config.log_level);

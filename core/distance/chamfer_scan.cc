@@ -48,15 +48,13 @@ class SectionScan {
       : slabs_(section.slabs()), view_(section.View(weights, runs)), context_(context) {}
 
   void Rise() const {
-    context_.Run([&](int worker) {
-      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context_.threads());
-      for (size_t s = mine.begin; s < mine.end && !context_.ShouldStop(); ++s) {
-        SweepWithinLayers(view_, slabs_[s].first, slabs_[s].last);
-      }
-    });
+    const bool alone = context_.threads() == 1;
+    if (!alone) SweepTogether();
     LayerTeam team(WorkersFor(), context_);
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
+        // A slab is still in the cache when it is raised.
+        if (alone) SweepWithinLayers(view_, slab.first, slab.last);
         Raise(slab, worker, team);
         if (!team.GoOn(worker)) return;
       }
@@ -84,6 +82,15 @@ class SectionScan {
     size_t bricks = 0;
     for (const BrickSlab& slab : slabs_) bricks += slab.size();
     return slabs_.empty() ? 1 : context_.WorkersFor(4 * bricks / slabs_.size());
+  }
+
+  void SweepTogether() const {
+    context_.Run([&](int worker) {
+      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context_.threads());
+      for (size_t s = mine.begin; s < mine.end && !context_.ShouldStop(); ++s) {
+        SweepWithinLayers(view_, slabs_[s].first, slabs_[s].last);
+      }
+    });
   }
 
   void Raise(const BrickSlab& slab, int worker, LayerTeam& team) const {

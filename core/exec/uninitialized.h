@@ -2,16 +2,18 @@
 #define BCCSKEL_CORE_EXEC_UNINITIALIZED_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
-#include "core/exec/huge_pages.h"
+#include "core/exec/large_blocks.h"
 
 namespace bccskel::exec {
 
 // For large buffers whose every element is written before it is read: growing a vector leaves the
-// new elements as they are in memory.
+// new elements as they are in memory, which a buffer before may have used.
 template <typename T>
 class UninitializedAllocator : public std::allocator<T> {
  public:
@@ -20,15 +22,22 @@ class UninitializedAllocator : public std::allocator<T> {
     using other = UninitializedAllocator<U>;
   };
   T* allocate(size_t count) {
-    T* block = std::allocator<T>::allocate(count);
-    PreferHugePages(block, count * sizeof(T));
-    return block;
+    if (count < kSmallest) return std::allocator<T>::allocate(count);
+    if (count > SIZE_MAX / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(ProcessLargeBlocks().Take(count * sizeof(T)));
+  }
+  void deallocate(T* block, size_t count) {
+    if (count < kSmallest) return std::allocator<T>::deallocate(block, count);
+    ProcessLargeBlocks().Give(block, count * sizeof(T));
   }
   void construct(T*) noexcept {}
   template <typename... Args>
   void construct(T* at, Args&&... args) {
     std::construct_at(at, std::forward<Args>(args)...);
   }
+
+ private:
+  static constexpr size_t kSmallest = LargeBlocks::kSmallest / sizeof(T);
 };
 
 template <typename T>

@@ -50,8 +50,7 @@ ThinningState::ThinningState(const Volume& volume, std::span<const LatticePoint>
     : keys(volume.keys()), neighbors(volume.neighbors()) {
   exec::ReserveLarge(volume.brick_count() + 1, object);
   object.assign(volume.padded_bricks().begin(), volume.padded_bricks().end());
-  exec::ReserveLarge(volume.brick_count(), candidates);
-  candidates.resize(volume.brick_count());
+  candidates.assign(volume.brick_count(), BrickBits());
   for (LatticePoint p : keep) {
     if (!volume.Contains(p)) continue;
     if (kept.empty()) kept.resize(volume.brick_count());

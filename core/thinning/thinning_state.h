@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/exec/uninitialized.h"
 #include "core/shells/shells.h"
 #include "core/thinning/mark_removable.h"
 #include "core/volume/brick_neighbors.h"
@@ -15,9 +16,9 @@ namespace bccskel {
 // outlive it.
 struct ThinningState {
   std::span<const BrickKey> keys;
-  std::vector<BrickBits> object;      // padded with one empty brick
-  std::vector<BrickBits> candidates;  // points that may go
-  std::vector<BrickBits> kept;        // empty, or points that never go
+  std::vector<BrickBits> object;                    // padded with one empty brick
+  exec::UninitializedVector<BrickBits> candidates;  // points that may go
+  std::vector<BrickBits> kept;                      // empty, or points that never go
   std::span<const BrickNeighborhood> neighbors;
 
   ThinningState(const Volume& volume, std::span<const LatticePoint> keep);
