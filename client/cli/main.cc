@@ -3,6 +3,7 @@
 #include <exception>
 #include <variant>
 
+#include "absl/synchronization/mutex.h"
 #include "client/cli/arguments.h"
 #include "client/cli/commands.h"
 #include "client/cli/interrupt.h"
@@ -24,7 +25,11 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
   }
 }
 
+// Debian's build of gRPC's locks looks for deadlocks at every one of them.
+void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
+
 ExitCode Main(int argc, char** argv) {
+  TakeLocksAsTheyCome();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of Print()

@@ -14,6 +14,17 @@ constexpr size_t kBufferBytes = 128 * 1024;
 constexpr int kLevel = 1;  // the bit planes shrink hardly more at higher ones
 constexpr uint64_t kZstdContextBytes = (uint64_t{1} << kMaxZstdWindowLog) + (uint64_t{1} << 20);
 
+// Making a context takes longer than inflating a small volume, so each thread keeps one that is
+// small.
+using SpareContext = std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)>;
+thread_local SpareContext spare_context(nullptr, &ZSTD_freeDCtx);
+constexpr size_t kMostSpareBytes = 256 << 10;
+
+ZSTD_DCtx* TakeContext() {
+  ZSTD_DCtx* const spare = spare_context.release();
+  return spare == nullptr ? ZSTD_createDCtx() : spare;
+}
+
 absl::Status MalformedError(size_t code) {
   return absl::InvalidArgumentError(
       absl::StrFormat("zstd frame: %s (the window must be at most %d MiB)", ZSTD_getErrorName(code),
@@ -35,14 +46,21 @@ uint64_t MaxBodyBytes(uint64_t decoded_bytes, VolumeCompression compression) {
                                                             : sum;
 }
 
-void BodyReader::FreeZstd::operator()(ZSTD_DCtx_s* zstd) const { ZSTD_freeDCtx(zstd); }
+void BodyReader::FreeZstd::operator()(ZSTD_DCtx_s* zstd) const {
+  if (ZSTD_sizeof_DCtx(zstd) > kMostSpareBytes) {
+    ZSTD_freeDCtx(zstd);
+    return;
+  }
+  ZSTD_DCtx_reset(zstd, ZSTD_reset_session_and_parameters);
+  spare_context.reset(zstd);
+}
 void BodyWriter::FreeZstd::operator()(ZSTD_CCtx_s* zstd) const { ZSTD_freeCCtx(zstd); }
 
 BodyReader::BodyReader(VolumeCompression compression) {
   if (compression != VolumeCompression::kZstd) return;
-  zstd_.reset(ZSTD_createDCtx());
+  zstd_.reset(TakeContext());
   ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, kMaxZstdWindowLog);
-  buffer_.resize(kBufferBytes);
+  buffer_ = std::make_unique_for_overwrite<std::byte[]>(kBufferBytes);
 }
 
 BodyReader::~BodyReader() = default;
@@ -59,12 +77,12 @@ absl::Status BodyReader::Inflate(std::span<const std::byte> bytes, const ByteCon
       return absl::InvalidArgumentError(
           absl::StrFormat("%d bytes after the end of the zstd frame", in.size - in.pos));
     }
-    ZSTD_outBuffer out = {buffer_.data(), buffer_.size(), 0};
+    ZSTD_outBuffer out = {buffer_.get(), kBufferBytes, 0};
     const size_t result = ZSTD_decompressStream(zstd_.get(), &out, &in);
     if (ZSTD_isError(result)) return MalformedError(result);
     frame_ended_ = result == 0;
     buffer_filled = out.pos == out.size;
-    if (out.pos > 0) BCCSKEL_RETURN_IF_ERROR(consume(std::span(buffer_).first(out.pos)));
+    if (out.pos > 0) BCCSKEL_RETURN_IF_ERROR(consume(std::span(buffer_.get(), out.pos)));
   }
   return absl::OkStatus();
 }

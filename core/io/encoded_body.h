@@ -50,7 +50,7 @@ class BodyReader {
     void operator()(ZSTD_DCtx_s* zstd) const;
   };
   std::unique_ptr<ZSTD_DCtx_s, FreeZstd> zstd_;  // null for plain bodies
-  std::vector<std::byte> buffer_;
+  std::unique_ptr<std::byte[]> buffer_;          // with it
   bool frame_ended_ = false;
 };
 
