@@ -3,6 +3,8 @@
 #include <zstd.h>
 
 #include <limits>
+#include <mutex>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
@@ -14,15 +16,39 @@ constexpr size_t kBufferBytes = 128 * 1024;
 constexpr int kLevel = 1;  // the bit planes shrink hardly more at higher ones
 constexpr uint64_t kZstdContextBytes = (uint64_t{1} << kMaxZstdWindowLog) + (uint64_t{1} << 20);
 
-// Making a context takes longer than inflating a small volume, so each thread keeps one that is
-// small.
-using SpareContext = std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)>;
-thread_local SpareContext spare_context(nullptr, &ZSTD_freeDCtx);
-constexpr size_t kMostSpareBytes = 256 << 10;
+// Making a context and its window takes longer than inflating a small volume, so a few are kept,
+// unless their windows are larger than our own writer's.
+class SpareContexts {
+ public:
+  ZSTD_DCtx* Take() {
+    std::lock_guard lock(mutex_);
+    if (spare_.empty()) return ZSTD_createDCtx();
+    ZSTD_DCtx* const last = spare_.back();
+    spare_.pop_back();
+    return last;
+  }
 
-ZSTD_DCtx* TakeContext() {
-  ZSTD_DCtx* const spare = spare_context.release();
-  return spare == nullptr ? ZSTD_createDCtx() : spare;
+  void Give(ZSTD_DCtx* context) {
+    ZSTD_DCtx_reset(context, ZSTD_reset_session_and_parameters);
+    std::lock_guard lock(mutex_);
+    if (spare_.size() < kMost && ZSTD_sizeof_DCtx(context) <= kMostBytes) {
+      spare_.push_back(context);
+    } else {
+      ZSTD_freeDCtx(context);
+    }
+  }
+
+ private:
+  static constexpr size_t kMost = 4;
+  static constexpr size_t kMostBytes = 1 << 20;
+
+  std::mutex mutex_;
+  std::vector<ZSTD_DCtx*> spare_;  // guarded by mutex_
+};
+
+SpareContexts& Contexts() {
+  static auto* const contexts = new SpareContexts;  // for threads that outlive main(), too
+  return *contexts;
 }
 
 absl::Status MalformedError(size_t code) {
@@ -46,19 +72,12 @@ uint64_t MaxBodyBytes(uint64_t decoded_bytes, VolumeCompression compression) {
                                                             : sum;
 }
 
-void BodyReader::FreeZstd::operator()(ZSTD_DCtx_s* zstd) const {
-  if (ZSTD_sizeof_DCtx(zstd) > kMostSpareBytes) {
-    ZSTD_freeDCtx(zstd);
-    return;
-  }
-  ZSTD_DCtx_reset(zstd, ZSTD_reset_session_and_parameters);
-  spare_context.reset(zstd);
-}
+void BodyReader::FreeZstd::operator()(ZSTD_DCtx_s* zstd) const { Contexts().Give(zstd); }
 void BodyWriter::FreeZstd::operator()(ZSTD_CCtx_s* zstd) const { ZSTD_freeCCtx(zstd); }
 
 BodyReader::BodyReader(VolumeCompression compression) {
   if (compression != VolumeCompression::kZstd) return;
-  zstd_.reset(TakeContext());
+  zstd_.reset(Contexts().Take());
   ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, kMaxZstdWindowLog);
   buffer_ = std::make_unique_for_overwrite<std::byte[]>(kBufferBytes);
 }
