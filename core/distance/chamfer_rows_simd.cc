@@ -195,10 +195,30 @@ HWY_INLINE void JoinLayer(const DistanceView<uint16_t>& view, BrickIndex brick, 
   }
 }
 
+// The layers of a brick lie a kilobyte away from those of the next, which is too far for what a
+// processor fetches by itself.
+constexpr size_t kAhead = 6;
+HWY_INLINE void PrefetchRows(const uint16_t* layer) {
+  __builtin_prefetch(layer);
+  __builtin_prefetch(layer + 2 * kBrickX);
+}
+HWY_INLINE void PrefetchLayer(const DistanceView<uint16_t>& view, Sublattice sublattice,
+                              BrickIndex brick, int k, ScanDirection direction) {
+  const BrickNeighborhood& near = view.neighbors[brick];
+  const AdjacentLayers layers = direction == ScanDirection::kUpward
+                                    ? LayersBelow(near, brick, sublattice, k)
+                                    : LayersAbove(near, brick, sublattice, k);
+  PrefetchRows(RowOf(view, brick, k, 0));
+  PrefetchRows(RowOf(view, layers.diagonal[0], layers.diagonal_k, 0));
+  PrefetchRows(RowOf(view, layers.axial, layers.axial_k, 0));
+}
+
 template <Sublattice kSublattice>
 void JoinLayersOf(const DistanceView<uint16_t>& view, std::span<const BrickIndex> bricks, int k,
                   ScanDirection direction) {
-  for (BrickIndex brick : bricks) {
+  for (size_t n = 0; n < bricks.size(); ++n) {
+    const BrickIndex brick = bricks[n];
+    PrefetchLayer(view, kSublattice, bricks[std::min(n + kAhead, bricks.size() - 1)], k, direction);
     const BrickNeighborhood& near = view.neighbors[brick];
     JoinLayer<kSublattice>(view, brick, k,
                            direction == ScanDirection::kUpward
