@@ -30,6 +30,8 @@ struct alignas(64) Worker {
   // their owners in the next, hence two.
   std::array<std::vector<BrickIndex>, 2> seen_elsewhere;
   size_t parity = 0;  // of the pass
+  // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
+  std::vector<BrickIndex> beside_sleepers_elsewhere;
   uint64_t removed = 0;
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
@@ -179,14 +181,27 @@ class ShellSweep {
 
   // Bricks around which nothing has changed in this cycle have been looked at in all its passes,
   // so they are settled. All that are awake were listed in the last one.
-  void FallAsleep(const Worker& worker, int32_t cycle) {
+  void FallAsleep(Worker& worker, int32_t cycle) {
+    worker.beside_sleepers_elsewhere.clear();
     for (Sublattice sublattice : kSublattices) {
       for (const BrickIndex n : worker.to_do.Of(sublattice)) {
         if ((unsettled_[n] & kAwake) == 0 || ChangedAround(n, cycle)) continue;
         unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
         for (const BrickIndex near : state_.neighbors[n]) {
-          if (Owns(worker, near)) unsettled_[near] |= kBesideSleeper;
+          if (Owns(worker, near)) {
+            unsettled_[near] |= kBesideSleeper;
+          } else if (near < state_.brick_count()) {
+            worker.beside_sleepers_elsewhere.push_back(near);
+          }
         }
+      }
+    }
+  }
+
+  void HearOfSleepers(const Worker& worker) {
+    for (const Worker& other : workers_) {
+      for (const BrickIndex n : other.beside_sleepers_elsewhere) {
+        if (Owns(worker, n)) unsettled_[n] |= kBesideSleeper;
       }
     }
   }
@@ -220,6 +235,7 @@ class ShellSweep {
     }
     if (index == 0) alone_ = alone_ || patience_.Lost();
     rule_.Finish(worker.to_do);
+    if (at.pass == 0) HearOfSleepers(worker);
     Remove(worker, at.cycle);
     Meet(index);  // the new object is complete
     worker.parity ^= 1;

@@ -250,7 +250,7 @@ uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
     removed = PlusBits(removed, LoadPlane(m.marks));
     const Unsettled kind = view.unsettled.bricks[m.brick];
     RemoveFromBrick(view, m);
-    if ((kind & (kBorderBrick | kBesideSleeper)) == 0) continue;
+    if ((kind & kBesideSleeper) == 0) continue;
     const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
     if ((kind & kBorderBrick) == 0) {
       UnsettleAround<kCompany>(view, m.brick, wakes);

@@ -22,8 +22,8 @@ namespace bccskel {
 // pass, whatever these bits say, since nearly all such bricks change and telling 14 neighbors of
 // each change would cost more than looking. It falls asleep after a cycle in which neither it nor a
 // brick around has changed; from then on changes beside it unsettle it. Bits 13 to 15 say that it
-// has to tell the bricks around of its changes: sleepers, or bricks of other workers; and that it
-// is of the odd sublattice.
+// lies beside a sleeper and so has to tell the bricks around of its changes, that some of these
+// belong to other workers, and that it is of the odd sublattice.
 using Unsettled = uint16_t;
 inline constexpr Unsettled kEndPointsUnsettled = 1 << 8;
 inline constexpr Unsettled kDirectionsUnsettled = kEndPointsUnsettled - 1;
