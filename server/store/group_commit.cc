@@ -44,12 +44,11 @@ void GroupCommit::Serve(std::stop_token stop) {
 // are found by halves.
 void GroupCommit::Write(std::span<Entry> batch) {
   if (std::ranges::none_of(batch, &Entry::IsToWrite)) return;
-  const absl::Status begun = store_->Begin();
-  const absl::Status written = begun.ok() ? WriteAll(batch) : begun;
-  ++commits_;
+  absl::Status written = WriteAll(batch);
+  // Without its log the store takes less room, and who deletes needs some.
+  if (absl::IsResourceExhausted(written) && store_->Forget().ok()) written = WriteAll(batch);
   if (written.ok()) return;
-  store_->Rollback();
-  if (begun.ok() && batch.size() > 1) {
+  if (!absl::IsUnavailable(written) && batch.size() > 1) {
     Write(batch.first(batch.size() / 2));
     return Write(batch.subspan(batch.size() / 2));
   }
@@ -58,11 +57,18 @@ void GroupCommit::Write(std::span<Entry> batch) {
   }
 }
 
+// One transaction. Errors: of the store; then nothing has happened.
 absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
-  for (Entry& entry : batch) {
-    if (entry.IsToWrite()) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
-  }
-  return store_->Commit();
+  ++commits_;
+  BCCSKEL_RETURN_IF_ERROR(store_->Begin());
+  const absl::Status written = [&]() -> absl::Status {
+    for (Entry& entry : batch) {
+      if (entry.IsToWrite()) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
+    }
+    return store_->Commit();
+  }();
+  if (!written.ok()) store_->Rollback();
+  return written;
 }
 
 // Errors: of the store, not of the change.

@@ -306,7 +306,10 @@ class SqliteJobStore final : public JobStore {
 absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqliteDatabase> database, SqliteDatabase::Open(path));
   BCCSKEL_RETURN_IF_ERROR(Migrate(*database));
-  return std::unique_ptr<JobStore>(std::make_unique<SqliteJobStore>(std::move(database)));
+  std::unique_ptr<JobStore> store = std::make_unique<SqliteJobStore>(std::move(database));
+  // So that the tables have their room before the disk is full; where it is already, without.
+  store->Forget().IgnoreError();
+  return store;
 }
 
 }  // namespace bccskel::server
