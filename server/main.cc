@@ -48,8 +48,8 @@ void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadloc
 
 // Left alone, the allocator raises its thresholds up to 64 MiB with what it sees freed and makes
 // eight arenas a processor, each of which keeps what its largest job has left: 105 of 110 MiB in
-// mixed load. With these limits large blocks go back to the system at once: 18 MiB, and 38 while a
-// job has 20.
+// mixed load. With these limits 17 to 25 are kept, and large blocks go back to the system at once,
+// or to the next job that wants such (core/exec/large_blocks.h).
 void KeepLittleFreeMemory() {
   constexpr int kLargeBlock = 1 << 20;
   constexpr unsigned kFewestArenas = 4;
