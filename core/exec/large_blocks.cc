@@ -11,8 +11,9 @@ namespace {
 // Huge pages begin at such addresses.
 constexpr std::align_val_t kAlignment{size_t{2} << 20};
 
-// A job of 8 million points has 30 MB in such blocks, one of 64 million 200 MB.
-constexpr size_t kMostIdle = size_t{256} << 20;
+// A job of 8 million points has 30 MB in such blocks. More would be memory that the admission of
+// jobs does not know of.
+constexpr size_t kMostIdle = size_t{64} << 20;
 constexpr size_t kMostIdleBlocks = 256;
 
 // Steps of an eighth, so that jobs of about the same size can use each other's blocks.
