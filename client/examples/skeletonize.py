@@ -36,6 +36,7 @@ class Skeleton:
     node: np.ndarray   # per node: lattice point, shape (nodes, 3)
     ends: np.ndarray   # per edge: its source and target node, shape (edges, 2)
     paths: list        # per edge: its lattice points from source to target, shape (points, 3)
+    shifts: list       # per edge: what takes each point to the middle, in lattice units; 0 at nodes
     radii: list        # per edge: the distance of each point to the background, in world units
     summary: object    # skeleton_pb2.SkeletonSummary: certificate, timings, SHA-256
 
@@ -46,16 +47,25 @@ class Skeleton:
         scaled = np.asarray(points) * (np.array(placement.spacing or [1, 1, 1]) / 2)
         return scaled @ axes.T + np.array(placement.origin or [0, 0, 0])
 
+    def curve(self, edge):
+        """The smooth curve in the middle of the object, a place in the world per point of the edge.
+        No place is farther from its point than half the radius, so all lie inside."""
+        points = self.world(self.paths[edge])
+        way = smoothed(self.world(self.paths[edge] + self.shifts[edge])) - points
+        far = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
+        return points + way * np.minimum(1, self.radii[edge] / 2 / far)[:, np.newaxis]
+
     def to_networkx(self):
-        """A MultiGraph: nodes with `position`, edges with `path` and `radii`, all in the world."""
+        """A MultiGraph: nodes with `position`, edges with `path` (the smooth curve), `radii` and
+        `length`, all in the world."""
         import networkx
         graph = networkx.MultiGraph()
         for number, position in enumerate(self.world(self.node)):
             graph.add_node(number, kind=self.kind[number], position=position)
-        for (source, target), path, radii in zip(self.ends, self.paths, self.radii):
-            path = self.world(path)
-            length = np.linalg.norm(np.diff(smoothed(path), axis=0), axis=1).sum()
-            graph.add_edge(source, target, path=path, radii=radii, length=length)
+        for edge, (source, target) in enumerate(self.ends):
+            path = self.curve(edge)
+            length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+            graph.add_edge(source, target, path=path, radii=self.radii[edge], length=length)
         return graph
 
     def write_swc(self, name):
@@ -139,7 +149,7 @@ def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=
 def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
     """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError; error_reason()
     takes it apart. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
-    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "radius")}
+    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius")}
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
     for reply in stub.Skeletonize(requests(array, **volume), timeout=timeout):
@@ -161,11 +171,15 @@ def add(columns, chunk):
     columns["count"].extend(edges.point_count)
     columns["point"].extend(zip(points.x, points.y, points.z))
     columns["radius"].extend(points.radius)
+    # Empty where the server was asked for chamfer distances: then the points are not moved.
+    shifts = zip(points.shift_x, points.shift_y, points.shift_z)
+    columns["shift"].extend(shifts if points.shift_x else [(0, 0, 0)] * len(points.x))
 
 
 def assemble(columns, summary):
     """Each edge owns the next point_count rows of the point table."""
     points = np.array(columns["point"], dtype=np.int32).reshape(-1, 3)
+    shifts = np.array(columns["shift"], dtype=float).reshape(-1, 3) / 64
     unit = min(summary.placement.spacing, default=1) / 2  # lattice units are along the shortest axis
     radii = np.array(columns["radius"]) * unit
     if (len(columns["node"]), len(columns["ends"]), len(points)) != (
@@ -178,6 +192,7 @@ def assemble(columns, summary):
         node=np.array(columns["node"], dtype=np.int32).reshape(-1, 3),
         ends=np.array(columns["ends"], dtype=np.int32).reshape(-1, 2),
         paths=np.split(points, cuts) if has_edges else [],
+        shifts=np.split(shifts, cuts) if has_edges else [],
         radii=np.split(radii, cuts) if has_edges else [],
         summary=summary)
 

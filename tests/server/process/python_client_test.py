@@ -129,6 +129,18 @@ class ExampleTest(unittest.TestCase):
         self.assertEqual((rows[:, 6] == -1).sum(), 1)
         self.assertTrue((rows[1:, 6] < rows[1:, 0]).all(), "a parent comes after its child")
 
+    def test_curves_use_the_shifts_below_the_lattice(self):
+        skeleton = self.skeletonize(example.torus())
+        self.assertGreater(max(np.abs(shifts).max() for shifts in skeleton.shifts), 0)
+
+        def offset(paths):
+            x, y, z = (np.concatenate(paths) - (36, 36, 12)).T  # the middle of the torus
+            return np.hypot(np.hypot(x, y) - 24, z).mean()
+
+        moved = offset([2 * skeleton.curve(edge) for edge in range(len(skeleton.ends))])
+        self.assertLess(moved, 0.3)
+        self.assertLess(moved, 0.7 * offset([example.smoothed(path) for path in skeleton.paths]))
+
     def test_the_reason_of_an_error_can_be_read(self):
         with self.assertRaises(grpc.RpcError) as raised:
             self.skeletonize(example.torus(), spacing=-1.0)
