@@ -8,12 +8,19 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/status_macros.h"
 #include "core/shells/shells.h"
+#include "core/surface/cell_grid.h"
 #include "core/surface/smooth_surface.h"
 
 namespace bccskel::view {
 namespace {
 
 constexpr double kShellWidth = 1;
+
+// A surface may have this many times the triangles that are wanted before it is simplified: more
+// take long and are not seen.
+constexpr double kExcess = 4;
+// Of surfaces made of cells, in cells: enough to take their steps off.
+constexpr float kCellReach = 1.5f;
 
 // Fewer triangles, ordered so that neighbors in space are neighbors in memory.
 void Simplify(SurfaceMesh& mesh, size_t most_triangles) {
@@ -35,6 +42,24 @@ void Simplify(SurfaceMesh& mesh, size_t most_triangles) {
   mesh.vertices.resize(meshopt_optimizeVertexFetch(mesh.vertices.data(), indices, left,
                                                    mesh.vertices.data(), mesh.vertices.size(),
                                                    sizeof(SurfaceVertex)));
+}
+
+// As fine as simplification can use: point by point, or of cells as wide as it takes.
+absl::StatusOr<SurfaceMesh> SmoothMesh(const Volume& object, size_t most_triangles,
+                                       const exec::Context& context) {
+  constexpr double kTrianglesPerPoint = 11;  // of ExtractSurface(), for one of the finest cells
+  const double affordable = kExcess * static_cast<double>(most_triangles);
+  CellGrid grid = CellGrid::Of(object);
+  if (kTrianglesPerPoint * grid.TriangleEstimate() <= affordable) {
+    BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractSurface(object, context));
+    SmoothSurface(mesh, {});
+    return mesh;
+  }
+  while (grid.TriangleEstimate() > affordable && grid.keys().size() > 1) grid = grid.Halved();
+  BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractCellSurface(grid, context));
+  SmoothSurface(mesh,
+                {.steps = 12, .reach = kCellReach * grid.edge(), .pull = 0.6f, .push = 0.62f});
+  return mesh;
 }
 
 double Determinant(const std::array<double, 9>& m) {
@@ -85,14 +110,6 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
   return later.ok() ? *std::move(later) : Volume();
 }
 
-// How many layers an object is shown by, if all were as large as its surface.
-int32_t LayersFor(const DisplaySurface& object, int32_t last_shell, const PeelingLimits& limits) {
-  const size_t affordable = limits.full_triangles / std::max<size_t>(object.full_triangles, 1);
-  const auto most = static_cast<size_t>(std::min(limits.layers, last_shell - 1));
-  const auto least = static_cast<size_t>(limits.least_layers);
-  return static_cast<int32_t>(std::min(most, std::max(affordable, least)));
-}
-
 // `later(shell)` is what is left when that many shells are gone.
 absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
                                    const std::function<Volume(int32_t)>& later,
@@ -102,7 +119,7 @@ absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
                            MakeDisplaySurface(object, limits.object_triangles, context));
   peeling.layers.push_back({0, std::move(whole)});
   if (last_shell < 2) return peeling;
-  const int32_t layers = LayersFor(peeling.layers.front().surface, last_shell, limits);
+  const int32_t layers = std::min(limits.layers, last_shell - 1);
   for (int32_t n = 1; n <= layers; ++n) {
     const int32_t shell = n * (last_shell - 1) / layers;
     BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface surface,
@@ -116,13 +133,9 @@ absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
 
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
                                                   const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractSurface(object, context));
-  const size_t full_triangles = mesh.triangles.size();
-  SmoothSurface(mesh, {});
+  BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, SmoothMesh(object, most_triangles, context));
   Simplify(mesh, most_triangles);
-  DisplaySurface surface = InWorld(mesh, object.placement());
-  surface.full_triangles = full_triangles;
-  return surface;
+  return InWorld(mesh, object.placement());
 }
 
 absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,

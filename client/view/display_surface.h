@@ -19,10 +19,11 @@ namespace bccskel::view {
 struct DisplaySurface {
   std::vector<WorldPoint> vertices;
   std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
-  size_t full_triangles = 0;               // before simplification
 };
 
-// Simplification keeps to the budget unless topology forbids it; then it comes close.
+// Simplification keeps to the budget unless topology forbids it; then it comes close. Of an object
+// whose surface has far more triangles than the budget, cells of several points are shown: see
+// ExtractCellSurface().
 // Errors: those of ExtractSurface().
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
                                                   const exec::Context& context);
@@ -37,10 +38,6 @@ struct PeelingLimits {
   size_t object_triangles = 100'000;
   size_t layer_triangles = 20'000;
   int32_t layers = 20;
-  // Each layer is made of a whole surface, which takes long for millions of triangles: large
-  // objects have fewer layers, so that they take no more than these together, but this many stay.
-  size_t full_triangles = 40'000'000;
-  int32_t least_layers = 4;
 };
 
 struct Peeling {

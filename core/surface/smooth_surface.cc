@@ -48,12 +48,20 @@ void SmoothSurface(SurfaceMesh& mesh, const SurfaceSmoothing& smoothing) {
   const std::vector<SurfaceVertex> start = mesh.vertices;
   std::vector<SurfaceVertex> sums(start.size());
   std::vector<float> counts(start.size());
-  for (int step = 0; step < smoothing.steps; ++step) {
+  const auto move = [&](float part) {  // of the way to the mean of the neighbors
     SumNeighbors(mesh, sums, counts);
     for (size_t n = 0; n < start.size(); ++n) {
-      for (float& sum : sums[n]) sum /= counts[n];
-      mesh.vertices[n] = HeldBack(sums[n], start[n], smoothing.reach);
+      const SurfaceVertex& here = mesh.vertices[n];
+      SurfaceVertex goal;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        goal[axis] = here[axis] + part * (sums[n][axis] / counts[n] - here[axis]);
+      }
+      mesh.vertices[n] = HeldBack(goal, start[n], smoothing.reach);
     }
+  };
+  for (int step = 0; step < smoothing.steps; ++step) {
+    move(smoothing.pull);
+    if (smoothing.push > 0) move(-smoothing.push);
   }
 }
 

@@ -12,6 +12,10 @@ struct SurfaceSmoothing {
   // Lattice units. No vertex moves farther than 0.385 of it, about a layer and a half of points;
   // more is smoother, but thins out what is thin.
   float reach = 4;
+  float pull = 1;  // how much of the way to the mean a step goes
+  // And how much of it is taken back after each step: a surface of few vertices, each far from its
+  // neighbors, would shrink (Taubin 1995, doi 10.1145/218380.218473).
+  float push = 0;
 };
 
 // Takes the steps of the lattice off a surface: each vertex goes to the mean of its neighbors, step

@@ -57,14 +57,6 @@ TEST(PeelForDisplayTest, LayersShrinkFromTheWholeToTheLastShell) {
   }
 }
 
-TEST(PeelForDisplayTest, LargeObjectsHaveFewerLayersButSome) {
-  const size_t full = MakeDisplaySurface(Ball(), 1000, {})->full_triangles;
-  ASSERT_GT(full, 1000u);
-  EXPECT_EQ(PeelForDisplay(Ball(), {.layers = 6, .full_triangles = 5 * full}, {})->layers.size(),
-            6u);
-  EXPECT_EQ(PeelForDisplay(Ball(), {.layers = 6, .full_triangles = 1}, {})->layers.size(), 5u);
-}
-
 TEST(PeelByShellsTest, ALayerIsWhatGoesLater) {
   const Volume ball = Ball();
   PeeledShells shells;
