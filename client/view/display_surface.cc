@@ -18,9 +18,9 @@ constexpr double kShellWidth = 1;
 
 // A surface may have this many times the triangles that are wanted before it is simplified: more
 // take long and are not seen.
-constexpr double kExcess = 4;
+constexpr double kExcess = 2;
 // Of surfaces made of cells, in cells: enough to take their steps off.
-constexpr float kCellReach = 1.5f;
+constexpr float kCellReach = 3;
 
 // Fewer triangles, ordered so that neighbors in space are neighbors in memory.
 void Simplify(SurfaceMesh& mesh, size_t most_triangles) {

@@ -42,6 +42,16 @@ exporting::Projection ProjectionOf(const DisplaySurface& surface, const PictureO
       kSamplesPerPixel * FontSize(options));
 }
 
+// Many curves must be thinner to be told apart; as in page/skeleton.js.
+double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
+  if (surface.vertices.empty()) return 1;
+  const auto [low, high] = exporting::BoxOf(surface.vertices);
+  double edge = 0, length = 0;
+  for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, high[axis] - low[axis]);
+  for (const ResultDocument::Edge& e : result.edges) length += e.length;
+  return length > 6 * edge ? std::max(0.35, std::sqrt(6 * edge / length)) : 1;
+}
+
 Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
                     const PictureOptions& options) {
   const exporting::Projection projection = ProjectionOf(surface, options);
@@ -54,7 +64,8 @@ Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
         {static_cast<float>(p.x), static_cast<float>(-p.y - above), static_cast<float>(p.depth)});
   }
   geometry.normals = NormalsOf(geometry.glass);
-  const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0;
+  const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0 *
+                           ThinnedBy(result, surface);
   geometry.beads = BeadsOf(result, projection, thickness);
   for (Bead& bead : geometry.beads) bead.y += static_cast<float>(above);
   return geometry;

@@ -49,6 +49,19 @@ TEST(PictureTest, IsTheSameForAnyNumberOfThreadsAndAnotherFromAnotherSide) {
   EXPECT_NE(*PictureOf(sample, Small(90), {}), picture);
 }
 
+TEST(PictureTest, CurvesThatAreLongTogetherAreDrawnThinner) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  const auto surface = *MakeDisplaySurface(sample.object, 10000, {});
+  const auto with_length = [&](double factor) {
+    ResultDocument result = *ParseResultDocument(exporting::JsonText(sample.result));
+    for (ResultDocument::Edge& edge : result.edges) edge.length *= factor;
+    return *RenderPng(result, surface, Small(), {});
+  };
+  EXPECT_EQ(with_length(1), with_length(0.5));
+  EXPECT_NE(with_length(1), with_length(20));
+  EXPECT_EQ(with_length(1000), with_length(10000));  // there is a limit
+}
+
 TEST(PictureTest, ATitleThatIsNotUtf8IsLeftOut) {
   const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   PictureOptions without = Small(), broken = Small();
