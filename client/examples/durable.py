@@ -19,7 +19,8 @@ from bccskel.v1 import job_service_pb2_grpc as jobs_grpc
 from bccskel.v1 import volume_pb2
 from bccskel.v1 import volume_service_pb2 as volumes
 from bccskel.v1 import volume_service_pb2_grpc as volumes_grpc
-from skeletonize import CHUNK_BYTES, add, assemble, declare, error_reason, torus
+from skeletonize import (CHUNK_BYTES, add, assemble, declare, empty_columns, error_reason,
+                         torus)
 
 CALL_S, STREAM_S = 60, 3600
 ENDED = (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED, jobs.JOB_STATE_CANCELLED)
@@ -103,7 +104,7 @@ def watch(channel, job, after_sequence=0):
 
 def read_skeleton(channel, job):
     """The result of a job that succeeded, over breaks."""
-    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "radius")}
+    columns = empty_columns()
     stub, pieces, summary = jobs_grpc.JobServiceStub(channel), 0, None
 
     def read_on():

@@ -149,7 +149,7 @@ def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=
 def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
     """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError; error_reason()
     takes it apart. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
-    columns = {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius")}
+    columns = empty_columns()
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
     for reply in stub.Skeletonize(requests(array, **volume), timeout=timeout):
@@ -160,6 +160,11 @@ def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
         elif reply.HasField("summary"):
             summary = reply.summary
     return assemble(columns, summary)
+
+
+def empty_columns():
+    """What add() fills and assemble() takes."""
+    return {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius")}
 
 
 def add(columns, chunk):

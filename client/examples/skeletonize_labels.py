@@ -17,7 +17,7 @@ import numpy as np
 from bccskel.v1 import skeletonization_service_pb2 as service
 from bccskel.v1 import skeletonization_service_pb2_grpc as service_grpc
 from bccskel.v1 import volume_pb2
-from skeletonize import CHUNK_BYTES, add, assemble, error_reason
+from skeletonize import CHUNK_BYTES, add, assemble, empty_columns, error_reason
 
 TYPES = {1: volume_pb2.LABEL_TYPE_UINT8, 2: volume_pb2.LABEL_TYPE_UINT16,
          4: volume_pb2.LABEL_TYPE_UINT32, 8: volume_pb2.LABEL_TYPE_UINT64}
@@ -58,8 +58,7 @@ def skeletonize_labels(channel, volume, spacing=1.0, on_progress=None, timeout=6
             on_progress(reply.label_progress)
         elif reply.HasField("skeleton_chunk"):
             if reply.skeleton_chunk.chunk.sequence == 0:
-                columns = {name: [] for name in
-                           ("kind", "node", "ends", "count", "point", "radius")}
+                columns = empty_columns()
             add(columns, reply.skeleton_chunk.chunk)
         elif reply.HasField("label_summary"):
             done += 1

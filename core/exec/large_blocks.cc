@@ -44,18 +44,32 @@ void* LargeBlocks::Take(size_t bytes) {
     ReleaseUnused();
     block = ::operator new(size, kAlignment);
   }
-  PreferHugePages(block, size);
+  PreferHugePages(block, bytes);  // what lies behind takes no memory until it is used
   return block;
 }
 
 void* LargeBlocks::TakeIdle(size_t size) {
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(idle_, size, &Idle::size);
-  if (found == idle_.end()) return nullptr;
+  if (found == idle_.end()) {
+    MakeRoom(size);
+    return nullptr;
+  }
   void* block = found->block;
   idle_bytes_ -= size;
   idle_.erase(found);
   return block;
+}
+
+void LargeBlocks::MakeRoom(size_t size) {
+  size_t freed = 0;
+  auto first_kept = idle_.begin();
+  for (; first_kept != idle_.end() && freed < size; ++first_kept) {
+    Free(first_kept->block);
+    freed += first_kept->size;
+  }
+  idle_.erase(idle_.begin(), first_kept);
+  idle_bytes_ -= freed;
 }
 
 void LargeBlocks::Give(void* block, size_t bytes) noexcept {

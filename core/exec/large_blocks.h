@@ -38,7 +38,10 @@ class LargeBlocks {
     bool seen;  // by ReleaseUnused()
   };
 
+  // Null where there is none of this size: then as much as that is given back to the system, the
+  // longest idle first, so that a job's peak is about what it would be by itself.
   void* TakeIdle(size_t size);
+  void MakeRoom(size_t size);
 
   const size_t most_idle_;
   mutable std::mutex mutex_;

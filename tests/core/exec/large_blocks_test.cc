@@ -50,6 +50,17 @@ TEST(LargeBlocks, KeepNoMoreIdleThanTheyMay) {
   EXPECT_EQ(blocks.idle_bytes(), 3 * kMiB);
 }
 
+TEST(LargeBlocks, GiveBackWhatIsIdleForWhatIsTakenAnew) {
+  LargeBlocks blocks(64 * kMiB);
+  void* all[3];
+  for (void*& block : all) block = blocks.Take(4 * kMiB);
+  for (void* block : all) blocks.Give(block, 4 * kMiB);
+  void* other = blocks.Take(6 * kMiB);  // of the twelve, eight go
+  EXPECT_EQ(blocks.idle_bytes(), 4 * kMiB);
+  blocks.Give(other, 6 * kMiB);
+  EXPECT_EQ(blocks.idle_bytes(), 10 * kMiB);
+}
+
 TEST(LargeBlocks, ReleaseWhatNobodyHasUsedSinceTheLastCall) {
   LargeBlocks blocks(64 * kMiB);
   void* used = blocks.Take(2 * kMiB);
@@ -64,10 +75,11 @@ TEST(LargeBlocks, ReleaseWhatNobodyHasUsedSinceTheLastCall) {
 }
 
 TEST(LargeBlocks, AreWhatLargeUninitializedVectorsUse) {
-  const size_t before = ProcessLargeBlocks().idle_bytes();
+  size_t before = 0;
   const void* first = nullptr;
   {
     const UninitializedVector<int> vector(2 * kMiB);
+    before = ProcessLargeBlocks().idle_bytes();
     first = vector.data();
   }
   EXPECT_EQ(ProcessLargeBlocks().idle_bytes(), before + 8 * kMiB);
