@@ -27,6 +27,9 @@
 namespace bccskel {
 namespace {
 
+// Positions in a BrickNeighborhood.
+constexpr size_t kAboveX = 8, kBelowX = 9, kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
+
 // The bricks of one bz and their stacks along y.
 struct Slab {
   BrickIndex first = 0;
@@ -63,8 +66,6 @@ class EuclideanScan {
   }
 
  private:
-  // Positions in a BrickNeighborhood.
-  static constexpr size_t kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
   // Some steps more than to the end of a stack: see kBorderRows of the loops.
   static constexpr size_t kFartherThanStack = 16;
@@ -159,11 +160,13 @@ uint32_t LargestRank(std::span<const float> squares) {
 // Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
 // tells what to try first.
 bool IsDeepInside(const Volume& object, BrickIndex brick) {
-  // Those on either side whose farthest point is nearer than 255 units to any point of the brick.
+  // Positions in a BrickNeighborhood, and how many bricks that way have no point farther than 255
+  // units from any point of the brick.
   static constexpr struct {
     size_t direction;
     int bricks;
-  } kReaches[] = {{12, 14}, {13, 14}, {8, 6}, {9, 6}, {10, 30}, {11, 30}};
+  } kReaches[] = {{kAboveZ, 14}, {kBelowZ, 14}, {kAboveX, 6},
+                  {kBelowX, 6},  {kAboveY, 30}, {kBelowY, 30}};
   for (const auto& [direction, bricks] : kReaches) {
     BrickIndex n = brick;
     for (int step = 0; step <= bricks; ++step, n = object.neighbors()[n][direction]) {

@@ -34,9 +34,8 @@ struct SweepTotals {
 // Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proofs
 //        of the rules need, whatever the order and the number of workers.
 // Cost:  in a cycle of several passes a brick is looked at in all of them until a whole cycle
-// changes
-//        neither it nor a brick around; then, and with one pass a cycle always, only after a
-//        change.
+//        changes neither it nor a brick around; then, and with one pass a cycle always, only after
+//        a change.
 // Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
 // Threads: worker w owns a contiguous range of bricks; one more meeting per pass than it has steps.
 // Errors:  CANCELLED, DEADLINE_EXCEEDED.
