@@ -7,14 +7,26 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import grpc
+import numpy as np
 
 import server_process
 from durable_case import (STUBS, Code, DurableTest, durable, example, jobs, large_requests,
                           large_volume, service, service_grpc, volume, volume_pb2, volumes)
 from server_process import SOURCE, ServerProcess
+
+from bccskel.v1 import rpc_details_pb2  # the stubs of durable_case made it possible
+
+
+def fault_of(status):
+    """The ErrorInfo of a stored error."""
+    for detail in status.details:
+        if detail.type_url.endswith("ErrorInfo"):
+            return rpc_details_pb2.ErrorInfo.FromString(detail.value)
+    return None
 
 
 class JobTest(DurableTest):
@@ -311,6 +323,26 @@ class CrashTest(DurableTest):
             self.assertEqual(self.create(name, request, options=self.get(job).options).name, job)
         listed = self.jobs.ListJobs(jobs.ListJobsRequest(page_size=1000)).jobs
         self.assertEqual(sorted(job.name for job in listed), sorted(made.values()))
+
+    def test_a_job_that_is_at_work_at_three_kills_is_given_up_and_others_go_on(self):
+        server = self.start()
+        noise = np.random.default_rng(1).random((2, 100, 100, 100)) < 0.45  # seconds of work
+        poison = self.create(durable.send_volume(
+            self.channel, *example.declare(noise, 1.0, (0, 0, 0), np.eye(3)))).name
+        others = [self.create(durable.send_volume(self.channel, *volume(24.0 + n))).name
+                  for n in range(3)]
+        for _ in range(3):
+            while self.get(poison).state != jobs.JOB_STATE_RUNNING:  # the test's time limit ends it
+                time.sleep(0.01)
+            self.kill(server)
+            server = self.start()
+        self.assertEqual(self.finish(poison)[-1], jobs.JOB_STATE_FAILED)
+        error = self.get(poison).error
+        self.assertEqual((error.code, fault_of(error).reason),
+                         (Code.INTERNAL.value[0], "POISONED"), error)
+        self.assertEqual(self.get(poison).attempts, 3)
+        for job in (*others, self.create(durable.send_volume(self.channel, *volume(40.0))).name):
+            self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
 
     def test_a_watch_goes_on_where_it_was(self):
         server = self.start()

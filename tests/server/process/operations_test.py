@@ -222,6 +222,28 @@ class LoadTest(unittest.TestCase):
             self.assertIn("connections are taken again", server.log_text())
 
 
+class StopTest(unittest.TestCase):
+    def test_sigterm_is_told_by_health_before_the_lame_duck_time_and_the_end(self):
+        lame_duck_s = 2.0
+        services = ["", *(service.full_name for service in server_process.services())]
+        self.assertGreaterEqual(len(services), 6)
+        with ServerProcess("--lame-duck-ms", str(int(1000 * lame_duck_s))) as server, \
+                grpc.insecure_channel(server.address) as channel:
+            self.assertEqual([health(channel, name) for name in services], [1] * len(services))
+            start = time.monotonic()
+            server.process.send_signal(signal.SIGTERM)
+            while health(channel) == 1:  # the test's time limit ends it
+                time.sleep(0.01)
+            with grpc.insecure_channel(  # who comes now is told, too, and not left without answer
+                    server.address, [("grpc.use_local_subchannel_pool", 1)]) as later:
+                self.assertEqual([health(later, name) for name in services], [2] * len(services))
+                with self.assertRaises(grpc.RpcError) as raised:
+                    example.skeletonize(later, example.torus())
+            self.assertEqual(example.error_reason(raised.exception), "DRAINING")
+            self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
+            self.assertGreaterEqual(time.monotonic() - start, lame_duck_s)
+
+
 @unittest.skipUnless(CLI, "the command line is not built")
 class CommandsTest(unittest.TestCase):
     def test_probe_tells_by_its_exit_code(self):

@@ -1,5 +1,6 @@
 """bccskel-server as a process, and the Python code of the interface, for the tests beside this."""
 
+import importlib
 import importlib.util
 import os
 import pathlib
@@ -95,6 +96,14 @@ def generate_stubs(folder):
                     f"--plugin=protoc-gen-grpc_python={os.environ['GRPC_PYTHON_PLUGIN']}",
                     *protos], check=True)
     sys.path.insert(0, str(folder))
+
+
+def services():
+    """The descriptors of all services of the interface. Needs the stubs."""
+    modules = [importlib.import_module(f"bccskel.v1.{path.stem}_pb2")
+               for path in sorted((SOURCE / "proto/bccskel/v1").glob("*.proto"))]
+    return [service for module in modules
+            for service in module.DESCRIPTOR.services_by_name.values()]
 
 
 def example(name="skeletonize"):
