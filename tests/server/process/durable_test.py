@@ -150,18 +150,31 @@ class JobTest(DurableTest):
 
 
 class EraseTest(DurableTest):
-    def test_deleting_erases_the_bytes(self):
+    def found(self, traces):
+        """Which of them are anywhere in the files."""
+        files = [path.read_bytes() for path in self.files()]
+        return {name for name, trace in traces.items() if any(trace in file for file in files)}
+
+    def test_deleting_erases_bytes_names_and_digests(self):
         self.start()
         before = self.files()
         declaration, data = volume()
-        name = durable.send_volume(self.channel, declaration, data)
-        job = self.create(name).name
+        name = durable.send_volume(self.channel, declaration, data, "uploads/of-patient-4711")
+        job = self.create(name, "request-of-patient-4711").name
         self.finish(job)
-        self.assertTrue(any(data in path.read_bytes() for path in self.files()))
+        occupied = next(at for at in range(len(data)) if data[at])
+        digest = hashlib.sha256(data).digest()
+        traces = {"volume": data[occupied:occupied + 64], "request": b"request-of-patient-4711",
+                  "upload": b"of-patient-4711", "job": job.removeprefix("jobs/").encode(),
+                  "volume's name": name.removeprefix("volumes/").encode(),
+                  "skeleton's digest": self.get(job).summary.sha256}
+        self.assertEqual(self.found(traces), set(traces))
+        traces |= {"digest": digest, "digest, written": digest.hex().encode()}
+        self.assertTrue(self.found(traces) & {"digest", "digest, written"})
         self.jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
         self.volumes.DeleteVolume(volumes.DeleteVolumeRequest(volume=name))
+        self.assertEqual(self.found(traces), set())
         left = self.files() - before
-        self.assertFalse([path for path in left if data[:4096] in path.read_bytes()])
         self.assertFalse([path for path in left if path.suffix not in (".db", ".db-wal", ".db-shm")
                           and path.stat().st_size > 0], left)
         self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: self.get(job))
