@@ -2,8 +2,10 @@
 
 import os
 import pathlib
+import shutil
 import socket
 import ssl
+import subprocess
 import tempfile
 import threading
 import time
@@ -18,6 +20,7 @@ from server_process import ServerProcess, run_to_end
 STUBS = tempfile.TemporaryDirectory()
 server_process.generate_stubs(STUBS.name)
 example = server_process.example()
+CLI = os.environ.get("BCCSKEL", "")
 
 
 def loops(channel):
@@ -121,6 +124,49 @@ class TlsTest(unittest.TestCase):
                 go_on.set()
                 self.assertTrue(list(replies)[-1].HasField("summary"))
             self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK)
+
+    def test_another_authority_for_clients_takes_the_place_of_the_first_one(self):
+        live = self.folder / "clients.pem"
+        shutil.copy(self.ours.pair.certificate, live)
+        ours, theirs = (grpc.ssl_channel_credentials(self.root, *authority.issue("client").bytes())
+                        for authority in (self.ours, self.theirs))
+        with ServerProcess(*self.flags(), "--tls-client-ca", str(live)) as server:
+            self.assertEqual(outcome(server.address, ours), grpc.StatusCode.OK)
+            self.assertEqual(outcome(server.address, theirs), grpc.StatusCode.UNAVAILABLE)
+            shutil.copy(self.theirs.pair.certificate, self.folder / "next.pem")
+            os.replace(self.folder / "next.pem", live)
+            end = time.monotonic() + server_process.TIMEOUT_S
+            while outcome(server.address, theirs) != grpc.StatusCode.OK:
+                self.assertLess(time.monotonic(), end)
+            self.assertEqual(outcome(server.address, ours), grpc.StatusCode.UNAVAILABLE)
+
+    @unittest.skipUnless(CLI, "the command line is not built")
+    def test_the_command_line_speaks_tls_and_shows_certificate_and_token(self):
+        token, line = run_to_end("--new-token", "acme").stdout.splitlines()
+        for name, text in (("tokens", line), ("token", token)):
+            (self.folder / name).write_text(text + "\n")
+        client = self.ours.issue("client")
+        volume, skeleton = self.folder / "torus.exr", self.folder / "torus.json"
+        subprocess.run([CLI, "generate", "torus", "--points", "5000", "-o", volume], check=True,
+                       capture_output=True, timeout=server_process.TIMEOUT_S)
+        trusted = ("--tls-ca", self.ours.pair.certificate)
+        shown = ("--tls-cert", client.certificate, "--tls-key", client.key)
+        token_file = ("--token-file", self.folder / "token")
+
+        def submit(address, *flags):
+            return subprocess.run(
+                [CLI, "submit", volume, "-o", skeleton, "--server", address, *flags],
+                capture_output=True, text=True, timeout=server_process.TIMEOUT_S, check=False)
+
+        with ServerProcess(*self.flags(), "--tls-client-ca", str(self.ours.pair.certificate),
+                           "--tokens", str(self.folder / "tokens")) as server:
+            ended = submit(server.address, *trusted, *shown, *token_file)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            self.assertTrue(skeleton.stat().st_size)
+            for flags in ((*trusted, *shown), (*trusted, *token_file), (*shown, *token_file),
+                          ("--tls-ca", self.theirs.pair.certificate, *shown, *token_file)):
+                refused = submit(server.address, "--timeout", "1", *flags)
+                self.assertNotEqual(refused.returncode, 0, flags)
 
     def test_the_metrics_say_when_the_certificate_ends_also_after_a_new_one_came(self):
         def end_on_page():
