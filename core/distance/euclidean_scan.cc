@@ -6,7 +6,7 @@
 
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_rows.h"
-#include "core/distance/nearest_background.h"
+#include "core/distance/border_bricks.h"
 #include "core/exec/status_macros.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
@@ -56,9 +56,9 @@ class EuclideanScan {
   }
 
   absl::Status Run(const exec::Context& context) {
-    Share(context, object_.brick_count(), [this](size_t n) { FillBeside(n); });
-    Share(context, slabs_.size(), [this](size_t n) { ScanSlab(slabs_[n]); });
-    Share(context, stack_feet_.size(), [this](size_t n) {
+    Share(context, object_.brick_count(), 256, [this](size_t n) { FillBeside(n); });
+    Share(context, slabs_.size(), 1, [&](size_t n) { ScanSlab(slabs_[n], context); });
+    Share(context, stack_feet_.size(), 8, [this](size_t n) {
       const BrickIndex foot = stack_feet_[n];
       ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveZ));
     });
@@ -70,13 +70,13 @@ class EuclideanScan {
   // Some steps more than to the end of a stack: see kBorderRows of the loops.
   static constexpr size_t kFartherThanStack = 16;
 
-  // Splits the items among the workers.
+  // Splits the items among the workers, who ask before every `at_once` of them whether to stop.
   template <typename Work>
-  static void Share(const exec::Context& context, size_t count, Work work) {
+  static void Share(const exec::Context& context, size_t count, size_t at_once, Work work) {
     context.Run([&](int worker) {
       const exec::Share mine = exec::ShareOf(count, worker, context.threads());
       for (size_t n = mine.begin; n < mine.end; ++n) {
-        if (n % 64 == 0 && context.ShouldStop()) return;
+        if (n % at_once == 0 && context.ShouldStop()) return;
         work(n);
       }
     });
@@ -133,11 +133,13 @@ class EuclideanScan {
     }
   }
 
-  void ScanSlab(const Slab& slab) const {
+  // Asks on its way whether to stop: a slab of a large object takes long.
+  void ScanSlab(const Slab& slab, const exec::Context& context) const {
     const SideRuns<uint32_t> runs = FindSideRuns<uint32_t>(view_.object, view_.neighbors,
                                                            slab.first, slab.last, kMaxExtentCells);
     for (BrickIndex n = slab.first; n < slab.last; ++n) {
       if (view_.neighbors[n][kBelowY] != view_.padding) continue;
+      if (context.ShouldStop()) return;
       ScanLayers(view_, lengths_, SublatticeOf(n), StackFrom(n, kAboveY), runs, slab.first);
     }
   }

@@ -32,8 +32,9 @@ class Context {
   std::stop_token stop;
   Clock::time_point deadline = Clock::time_point::max();
   std::function<void(const ShellProgress&)> on_shell;
-  // Called whenever the job asks whether it must stop, on whichever worker asks: there it can lend
-  // its thread to something more urgent. Comes back, does not throw; results do not depend on it.
+  // Called by Rest(), and whenever the job asks whether it must stop, on whichever worker asks:
+  // there it can lend its thread to something more urgent. Comes back, does not throw; results do
+  // not depend on it.
   std::function<void()> interlude = nullptr;
 
   // A stage gives a worker at least this many bricks: on smaller shares the workers would spend
@@ -61,10 +62,16 @@ class Context {
     }
   }
 
+  // Lends this thread where somebody wants it. Called where ShouldStop() is not asked for more than
+  // about a millisecond.
+  void Rest() const {
+    if (interlude) interlude();
+  }
+
   // True when the job was cancelled or its deadline has passed. Asked once per direction pass and
   // at least every 20 ms of work in every stage, never per point.
   bool ShouldStop() const {
-    if (interlude) interlude();
+    Rest();
     return stop.stop_requested() ||
            (deadline != Clock::time_point::max() && Clock::now() >= deadline);
   }

@@ -154,7 +154,10 @@ Shells SliceAll(const Volume& object, const DistanceField& distance, double widt
   std::vector<Shells::Range> ranges(object.brick_count());
   context.Run([&](int worker) {
     const exec::Share share = exec::ShareOf(object.brick_count(), worker, context.threads());
-    for (size_t n = share.begin; n < share.end; ++n) ranges[n] = slice(n, planes[n]);
+    for (size_t n = share.begin; n < share.end; ++n) {
+      if (n % 1024 == 0) context.Rest();
+      ranges[n] = slice(n, planes[n]);
+    }
   });
   return Shells(std::move(planes), std::move(ranges));
 }

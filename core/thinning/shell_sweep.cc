@@ -228,6 +228,7 @@ class ShellSweep {
     TakeUnsettled(UnsettledView(), worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
                   worker.to_do, worker.end_points_to_do);
     for (; at.step < rule_.steps(); ++at.step) {
+      if (index == 0) context_.Rest();
       rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks, worker.thin);
       if (at.step + 1 == rule_.steps()) MarkStubble(worker);
       Meet(index);  // nobody reads any more what the next step changes

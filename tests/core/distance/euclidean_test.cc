@@ -8,6 +8,7 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
 #include "core/lattice/directions.h"
+#include "core/shapes/shapes.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -182,6 +183,17 @@ TEST(Euclidean, StopsWhenAsked) {
   source.request_stop();
   EXPECT_EQ(ComputeDistance(object, DistanceKind::kEuclidean, context).status().code(),
             absl::StatusCode::kCancelled);
+}
+
+// A large object has few slabs, each of which takes long.
+TEST(Euclidean, AsksAgainAndAgainWhetherToStop) {
+  const Volume ball = *GenerateShape(Shape::kBall, {.points = 300'000});
+  int asked = 0;
+  exec::Context context;
+  context.interlude = [&asked] { ++asked; };
+  ASSERT_TRUE(ComputeDistance(ball, DistanceKind::kEuclidean, context).ok());
+  const auto bricks = static_cast<double>(ball.brick_count());
+  EXPECT_GT(asked, static_cast<int>(std::pow(bricks, 2.0 / 3)));
 }
 
 TEST(Euclidean, OfAnEmptyObjectIsEmpty) {
