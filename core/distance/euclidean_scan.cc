@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/distance/border_bricks.h"
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_rows.h"
-#include "core/distance/border_bricks.h"
 #include "core/exec/status_macros.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.

@@ -55,33 +55,113 @@ HWY_INLINE int NearestBit(uint32_t row, int32_t place) {
   return place - 2 * last <= 2 * first - place ? last : first;
 }
 
-NearestCell FindNearestTarget(const RowSearch& search, const BrickBits& object) {
-  constexpr size_t kRows = kBrickPoints / kBrickX;
+// The squares of the ways to boxes. Sums are rounded otherwise elsewhere: a hundred thousandth less
+// is less than any.
+HWY_INLINE hn::Vec<Floats> SquaresToBoxes(const Boxes& boxes, size_t n, const PointSearch& search) {
+  const Floats f32;
+  const std::array<int32_t, 3> at = {search.at.x, search.at.y, search.at.z};
+  auto sum = hn::Zero(f32);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto from = hn::Set(f32, static_cast<float>(at[axis]));
+    const auto below = hn::Sub(hn::LoadU(f32, boxes.low[axis].data() + n), from);
+    const auto above = hn::Sub(from, hn::LoadU(f32, boxes.high[axis].data() + n));
+    const auto way = hn::Max(hn::Max(below, above), hn::Zero(f32));
+    sum = hn::Add(sum, hn::Mul(hn::Mul(way, way), hn::Set(f32, search.squares[axis])));
+  }
+  return hn::Mul(sum, hn::Set(f32, 0.99999f));
+}
+
+// Bit n: lane n is less than the limit.
+HWY_INLINE uint32_t LanesBelow(hn::Vec<Floats> values, float limit) {
+  const Floats f32;
+  const auto below = hn::Lt(values, hn::Set(f32, limit));
+  uint32_t bits = 0;
+  hn::StoreMaskBits(f32, below, reinterpret_cast<uint8_t*>(&bits));
+  return bits & ((uint32_t{1} << hn::Lanes(f32)) - 1);
+}
+
+size_t FindNearBoxesTarget(const Boxes& boxes, const PointSearch& search, float below,
+                           NearBox* found) {
+  const Floats f32;
+  alignas(64) float squares[16];
+  size_t count = 0;
+  for (size_t n = 0; n < boxes.size(); n += hn::Lanes(f32)) {
+    const auto squared = SquaresToBoxes(boxes, n, search);
+    hn::Store(squared, f32, squares);
+    for (uint32_t near = LanesBelow(squared, below); near != 0; near &= near - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(near));
+      found[count++] = {static_cast<uint32_t>(n) + lane, squares[lane]};
+    }
+  }
+  return count;
+}
+
+// Where a point is, seen from a brick.
+struct SeenFrom {
+  int32_t place;  // along x, from the brick's first cell, in lattice coordinates
+  const float* squared_y;
+  const float* squared_z;
+};
+
+// The squares of the distances to the background of rows n, n + 1, ...
+HWY_INLINE hn::Vec<Floats> SquaresOfRows(const SeenFrom& seen, float square_x,
+                                         const BrickBits& object, size_t n) {
   const Floats f32;
   const Words i32;
   const hn::Rebind<uint16_t, Floats> u16;
   const auto* rows = reinterpret_cast<const uint16_t*>(object.words.data());
-  const auto before = hn::Set(i32, BitsBefore(search.place)), all = hn::Set(i32, 0xffff);
-  const auto place = hn::Set(f32, static_cast<float>(search.place));
-  const auto square_x = hn::Set(f32, search.square_x);
+  const auto background =
+      hn::Xor(hn::PromoteTo(i32, hn::LoadU(u16, rows + n)), hn::Set(i32, 0xffff));
+  const auto x = ToNearestBit(background, hn::Set(i32, BitsBefore(seen.place)),
+                              hn::Set(f32, static_cast<float>(seen.place)));
+  const auto squared_x = hn::Mul(hn::Mul(x, x), hn::Set(f32, square_x));
+  // A row's number is 4k + j: j repeats itself every 128 bits or, one lane at a time, is n
+  // modulo 4.
+  return hn::Add(hn::Add(squared_x, hn::LoadDup128(f32, seen.squared_y + n % kBrickY)),
+                 hn::LoadU(f32, seen.squared_z + n));
+}
+
+constexpr size_t kRows = kBrickPoints / kBrickX;
+
+HWY_NOINLINE void TakeNearest(const SeenFrom& seen, const float* squares, const BrickBits& object,
+                              LatticePoint low, NearestPoint& nearest) {
+  size_t row = 0;
+  for (size_t n = 1; n < kRows; ++n) row = squares[n] < squares[row] ? n : row;
+  const auto bits = static_cast<uint32_t>(~object.words[row >> 2] >> (16 * (row & 3)) & 0xffff);
+  const auto j = static_cast<int32_t>(row & 3), k = static_cast<int32_t>(row >> 2);
+  nearest = {low + LatticePoint{2 * NearestBit(bits, seen.place), 2 * j, 2 * k}, squares[row]};
+}
+
+HWY_INLINE void SearchBrick(const SeenFrom& seen, float square_x, const BrickBits& object,
+                            LatticePoint low, NearestPoint& nearest) {
+  const Floats f32;
   alignas(64) float squares[kRows];
   auto least = hn::Set(f32, std::numeric_limits<float>::infinity());
   for (size_t n = 0; n < kRows; n += hn::Lanes(f32)) {
-    const auto background = hn::Xor(hn::PromoteTo(i32, hn::LoadU(u16, rows + n)), all);
-    const auto x = ToNearestBit(background, before, place);
-    const auto squared_x = hn::Mul(hn::Mul(x, x), square_x);
-    const auto squared = hn::Add(hn::Add(squared_x, hn::LoadU(f32, search.squared_y + n)),
-                                 hn::LoadU(f32, search.squared_z + n));
+    const auto squared = SquaresOfRows(seen, square_x, object, n);
     hn::Store(squared, f32, squares + n);
     least = hn::Min(least, squared);
   }
-  NearestCell nearest = {hn::GetLane(hn::MinOfLanes(f32, least)), 0};
-  if (nearest.squared >= search.below) return nearest;
-  size_t row = 0;
-  while (squares[row] != nearest.squared) ++row;
-  const auto bits = static_cast<uint32_t>(~object.words[row >> 2] >> (16 * (row & 3)) & 0xffff);
-  nearest.bit = static_cast<int>(16 * row) + NearestBit(bits, search.place);
-  return nearest;
+  if (hn::AllFalse(f32, hn::Lt(least, hn::Set(f32, nearest.squared)))) return;
+  TakeNearest(seen, squares, object, low, nearest);
+}
+
+void FindNearestTarget(const BorderBricks& border, size_t group, std::span<const BrickBits> object,
+                       const PointSearch& search, NearestPoint& nearest) {
+  const Floats f32;
+  alignas(64) float squares[16];
+  for (size_t n = group * kBoxGroup; n < (group + 1) * kBoxGroup; n += hn::Lanes(f32)) {
+    const auto squared = SquaresToBoxes(border.boxes(), n, search);
+    hn::Store(squared, f32, squares);
+    for (uint32_t near = LanesBelow(squared, nearest.squared); near != 0; near &= near - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(near));
+      if (squares[lane] >= nearest.squared) continue;
+      const BorderBricks::Place& place = border.places()[n + lane];
+      const SeenFrom seen = {search.at.x - place.low.x, search.y.From(place.low.y - search.at.y),
+                             search.z.From(place.low.z - search.at.z)};
+      SearchBrick(seen, search.squares[0], object[place.index], place.low, nearest);
+    }
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -91,10 +171,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bccskel {
 
+HWY_EXPORT(FindNearBoxesTarget);
 HWY_EXPORT(FindNearestTarget);
 
-NearestCell FindNearestBackground(const RowSearch& search, const BrickBits& object) {
-  return HWY_DYNAMIC_DISPATCH(FindNearestTarget)(search, object);
+size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found) {
+  return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(boxes, search, below, found);
+}
+
+void FindNearestBackground(const BorderBricks& border, size_t group,
+                           std::span<const BrickBits> object, const PointSearch& search,
+                           NearestPoint& nearest) {
+  HWY_DYNAMIC_DISPATCH(FindNearestTarget)(border, group, object, search, nearest);
 }
 
 }  // namespace bccskel

@@ -1,37 +1,81 @@
 #ifndef BCCSKEL_CORE_DISTANCE_NEAREST_BACKGROUND_H_
 #define BCCSKEL_CORE_DISTANCE_NEAREST_BACKGROUND_H_
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "core/distance/border_bricks.h"
+#include "core/lattice/lattice_point.h"
 #include "core/volume/brick.h"
 
 namespace bccskel {
 
-// Whether a brick has no background.
-inline bool IsFull(const BrickBits& bits) {
-  uint64_t all = ~uint64_t{0};
-  for (uint64_t word : bits.words) all &= word;
-  return ~all == 0;
-}
+// Squares of the ways of n lattice coordinates along an axis, as floats; each is there `kCopies`
+// times in a row, and those of one parity of n follow each other.
+template <size_t kCopies>
+class SquaredWays {
+ public:
+  explicit SquaredWays(double unit) : unit_(unit) {}
 
-// Where a point is, seen from a brick. Shapes: both arrays have a number for each of the brick's 32
-// rows, row 4k + j.
-struct RowSearch {
-  int32_t place = 0;   // along x, from the brick's first cell, in lattice coordinates
-  float square_x = 1;  // of a lattice coordinate along x
-  const float* squared_y = nullptr;
-  const float* squared_z = nullptr;
-  float below = 0;  // what has this square or a larger one is of no interest
+  // Those of n, n + 2, n + 4, ... Needs: Reach() for all of them.
+  const float* From(int32_t n) const {
+    return squares_[n & 1].data() + (n >> 1) * static_cast<ptrdiff_t>(kCopies) + middle_;
+  }
+  // Makes room for -most to most.
+  void Reach(int32_t most) {
+    if (most <= most_) return;
+    most_ = 2 * most;
+    for (int32_t odd : {0, 1}) {
+      std::vector<float>& squares = squares_[static_cast<size_t>(odd)];
+      squares.clear();
+      for (int32_t n = odd - most_; n <= most_; n += 2) {
+        const double length = unit_ * n;
+        squares.insert(squares.end(), kCopies, static_cast<float>(length * length));
+      }
+    }
+    middle_ = static_cast<ptrdiff_t>(kCopies) * (most_ / 2);
+  }
+
+ private:
+  double unit_;
+  int32_t most_ = -1;
+  ptrdiff_t middle_ = 0;
+  std::array<std::vector<float>, 2> squares_;  // by parity
 };
 
-struct NearestCell {
-  float squared = 0;  // infinite where the brick has no background
-  int bit = 0;        // of a cell of interest
+// Boxes that may hold something nearer to a point than a distance.
+struct NearBox {
+  uint32_t box = 0;
+  float squared = 0;  // no more than the square of the distance to anything in the box
 };
 
-// The background cell of a brick that is nearest to a point. The square is x * x * square_x + y + z
-// in this order, with a rounding after each step.
-NearestCell FindNearestBackground(const RowSearch& search, const BrickBits& object);
+// From where background is looked for.
+struct PointSearch {
+  LatticePoint at;
+  std::array<float, 3> squares = {1, 1, 1};  // of a lattice coordinate along each axis
+  // As long as the object is wide.
+  const SquaredWays<1>& y;
+  const SquaredWays<kBrickY>& z;
+};
+
+// The nearest background point so far, and the square of its distance.
+struct NearestPoint {
+  LatticePoint at;
+  float squared = 0;
+};
+
+// The boxes that may hold something nearer. Shapes: `found` has room for all boxes.
+// Returns: how many were found.
+size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found);
+
+// Looks for a nearer background point in a group of bricks. The square of a distance is
+// x * x * squares[0] + y + z in this order, with a rounding after each step.
+void FindNearestBackground(const BorderBricks& border, size_t group,
+                           std::span<const BrickBits> object, const PointSearch& search,
+                           NearestPoint& nearest);
 
 }  // namespace bccskel
 

@@ -54,6 +54,24 @@ TEST(ExactRadii, AreTheSameForEveryInstructionSetAndWithoutTheFieldsValues) {
   exec::ChooseInstructionSet("");
 }
 
+// Two blocks of full bricks far from each other: all background lies in bricks that are not stored.
+TEST(ExactRadii, AreFoundWhereBricksAreMissing) {
+  VolumeBuilder builder({400, 60, 60});
+  for (int32_t at : {2, 20}) {
+    for (Sublattice sublattice : kSublattices) {
+      for (int32_t n = 0; n < 8; ++n) {
+        const BrickCoordinates brick = {at + (n & 1), at / 4 + (n >> 1 & 1), 2 + (n >> 2),
+                                        sublattice};
+        builder.Brick(BrickKey(brick)).words.fill(~uint64_t{0});
+      }
+    }
+  }
+  const Volume object = *std::move(builder).Build();
+  const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
+  const DistanceField none(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(), 0);
+  EXPECT_EQ(*ExactRadii(object, object, none, {}), *ExactRadii(object, object, *euclidean, {}));
+}
+
 TEST(ExactRadius, OfABackgroundPointIsZero) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});

@@ -1,0 +1,117 @@
+#include "core/distance/border_bricks.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "core/lattice/directions.h"
+#include "core/volume/brick_neighbors.h"
+
+namespace bccskel {
+namespace {
+
+constexpr LatticePoint kOneCell = {2, 2, 2};
+
+BrickBits BackgroundIn(const BrickBits& object) {
+  BrickBits background;
+  for (size_t k = 0; k < background.words.size(); ++k) background.words[k] = ~object.words[k];
+  return background;
+}
+
+LatticePoint Lower(LatticePoint a, LatticePoint b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+LatticePoint Upper(LatticePoint a, LatticePoint b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+std::array<float, 3> AxesOf(LatticePoint p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+void Append(const std::array<float, 3>& low, const std::array<float, 3>& high, Boxes& boxes) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    boxes.low[axis].push_back(low[axis]);
+    boxes.high[axis].push_back(high[axis]);
+  }
+}
+
+void Pad(Boxes& boxes) {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  while (boxes.size() % kBoxGroup != 0) {
+    Append({kFar, kFar, kFar}, {kFar, kFar, kFar}, boxes);
+  }
+}
+
+}  // namespace
+
+BorderBricks::BorderBricks(const Volume& object) {
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    AddBackgroundOf(object, n);
+    AddBackgroundBeside(object, n);
+  }
+  Pad(boxes_);
+  Group();
+}
+
+// Needs: some bits are set.
+BorderBricks::CellBox BorderBricks::BoxAround(const BrickBits& bits, BrickCoordinates brick) {
+  uint64_t any = 0;
+  int first = kBrickZ, last = 0;
+  for (int k = 0; k < kBrickZ; ++k) {
+    const uint64_t word = bits.words[static_cast<size_t>(k)];
+    any |= word;
+    if (word == 0) continue;
+    first = std::min(first, k);
+    last = k;
+  }
+  const uint64_t two_rows = any | any >> 32;
+  const auto row = static_cast<uint16_t>(two_rows | two_rows >> 16);
+  const int low = 64 * first + (std::countr_zero(any) & ~15) + std::countr_zero(row);
+  const int high = 64 * last + ((63 - std::countl_zero(any)) & ~15) + 15 - std::countl_zero(row);
+  return {PointOf(brick, low), PointOf(brick, high)};
+}
+
+void BorderBricks::AddBackgroundOf(const Volume& object, BrickIndex n) {
+  const BrickBits& bits = object.bricks()[n];
+  if (IsFull(bits)) return;
+  const BrickCoordinates brick = object.keys()[n].coordinates();
+  Add({n, PointOf(brick, 0)}, BoxAround(BackgroundIn(bits), brick));
+}
+
+// Of bricks that are not stored, what may lie beside points of brick n.
+void BorderBricks::AddBackgroundBeside(const Volume& object, BrickIndex n) {
+  const auto none = static_cast<BrickIndex>(object.brick_count());
+  const BrickNeighborhood& near = object.neighbors()[n];
+  if (std::ranges::find(near, none) == near.end()) return;
+  const BrickCoordinates brick = object.keys()[n].coordinates();
+  const CellBox points = BoxAround(object.bricks()[n], brick);
+  for (int position = 0; position < kNeighborCount; ++position) {
+    if (near[static_cast<size_t>(position)] != none) continue;
+    const BrickCoordinates other = NeighborBrick(brick, position);
+    const LatticePoint first = PointOf(other, 0), last = PointOf(other, kBrickPoints - 1);
+    const CellBox box = {Upper(points.low - kOneCell, first), Lower(points.high + kOneCell, last)};
+    if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) continue;
+    Add({none, first}, box);
+  }
+}
+
+void BorderBricks::Add(const Place& place, const CellBox& box) {
+  places_.push_back(place);
+  Append(AxesOf(box.low), AxesOf(box.high), boxes_);
+}
+
+void BorderBricks::Group() {
+  for (size_t n = 0; n < places_.size(); n += kBoxGroup) {
+    const size_t count = std::min(kBoxGroup, places_.size() - n);
+    std::array<float, 3> low, high;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::ranges::min(std::span(boxes_.low[axis]).subspan(n, count));
+      high[axis] = std::ranges::max(std::span(boxes_.high[axis]).subspan(n, count));
+    }
+    Append(low, high, groups_);
+  }
+  Pad(groups_);
+}
+
+}  // namespace bccskel

@@ -1,0 +1,72 @@
+#ifndef BCCSKEL_CORE_DISTANCE_BORDER_BRICKS_H_
+#define BCCSKEL_CORE_DISTANCE_BORDER_BRICKS_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Whether a brick has no background.
+inline bool IsFull(const BrickBits& bits) {
+  uint64_t all = ~uint64_t{0};
+  for (uint64_t word : bits.words) all &= word;
+  return ~all == 0;
+}
+
+// Boxes along the axes, in lattice coordinates, which floats hold exactly; by axis, then by box.
+// Both sides belong to the box. Padded to a multiple of kBoxGroup by boxes that are infinitely far.
+struct Boxes {
+  std::array<std::vector<float>, 3> low;
+  std::array<std::vector<float>, 3> high;
+
+  size_t size() const { return low[0].size(); }
+};
+inline constexpr size_t kBoxGroup = 64;
+
+// Does:  lists where the background begins: the bricks that hold background points with an object
+//        point beside them, each with a box around its background, in groups with a box around each
+//        group.
+// Why it is right: of the points of the background, a nearest one to an object point p has an
+//   object point beside it. If it is two or more away from p along an axis, the next point along
+//   that axis toward p is nearer to p and so none of the background; else p itself is beside it.
+// Cost:  40 bytes for each brick with background; some 10 ns for each brick of the object.
+class BorderBricks {
+ public:
+  struct Place {
+    BrickIndex index = 0;  // the padding brick if it is not stored
+    LatticePoint low;      // its first cell
+  };
+
+  BorderBricks() = default;
+  explicit BorderBricks(const Volume& object);
+
+  // Place n has box n; places are not padded.
+  std::span<const Place> places() const { return places_; }
+  const Boxes& boxes() const { return boxes_; }
+  // Box n is around the boxes from n * kBoxGroup on.
+  const Boxes& groups() const { return groups_; }
+
+ private:
+  struct CellBox {
+    LatticePoint low, high;
+  };
+  static CellBox BoxAround(const BrickBits& bits, BrickCoordinates brick);
+  void AddBackgroundOf(const Volume& object, BrickIndex n);
+  void AddBackgroundBeside(const Volume& object, BrickIndex n);
+  void Add(const Place& place, const CellBox& box);
+  void Group();
+
+  std::vector<Place> places_;
+  Boxes boxes_;
+  Boxes groups_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_DISTANCE_BORDER_BRICKS_H_
