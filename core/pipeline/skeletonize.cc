@@ -95,8 +95,8 @@ DistanceField NoDistances(DistanceKind kind) {
   return DistanceField(kind, ChamferWeights(), DistanceField::Values(), 0);
 }
 
-// Radii of few points are searched for one by one. A search costs about as much as measuring a brick
-// (0.6 to 2 on objects of 850,000 points) and needs no memory; both give the same bits.
+// Radii of few points are searched for one by one. A search costs about as much as measuring one
+// brick (0.6 to 2 on objects of 850,000 points) and needs no memory; both give the same bits.
 absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceField& distance,
                           const exec::Context& context) {
   if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
