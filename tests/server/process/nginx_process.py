@@ -19,18 +19,31 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def configure(folder, server_socket, port):
-    """The committed files, with this site's listener and upstream."""
+def rewrite(path, changes):
+    """Replaces all of them in the file, which has them all."""
+    text = path.read_text()
+    for old, new in changes.items():
+        assert old in text, f"{path}: no {old}"
+        text = text.replace(old, new)
+    path.write_text(text)
+
+
+def configure(folder, server_socket, port, pair=None):
+    """The committed files, with this site's listener and upstream: with a pair of certificate and key
+    the example of a listener with TLS."""
     site = folder / "nginx"
     shutil.copytree(CONFIGURATION, site)
-    (site / "listeners" / "plain.conf").write_text(f"listen 127.0.0.1:{port} http2;\n")
-    upstream = site / "upstreams" / "socket.conf"
-    text = upstream.read_text()
-    assert "/run/bccskel/server.sock" in text
-    upstream.write_text(text.replace("/run/bccskel/server.sock", server_socket))
+    plain, example = site / "listeners/plain.conf", site / "listeners/tls.conf.example"
+    if pair is None:
+        rewrite(plain, {"listen 8080": f"listen 127.0.0.1:{port}"})
+    else:
+        example.rename(plain)
+        rewrite(plain, {"listen 8443": f"listen 127.0.0.1:{port}",
+                        "/etc/nginx/tls/tls.crt": str(pair.certificate),
+                        "/etc/nginx/tls/tls.key": str(pair.key)})
+    rewrite(site / "upstreams/socket.conf", {"/run/bccskel/server.sock": server_socket})
     # Two of them at a time must not share the files that nginx writes.
-    main = site / "nginx.conf"
-    main.write_text(main.read_text().replace("/tmp/nginx", f"{folder}/written"))
+    rewrite(site / "nginx.conf", {"/tmp/nginx": f"{folder}/written"})
     return site
 
 
@@ -44,10 +57,10 @@ def wait_for(port, process):
 
 
 @contextlib.contextmanager
-def nginx_in_front(folder, server_socket):
+def nginx_in_front(folder, server_socket, pair=None):
     """The address to call while nginx runs. `folder` is a pathlib.Path of our own."""
     port = free_port()
-    site = configure(folder, server_socket, port)
+    site = configure(folder, server_socket, port, pair)
     user = " user root;" if os.geteuid() == 0 else ""  # who may open the socket
     process = subprocess.Popen([NGINX, "-p", site, "-c", site / "nginx.conf", "-g",
                                 f"daemon off;{user}"], stderr=subprocess.DEVNULL)

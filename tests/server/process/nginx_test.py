@@ -10,6 +10,7 @@ import numpy as np
 
 import nginx_process
 import server_process
+from certificates import Authority
 from nginx_process import nginx_in_front
 from server_process import ServerProcess
 
@@ -26,8 +27,8 @@ class NginxTest(unittest.TestCase):
         self.path = pathlib.Path(self.folder.name)
         self.socket = f"{self.path}/server.sock"
 
-    def front(self):
-        front = nginx_in_front(self.path, self.socket)
+    def front(self, pair=None):
+        front = nginx_in_front(self.path, self.socket, pair)
         address = front.__enter__()
         self.addCleanup(front.__exit__, None, None, None)
         return address
@@ -43,6 +44,15 @@ class NginxTest(unittest.TestCase):
             ways = [example.skeletonize(self.channel(address), example.torus()).summary.sha256
                     for address in (front, f"unix:{self.socket}")]
         self.assertEqual(ways[0], ways[1])
+
+    def test_the_example_of_a_listener_with_tls_works(self):
+        authority = Authority(self.path, "ours")
+        front = self.front(authority.issue("front"))
+        credentials = grpc.ssl_channel_credentials(authority.certificate_bytes())
+        with (ServerProcess(listen=f"unix:{self.socket}"),
+              grpc.secure_channel(front, credentials) as channel):
+            skeleton = example.skeletonize(channel, example.torus())
+        self.assertEqual(skeleton.summary.certificate.skeleton.loops, 1)
 
     def test_a_volume_of_megabytes_passes(self):
         """nginx by itself stops at 1 MiB."""
