@@ -41,7 +41,7 @@ void BranchPruner::Judge(LatticePoint end) {
   if (worth.has_value()) turns_.emplace(*worth, end);
 }
 
-std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) const {
+std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) {
   if (!branch.junction.has_value()) return std::nullopt;
   if (std::ranges::any_of(branch.points, [&](LatticePoint p) { return keep_.contains(p); })) {
     return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) co
   return worth < threshold_ ? std::optional(worth) : std::nullopt;
 }
 
-double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) const {
+double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) {
   switch (rule_) {
     case PruningRule::kLength:
       return LengthTo(branch, junction);
@@ -70,15 +70,18 @@ double BranchPruner::BallAt(LatticePoint junction) const {
   return ball;
 }
 
-// How far the branch reaches out of the junction's ball, its slope given.
-double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) const {
-  const double ball = BallAt(junction);
+// How far the branch reaches out of the junction's ball, its slope given. Ribs are worth less than
+// the default margin, short ones less than long ones.
+double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) {
+  const double ball = BallAt(junction), enough = std::max(threshold_, kDefaultSlopeMargin);
   double worth = -std::numeric_limits<double>::infinity();
   for (LatticePoint p : branch.points) {
     worth = std::max(worth, 0.5 * set_.Between(p, junction) + set_.RadiusOf(p) - ball);
-    if (worth >= threshold_) break;  // the rest cannot make it spurious
+    if (worth >= enough) break;  // the rest cannot make it spurious
   }
-  return worth;
+  if (worth < kDefaultSlopeMargin || !ribs_.IsRib(set_, branch)) return worth;
+  const double length = set_.Between(branch.points[0], junction);
+  return kDefaultSlopeMargin * length / (length + 1);
 }
 
 double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) const {

@@ -11,6 +11,7 @@
 #include "core/exec/context.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/prune.h"
+#include "core/pruning/rib_finder.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
@@ -31,9 +32,14 @@ class BranchPruner {
 
   // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
   // The arguments must outlive the pruner.
-  BranchPruner(ThinSet& set, PruningRule rule, double threshold, const PointSet& keep,
-               const exec::Context& context)
-      : set_(set), rule_(rule), threshold_(threshold), keep_(keep), context_(context) {}
+  BranchPruner(ThinSet& set, const Volume& object, PruningRule rule, double threshold,
+               const PointSet& keep, const exec::Context& context)
+      : set_(set),
+        ribs_(object),
+        rule_(rule),
+        threshold_(threshold),
+        keep_(keep),
+        context_(context) {}
 
   // Returns how many branches went. Stops early when the context says so.
   uint64_t Run(const OnRemoved& on_removed = [](LatticePoint, double) {});
@@ -44,9 +50,9 @@ class BranchPruner {
   void JudgeAround(LatticePoint p);
   void JudgeBeyond(LatticePoint p);
 
-  std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
-  double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
-  double WorthBySlope(const FreeBranch& branch, LatticePoint junction) const;
+  std::optional<double> WorthIfSpurious(const FreeBranch& branch);
+  double WorthOf(const FreeBranch& branch, LatticePoint junction);
+  double WorthBySlope(const FreeBranch& branch, LatticePoint junction);
   double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
   std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
@@ -56,6 +62,7 @@ class BranchPruner {
   using Turn = std::pair<double, LatticePoint>;
 
   ThinSet& set_;
+  RibFinder ribs_;
   const PruningRule rule_;
   const double threshold_;
   const PointSet& keep_;

@@ -4,6 +4,7 @@
 #include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
 #include "core/pruning/branch_pruner.h"
+#include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
 #include "core/pruning/simple_points.h"
 #include "core/pruning/thin_set.h"
@@ -12,24 +13,11 @@
 namespace bccskel {
 namespace {
 
-constexpr double kDefaultSlopeMargin = 4;
-constexpr double kDefaultRelativeLength = 1;
-constexpr double kDefaultPersistence = 6;
-
 // In the rule's own unit.
 double ThresholdOf(const PruningOptions& options, const Placement& placement) {
-  if (options.rule == PruningRule::kLength) {
-    return options.threshold / WorldUnitsPerLatticeUnit(placement);
-  }
-  if (options.threshold != 0) return options.threshold;
-  switch (options.rule) {
-    case PruningRule::kRelativeLength:
-      return kDefaultRelativeLength;
-    case PruningRule::kPersistence:
-      return kDefaultPersistence;
-    default:
-      return kDefaultSlopeMargin;
-  }
+  const double threshold = WithDefaults(options).threshold;
+  const bool in_world = options.rule == PruningRule::kLength;
+  return in_world ? threshold / WorldUnitsPerLatticeUnit(placement) : threshold;
 }
 
 PruningRule RuleOfLevels(const PruningOptions& options, const ThinCurves& curves) {
@@ -80,9 +68,10 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
-    pruned.branches_removed = BranchPruner(set, options.rule, threshold, kept, context).Run();
+    pruned.branches_removed =
+        BranchPruner(set, object, options.rule, threshold, kept, context).Run();
   }
-  pruned.levels = PruningLevelsOf(set, RuleOfLevels(options, curves), kept, context);
+  pruned.levels = PruningLevelsOf(set, object, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
     ExactRadius radius(object, field);
     PlaceTips(set, radius, object, kept, context);

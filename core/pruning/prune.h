@@ -20,8 +20,8 @@ namespace bccskel {
 enum class PruningRule : uint8_t {
   // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default, 16 where voxels
   // were converted exactly: see ForSteps()) at all their points p: the radius falls about as fast
-  // as
-  // the branch leaves the junction's ball, so the branch is a bump of the surface.
+  // as the branch leaves the junction's ball, so the branch is a bump of the surface. And ribs of
+  // flat limbs (rib_finder.h), which count as less than 4.
   kSlope,
   // Those shorter than the threshold, in world units.
   kLength,
@@ -31,6 +31,9 @@ enum class PruningRule : uint8_t {
   kPersistence,
   kNone,
 };
+
+// Of the slope rule, lattice units.
+inline constexpr double kDefaultSlopeMargin = 4;
 
 // Whether ends are moved along the ridge of the distances to where it ends.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/distance/chamfer_weights.h"
+#include "core/distance/places.h"
 #include "core/skeleton/curve_smoothing.h"
 #include "core/skeleton/stop_poll.h"
 
@@ -18,42 +18,12 @@ constexpr int kRings = 3;            // of samples from the curve to the rim of 
 constexpr double kLeastStep = 1;     // between samples, in lattice units
 constexpr size_t kTangentReach = 2;  // points on either side that give the curve's way
 
-double Dot(const Coordinates& a, const Coordinates& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Coordinates Cross(const Coordinates& a, const Coordinates& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// a + t * b.
-Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
-
-// Two directions of length 1, across `way` and each other. Needs: `way` has length 1.
-std::array<Coordinates, 2> Across(const Coordinates& way) {
-  const auto least = std::ranges::min_element(way, {}, [](double v) { return std::abs(v); });
-  Coordinates axis = {0, 0, 0};
-  axis[static_cast<size_t>(least - way.begin())] = 1;
-  Coordinates u = Cross(way, axis);
-  u = Sum({0, 0, 0}, 1 / std::sqrt(Dot(u, u)), u);
-  return {u, Cross(way, u)};
-}
-
-// The nearest whole number. Needs: more than -1024. No call of the library, which has to ask how to
-// round.
-int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }
-
-// Places are in lattice units along the axes of the lattice, so stretched where spacings differ.
 class DiscCenters {
  public:
   DiscCenters(const Volume& object, const DistanceField& field)
-      : object_(object), field_(field), scale_(AxisScaleOf(object.placement())) {}
+      : object_(object), field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
 
-  Coordinates PlaceOf(LatticePoint p) const {
-    return {scale_[0] * p.x, scale_[1] * p.y, scale_[2] * p.z};
-  }
+  Coordinates PlaceOf(LatticePoint p) const { return bccskel::PlaceOf(p, scale_); }
 
   // The way from `middle` to the center of the disc across `way` around it, along the disc.
   Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) {
@@ -65,7 +35,7 @@ class DiscCenters {
     for (int i = -rings; i <= rings; ++i) {
       for (int j = -rings; j <= rings; ++j) {
         if (i * i + j * j > rings * rings) continue;
-        const LatticePoint p = PointNear(Sum(Sum(middle, i * step, u), j * step, v));
+        const LatticePoint p = PointNear(Sum(Sum(middle, i * step, u), j * step, v), scale_);
         const double weight = SquaredDistance(p);
         sum = Sum(sum, weight, Sum(PlaceOf(p), -1, middle));
         weights += weight;
@@ -86,49 +56,19 @@ class DiscCenters {
   }
 
  private:
-  // A lattice point next to the place: the nearest where spacings are equal.
-  LatticePoint PointNear(const Coordinates& place) const {
-    std::array<std::array<int32_t, 3>, 2> best;
-    std::array<double, 2> squares = {0, 0};
-    for (int32_t odd : {0, 1}) {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const double at = place[axis] / scale_[axis];
-        const int32_t near = 2 * Rounded((at - odd) / 2) + odd;
-        const double off = scale_[axis] * (near - at);
-        best[static_cast<size_t>(odd)][axis] = near;
-        squares[static_cast<size_t>(odd)] += off * off;
-      }
-    }
-    const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
-    return {x, y, z};
-  }
-
   double SquaredDistance(LatticePoint p) {
     if (!object_.extent().Contains(p)) return 0;
     const BrickAddress address = AddressOf(p);
-    const std::optional<BrickIndex> brick = Find(address.brick);
+    const std::optional<BrickIndex> brick = bricks_.Find(address.brick);
     if (!brick.has_value()) return 0;
     const double distance = field_.ToLatticeUnits(field_.At(*brick, address.bit));
     return distance * distance;
   }
 
-  // Samples lie close together, most of them in the same two bricks.
-  std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
-    LastBrick& last = last_[static_cast<size_t>(brick.sublattice)];
-    const BrickKey key(brick);
-    if (last.key != key) last = {key, object_.Find(key)};
-    return last.brick;
-  }
-
-  struct LastBrick {
-    std::optional<BrickKey> key;
-    std::optional<BrickIndex> brick;
-  };
-
   const Volume& object_;
   const DistanceField& field_;
   const AxisScale scale_;
-  std::array<LastBrick, 2> last_;  // by sublattice
+  NearbyBricks bricks_;
 };
 
 // The way of the curve at a place, of length 1; none where it stands still.

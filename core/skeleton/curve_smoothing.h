@@ -1,17 +1,14 @@
 #ifndef BCCSKEL_CORE_SKELETON_CURVE_SMOOTHING_H_
 #define BCCSKEL_CORE_SKELETON_CURVE_SMOOTHING_H_
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/distance/places.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel {
-
-// A place or a way, by axis.
-using Coordinates = std::array<double, 3>;
 
 // Closed curves have no junction; their first and last point are the same.
 enum class CurveShape : uint8_t { kOpen, kClosed };

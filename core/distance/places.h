@@ -1,0 +1,97 @@
+#ifndef BCCSKEL_CORE_DISTANCE_PLACES_H_
+#define BCCSKEL_CORE_DISTANCE_PLACES_H_
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "core/distance/chamfer_weights.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// A place between lattice points, or a way from one to another: in lattice units along the axes of
+// the lattice, so stretched where spacings differ.
+using Coordinates = std::array<double, 3>;
+
+inline double Dot(const Coordinates& a, const Coordinates& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Coordinates Cross(const Coordinates& a, const Coordinates& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// a + t * b.
+inline Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
+  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
+}
+
+// Of length 1. Needs: `way` has a length.
+inline Coordinates Unit(const Coordinates& way) {
+  return Sum({0, 0, 0}, 1 / std::sqrt(Dot(way, way)), way);
+}
+
+// Two directions of length 1, across `way` and each other. Needs: `way` has length 1.
+inline std::array<Coordinates, 2> Across(const Coordinates& way) {
+  const auto least = std::ranges::min_element(way, {}, [](double v) { return std::abs(v); });
+  Coordinates axis = {0, 0, 0};
+  axis[static_cast<size_t>(least - way.begin())] = 1;
+  const Coordinates u = Unit(Cross(way, axis));
+  return {u, Cross(way, u)};
+}
+
+inline Coordinates PlaceOf(LatticePoint p, const AxisScale& scale) {
+  return {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
+}
+
+// The nearest whole number. Needs: more than -1024. No call of the library, which has to ask how to
+// round.
+inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }
+
+// A lattice point next to the place: the nearest where spacings are equal. It may lie outside of
+// the extent. Needs: no coordinate of the place below -2000.
+inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {
+  std::array<std::array<int32_t, 3>, 2> best;
+  std::array<double, 2> squares = {0, 0};
+  for (int32_t odd : {0, 1}) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double at = place[axis] / scale[axis];
+      const int32_t near = 2 * Rounded((at - odd) / 2) + odd;
+      const double off = scale[axis] * (near - at);
+      best[static_cast<size_t>(odd)][axis] = near;
+      squares[static_cast<size_t>(odd)] += off * off;
+    }
+  }
+  const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
+  return {x, y, z};
+}
+
+// Finds bricks of points that lie close together, most of them in the same two bricks.
+class NearbyBricks {
+ public:
+  // Needs: `object` outlives this.
+  explicit NearbyBricks(const Volume& object) : object_(object) {}
+
+  std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
+    LastBrick& last = last_[static_cast<size_t>(brick.sublattice)];
+    const BrickKey key(brick);
+    if (last.key != key) last = {key, object_.Find(key)};
+    return last.brick;
+  }
+
+ private:
+  struct LastBrick {
+    std::optional<BrickKey> key;
+    std::optional<BrickIndex> brick;
+  };
+
+  const Volume& object_;
+  std::array<LastBrick, 2> last_;  // by sublattice
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_DISTANCE_PLACES_H_

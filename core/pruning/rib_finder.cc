@@ -1,0 +1,76 @@
+#include "core/pruning/rib_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bccskel {
+namespace {
+
+constexpr double kLeastWidth = 2.0 / 3;  // half the width where ribs are, in lengths of the branch
+constexpr double kFlatness = 2.5;        // the same in radii
+constexpr double kReach = 1.5;           // of rays, in lengths of the branch
+constexpr size_t kPlaces = 5;            // a tenth of the branch apart, the first next to its end
+constexpr size_t kNarrowPlaces = 2;      // that many show that it is no rib
+constexpr size_t kWayReach = 5;          // points on either side that give the branch's way
+constexpr int kSquare = 4;               // rays go through the rim of a square of 9 by 9 points
+
+}  // namespace
+
+RibFinder::RibFinder(const Volume& object)
+    : object_(object), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+
+bool RibFinder::IsRib(const ThinSet& set, const FreeBranch& branch) {
+  const double length = set.Between(branch.points[0], *branch.junction);
+  size_t narrow = 0;
+  for (size_t place = 1; place <= kPlaces && narrow < kNarrowPlaces; ++place) {
+    const size_t n = branch.points.size() * place / (2 * kPlaces);
+    const LatticePoint p = branch.points[n];
+    if (!IsWideAcross(WayAt(branch, n), p, set.RadiusOf(p), length)) ++narrow;
+  }
+  return narrow < kNarrowPlaces;
+}
+
+// The way of the branch around its point n, of length 1.
+Coordinates RibFinder::WayAt(const FreeBranch& branch, size_t n) const {
+  const LatticePoint from = branch.points[n - std::min(n, kWayReach)];
+  const size_t after = n + kWayReach;
+  const LatticePoint to = after < branch.points.size() ? branch.points[after] : *branch.junction;
+  return Unit(Sum(PlaceOf(to, scale_), -1, PlaceOf(from, scale_)));
+}
+
+bool RibFinder::IsWideAcross(const Coordinates& way, LatticePoint p, double radius, double length) {
+  const double wide = 2 * std::max(kLeastWidth * length, kFlatness * radius);
+  const double reach = kReach * length;
+  const double start = std::floor(radius);
+  const Coordinates middle = PlaceOf(p, scale_);
+  const auto [u, v] = Across(way);
+  for (int i = -kSquare; i < kSquare; ++i) {
+    for (const auto& [a, b] : {std::pair(kSquare, i), std::pair(-i, kSquare)}) {
+      const Coordinates side = Unit(Sum(Sum({0, 0, 0}, a, u), b, v));
+      const double there = WayOut(middle, side, start, reach);
+      if (there + reach < wide) continue;
+      const double back = WayOut(middle, Sum({0, 0, 0}, -1, side), start, reach);
+      if (there + back >= wide) return true;
+    }
+  }
+  return false;
+}
+
+// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`.
+double RibFinder::WayOut(const Coordinates& from, const Coordinates& way, double start,
+                         double reach) {
+  double out = start;
+  while (out < reach && InObject(Sum(from, out + 1, way))) ++out;
+  return out;
+}
+
+bool RibFinder::InObject(const Coordinates& place) {
+  const LatticePoint p = PointNear(place, scale_);
+  if (!object_.extent().Contains(p)) return false;
+  const BrickAddress address = AddressOf(p);
+  const std::optional<BrickIndex> brick = bricks_.Find(address.brick);
+  return brick.has_value() && object_.bricks()[*brick].Test(address.bit);
+}
+
+}  // namespace bccskel
