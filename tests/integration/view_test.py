@@ -1,7 +1,9 @@
 """Pages that `bccskel view` and `-o x.html` make, opened in a browser."""
 
+import html
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -10,6 +12,10 @@ import unittest
 import harness
 
 CHROMIUM = shutil.which("chromium")
+
+
+def number(text):
+    return float(text.replace(",", ""))
 
 
 @unittest.skipIf(CHROMIUM is None, "chromium is not installed")
@@ -66,25 +72,68 @@ class ViewTest(harness.TestCase):
                 self.page(shape)
                 shown = self.browse("--dump-dom")
                 self.assertEqual(re.search('data-state="([a-z]+)"', shown)[1], "ready")
-                self.assertTrue("topology kept" in shown)
+                self.assertRegex(shown, '<p id="verdict"[^>]*>\u2713 topology kept</p>')
+                told = re.search('<tbody id="certificate">(.*?)</tbody>', shown)[1]
+                cavities = 1 if shape == "hollow-ball" else 0
+                self.assertEqual(re.sub("<[^>]*>", " ", told).split(),
+                                 f"components 1 1 loops 0 0 cavities {cavities} {cavities}".split())
 
     def test_the_peeled_object_is_seen(self):
         self.page("tree", 200000)
         pictures = []
         for address in ("", "#peel=2", "#theme=dark", "#prune=20"):
-            self.browse("--screenshot=" + self.path("s.png"), address=address)
-            pictures.append((self.folder / "s.png").read_bytes())
+            pictures.append(self.picture(address))
         self.assertEqual(len(set(pictures)), 4)
         for picture in pictures:
             self.assertGreater(len(picture), 30000)  # a blank page is smaller
 
-    def test_an_object_that_is_not_the_results_own_is_noticed(self):
-        self.page("tree")
-        other = self.generate("ball", 5000, "other.bccb")
-        done = harness.bccskel("view", self.path("s.json"), "--object", other,
-                               "-o", self.path("t.html"))
-        self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stderr, r"warning: .*other.bccb: has [\d,]+ points, but .*s.json was")
+    def probe(self):
+        """What a page says to somebody who points at things and changes the colors."""
+        page = self.folder / "s.html"
+        probe = pathlib.Path(__file__).with_name("view_probe.js").read_text()
+        page.write_text(page.read_text().replace("</body>", f"<script>{probe}</script></body>"))
+        heard = re.search(r'data-heard="([^"]*)"', self.browse("--dump-dom"))
+        return json.loads(html.unescape(heard[1]))
+
+    def test_pointing_at_a_branch_tells_its_figures(self):
+        self.page("tree", 5000)
+        heard = self.probe()
+        result = json.loads((self.folder / "s.json").read_text())
+        branches = {name: rows for name, rows in heard["figures"].items()
+                    if name.startswith("branch ")}
+        self.assertGreater(len(branches), len(result["edges"]) // 2)
+        self.assertTrue(any(name.startswith("end ") for name in heard["figures"]))
+        for name, rows in branches.items():
+            edge = result["edges"][int(name.split()[1])]
+            self.assertAlmostEqual(number(rows["length"]), edge["length"],
+                                   delta=0.01 * edge["length"])
+            least, most = map(number, re.search(r"\((.*) to (.*)\)", rows["radius here"]).groups())
+            self.assertAlmostEqual(least, min(edge["radii"]), delta=0.01 * most)
+            self.assertAlmostEqual(most, max(edge["radii"]), delta=0.01 * most)
+        self.assertTrue(heard["away"])  # nothing is told where nothing is
+
+    def test_the_choice_of_colors_changes_the_legend_and_the_picture(self):
+        self.page("tree", 5000)
+        self.assertNotEqual(self.picture("#color=radius"), self.picture("#color=branch"))
+        colors = {name: (least, hidden) for name, least, hidden in self.probe()["colors"]}
+        self.assertEqual(set(colors), {"by radius", "by branch", "by length", "by pruning level"})
+        self.assertRegex(colors["by length"][0], r"^length \d")
+        self.assertRegex(colors["by radius"][0], r"^radius \d")
+        self.assertEqual([name for name, (_, hidden) in colors.items() if hidden], ["by branch"])
+
+    def picture(self, address):
+        self.browse("--screenshot=" + self.path("s.png"), address=address)
+        return (self.folder / "s.png").read_bytes()
+
+    def test_a_surface_skeleton_is_seen_as_a_sheet(self):
+        volume = self.generate("box")
+        pictures = set()
+        for kind in ("surface", "curve"):
+            self.succeed("skeletonize", volume, "--local", "--kind", kind, "-o", self.path("s.html"))
+            pictures.add(self.picture(""))
+        shown = self.browse("--dump-dom")
+        self.assertEqual(re.search('data-state="([a-z]+)"', shown)[1], "ready")
+        self.assertEqual(len(pictures), 2)
 
 
 if __name__ == "__main__":
