@@ -41,7 +41,7 @@ void BranchPruner::Judge(LatticePoint end) {
   if (worth.has_value()) turns_.emplace(*worth, end);
 }
 
-std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) {
+std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) const {
   if (!branch.junction.has_value()) return std::nullopt;
   if (std::ranges::any_of(branch.points, [&](LatticePoint p) { return keep_.contains(p); })) {
     return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) {
   return worth < threshold_ ? std::optional(worth) : std::nullopt;
 }
 
-double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) {
+double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) const {
   switch (rule_) {
     case PruningRule::kLength:
       return LengthTo(branch, junction);
@@ -72,7 +72,7 @@ double BranchPruner::BallAt(LatticePoint junction) const {
 
 // How far the branch reaches out of the junction's ball, its slope given. Ribs are worth less than
 // the default margin, short ones less than long ones.
-double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) {
+double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) const {
   const double ball = BallAt(junction), enough = std::max(threshold_, kDefaultSlopeMargin);
   double worth = -std::numeric_limits<double>::infinity();
   for (LatticePoint p : branch.points) {

@@ -32,10 +32,10 @@ class BranchPruner {
 
   // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
   // The arguments must outlive the pruner.
-  BranchPruner(ThinSet& set, const Volume& object, PruningRule rule, double threshold,
+  BranchPruner(ThinSet& set, RibFinder& ribs, PruningRule rule, double threshold,
                const PointSet& keep, const exec::Context& context)
       : set_(set),
-        ribs_(object),
+        ribs_(ribs),
         rule_(rule),
         threshold_(threshold),
         keep_(keep),
@@ -50,9 +50,9 @@ class BranchPruner {
   void JudgeAround(LatticePoint p);
   void JudgeBeyond(LatticePoint p);
 
-  std::optional<double> WorthIfSpurious(const FreeBranch& branch);
-  double WorthOf(const FreeBranch& branch, LatticePoint junction);
-  double WorthBySlope(const FreeBranch& branch, LatticePoint junction);
+  std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
+  double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
+  double WorthBySlope(const FreeBranch& branch, LatticePoint junction) const;
   double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
   std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
@@ -62,7 +62,7 @@ class BranchPruner {
   using Turn = std::pair<double, LatticePoint>;
 
   ThinSet& set_;
-  RibFinder ribs_;
+  RibFinder& ribs_;
   const PruningRule rule_;
   const double threshold_;
   const PointSet& keep_;

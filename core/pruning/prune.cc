@@ -65,13 +65,13 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   ThinSet set(curves);
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
+  RibFinder ribs(object);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
-    pruned.branches_removed =
-        BranchPruner(set, object, options.rule, threshold, kept, context).Run();
+    pruned.branches_removed = BranchPruner(set, ribs, options.rule, threshold, kept, context).Run();
   }
-  pruned.levels = PruningLevelsOf(set, object, RuleOfLevels(options, curves), kept, context);
+  pruned.levels = PruningLevelsOf(set, ribs, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
     ExactRadius radius(object, field);
     PlaceTips(set, radius, object, kept, context);

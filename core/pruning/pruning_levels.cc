@@ -7,8 +7,8 @@
 
 namespace bccskel {
 
-PruningLevels PruningLevelsOf(ThinSet set, const Volume& object, PruningRule rule,
-                              const PointSet& keep, const exec::Context& context) {
+PruningLevels PruningLevelsOf(ThinSet set, RibFinder& ribs, PruningRule rule, const PointSet& keep,
+                              const exec::Context& context) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
   set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, kNever); });
@@ -17,7 +17,7 @@ PruningLevels PruningLevelsOf(ThinSet set, const Volume& object, PruningRule rul
     level = std::max(level, worth);
     if (double* found = levels.Find(p); found != nullptr) *found = level;
   };
-  BranchPruner(set, object, rule, kNever, keep, context).Run(record);
+  BranchPruner(set, ribs, rule, kNever, keep, context).Run(record);
   return levels;
 }
 

@@ -1,6 +1,7 @@
 #include "core/pruning/rib_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,7 +14,10 @@ constexpr double kReach = 1.5;           // of rays, in lengths of the branch
 constexpr size_t kPlaces = 5;            // a tenth of the branch apart, the first next to its end
 constexpr size_t kNarrowPlaces = 2;      // that many show that it is no rib
 constexpr size_t kWayReach = 5;          // points on either side that give the branch's way
-constexpr int kSquare = 4;               // rays go through the rim of a square of 9 by 9 points
+constexpr int kSquare = 4;               // rays go through the rim of a square of 9 by 9 points,
+constexpr std::array<int, 8> kSteps = {-4, 0, -3, -2, -1, 1, 2, 3};  // first an eighth turn apart:
+constexpr int kFirstBetween = -3;  // in a flat limb one of those is within 22.5 degrees of it and
+constexpr double kHint = 2;        // goes on for 2.6 radii, on either side
 
 }  // namespace
 
@@ -21,6 +25,18 @@ RibFinder::RibFinder(const Volume& object)
     : object_(object), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
 
 bool RibFinder::IsRib(const ThinSet& set, const FreeBranch& branch) {
+  const LatticePoint end = branch.points[0];
+  const Verdict* last = verdicts_.Find(end);
+  if (last != nullptr && last->junction == *branch.junction &&
+      last->points == branch.points.size()) {
+    return last->is_rib;
+  }
+  const bool is_rib = Look(set, branch);
+  verdicts_.Set(end, {*branch.junction, branch.points.size(), is_rib});
+  return is_rib;
+}
+
+bool RibFinder::Look(const ThinSet& set, const FreeBranch& branch) {
   const double length = set.Between(branch.points[0], *branch.junction);
   size_t narrow = 0;
   for (size_t place = 1; place <= kPlaces && narrow < kNarrowPlaces; ++place) {
@@ -45,13 +61,16 @@ bool RibFinder::IsWideAcross(const Coordinates& way, LatticePoint p, double radi
   const double start = std::floor(radius);
   const Coordinates middle = PlaceOf(p, scale_);
   const auto [u, v] = Across(way);
-  for (int i = -kSquare; i < kSquare; ++i) {
+  double widest = 0;
+  for (const int i : kSteps) {
+    if (i == kFirstBetween && widest < 2 * kHint * radius) return false;
     for (const auto& [a, b] : {std::pair(kSquare, i), std::pair(-i, kSquare)}) {
       const Coordinates side = Unit(Sum(Sum({0, 0, 0}, a, u), b, v));
       const double there = WayOut(middle, side, start, reach);
       if (there + reach < wide) continue;
       const double back = WayOut(middle, Sum({0, 0, 0}, -1, side), start, reach);
-      if (there + back >= wide) return true;
+      widest = std::max(widest, there + back);
+      if (widest >= wide) return true;
     }
   }
   return false;

@@ -3,6 +3,7 @@
 
 #include "core/distance/places.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/thin_set.h"
 #include "core/volume/volume.h"
 
@@ -22,10 +23,19 @@ class RibFinder {
   // Needs: `object` outlives this.
   explicit RibFinder(const Volume& object);
 
-  // Needs: the branch is one of `set`, whose points are points of the object, and has a junction.
+  // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
+  //        radii are always the same.
   bool IsRib(const ThinSet& set, const FreeBranch& branch);
 
  private:
+  // What was found of a branch, which is asked for again whenever something near it goes.
+  struct Verdict {
+    LatticePoint junction;
+    size_t points = 0;
+    bool is_rib = false;
+  };
+
+  bool Look(const ThinSet& set, const FreeBranch& branch);
   Coordinates WayAt(const FreeBranch& branch, size_t n) const;
   bool IsWideAcross(const Coordinates& way, LatticePoint p, double radius, double length);
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
@@ -34,6 +44,7 @@ class RibFinder {
   const Volume& object_;
   const AxisScale scale_;
   NearbyBricks bricks_;
+  PointTable<Verdict> verdicts_;  // by the branch's end
 };
 
 }  // namespace bccskel

@@ -102,7 +102,8 @@ TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
   const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
   const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
   const PointSet keep(ends.begin(), ends.end());
-  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), raw.object, PruningRule::kSlope, keep, {})
+  RibFinder ribs(raw.object);
+  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), ribs, PruningRule::kSlope, keep, {})
       .ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
 }
 
