@@ -1,0 +1,319 @@
+// Any bytes as what a caller of VolumeService and JobService sends: the first byte chooses the
+// call, length-delimited requests follow. They go through the checks of order and fields to a real
+// ledger, whose jobs wait and compute nothing. "volumes/known" and "jobs/known" stand for names
+// that the tenant has. Every answer is OK or the caller's error with its details, never UNKNOWN or
+// INTERNAL.
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/delimited_message_util.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bccskel/v1/job_service.pb.h"
+#include "bccskel/v1/rpc_details.pb.h"
+#include "bccskel/v1/volume_service.pb.h"
+#include "core/digest/sha256.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/error_details.h"
+#include "server/durable/ledger.h"
+#include "server/durable/message_codec.h"
+#include "server/service/durable_messages.h"
+#include "server/service/job_request.h"
+#include "server/service/ledger_status.h"
+#include "server/service/request_sequence.h"
+#include "server/service/volume_fields.h"
+#include "server/status_mapping.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr VolumeLimits kLimits = {
+    .max_extent_cells = 1024, .max_bricks = 1 << 14, .max_decoded_bytes = 16 << 20};
+const std::string kTenant = "tenant";
+
+void Insist(bool holds) {
+  if (!holds) std::abort();
+}
+
+// Never asked: the ledger's jobs wait.
+class NoRunner final : public JobRunner {
+ public:
+  absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest, std::shared_ptr<JobListener>) override {
+    std::abort();
+  }
+  absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest,
+                                             std::shared_ptr<LabelsListener>) override {
+    std::abort();
+  }
+};
+
+class SilentWatcher final : public JobWatcher {
+ public:
+  void OnEvent(const JobEvent& event) override { ToMessage(event); }
+  void OnWatchEnd(const absl::Status&) override {}
+};
+
+// What the callback is given, as the caller hears of it.
+template <typename Value, typename Call>
+absl::StatusOr<Value> Ask(Call call) {
+  std::promise<absl::StatusOr<Value>> promise;
+  call([&](absl::StatusOr<Value> value) { promise.set_value(std::move(value)); });
+  absl::StatusOr<Value> answer = promise.get_future().get();
+  if (!answer.ok()) return LedgerError(answer.status());
+  return answer;
+}
+
+template <typename Call>
+absl::Status Tell(Call call) {
+  std::promise<absl::Status> promise;
+  call([&](absl::Status status) { promise.set_value(std::move(status)); });
+  return LedgerError(promise.get_future().get());
+}
+
+// One for the process: each call leaves it as it found it, but for `known` ones.
+class KeptLedger {
+ public:
+  KeptLedger() : folder_(std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX") {
+    Insist(mkdtemp(folder_.data()) != nullptr);
+    Sha256Of("");  // so that OpenSSL ends after this object
+    DurableOptions options;
+    options.data_directory = folder_;
+    options.max_runs = 0;
+    options.max_tenant_disk_bytes = uint64_t{64} << 20;
+    options.algorithm_version = "1";
+    ledger_ = *Ledger::Open(options, runner_, codec_);
+  }
+  ~KeptLedger() {
+    ledger_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+  Ledger& operator*() { return *ledger_; }
+  Ledger* operator->() { return ledger_.get(); }
+
+ private:
+  std::string folder_;
+  NoRunner runner_;
+  const MessageCodec codec_{kLimits};
+  std::unique_ptr<Ledger> ledger_;
+};
+
+KeptLedger& TheLedger() {
+  static KeptLedger ledger;
+  return ledger;
+}
+
+absl::StatusOr<UploadInfo> Upload(const Ledger::NewUpload& wanted) {
+  auto found = Ask<UploadInfo>(
+      [&](auto done) { TheLedger()->GetUpload(kTenant, wanted.name, std::move(done)); });
+  if (!absl::IsNotFound(found.status())) return found;
+  return Ask<UploadInfo>(
+      [&](auto done) { TheLedger()->CreateUpload(kTenant, wanted, std::move(done)); });
+}
+
+std::optional<Sha256Digest> DigestIn(const v1::VolumeFinish& finish) {
+  Sha256Digest digest;
+  if (finish.sha256().size() != digest.bytes.size()) return std::nullopt;
+  std::ranges::copy(finish.sha256(), digest.bytes.begin());
+  return digest;
+}
+
+// An upload as UploadVolume makes it.
+class UploadCall {
+ public:
+  using Request = v1::UploadVolumeRequest;
+  ~UploadCall() {
+    if (name_.empty()) return;
+    TheLedger()->SenderGone(kTenant, name_);
+    Tell([&](auto done) {
+      TheLedger()->DeleteUpload(kTenant, name_, std::move(done));
+    }).IgnoreError();
+  }
+
+  absl::Status Take(Request& request) {
+    BCCSKEL_RETURN_IF_ERROR(sequence_.Take(request));
+    if (request.has_config()) return Open(request.config());
+    return request.has_chunk() ? Append(*request.mutable_chunk()) : Finish(request.finish());
+  }
+  absl::Status HalfClose() { return sequence_.HalfClose(); }
+
+ private:
+  absl::Status Open(const v1::UploadVolumeConfig& config) {
+    v1::SkeletonizeConfig whole;
+    *whole.mutable_volume() = config.volume();
+    BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, kLimits).status());
+    Ledger::NewUpload wanted;
+    wanted.name = config.upload();
+    wanted.declaration = DeclarationBytes(config.volume());
+    BCCSKEL_ASSIGN_OR_RETURN(const UploadInfo upload, Upload(wanted));
+    name_ = upload.name;
+    ToMessage(upload);
+    sequence_.ResumeAt(upload.committed_bytes);
+    return absl::OkStatus();
+  }
+  absl::Status Append(v1::VolumeChunk& chunk) {
+    std::optional<uint32_t> crc32c;
+    if (chunk.has_crc32c()) crc32c = chunk.crc32c();
+    return Ask<uint64_t>([&](auto done) {
+             TheLedger()->Append(kTenant, name_, chunk.offset(), std::move(*chunk.mutable_data()),
+                                 crc32c, std::move(done));
+           })
+        .status();
+  }
+  absl::Status Finish(const v1::VolumeFinish& finish) {
+    const auto volume = Ask<VolumeInfo>([&](auto done) {
+      TheLedger()->FinishUpload(kTenant, name_, finish.size_bytes(), DigestIn(finish),
+                                std::move(done));
+    });
+    if (!volume.ok()) return volume.status();
+    return Tell(
+        [&](auto done) { TheLedger()->DeleteVolume(kTenant, volume->name, std::move(done)); });
+  }
+
+  RequestSequence sequence_;
+  std::string name_;
+};
+
+// A volume of one empty point set.
+std::string MakeVolume() {
+  v1::VolumeDeclaration declaration;
+  declaration.set_encoding(v1::VOLUME_ENCODING_RAW_PLANES);
+  declaration.mutable_extent()->set_nx(1);
+  declaration.mutable_extent()->set_ny(1);
+  declaration.mutable_extent()->set_nz(1);
+  declaration.set_size_bytes(8);
+  const UploadInfo upload = *Upload(
+      {.name = "uploads/known", .declaration = DeclarationBytes(declaration), .then_job = {}});
+  Insist(Ask<uint64_t>([&](auto done) {
+           TheLedger()->Append(kTenant, upload.name, 0, std::string(8, '\0'), {}, std::move(done));
+         }).ok());
+  return Ask<VolumeInfo>([&](auto done) {
+           TheLedger()->FinishUpload(kTenant, upload.name, 8, {}, std::move(done));
+         })
+      ->name;
+}
+
+const std::string& KnownVolume() {
+  static const std::string name = MakeVolume();
+  return name;
+}
+
+absl::StatusOr<JobInfo> Create(Ledger::NewJob job) {
+  if (job.volume == "volumes/known") job.volume = KnownVolume();
+  return Ask<JobInfo>([&](auto done) { TheLedger()->CreateJob(kTenant, job, std::move(done)); });
+}
+
+const std::string& KnownJob() {
+  static const std::string name = [] {
+    Ledger::NewJob job;
+    job.volume = KnownVolume();
+    return Create(job)->name;
+  }();
+  return name;
+}
+
+struct CreateJobCall {
+  using Request = v1::CreateJobRequest;
+  static absl::Status Take(const Request& request) {
+    Ledger::NewJob job;
+    BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
+    BCCSKEL_ASSIGN_OR_RETURN(job.options,
+                             OptionsBytes(request.options(), request.thin_volume_return()));
+    BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
+    job.request_id = request.request_id();
+    job.volume = request.volume();
+    job.threads = request.threads();
+    if (request.validate_only()) job.mode = Ledger::NewJob::Mode::kValidateOnly;
+    BCCSKEL_ASSIGN_OR_RETURN(const JobInfo made, Create(job));
+    const v1::Job message = ToMessage(made);
+    Insist(message.request_id() == request.request_id());
+    if (request.validate_only() || made.name == KnownJob()) return absl::OkStatus();
+    return Tell([&](auto done) { TheLedger()->DeleteJob(kTenant, made.name, std::move(done)); });
+  }
+  static absl::Status HalfClose() { return absl::OkStatus(); }
+};
+
+struct ListJobsCall {
+  using Request = v1::ListJobsRequest;
+  static absl::Status Take(const Request& request) {
+    Ledger::JobQuery query;
+    query.page_size = std::clamp(request.page_size(), 1, 1000);
+    query.page_token = request.page_token();
+    for (const int state : request.states()) {
+      BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
+      query.states.push_back(known);
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(const JobPage page, Ask<JobPage>([&](auto done) {
+                               TheLedger()->ListJobs(kTenant, query, std::move(done));
+                             }));
+    Insist(page.jobs.size() <= static_cast<size_t>(query.page_size));
+    for (const JobInfo& job : page.jobs) ToMessage(job);
+    return absl::OkStatus();
+  }
+  static absl::Status HalfClose() { return absl::OkStatus(); }
+};
+
+struct WatchJobCall {
+  using Request = v1::WatchJobRequest;
+  static absl::Status Take(const Request& request) {
+    const std::string& job = request.job() == "jobs/known" ? KnownJob() : request.job();
+    const auto watch = TheLedger()->WatchJob(kTenant, job, request.after_sequence(),
+                                             std::make_shared<SilentWatcher>());
+    return Ask<JobInfo>([&](auto done) { TheLedger()->GetJob(kTenant, job, std::move(done)); })
+        .status();
+  }
+  static absl::Status HalfClose() { return absl::OkStatus(); }
+};
+
+template <typename Call>
+absl::Status Converse(google::protobuf::io::CodedInputStream& input) {
+  Call call;
+  typename Call::Request request;
+  while (google::protobuf::util::ParseDelimitedFromCodedStream(&request, &input, nullptr)) {
+    BCCSKEL_RETURN_IF_ERROR(call.Take(request));
+    request.Clear();
+  }
+  return call.HalfClose();
+}
+
+absl::Status Answer(int call, google::protobuf::io::CodedInputStream& input) {
+  switch (call) {
+    case 0:
+      return Converse<UploadCall>(input);
+    case 1:
+      return Converse<CreateJobCall>(input);
+    case 2:
+      return Converse<ListJobsCall>(input);
+    default:
+      return Converse<WatchJobCall>(input);
+  }
+}
+
+void CheckAnswer(const absl::Status& status) {
+  const grpc::Status answer = ToGrpcStatus(status);
+  if (answer.ok()) return;
+  Insist(answer.error_code() != grpc::UNKNOWN && answer.error_code() != grpc::INTERNAL &&
+         answer.error_code() != grpc::DATA_LOSS);
+  v1::Status details;
+  Insist(details.ParseFromString(answer.error_details()) && details.details_size() > 0);
+}
+
+}  // namespace
+}  // namespace bccskel::server
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace bccskel::server;
+  if (size == 0) return 0;
+  google::protobuf::io::ArrayInputStream bytes(data + 1, static_cast<int>(size - 1));
+  google::protobuf::io::CodedInputStream input(&bytes);
+  CheckAnswer(Answer(data[0] % 4, input));
+  return 0;
+}
