@@ -8,6 +8,7 @@
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/complaints.h"
+#include "client/cli/count_option.h"
 #include "client/cli/generate_arguments.h"
 #include "client/cli/job_arguments.h"
 #include "client/cli/labels_arguments.h"
@@ -26,8 +27,8 @@ namespace {
 constexpr const char* kFooter =
     "Exit codes: 0 success, 2 wrong command line, 3 input cannot be read or is not what it should\n"
     "be, 4 server unavailable, 5 deadline passed or job cancelled by the server, 6 internal error\n"
-    "or topology not kept, 7 over a limit, 8 output cannot be written, 130 interrupted (Ctrl-C),\n"
-    "143 terminated. See bccskel(1).";
+    "or topology not kept, 7 over a limit, 8 output cannot be written, 9 token missing, wrong or\n"
+    "not for this, 130 interrupted (Ctrl-C), 143 terminated. See bccskel(1).";
 
 void AddCommon(CLI::App& command, CommonArguments& common) {
   command.add_flag_callback(
@@ -57,9 +58,9 @@ void AddVolumeOutput(CLI::App& command, std::string& path) {
 }
 
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
-  CLI::Option* points =
-      command.add_option("--points", grid.points, "Lattice points the solid shall have")
-          ->option_text("N");
+  CLI::Option* points = AddCount<uint64_t>(
+      command, "--points", [&grid](uint64_t count) { grid.points = count; },
+      "Lattice points the solid shall have");
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
       ->excludes(points)
       ->option_text("LENGTH");

@@ -193,8 +193,9 @@ struct BenchCoreArguments {
   std::string object;          // a file, instead
   uint64_t points = 850'000;
   ThinningMethod method = ThinningMethod::kDirectional;
-  int repeat = 11;              // warm runs
-  std::string instruction_set;  // empty: the best
+  std::optional<DistanceKind> distance;  // none: chamfer as in the paper, for symmetric Euclidean
+  int repeat = 11;                       // warm runs
+  std::string instruction_set;           // empty: the best
 };
 
 using Arguments =

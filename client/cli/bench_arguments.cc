@@ -1,12 +1,10 @@
 #include "client/cli/bench_arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "absl/strings/str_join.h"
 #include "client/cli/bench_objects.h"
 #include "client/cli/choice_option.h"
 #include "core/exec/instruction_sets.h"
@@ -16,19 +14,17 @@
 namespace bccskel::cli {
 namespace {
 
-// A check in CLI11's way: the complaint, or nothing when the value is one of the names.
+// A word for each name, which stands for itself.
 template <typename Names>
-std::function<std::string(const std::string&)> OneOf(const Names& names, const char* what) {
-  return [names, what](const std::string& value) -> std::string {
-    if (std::ranges::find(names, value) != names.end()) return "";
-    return std::string(what) + " \"" + value + "\": must be one of " + absl::StrJoin(names, ", ");
-  };
+std::vector<std::pair<std::string, std::string>> Themselves(const Names& names) {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const auto& name : names) words.emplace_back(name, name);
+  return words;
 }
 
 void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
-  CLI::Option* shape = core.add_option("--shape", arguments.shape, "What to thin (default ball)")
-                           ->check(OneOf(kBenchObjects, "shape"))
-                           ->option_text(absl::StrJoin(kBenchObjects, "|"));
+  CLI::Option* shape = AddChoice<std::string>(
+      core, "--shape", arguments.shape, "What to thin (default ball)", Themselves(kBenchObjects));
   core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
       ->excludes(shape)
       ->option_text("FILE");
@@ -39,16 +35,19 @@ void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
 }
 
 void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
-  const std::vector<std::string> sets = exec::SupportedInstructionSets();
   core.add_option("--threads", arguments.common.threads,
                   "Threads to use; 0 means all of this machine (default)")
       ->check(CLI::Range(0, 1024))
       ->option_text("N");
-  core.add_option("--isa", arguments.instruction_set, "Instruction set (default the first)")
-      ->check(OneOf(sets, "instruction set"))
-      ->option_text(absl::StrJoin(sets, "|"));
+  AddChoice<std::string>(core, "--isa", arguments.instruction_set,
+                         "Instruction set (default the first)",
+                         Themselves(exec::SupportedInstructionSets()));
   AddChoice<ThinningMethod>(core, "--method", arguments.method, "How to thin (default directional)",
                             Choices(kMethodWords));
+  AddChoice<DistanceKind>(
+      core, "--distance", [&arguments](DistanceKind distance) { arguments.distance = distance; },
+      "How distances are measured (default chamfer; with symmetric euclidean)",
+      Choices(kDistanceWords));
 }
 
 }  // namespace

@@ -31,11 +31,10 @@ std::string NameOf(const BenchCoreArguments& arguments) {
   return arguments.object.empty() ? arguments.shape : std::string(FileName(arguments.object));
 }
 
-std::string WordOf(ThinningMethod wanted) {
-  for (const auto& [word, method] : kMethodWords) {
-    if (method == wanted) return word;
-  }
-  return "";
+// The paper's method with the paper's distances.
+DistanceKind DistanceOf(const BenchCoreArguments& arguments) {
+  const bool symmetric = arguments.method == ThinningMethod::kSymmetric;
+  return arguments.distance.value_or(symmetric ? DistanceKind::kEuclidean : DistanceKind::kChamfer);
 }
 
 // What is timed, in milliseconds.
@@ -80,7 +79,8 @@ std::string Json(const BenchCoreArguments& arguments, int threads,
                  const CoreMeasurement& measured) {
   const double ns = NanosecondsPerPoint(measured);
   Text text;
-  text.Add("{\"method\":\"", WordOf(arguments.method), "\",\"isa\":\"",
+  text.Add("{\"method\":\"", WordFor(kMethodWords, arguments.method), "\",\"distance\":\"",
+           WordFor(kDistanceWords, DistanceOf(arguments)), "\",\"isa\":\"",
            exec::ChosenInstructionSet(), "\",\"threads\":", threads,
            ",\"shape\":", JsonString(NameOf(arguments)), ",\"points\":", measured.points,
            ",\"bricks\":", measured.bricks, ",\"repeat\":", arguments.repeat);
@@ -131,8 +131,10 @@ std::string Summary(const BenchCoreArguments& arguments, int threads,
   Text text;
   text.Add("object:      ", NameOf(arguments), ", ", GroupedDigits(measured.points), " points in ",
            GroupedDigits(measured.bricks), " bricks\n");
-  text.Add("engine:      ", WordOf(arguments.method), ", ", exec::ChosenInstructionSet(), ", ",
-           threads, threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
+  text.Add("engine:      ", WordFor(kMethodWords, arguments.method), ", ",
+           WordFor(kDistanceWords, DistanceOf(arguments)), " distances, ",
+           exec::ChosenInstructionSet(), ", ", threads, threads == 1 ? " thread, " : " threads, ",
+           arguments.repeat, " warm runs\n\n");
   text.Add(Table(measured), "\npeak memory: ", PeakText(measured),
            "\nsha256:      ", measured.sha256, '\n');
   return std::move(text).Take();
@@ -145,9 +147,8 @@ ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Volume> object = ObjectOf(arguments, team.context());
   if (!object.ok()) return Fail(object.status());
-  SkeletonizeOptions options = {.thinning = {.method = arguments.method}};
-  // The paper's method with the paper's distances.
-  if (arguments.method != ThinningMethod::kSymmetric) options.distance = DistanceKind::kChamfer;
+  const SkeletonizeOptions options = {.thinning = {.method = arguments.method},
+                                      .distance = DistanceOf(arguments)};
   const auto measured = MeasureCore(*object, options, arguments.repeat, team.context());
   if (!measured.ok()) return Fail(measured.status());
   const int threads = team.context().threads();

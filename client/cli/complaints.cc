@@ -9,6 +9,8 @@
 #include "client/cli/label_files.h"
 #include "client/cli/load_object.h"
 #include "client/export/skeleton_file.h"
+#include "core/pipeline/canonical_options.h"
+#include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
 namespace {
@@ -65,6 +67,26 @@ Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
          std::string(InputKindPhrase(*kind));
 }
 
+// Options of pruning that would do nothing.
+Complaint PruningComplaint(const SkeletonizeOptions& options) {
+  const PruningOptions& pruning = options.pruning;
+  if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
+    return "--pruning-threshold is for a rule of pruning, not for --pruning none";
+  }
+  const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
+  if (!asked || HasCurves(options.thinning)) return std::nullopt;
+  const std::string why =
+      options.thinning.last_shell > 0
+          ? "--last-shell stops before there are curves"
+          : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
+  return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
+}
+
+Complaint ThinningComplaint(const SkeletonizeOptions& options) {
+  if (Complaint c = IfError(CheckSkeletonizeOptions(options)); c.has_value()) return c;
+  return PruningComplaint(options);
+}
+
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
   const bool detached = arguments.waiting == Waiting::kDetach;
   if (!detached && arguments.outputs.empty()) return "--output is required";
@@ -84,7 +106,7 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
     return c;
   }
   if (Complaint c = ImagesComplaint(arguments); c.has_value()) return c;
-  return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
+  return ThinningComplaint(arguments.skeletonize);
 }
 
 Complaint ComplaintAbout(const VoxelizeArguments& arguments) {
@@ -125,7 +147,7 @@ Complaint ComplaintAbout(const LabelsArguments& arguments) {
   if (arguments.root.has_value() && arguments.root->rule == RootChoice::Rule::kNode) {
     return "--root node:N names a node of one skeleton; labels have many";
   }
-  return IfError(CheckSkeletonizeOptions(arguments.skeletonize));
+  return ThinningComplaint(arguments.skeletonize);
 }
 
 Complaint FetchComplaint(const std::string& object, const std::string& output) {

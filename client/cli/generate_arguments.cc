@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "client/cli/count_option.h"
+
 namespace bccskel::cli {
 namespace {
 
@@ -33,12 +35,9 @@ CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
   command.add_option("-o,--output", arguments.output, "Volume to write: .exr or .bccb")
       ->required()
       ->option_text("FILE (required)");
-  command
-      .add_option("--points", arguments.options.points,
-                  "Points the object shall have (default 850000)")
-      ->option_text("N");
-  command.add_option("--seed", arguments.options.seed, "Chooses the random parts (default 0)")
-      ->option_text("N");
+  AddCount(command, "--points", arguments.options.points,
+           "Points the object shall have (default 850000)");
+  AddCount(command, "--seed", arguments.options.seed, "Chooses the random parts (default 0)");
   command
       .add_option("--noise", arguments.options.noise,
                   "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")

@@ -5,10 +5,14 @@
 #include <bit>
 #include <charconv>
 #include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "client/cli/choice_option.h"
+#include "client/cli/count_option.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
@@ -33,7 +37,13 @@ CLI::Option* AddTriple(CLI::App& command, const char* name, const char* descript
 }
 
 CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const char* description) {
-  return command.add_option("--label,--labels", arguments.labels, description)
+  const auto read = [&arguments](const std::vector<std::string>& given) {
+    for (const std::string& label : given) {
+      arguments.labels.push_back(ReadCount<uint64_t>("--label", label));
+    }
+  };
+  return command
+      .add_option_function<std::vector<std::string>>("--label,--labels", read, description)
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("LIST");
@@ -64,18 +74,16 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
   AddChoice<MaskAdjacency>(command, "--adjacency", arguments.mask.adjacency,
                            "Which voxels touch: object, background (default 26,6)",
                            {{"26,6", MaskAdjacency::k26}, {"6,26", MaskAdjacency::k6}});
-  CLI::Option* sampling =
-      command
-          .add_option_function<std::string>(
-              "--sampling",
-              [&arguments](const std::string& word) {
-                if (word == "exact") return;
-                arguments.mask.sampling.emplace().weights =
-                    word == "nearest" ? MaskWeights::kNearest : MaskWeights::kTrilinear;
-              },
-              "How voxels become lattice points; only exact (default) keeps the topology")
-          ->check(CLI::IsMember({"exact", "nearest", "trilinear"}))
-          ->option_text("exact|nearest|trilinear");
+  using Weights = std::optional<MaskWeights>;  // none: exact
+  CLI::Option* sampling = AddChoice<Weights>(
+      command, "--sampling",
+      [&arguments](Weights weights) {
+        if (weights.has_value()) arguments.mask.sampling.emplace().weights = *weights;
+      },
+      "How voxels become lattice points; only exact (default) keeps the topology",
+      {{"exact", std::nullopt},
+       {"nearest", MaskWeights::kNearest},
+       {"trilinear", MaskWeights::kTrilinear}});
   command
       .add_option_function<double>(
           "--density",
@@ -110,22 +118,16 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
           "Their type: u8 (default), i8, u16, i16, u32, i32, u64, i64, f32 or f64")
       ->needs(size)
       ->option_text("TYPE");
-  command
-      .add_option_function<std::string>(
-          "--raw-order",
-          [&arguments](const std::string& word) {
-            RawOf(arguments).byte_order = word == "big" ? std::endian::big : std::endian::little;
-          },
-          "Their byte order (default little)")
-      ->check(CLI::IsMember({"little", "big"}))
-      ->needs(size)
-      ->option_text("little|big");
-  command
-      .add_option_function<uint64_t>(
-          "--raw-header", [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
-          "Bytes in front of them (default 0)")
-      ->needs(size)
-      ->option_text("N");
+  AddChoice<std::endian>(command, "--raw-order",
+                         [&arguments](std::endian order) { RawOf(arguments).byte_order = order; },
+                         "Their byte order (default little)",
+                         {{"little", std::endian::little}, {"big", std::endian::big}})
+      ->needs(size);
+  AddCount<uint64_t>(
+      command, "--raw-header",
+      [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
+      "Bytes in front of them (default 0)")
+      ->needs(size);
 }
 
 // Where the voxels lie, in the file and in the world.

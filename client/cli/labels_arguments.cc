@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client/cli/count_option.h"
 #include "client/cli/root_argument.h"
 #include "client/cli/thinning_arguments.h"
 
@@ -22,15 +23,15 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
   AddLabelImage(command, arguments.image);
-  command
-      .add_option("--min-voxels", arguments.min_voxels,
-                  "Leave out labels with fewer voxels (default 1)")
-      ->option_text("N");
+  AddCount(command, "--min-voxels", arguments.min_voxels,
+           "Leave out labels with fewer voxels (default 1)");
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
   AddThinning(command, arguments.skeletonize.thinning);
   AddRoot(command, arguments.root);
+  command.add_flag_callback(
+      "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
   return command;
 }
 

@@ -13,6 +13,7 @@
 namespace bccskel::cli {
 namespace {
 
+using exporting::Counted;
 using exporting::GroupedDigits;
 using exporting::Text;
 
@@ -80,19 +81,20 @@ std::string SummaryText(const LabelsSummary& summary) {
   text.Add("input:     ", FileName(summary.arguments.input), ", ", summary.info.format, ", ",
            size.nx, " x ", size.ny, " x ", size.nz, ' ', VoxelTypeName(summary.info.type),
            "\nlabels:    ", GroupedDigits(summary.labels.size()), ", ",
-           GroupedDigits(totals.voxels), " voxels");
+           Counted(totals.voxels, "voxel", "voxels"));
   if (summary.left_out > 0) {
     text.Add("; ", GroupedDigits(summary.left_out), " with fewer than ",
-             summary.arguments.min_voxels, " voxels left out");
+             Counted(summary.arguments.min_voxels, "voxel", "voxels"), " left out");
   }
   AddPreparing(text, totals);
   const char* from = totals.preparing.empty() ? "voxels" : "prepared object";
-  text.Add("\nobjects:   ", GroupedDigits(totals.object_points), " points, ",
+  text.Add("\nobjects:   ", Counted(totals.object_points, "point", "points"), ", ",
            exporting::BettiPhrase(totals.topology),
-           "\nskeletons: ", GroupedDigits(totals.skeleton_points), " points, ",
-           GroupedDigits(totals.nodes), " nodes, ", GroupedDigits(totals.edges),
-           " edges\ncheck:     topology kept from every label's ", from, " on, ",
-           totals.simple_points_left, " simple points left\ntime:      ", seconds, " s\n");
+           "\nskeletons: ", Counted(totals.skeleton_points, "point", "points"), ", ",
+           Counted(totals.nodes, "node", "nodes"), ", ", Counted(totals.edges, "edge", "edges"),
+           "\ncheck:     topology kept from every label's ", from, " on, ",
+           Counted(totals.simple_points_left, "simple point", "simple points"),
+           " left\ntime:      ", seconds, " s\n");
   for (const WrittenFile& file : summary.files) {
     text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
   }

@@ -1,10 +1,15 @@
 #include "client/cli/load_image.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_join.h"
 #include "client/cli/console.h"
 #include "client/cli/load_object.h"
+#include "client/export/picture/caption.h"
 #include "core/exec/status_macros.h"
 #include "core/image/open_image.h"
 #include "core/labels/label_collector.h"
@@ -12,6 +17,40 @@
 
 namespace bccskel::cli {
 namespace {
+
+// The labels of an image. Errors: as OpenImage(), NextSlice() and LabelSlice().
+absl::StatusOr<std::set<uint64_t>> LabelsIn(const std::string& path,
+                                            const ImageArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
+  const ImageSize& size = source->info().size;
+  std::vector<uint64_t> values(static_cast<size_t>(size.nx) * static_cast<size_t>(size.ny));
+  std::set<uint64_t> labels;
+  for (int32_t z = 0; z < size.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
+    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
+    uint64_t last = 0;
+    for (const uint64_t label : values) {
+      if (label != last) labels.insert(label);
+      last = label;
+    }
+  }
+  labels.erase(0);
+  return labels;
+}
+
+absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments,
+                         const ForegroundRule& rule) {
+  constexpr size_t kShown = 10;
+  const std::string none = "no voxel has the label " + absl::StrJoin(rule.labels(), " or ");
+  const absl::StatusOr<std::set<uint64_t>> there = LabelsIn(path, arguments);
+  if (!there.ok()) return absl::InvalidArgumentError(none);
+  if (there->empty()) return absl::InvalidArgumentError(none + ", nor any other");
+  const auto end =
+      std::next(there->begin(), static_cast<ptrdiff_t>(std::min(kShown, there->size())));
+  return absl::InvalidArgumentError(
+      none + "; " + exporting::Counted(there->size(), "label is there: ", "labels are there: ") +
+      absl::StrJoin(there->begin(), end, ", ") + (there->size() > kShown ? ", ..." : ""));
+}
 
 absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArguments& arguments,
                                     KeptVoxels kept, const exec::Context& context) {
@@ -30,6 +69,7 @@ absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArgument
     BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(words, context));
   }
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
+  if (mask.voxels == 0 && !rule.labels().empty()) return NoSuchLabel(path, arguments, rule);
   ImageObject object = {std::move(mask.volume), {info, mask.voxels, mask.mask}};
   if (kept == KeptVoxels::kAll) {
     BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "client/cli/count_option.h"
+
 namespace bccskel::cli {
 namespace {
 
@@ -13,8 +15,9 @@ RootChoice ReadRoot(const std::string& text) {
   if (text == "thickest-end") return choice;
   const auto all_read = [&](int end) { return text.size() == static_cast<size_t>(end); };
   int end = 0;
-  if (std::sscanf(text.c_str(), "node:%9u%n", &choice.node, &end) == 1 && all_read(end)) {
+  if (text.starts_with("node:")) {
     choice.rule = RootChoice::Rule::kNode;
+    choice.node = ReadCount<uint32_t>("--root node", text.substr(5));
     return choice;
   }
   WorldPoint& p = choice.point;

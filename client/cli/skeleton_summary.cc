@@ -14,11 +14,13 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/pipeline/notes.h"
+#include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
 namespace {
 
 using exporting::BettiPhrase;
+using exporting::Counted;
 using exporting::GroupedDigits;
 using exporting::Text;
 
@@ -34,19 +36,17 @@ std::string Decimals(double seconds) {
 
 std::string CheckPhrase(const Certificate& certificate) {
   if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
-  Text text;
-  text.Add("topology kept, ", certificate.simple_points_left,
-           certificate.simple_points_left == 1 ? " simple point left" : " simple points left");
-  return std::move(text).Take();
+  return "topology kept, " +
+         Counted(certificate.simple_points_left, "simple point", "simple points") + " left";
 }
 
 void AddOrder(Text& text, const SkeletonSummary& summary) {
   const TreeOrder order = OrderTrees(summary.result.graph, *summary.arguments.root);
-  text.Add("order:     ", order.roots.size(), order.roots.size() == 1 ? " tree, " : " trees, ",
-           order.MostGenerations() + 1, " generations, Strahler order ", order.HighestStrahler());
+  text.Add("order:     ", Counted(order.roots.size(), "tree", "trees"), ", ",
+           Counted(order.MostGenerations() + 1, "generation", "generations"), ", Strahler order ",
+           order.HighestStrahler());
   if (order.loops_cut > 0) {
-    text.Add("; ", order.loops_cut,
-             order.loops_cut == 1 ? " edge that closes a loop" : " edges that close loops",
+    text.Add("; ", Counted(order.loops_cut, "edge that closes a loop", "edges that close loops"),
              " left out");
   }
   text.Add('\n');
@@ -122,11 +122,12 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
     text.Add("\ngiven:     ", BettiPhrase(*certificate.unprepared),
              "\nprepared:  ", PreparingPhrase(result.preparing));
   }
-  text.Add("\nobject:    ", GroupedDigits(result.object_points), " points, ",
-           BettiPhrase(certificate.input), '\n');
-  text.Add("skeleton:  ", GroupedDigits(result.skeleton_points), " points, ",
-           BettiPhrase(certificate.skeleton), ", ", result.graph.nodes.size(), " nodes, ",
-           result.graph.edges.size(), " edges\n");
+  text.Add("\nobject:    ", Counted(result.object_points, "point", "points"), ", ",
+           BettiPhrase(certificate.input), "\nmethod:    ", result.method, '\n');
+  text.Add("skeleton:  ", Counted(result.skeleton_points, "point", "points"), ", ",
+           BettiPhrase(certificate.skeleton), ", ",
+           Counted(result.graph.nodes.size(), "node", "nodes"), ", ",
+           Counted(result.graph.edges.size(), "edge", "edges"), '\n');
   if (summary.arguments.root.has_value()) AddOrder(text, summary);
   text.Add("check:     ", CheckPhrase(certificate), '\n');
   AddTimes(text, summary);
@@ -147,7 +148,10 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
            ",\"volume\":", VolumeJson(summary.object, std::nullopt));
   if (summary.mesh.has_value()) AddMeshJson(text, *summary.mesh);
   if (summary.image.has_value()) text.Add(",\"image\":", ImageJson(*summary.image));
-  text.Add(",\"object_points\":", result.object_points,
+  text.Add(",\"method\":\"", WordFor(kMethodWords, result.options.thinning.method),
+           "\",\"kind\":\"", WordFor(kKindWords, result.options.thinning.kind),
+           "\",\"distance\":\"", WordFor(kDistanceWords, result.options.distance),
+           "\",\"object_points\":", result.object_points,
            ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
            ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
   text.Add(",\"certificate\":{");

@@ -152,13 +152,15 @@ absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& o
   return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.Given());
 }
 
+// How many nodes there are is known only now.
+absl::Status CheckRoot(const SkeletonizeArguments& arguments, const SkeletonGraph& graph) {
+  return arguments.root.has_value() ? CheckRootChoice(*arguments.root, graph) : absl::OkStatus();
+}
+
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
                                                       const Object& object,
                                                       const Computed& computed,
                                                       const exec::Context& context) {
-  if (arguments.root.has_value()) {
-    BCCSKEL_RETURN_IF_ERROR(CheckRootChoice(*arguments.root, computed.result.graph));
-  }
   const exporting::Subject subject = {computed.result,
                                       object.volume,
                                       std::string(FileName(arguments.input)),
@@ -243,6 +245,8 @@ ExitCode Run(const SkeletonizeArguments& given, const std::stop_token& stop) {
   absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context());
   if (!computed.ok()) return FailComputing(arguments, computed.status());
   SkeletonizeResult* const result = &computed->result;
+  const absl::Status rooted = CheckRoot(arguments, result->graph);
+  if (!rooted.ok()) return FailWith(ExitCode::kUsage, rooted);
   const absl::Status kept = CertifyImage(arguments, *object, result->certificate);
   if (!kept.ok()) return Fail(kept);
   for (const std::string& note : NotesOn(*result)) Warn(arguments.input + ": " + note);

@@ -1,6 +1,7 @@
 #include "client/cli/thinning_arguments.h"
 
 #include "client/cli/choice_option.h"
+#include "client/cli/count_option.h"
 #include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
@@ -14,10 +15,8 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
       "Fill the cavities of the object, which leave closed surfaces in a skeleton");
-  command
-      .add_option("--min-component", preparing.min_component_points,
-                  "Drop components of fewer points (default 0)")
-      ->option_text("N");
+  AddCount(command, "--min-component", preparing.min_component_points,
+           "Drop components of fewer points (default 0)");
   command
       .add_option("--min-component-volume", preparing.min_component_volume,
                   "Drop components of a smaller volume, in cubic world units (default 0)")

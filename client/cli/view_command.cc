@@ -25,10 +25,14 @@ std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeli
              ",\"output\":", JsonString(arguments.output), ",\"triangles\":", triangles,
              ",\"layers\":", peeling.layers.size(), ",\"bytes\":", bytes, "}\n");
   } else {
-    text.Add("surface:     ", exporting::GroupedDigits(triangles), " triangles, ",
-             peeling.layers.size(), " layers of ", peeling.last_shell,
-             " shells\nwritten:     ", arguments.output, ", ", exporting::GroupedDigits(bytes),
-             " bytes\n");
+    if (!peeling.layers.empty()) {
+      text.Add("surface:     ", exporting::Counted(triangles, "triangle", "triangles"),
+               ", the object and ",
+               exporting::Counted(peeling.layers.size() - 1, "layer", "layers"), " below it, of ",
+               exporting::Counted(static_cast<uint64_t>(peeling.last_shell), "shell", "shells"),
+               '\n');
+    }
+    text.Add("written:     ", arguments.output, ", ", exporting::GroupedDigits(bytes), " bytes\n");
   }
   return std::move(text).Take();
 }

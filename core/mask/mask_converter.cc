@@ -82,16 +82,4 @@ absl::StatusOr<ConvertedMask> MaskConverter::FinishRows() && {
   return converted;
 }
 
-std::string DescribeChanges(const BettiNumbers& mask, const BettiNumbers& object) {
-  std::string changes;
-  const auto add = [&](const char* name, int64_t before, int64_t after) {
-    if (before == after) return;
-    changes += absl::StrFormat("%s%s %d -> %d", changes.empty() ? "" : ", ", name, before, after);
-  };
-  add("components", mask.components, object.components);
-  add("loops", mask.loops, object.loops);
-  add("cavities", mask.cavities, object.cavities);
-  return changes;
-}
-
 }  // namespace bccskel

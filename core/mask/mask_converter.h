@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
+#include "core/certificate/describe_changes.h"
 #include "core/exec/context.h"
 #include "core/mask/mask_grid.h"
 #include "core/mask/mask_sampler.h"
@@ -75,9 +76,6 @@ class MaskConverter {
   SliceRows rows_;
   int32_t next_z_ = 0;
 };
-
-// What a conversion changed, such as "components 1 -> 3, loops 2 -> 7"; empty when nothing.
-std::string DescribeChanges(const BettiNumbers& mask, const BettiNumbers& object);
 
 }  // namespace bccskel
 

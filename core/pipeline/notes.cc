@@ -1,6 +1,7 @@
 #include "core/pipeline/notes.h"
 
 #include "absl/strings/str_format.h"
+#include "core/certificate/describe_changes.h"
 
 namespace bccskel {
 namespace {
@@ -23,6 +24,10 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
       " among the curves; --fill-cavities fills cavities before thinning");
 }
 
+void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
+  if (result.certificate.Given() == BettiNumbers()) notes.push_back("the object has no points");
+}
+
 void AddPreparing(const SkeletonizeResult& result, Notes& notes) {
   const BettiNumbers &before = result.certificate.Given(), &after = result.certificate.input;
   if (result.object_points == 0 && !result.preparing.empty() && before != BettiNumbers()) {
@@ -30,10 +35,7 @@ void AddPreparing(const SkeletonizeResult& result, Notes& notes) {
     return;
   }
   if (before == after) return;
-  notes.push_back(absl::StrFormat(
-      "preparing changed the topology: components %d -> %d, loops %d -> %d, cavities %d -> %d",
-      before.components, after.components, before.loops, after.loops, before.cavities,
-      after.cavities));
+  notes.push_back("preparing changed the topology: " + DescribeChanges(before, after));
 }
 
 void AddSimplePoints(const SkeletonizeResult& result, Notes& notes) {
@@ -51,6 +53,7 @@ void AddSimplePoints(const SkeletonizeResult& result, Notes& notes) {
 
 std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   Notes notes;
+  AddEmpty(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
   AddSimplePoints(result, notes);

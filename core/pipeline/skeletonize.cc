@@ -2,30 +2,25 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_format.h"
+#include "core/certificate/describe_changes.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
+#include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/skeleton/center_curves.h"
 
 namespace bccskel {
 namespace {
 
-bool HasCurves(const SkeletonizeOptions& options) {
-  const SkeletonKind kind = options.thinning.kind;
-  return options.thinning.last_shell == 0 &&
-         (kind == SkeletonKind::kCurve || kind == SkeletonKind::kIsthmusCurve);
-}
-
 // The points that stay though they may be simple: isthmuses where they are not made curves of, and
 // those that the caller keeps.
 Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses,
                     const SkeletonizeOptions& options) {
   VolumeBuilder spared(thin.extent(), thin.placement());
-  if (!HasCurves(options)) {
+  if (!HasCurves(options.thinning)) {
     for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
   }
   for (LatticePoint p : options.thinning.keep) spared.Add(p);
@@ -36,7 +31,7 @@ Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmus
 SimplePoints ThatMayGo(const SkeletonizeOptions& options) {
   const SkeletonKind kind = options.thinning.kind;
   const bool ends_stay =
-      HasCurves(options) || kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface;
+      HasCurves(options.thinning) || kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface;
   return ends_stay ? SimplePoints::kNonEnd : SimplePoints::kAll;
 }
 
@@ -45,10 +40,8 @@ absl::Status Certify(const Volume& object, const Volume& thin, const exec::Conte
   BCCSKEL_ASSIGN_OR_RETURN(certificate.input, CountBettiNumbers(object, context));
   BCCSKEL_ASSIGN_OR_RETURN(certificate.skeleton, CountBettiNumbers(thin, context));
   if (certificate.TopologyKept()) return absl::OkStatus();
-  const BettiNumbers &in = certificate.input, &out = certificate.skeleton;
-  return absl::InternalError(absl::StrFormat(
-      "thinning changed the topology: components %d -> %d, loops %d -> %d, cavities %d -> %d",
-      in.components, out.components, in.loops, out.loops, in.cavities, out.cavities));
+  return absl::InternalError("thinning changed the topology: " +
+                             DescribeChanges(certificate.input, certificate.skeleton));
 }
 
 // 0 if the point never was an isthmus.
@@ -112,7 +105,7 @@ class Pipeline {
   Pipeline(const SkeletonizeOptions& options, const exec::Context& context,
            const OnShellPoints& on_points)
       : options_(options), context_(context), on_points_(on_points) {
-    result_.options = options;
+    result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
     result_.method = MethodInWords(options.thinning, options.distance);
     result_.algorithm_version = std::string(kAlgorithmVersion);
@@ -204,7 +197,7 @@ class Pipeline {
     BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
                              ExactRadii(result_.thin, object, distance, context_));
-    if (HasCurves(options_)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, distance, radii));
+    if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, distance, radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
     return radii;
@@ -244,8 +237,8 @@ absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
   if (options.pruning.rule == PruningRule::kPersistence &&
       options.thinning.kind != SkeletonKind::kIsthmusCurve) {
     return absl::InvalidArgumentError(
-        "pruning by persistence: goes by when points became isthmuses, so it needs the kind "
-        "isthmus-curve");
+        "pruning by persistence: needs the kind isthmus-curve, which knows when each point became "
+        "an isthmus");
   }
   return absl::OkStatus();
 }

@@ -37,7 +37,7 @@ struct SkeletonizeResult {
   Volume thin;
   Certificate certificate;
   StageTimings timings;
-  SkeletonizeOptions options;            // as they were asked for, without the points to keep
+  SkeletonizeOptions options;            // CanonicalOptions(), without the points to keep
   std::vector<PreparingStep> preparing;  // what was done to the object before thinning
   uint64_t object_points = 0;            // after that
   uint64_t skeleton_points = 0;

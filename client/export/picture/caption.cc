@@ -1,18 +1,6 @@
 #include "client/export/picture/caption.h"
 
-#include <string_view>
-#include <utility>
-
-#include "client/export/text.h"
-
 namespace bccskel::exporting {
-namespace {
-
-void AddCount(Text& text, int64_t count, std::string_view one, std::string_view many) {
-  text.Add(count, ' ', count == 1 ? one : many);
-}
-
-}  // namespace
 
 std::string EscapeMarkup(const std::string& text) {
   std::string escaped;
@@ -43,23 +31,26 @@ std::string GroupedDigits(uint64_t number) {
   return digits;
 }
 
+std::string Counted(uint64_t count, std::string_view one, std::string_view many) {
+  return GroupedDigits(count) + ' ' + std::string(count == 1 ? one : many);
+}
+
 std::string BettiPhrase(const BettiNumbers& betti) {
-  Text text;
-  AddCount(text, betti.components, "component", "components");
-  text.Add(", ");
-  AddCount(text, betti.loops, "loop", "loops");
-  text.Add(", ");
-  AddCount(text, betti.cavities, "cavity", "cavities");
-  return std::move(text).Take();
+  const auto counted = [](int64_t count, const char* one, const char* many) {
+    return Counted(static_cast<uint64_t>(count), one, many);
+  };
+  return counted(betti.components, "component", "components") + ", " +
+         counted(betti.loops, "loop", "loops") + ", " +
+         counted(betti.cavities, "cavity", "cavities");
 }
 
 std::string ObjectPhrase(const SkeletonizeResult& result) {
-  return "object: " + GroupedDigits(result.object_points) + " points, " +
+  return "object: " + Counted(result.object_points, "point", "points") + ", " +
          BettiPhrase(result.certificate.input);
 }
 
 std::string SkeletonPhrase(const SkeletonizeResult& result) {
-  return "skeleton: " + GroupedDigits(result.skeleton_points) + " points, " +
+  return "skeleton: " + Counted(result.skeleton_points, "point", "points") + ", " +
          BettiPhrase(result.certificate.skeleton) +
          (result.certificate.TopologyKept() ? " (topology kept)" : " (TOPOLOGY NOT KEPT)");
 }

@@ -1,7 +1,9 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_CAPTION_H_
 #define BCCSKEL_CLIENT_EXPORT_PICTURE_CAPTION_H_
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "client/export/subject.h"
 
@@ -12,6 +14,9 @@ std::string EscapeMarkup(const std::string& text);
 
 // "12,345,678".
 std::string GroupedDigits(uint64_t number);
+
+// "1 node", "1,485 nodes".
+std::string Counted(uint64_t count, std::string_view one, std::string_view many);
 
 // "1 component, 3 loops, 0 cavities".
 std::string BettiPhrase(const BettiNumbers& betti);

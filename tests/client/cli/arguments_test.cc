@@ -180,6 +180,23 @@ TEST(ArgumentsTest, OtherCommandsTakeTheirs) {
   EXPECT_EQ(generate.as<GenerateArguments>().options.seed, 4);
 }
 
+TEST(ArgumentsTest, TakesNoPruningWhereNothingIsPruned) {
+  const Parsed parsed =
+      Parse({"skeletonize", "a.off", "-o", "a.swc", "--kind", "surface", "--pruning", "none"});
+  EXPECT_EQ(parsed.as<SkeletonizeArguments>().skeletonize.pruning.rule, PruningRule::kNone);
+}
+
+TEST(ArgumentsTest, LabelsAreComputedHereWhetherThatIsAskedForOrNot) {
+  EXPECT_EQ(Parse({"labels", "a.tif", "-o", "a.vtp", "--local"}).as<LabelsArguments>().input,
+            "a.tif");
+}
+
+TEST(ArgumentsTest, BenchCoreTakesADistance) {
+  EXPECT_EQ(Parse({"bench", "core"}).as<BenchCoreArguments>().distance, std::nullopt);
+  EXPECT_EQ(Parse({"bench", "core", "--distance", "chamfer"}).as<BenchCoreArguments>().distance,
+            DistanceKind::kChamfer);
+}
+
 // A command line that is wrong, and a part of what the user reads.
 struct Wrong {
   const char* name;
@@ -240,6 +257,57 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"half_a_root", {"skeletonize", "a.off", "-o", "a.swc", "--root", "1,2"}, "node:7"},
         Wrong{
             "root_of_labels", {"labels", "a.tif", "-o", "a.vtp", "--root", "node:1"}, "have many"},
+        Wrong{"unknown_distance",
+              {"skeletonize", "a.off", "-o", "a.swc", "--distance", "chamfer5"},
+              "--distance chamfer5: must be chamfer, chamfer-optimal or euclidean\n"},
+        Wrong{"number_of_a_word",
+              {"skeletonize", "a.off", "-o", "a.swc", "--tips", "1"},
+              "--tips 1: must be ridge or as-thinned"},
+        Wrong{"unknown_sampling",
+              {"skeletonize", "a.tif", "-o", "a.swc", "--sampling", "cubic"},
+              "--sampling cubic: must be exact, nearest or trilinear"},
+        Wrong{"negative_component",
+              {"skeletonize", "a.off", "-o", "a.swc", "--min-component", "-3"},
+              "--min-component -3: must be a whole number from 0 to 18446744073709551615"},
+        Wrong{"negative_passes", {"skeletonize", "a.off", "-o", "a.swc", "--denoise", "-1"}, "16"},
+        Wrong{"negative_points",
+              {"voxelize", "a.off", "-o", "a.exr", "--points", "-9"},
+              "--points -9: must be a whole number"},
+        Wrong{"negative_label",
+              {"skeletonize", "a.tif", "-o", "a.swc", "--label", "4,-5"},
+              "--label -5: must be a whole number"},
+        Wrong{"negative_label_of_many",
+              {"labels", "a.tif", "-o", "a.vtp", "--labels", "-5"},
+              "--label -5: must be a whole number"},
+        Wrong{"negative_voxels",
+              {"labels", "a.tif", "-o", "a.vtp", "--min-voxels", "-5"},
+              "--min-voxels -5: must be a whole number"},
+        Wrong{"negative_header",
+              {"info", "a.raw", "--raw-size", "9,9,9", "--raw-header", "-5"},
+              "--raw-header -5: must be a whole number"},
+        Wrong{"too_large_a_number",
+              {"generate", "ball", "-o", "a.exr", "--points", "99999999999999999999"},
+              "--points 99999999999999999999: must be a whole number"},
+        Wrong{"negative_seed",
+              {"generate", "ball", "-o", "a.exr", "--seed", "-1"},
+              "--seed -1: must be a whole number"},
+        Wrong{"negative_bench", {"bench", "core", "--points", "-9"}, "--points"},
+        Wrong{"negative_node",
+              {"skeletonize", "a.off", "-o", "a.swc", "--root", "node:-3"},
+              "--root node -3: must be a whole number"},
+        Wrong{"pruning_of_a_surface",
+              {"skeletonize", "a.off", "-o", "a.swc", "--kind", "surface", "--pruning", "length",
+               "--pruning-threshold", "3"},
+              "--pruning, --pruning-threshold and --tips are for curves, and --kind surface has "
+              "none"},
+        Wrong{"pruning_of_shells",
+              {"skeletonize", "a.off", "-o", "a.swc", "--last-shell", "5", "--pruning-threshold",
+               "3"},
+              "and --last-shell stops before there are curves"},
+        Wrong{"threshold_of_nothing",
+              {"labels", "a.tif", "-o", "a.vtp", "--pruning", "none", "--pruning-threshold", "3"},
+              "not for --pruning none"},
+        Wrong{"unknown_bench", {"bench", "core", "--shape", "sofa"}, "--shape sofa: must be ball"},
         Wrong{"unknown_shape", {"generate", "teapot", "-o", "a.exr"}, "hollow-ball"}),
     [](const auto& test) { return test.param.name; });
 

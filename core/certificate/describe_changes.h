@@ -1,0 +1,15 @@
+#ifndef BCCSKEL_CORE_CERTIFICATE_DESCRIBE_CHANGES_H_
+#define BCCSKEL_CORE_CERTIFICATE_DESCRIBE_CHANGES_H_
+
+#include <string>
+
+#include "core/certificate/certificate.h"
+
+namespace bccskel {
+
+// What became of a topology, such as "components 1 -> 3, loops 2 -> 7"; empty when nothing.
+std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& after);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_CERTIFICATE_DESCRIBE_CHANGES_H_
