@@ -68,6 +68,28 @@ class CommandsTest(harness.TestCase):
         digests = {e: hashlib.sha256(content).hexdigest() for e, content in files.items()}
         return harness.without_times(summary), digests
 
+    def test_the_summary_tells_the_method_and_counts_in_words(self):
+        volume = self.generate("ball", 5000)
+        command = ("skeletonize", volume, "--local", "-o", self.path("s.json"), "--method",
+                   "directional", "--distance", "chamfer")
+        self.assertIn("method:    curve skeleton by parallel directional thinning on the "
+                      "body-centered cubic grid by chamfer shells\n", self.succeed(*command))
+        summary = self.summarize(*command)
+        self.assertEqual((summary["method"], summary["kind"], summary["distance"]),
+                         ("directional", "curve", "chamfer"))
+        options = json.loads((self.folder / "s.json").read_text())["options"]
+        self.assertEqual((options["pruning"], options["pruning_threshold"]), ("slope", 4))
+        kernel = ("skeletonize", volume, "--local", "-o", self.path("s.json"), "--kind", "kernel")
+        self.assertIn("skeleton:  1 point, 1 component, 0 loops, 0 cavities, 1 node, 0 edges\n",
+                      self.succeed(*kernel))
+        options = json.loads((self.folder / "s.json").read_text())["options"]
+        self.assertEqual((options["pruning"], options["tips"]), ("none", "as-thinned"))
+
+    def test_a_node_that_is_not_there_is_a_wrong_command_line(self):
+        volume = self.generate("ball", 5000)
+        self.fail_with(2, "root node 999: the skeleton has ", "skeletonize", volume, "--local",
+                       "-o", self.path("s.swc"), "--root", "node:999")
+
     def test_submit_takes_what_skeletonize_takes_of_volumes(self):
         volume = self.generate("torus")
         with harness.Server(self.folder) as server:

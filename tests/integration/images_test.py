@@ -97,8 +97,17 @@ class ImagesTest(harness.TestCase):
             with self.subTest(rule):
                 summary = self.skeletonize(ring_file, *rule)
                 self.assertEqual(summary["certificate"]["mask"]["loops"], loops)
-        info = json.loads(self.succeed("info", ring_file, "--label", 7, "--json"))
-        self.assertEqual(info["image"]["voxels"], 0)
+
+    def test_a_label_that_no_voxel_has_is_an_error_that_names_those_there(self):
+        ring_file = self.write_ring()
+        for command in (("info",), ("skeletonize", "--local", "-o", self.path("s.swc"))):
+            self.fail_with(3, "ring.nrrd: no voxel has the label 7 or 9; 1 label is there: 5",
+                           *command, ring_file, "--label", "9,7")
+        numpy.save(self.path("many.npy"), numpy.arange(27, dtype="u2").reshape(3, 3, 3))
+        self.fail_with(3, "26 labels are there: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...",
+                       "info", self.path("many.npy"), "--label", 99)
+        self.assertEqual(self.skeletonize(ring_file, "--threshold", 9)["notes"],
+                         ["the object has no points"])
 
     def test_adjacency_decides_whether_voxels_at_a_corner_touch(self):
         pair = numpy.zeros((2, 2, 2), "u1")
