@@ -23,6 +23,12 @@ class JobCodec {
   virtual absl::StatusOr<JobRequest> RequestOf(const std::string& declaration,
                                                const std::string& options) const = 0;
 
+  // The options as bytes that are the same where they have the same effect on the request's volume.
+  // Needs: the request was made of them.
+  virtual std::string OptionsFor(const JobRequest&, const std::string& options) const {
+    return options;
+  }
+
   // Cuts a result into records, one at a time. Errors: those of `sink`.
   using RecordSink = std::function<absl::Status(const ResultRecord& record)>;
   virtual absl::Status WriteResult(const JobResult& result, const RecordSink& sink) const = 0;

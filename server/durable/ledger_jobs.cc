@@ -70,6 +70,7 @@ struct DurableLedger::Creating {
   std::string tenant;
   NewJob wanted;
   VolumeRow volume;
+  std::string options;       // as they take effect on the volume
   std::optional<Step> step;  // of a job that is new
   std::optional<JobInfo> info;
 };
@@ -152,7 +153,7 @@ absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
   job.tenant = creating.tenant;
   job.request_id = wanted.request_id;
   job.body = BodyOf(wanted);
-  job.options = wanted.options;
+  job.options = creating.options;
   job.priority = wanted.priority;
   job.threads = wanted.threads;
   job.volume = wanted.volume;
@@ -176,6 +177,7 @@ absl::Status DurableLedger::CheckJob(JobStore& store, Creating& creating) {
                            codec_.RequestOf(volume->declaration, creating.wanted.options));
   BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
   return CheckRoomForJob();
+  creating.options = codec_.OptionsFor(request, creating.wanted.options);
 }
 
 absl::Status DurableLedger::InsertJob(JobStore& store, JobRow job, Creating& creating) {

@@ -69,7 +69,7 @@ absl::Status DurableLedger::PrepareUpload(const NewUpload& upload, Opening& open
   job.tenant = opening.row.tenant;
   job.name = RandomName("jobs");
   job.upload = opening.row.name;
-  job.options = options;
+  job.options = codec_.OptionsFor(request, options);
   job.priority = upload.then_job->priority;
   job.threads = upload.then_job->threads;
   job.state = JobState::kReceiving;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
+#include "core/pipeline/canonical_options.h"
 #include "proto/wire/options.h"
 #include "proto/wire/result.h"
 #include "proto/wire/skeleton_chunks.h"
@@ -43,6 +44,12 @@ absl::StatusOr<JobRequest> MessageCodec::RequestOf(const std::string& declaratio
   v1::SkeletonizeConfig config = ConfigOf(options);
   *config.mutable_volume() = DeclarationOf(declaration);
   return JobRequestOf(config, limits_);
+}
+
+std::string MessageCodec::OptionsFor(const JobRequest& request, const std::string& options) const {
+  v1::SkeletonizeConfig config = ConfigOf(options);
+  *config.mutable_options() = wire::ToMessage(CanonicalOptions(request.options));
+  return config.SerializeAsString();
 }
 
 absl::Status MessageCodec::WriteResult(const JobResult& result, const RecordSink& sink) const {

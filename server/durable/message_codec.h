@@ -17,6 +17,7 @@ class MessageCodec final : public JobCodec {
 
   absl::StatusOr<JobRequest> RequestOf(const std::string& declaration,
                                        const std::string& options) const override;
+  std::string OptionsFor(const JobRequest& request, const std::string& options) const override;
   absl::Status WriteResult(const JobResult& result, const RecordSink& sink) const override;
 
  private:
