@@ -10,6 +10,8 @@ import time
 
 import numpy as np
 
+import tables
+
 # Edge of a voxel in lattice units: a lattice point stands for four cubic units.
 VOXEL = 4 ** (1 / 3)
 # Points on either side that the smoothed curve is the mean of.
@@ -126,7 +128,7 @@ def measure(program, arguments):
             data = process.stdout.read((count + 7) // 8)
             bits = np.unpackbits(np.frombuffer(data, np.uint8), bitorder="little")
             voxels = bits[:count].reshape(truth["shape"]).astype(bool)
-            for noise in (0, 0.02):
+            for noise in tables.NOISES:
                 rows.append(judge(truth, flipped(voxels, noise, truth["turn"]), noise))
             print(f"peer: {truth['figure']}", file=sys.stderr)
     return rows

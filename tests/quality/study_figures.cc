@@ -61,17 +61,34 @@ absl::Status StudyFlips(const PlacedFigure& placed, int turn) {
   return absl::OkStatus();
 }
 
+Volume Noisy(const PlacedFigure& placed, double noise, int turn) {
+  if (noise == 0) return placed.object;
+  return WithTopologyKeepingNoise(placed.object, noise, static_cast<uint64_t>(turn));
+}
+
+// Curves of isthmuses, pruned by how long they lasted.
+absl::Status StudyIsthmuses(const PlacedFigure& placed, int turn) {
+  SkeletonizeOptions options;
+  options.thinning.kind = SkeletonKind::kIsthmusCurve;
+  options.pruning.rule = PruningRule::kPersistence;
+  for (const double noise : kNoise) {
+    BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result,
+                             Skeletonize(Noisy(placed, noise, turn), options, exec::Context()));
+    PrintJudgment(placed, "isthmuses by persistence, Euclidean", noise, turn, result);
+  }
+  return absl::OkStatus();
+}
+
 absl::Status StudyFigure(const KnownFigure& figure, uint64_t points, int turn) {
   BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed, Place(figure, points));
   for (const double noise : kNoise) {
-    const Volume object =
-        noise == 0 ? placed.object
-                   : WithTopologyKeepingNoise(placed.object, noise, static_cast<uint64_t>(turn));
+    const Volume object = Noisy(placed, noise, turn);
     for (const Method& method : kMethods) {
       BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result, SkeletonizeBy(method, object));
       PrintJudgment(placed, method.name, noise, turn, result);
     }
   }
+  BCCSKEL_RETURN_IF_ERROR(StudyIsthmuses(placed, turn));
   return StudyFlips(placed, turn);
 }
 

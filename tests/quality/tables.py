@@ -48,12 +48,22 @@ def summary(rows, method, noise):
               sum(r["spurious"] for r in chosen), f"{mean(r['mean_gap'] for r in found):.2f}",
               f"{max(r['largest_gap'] for r in found):.1f}",
               f"{mean(abs(r['junctions'] - r['forks']) for r in with_line):.2f}"]
-    return cells
+    return cells + along(with_line)
+
+
+def along(rows):
+    """The largest offset, and what only our results have: radii and lengths."""
+    cells = [f"{worst(rows, 'smooth', 'largest'):.1f}"]
+    if not all("radius_error" in row for row in rows):
+        return cells + ["-", "-"]
+    return cells + [f"{mean(r['radius_error'] for r in rows):.2f}",
+                    f"{100 * mean(abs(r['length_error']) for r in rows):.1f} %"]
 
 
 SUMMARY_HEAD = ["method, distance", "noise", "raw offset, mean", "worst figure", "bias",
                 "smoothed offset, mean", "worst figure", "bias", "all ends right", "tips lost",
-                "spurious ends", "gap to tips, mean", "largest", "branch points off by"]
+                "spurious ends", "gap to tips, mean", "largest", "branch points off by",
+                "largest smoothed offset", "radius off by", "length off by"]
 
 
 def offsets_section(figures, others):
@@ -62,12 +72,13 @@ def offsets_section(figures, others):
              "it than two radii and 8 units. Noise flips that share of the points on both sides of "
              "the boundary, each only if that keeps the topology. Plain flips open tunnels and "
              "enclose cavities; `--denoise 1 --fill-cavities --keep-largest` is made against them. "
-             "The peer gets plain flips as they are.",
+             "The peer gets plain flips as they are. Radius and length off by: the mean of how far "
+             "they are, to either side.",
              ""]
     rows = [summary(figures, method, noise) for method in methods_of(figures) for noise in NOISES
             if select(figures, method=method, noise=noise)]
     rows += [summary(others, method, noise) for method in methods_of(others)
-             for noise in (0, 0.02)]
+             for noise in NOISES if select(others, method=method, noise=noise)]
     return lines + table(SUMMARY_HEAD, rows)
 
 
