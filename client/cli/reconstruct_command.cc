@@ -1,5 +1,4 @@
 #include <utility>
-#include <vector>
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
@@ -8,29 +7,13 @@
 #include "client/cli/result_object.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
+#include "client/view/result_balls.h"
 #include "core/io/volume_file.h"
 #include "core/reconstruct/overlap.h"
 #include "core/reconstruct/union_of_balls.h"
 
 namespace bccskel::cli {
 namespace {
-
-// A ball around every point of the skeleton, in lattice units of the object's grid.
-std::vector<OpenBall> BallsOf(const view::ResultDocument& result, const Placement& placement) {
-  // The radius in world units is that in lattice units times half the mean spacing.
-  const auto& spacing = placement.spacing;
-  const double unit = (spacing[0] + spacing[1] + spacing[2]) / 3 / 2;
-  std::vector<OpenBall> balls;
-  for (const view::ResultDocument::Node& node : result.nodes) {
-    balls.push_back({LatticePlaceOf(node.position, placement), node.radius / unit});
-  }
-  for (const view::ResultDocument::Edge& edge : result.edges) {
-    for (size_t n = 0; n < edge.points.size(); ++n) {
-      balls.push_back({LatticePlaceOf(edge.points[n], placement), edge.radii[n] / unit});
-    }
-  }
-  return balls;
-}
 
 std::string SummaryOf(const ReconstructArguments& arguments, uint64_t points,
                       const Overlap& overlap) {
@@ -57,8 +40,8 @@ ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop)
   if (!loaded.ok()) return Fail(loaded.status());
   const Volume& object = loaded->object;
   const absl::StatusOr<Volume> balls =
-      UnionOfBalls(BallsOf(loaded->result, object.placement()), object.extent(), object.placement(),
-                   team.context());
+      UnionOfBalls(view::BallsOf(loaded->result, object.placement()), object.extent(),
+                   object.placement(), team.context());
   if (!balls.ok()) return Fail(balls.status());
   const absl::Status written = WriteVolumeFile(arguments.output, *balls, {}, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);

@@ -22,9 +22,10 @@ struct ResultAndObject {
   Volume object;
 };
 
-// Reads both. Warns when the object has not the number of points that the result
-// speaks of.
-// Errors: those of ReadResultDocument() and LoadObject(), with the path.
+// Reads both, and makes of the object what the result says was thinned: a mesh is filled on a grid
+// of its spacing, unless the arguments ask for another, and all is prepared again. Warns when the
+// object then has not the number of points that the result speaks of. Errors: those of
+// ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context);
 

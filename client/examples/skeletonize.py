@@ -38,6 +38,8 @@ class Skeleton:
     paths: list        # per edge: its lattice points from source to target, shape (points, 3)
     shifts: list       # per edge: what takes each point to the middle, in lattice units; 0 at nodes
     radii: list        # per edge: the distance of each point to the background, in world units
+    sheets: np.ndarray       # lattice points on no edge, as of surfaces, shape (points, 3)
+    sheet_radii: np.ndarray  # one per point
     summary: object    # skeleton_pb2.SkeletonSummary: certificate, timings, SHA-256
 
     def world(self, points):
@@ -164,7 +166,8 @@ def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
 
 def empty_columns():
     """What add() fills and assemble() takes."""
-    return {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius")}
+    return {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius",
+                                  "sheet", "sheet_radius")}
 
 
 def add(columns, chunk):
@@ -179,6 +182,8 @@ def add(columns, chunk):
     # Empty where the server was asked for chamfer distances: then the points are not moved.
     shifts = zip(points.shift_x, points.shift_y, points.shift_z)
     columns["shift"].extend(shifts if points.shift_x else [(0, 0, 0)] * len(points.x))
+    columns["sheet"].extend(zip(chunk.sheets.x, chunk.sheets.y, chunk.sheets.z))
+    columns["sheet_radius"].extend(chunk.sheets.radius)
 
 
 def assemble(columns, summary):
@@ -187,8 +192,9 @@ def assemble(columns, summary):
     shifts = np.array(columns["shift"], dtype=float).reshape(-1, 3) / 64
     unit = min(summary.placement.spacing, default=1) / 2  # lattice units are along the shortest axis
     radii = np.array(columns["radius"]) * unit
-    if (len(columns["node"]), len(columns["ends"]), len(points)) != (
-            summary.node_count, summary.edge_count, summary.point_count):
+    if (len(columns["node"]), len(columns["ends"]), len(points), len(columns["sheet"])) != (
+            summary.node_count, summary.edge_count, summary.point_count,
+            summary.sheet_point_count):
         raise ValueError("the summary states other numbers of rows than came")
     cuts = np.cumsum(columns["count"], dtype=np.int64)[:-1]
     has_edges = len(columns["count"]) > 0
@@ -199,6 +205,8 @@ def assemble(columns, summary):
         paths=np.split(points, cuts) if has_edges else [],
         shifts=np.split(shifts, cuts) if has_edges else [],
         radii=np.split(radii, cuts) if has_edges else [],
+        sheets=np.array(columns["sheet"], dtype=np.int32).reshape(-1, 3),
+        sheet_radii=np.array(columns["sheet_radius"]) * unit,
         summary=summary)
 
 

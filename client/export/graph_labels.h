@@ -10,6 +10,7 @@ namespace bccskel::exporting {
 struct GraphLabels {
   std::vector<uint64_t> of_nodes;
   std::vector<uint64_t> of_edges;
+  std::vector<uint64_t> of_sheets;  // by point
 };
 
 }  // namespace bccskel::exporting

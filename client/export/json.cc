@@ -87,6 +87,30 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
   text.Add('}');
 }
 
+void AddSheets(Text& text, const SkeletonGraph& graph) {
+  text.Add("{\"points\":");
+  AddList(text, ",", graph.sheets,
+          [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
+  text.Add(",\"radii\":");
+  AddList(text, ",", graph.sheets, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
+  if (graph.HasBirths()) {
+    text.Add(",\"births\":");
+    AddList(text, ",", graph.sheets, [&](const SkeletonPoint& p) { text.Add(p.birth); });
+  }
+  text.Add('}');
+}
+
+void AddPlacement(Text& text, const Placement& placement) {
+  const auto add = [&](double value) { text.Add(value); };
+  text.Add("{\"spacing\":");
+  AddList(text, ",", placement.spacing, add);
+  text.Add(",\"origin\":");
+  AddList(text, ",", placement.origin, add);
+  text.Add(",\"direction\":");
+  AddList(text, ",", placement.direction, add);
+  text.Add('}');
+}
+
 void AddOrder(Text& text, const TreeOrder& order) {
   text.Add(",\n\"order\":{\"roots\":");
   AddList(text, ",", order.roots, [&](uint32_t root) { text.Add(root); });
@@ -150,6 +174,8 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
   });
   text.Add(",\n\"edges\":");
   AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, order); });
+  text.Add(",\n\"sheets\":");
+  AddSheets(text, graph);
   text.Add(",\n\"components\":");
   AddList(text, ",\n", components.figures,
           [&](const ComponentFigures& figures) { AddFigures(text, figures); });
@@ -162,6 +188,8 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
            result.algorithm_version, "\",\n\"options\":", OptionsJson(result.options),
            ",\n\"preparing\":", PreparingJson(result.preparing), ",\n\"notes\":");
   AddList(text, ",\n", NotesOn(result), [&](const std::string& note) { text.Add('"', note, '"'); });
+  text.Add(",\n\"placement\":");
+  AddPlacement(text, graph.placement);
   text.Add(",\n\"object_points\":", result.object_points, ",\n\"timings\":");
   AddTimings(text, result.timings);
   text.Add(",\n\"sha256\":\"", result.sha256, "\"\n}\n");

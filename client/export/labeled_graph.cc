@@ -37,6 +37,8 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
     edge.first_point += first_point;
     graph_.edges.push_back(edge);
   }
+  graph_.sheets.insert(graph_.sheets.end(), graph.sheets.begin(), graph.sheets.end());
+  labels_.of_sheets.resize(graph_.sheets.size(), label);
   labels_.of_nodes.resize(graph_.nodes.size(), label);
   labels_.of_edges.resize(graph_.edges.size(), label);
   json_ += json_.empty() ? "\n" : ",\n";

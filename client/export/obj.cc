@@ -20,7 +20,7 @@ std::string ObjText(const SkeletonGraph& graph) {
     for (size_t n : line) text.Add(' ', n + 1);
     text.Add('\n');
   }
-  for (size_t n : polylines.lone_nodes) text.Add("p ", n + 1, '\n');
+  for (size_t n : polylines.lone_points) text.Add("p ", n + 1, '\n');
   return std::move(text).Take();
 }
 

@@ -25,7 +25,7 @@ std::vector<size_t> LoneNodes(const SkeletonGraph& graph) {
 
 Polylines PolylinesOf(const SkeletonGraph& graph) {
   Polylines result;
-  result.lone_nodes = LoneNodes(graph);
+  result.lone_points = LoneNodes(graph);
   for (const SkeletonNode& node : graph.nodes) result.points.push_back(node.at);
   for (const SkeletonEdge& edge : graph.edges) {
     std::vector<size_t> line = {edge.source};
@@ -35,6 +35,11 @@ Polylines PolylinesOf(const SkeletonGraph& graph) {
     }
     line.push_back(edge.target);
     result.lines.push_back(std::move(line));
+  }
+  result.first_of_sheets = result.points.size();
+  for (const SkeletonPoint& point : graph.sheets) {
+    result.lone_points.push_back(result.points.size());
+    result.points.push_back(point);
   }
   return result;
 }

@@ -48,6 +48,7 @@ bool IsFinite(const SkeletonGraph& graph, const SkeletonPoint& point) {
 absl::Status CheckFinite(const SkeletonGraph& graph) {
   const auto finite = [&](const SkeletonPoint& p) { return IsFinite(graph, p); };
   const bool all = std::ranges::all_of(graph.points, finite) &&
+                   std::ranges::all_of(graph.sheets, finite) &&
                    std::ranges::all_of(graph.nodes, finite, &SkeletonNode::at) &&
                    std::ranges::all_of(graph.edges, [&](const SkeletonEdge& edge) {
                      return std::isfinite(FiguresOf(graph, edge).length);

@@ -1,6 +1,7 @@
 #include "client/export/swc.h"
 
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "client/export/point_forest.h"
@@ -32,14 +33,24 @@ uint64_t ClosedSurfaces(const SkeletonGraph& graph) {
   return count;
 }
 
+// Not worth a word where they are the thick spots of curves.
+bool HasLargeSheets(const SkeletonGraph& graph) {
+  return graph.sheets.size() > (graph.nodes.size() + graph.points.size()) / 4;
+}
+
 std::string NoteOf(const SkeletonGraph& graph, const PointForest& forest) {
   Text note;
+  if (HasLargeSheets(graph)) {
+    note.Add("SWC holds curves only: ", graph.sheets.size(), " points of sheets left out");
+  }
+  const std::string_view trees =
+      HasLargeSheets(graph) ? "; trees only: " : "SWC holds trees only: ";
   if (forest.loops_cut > 0) {
-    note.Add("SWC holds trees only: ", forest.loops_cut, forest.loops_cut == 1 ? " loop" : " loops",
+    note.Add(trees, forest.loops_cut, forest.loops_cut == 1 ? " loop" : " loops",
              " cut, each at the step farthest from its root");
   }
   if (const uint64_t surfaces = ClosedSurfaces(graph); surfaces > 0) {
-    note.Add(forest.loops_cut > 0 ? "; " : "SWC holds trees only: ", surfaces,
+    note.Add(forest.loops_cut > 0 ? "; " : trees, surfaces,
              " closed surface(s) shown as a point each, with ", LoopsStatedByNodes(graph),
              " loop(s) of their own");
   }

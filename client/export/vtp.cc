@@ -56,6 +56,7 @@ std::vector<WorldPoint> SmoothPoints(const SkeletonGraph& graph) {
     if (graph.nodes[edge.source].kind == NodeKind::kLoop) places[edge.source] = curve.front();
     if (curve.size() > 2) places.insert(places.end(), curve.begin() + 1, curve.end() - 1);
   }
+  for (const SkeletonPoint& p : graph.sheets) places.push_back(graph.PositionOf(p));
   return places;
 }
 
@@ -85,7 +86,10 @@ void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polyl
 
 void AddLabels(Text& text, const GraphLabels& labels, const Polylines& polylines) {
   AddArray(text, "UInt64", "label", [&] {
-    for (size_t n : polylines.lone_nodes) text.Add(labels.of_nodes[n], '\n');
+    for (size_t n : polylines.lone_points) {
+      const size_t first = polylines.first_of_sheets;
+      text.Add(n < first ? labels.of_nodes[n] : labels.of_sheets[n - first], '\n');
+    }
     for (uint64_t label : labels.of_edges) text.Add(label, '\n');
   });
 }
@@ -109,7 +113,7 @@ void AddEdgeArray(Text& text, std::string_view type, std::string_view name,
                   std::string_view of_vertices, const SkeletonGraph& graph,
                   const Polylines& polylines, Value value) {
   AddArray(text, type, name, [&] {
-    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add(of_vertices, '\n');
+    for (size_t n = 0; n < polylines.lone_points.size(); ++n) text.Add(of_vertices, '\n');
     for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(value(n), '\n');
   });
 }
@@ -137,14 +141,14 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
                  const GraphContext& context) {
   text.Add("<CellData Scalars=\"edge_id\">\n");
   AddArray(text, "Int64", "edge_id", [&] {
-    for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("-1\n");
+    for (size_t n = 0; n < polylines.lone_points.size(); ++n) text.Add("-1\n");
     for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(n, '\n');
   });
   std::vector<EdgeFigures> figures;
   for (const SkeletonEdge& edge : graph.edges) figures.push_back(FiguresOf(graph, edge));
   const auto add = [&](std::string_view name, auto figure) {
     AddArray(text, "Float64", name, [&] {
-      for (size_t n = 0; n < polylines.lone_nodes.size(); ++n) text.Add("0\n");
+      for (size_t n = 0; n < polylines.lone_points.size(); ++n) text.Add("0\n");
       for (const EdgeFigures& one : figures) text.Add(figure(one), '\n');
     });
   };
@@ -167,7 +171,7 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
 std::string VtpText(const SkeletonGraph& graph, const GraphContext& context) {
   const Polylines polylines = PolylinesOf(graph);
   std::vector<std::vector<size_t>> vertices;
-  for (size_t n : polylines.lone_nodes) vertices.push_back({n});
+  for (size_t n : polylines.lone_points) vertices.push_back({n});
   Text text;
   text.Add("<?xml version=\"1.0\"?>\n<!-- curve skeleton by bccskel -->\n",
            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" ",

@@ -9,6 +9,7 @@
 
 #include "client/view/packed_numbers.h"
 #include "client/view/page_parts.h"
+#include "client/view/sheet_surface.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::view {
@@ -48,6 +49,8 @@ Box BoxOf(const PageContent& content) {
   for (const ResultDocument::Edge& edge : content.result.edges) {
     for (size_t n = 0; n < edge.points.size(); ++n) box.Include(edge.points[n], edge.radii[n]);
   }
+  const ResultDocument::Sheets& sheets = content.result.sheets;
+  for (size_t n = 0; n < sheets.points.size(); ++n) box.Include(sheets.points[n], sheets.radii[n]);
   if (content.peeling.layers.empty()) return box;
   for (const WorldPoint& v : content.peeling.layers.front().surface.vertices) box.Include(v, 0);
   return box;
@@ -64,23 +67,31 @@ Quantizer QuantizerFor(Box box) {
   return {low, edge > 0 ? (edge + 2 * margin) / 65535 : 1};
 }
 
-absl::StatusOr<Json> SurfaceJson(const Peeled& layer, const Quantizer& quantize) {
+absl::StatusOr<Json> SurfaceJson(const std::vector<WorldPoint>& vertices,
+                                 const std::vector<SurfaceTriangle>& triangles,
+                                 const Quantizer& quantize) {
   std::vector<uint32_t> coordinates, corners;
   for (size_t axis = 0; axis < 3; ++axis) {  // one axis after the other: differences stay small
-    for (const WorldPoint& v : layer.surface.vertices) {
-      coordinates.push_back(quantize(v[axis], axis));
-    }
+    for (const WorldPoint& v : vertices) coordinates.push_back(quantize(v[axis], axis));
   }
-  for (const SurfaceTriangle& triangle : layer.surface.triangles) {
+  for (const SurfaceTriangle& triangle : triangles) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
   BCCSKEL_ASSIGN_OR_RETURN(std::string packed_coordinates, PackNumbers(coordinates));
   BCCSKEL_ASSIGN_OR_RETURN(std::string packed_corners, PackNumbers(corners));
-  return Json{{"shells", layer.shells},
-              {"vertices", layer.surface.vertices.size()},
-              {"triangles", layer.surface.triangles.size()},
+  return Json{{"vertices", vertices.size()},
+              {"triangles", triangles.size()},
               {"coordinates", std::move(packed_coordinates)},
               {"corners", std::move(packed_corners)}};
+}
+
+// Radii are in steps of the quantizer, too.
+absl::StatusOr<Json> SheetsJson(const SheetSurface& sheets, const Quantizer& quantize) {
+  BCCSKEL_ASSIGN_OR_RETURN(Json json, SurfaceJson(sheets.vertices, sheets.triangles, quantize));
+  std::vector<uint32_t> radii;
+  for (const double radius : sheets.radii) radii.push_back(quantize(radius + quantize.low[0], 0));
+  BCCSKEL_ASSIGN_OR_RETURN(json["radii"], PackNumbers(radii));
+  return json;
 }
 
 absl::StatusOr<Json> DataOf(const PageContent& content) {
@@ -91,9 +102,13 @@ absl::StatusOr<Json> DataOf(const PageContent& content) {
                {"last_shell", content.peeling.last_shell},
                {"layers", Json::array()}};
   for (const Peeled& layer : content.peeling.layers) {
-    BCCSKEL_ASSIGN_OR_RETURN(Json surface, SurfaceJson(layer, quantize));
+    const auto& [vertices, triangles] = layer.surface;
+    BCCSKEL_ASSIGN_OR_RETURN(Json surface, SurfaceJson(vertices, triangles, quantize));
+    surface["shells"] = layer.shells;
     data["layers"].push_back(std::move(surface));
   }
+  const SheetSurface sheets = SheetSurfaceOf(content.result);
+  BCCSKEL_ASSIGN_OR_RETURN(data["sheets"], SheetsJson(sheets, quantize));
   return data;
 }
 
@@ -101,6 +116,7 @@ absl::StatusOr<Json> DataOf(const PageContent& content) {
 std::string ShownOf(const std::string& document) {
   Json result = Json::parse(document, nullptr, /*allow_exceptions=*/false);
   result.erase("timings");
+  result.erase("sheets");  // they come as a surface
   for (Json& edge : result["edges"]) {
     if (edge.contains("curve")) edge.erase("points");
   }

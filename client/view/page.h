@@ -17,9 +17,9 @@ struct PageContent {
 
 // A self-contained page that a browser opens without a network: the object as tinted glass, its
 // skeleton, a slider that peels it and one that prunes it. Equal skeletons give equal bytes.
-// Surfaces are quantized to 16 bits across the object; the skeleton is the document itself, without
-// its timings and, where there are smooth curves, without the lattice points below them.
-// Errors: RESOURCE_EXHAUSTED.
+// Surfaces are quantized to 16 bits across the object; the skeleton is the document itself, its
+// sheets as a surface, without its timings and, where there are smooth curves, without the lattice
+// points below them. Errors: RESOURCE_EXHAUSTED.
 absl::StatusOr<std::string> PageOf(const PageContent& content);
 
 }  // namespace bccskel::view

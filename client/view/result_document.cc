@@ -37,10 +37,6 @@ class Reader {
     if (!from.is_string()) return Complain(place, "a string");
     to = from.get<std::string>();
   }
-  void Read(const Json& from, const std::string& place, WorldPoint& to) {
-    if (!from.is_array() || from.size() != 3) return Complain(place, "three numbers");
-    for (size_t axis = 0; axis < 3; ++axis) Read(from[axis], place, to[axis]);
-  }
   template <typename Item>
   void Read(const Json& from, const std::string& place, std::vector<Item>& to) {
     if (!from.is_array()) return Complain(place, "a list");
@@ -64,6 +60,36 @@ class Reader {
       Complain(place, "an edge with points and as many radii");
     }
   }
+  void Read(const Json& from, const std::string& place, ResultDocument::Sheets& to) {
+    ReadMember(from, place, "points", to.points);
+    ReadMember(from, place, "radii", to.radii);
+    if (to.radii.size() != to.points.size()) Complain(place, "points and as many radii");
+  }
+  template <size_t kCount>
+  void Read(const Json& from, const std::string& place, std::array<double, kCount>& to) {
+    if (!from.is_array() || from.size() != kCount) {
+      return Complain(place, kCount == 3 ? "three numbers" : absl::StrCat(kCount, " numbers"));
+    }
+    for (size_t n = 0; n < kCount; ++n) Read(from[n], place, to[n]);
+  }
+  void Read(const Json& from, const std::string& place, Placement& to) {
+    ReadMember(from, place, "spacing", to.spacing);
+    ReadMember(from, place, "origin", to.origin);
+    ReadMember(from, place, "direction", to.direction);
+    const absl::Status usable = status_.ok() ? CheckGrid({1, 1, 1}, to) : absl::OkStatus();
+    if (!usable.ok()) Complain(place, "one of a lattice (" + std::string(usable.message()) + ")");
+  }
+  void Read(const Json& from, const std::string& place, PreparingOptions& to) {
+    if (!from.is_object()) return Complain(place, "an object");
+    std::string cavities, components;
+    ReadIfThere(from, "denoise_passes", to.denoise_passes);
+    ReadIfThere(from, "cavities", cavities);
+    ReadIfThere(from, "min_component_points", to.min_component_points);
+    ReadIfThere(from, "min_component_volume", to.min_component_volume);
+    ReadIfThere(from, "components", components);
+    if (cavities == "filled") to.cavities = CavityFilling::kOn;
+    if (components == "largest") to.components = KeptComponents::kLargest;
+  }
   void Read(const Json& from, const std::string& place, BettiNumbers& to) {
     ReadMember(from, place, "components", to.components);
     ReadMember(from, place, "loops", to.loops);
@@ -82,7 +108,13 @@ class Reader {
     Read(*member, here, to);
   }
 
-  void Complain(const std::string& place, const char* expected) {
+  // Leaves `to` as it is where there is no such member. Needs: an object.
+  template <typename T>
+  void ReadIfThere(const Json& from, const char* name, T& to) {
+    if (const auto member = from.find(name); member != from.end()) Read(*member, name, to);
+  }
+
+  void Complain(const std::string& place, const std::string& expected) {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(
         absl::StrCat("no JSON result of bccskel: ", place, " is not ", expected));
@@ -113,6 +145,12 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   reader.ReadMember(json, "", "edges", document.edges);
   reader.ReadMember(json, "", "certificate", document.certificate);
   reader.ReadMember(json, "", "object_points", document.object_points);
+  BCCSKEL_RETURN_IF_ERROR(reader.status());
+  reader.ReadIfThere(json, "sheets", document.sheets);
+  reader.ReadIfThere(json, "options", document.preparing);
+  if (json.contains("placement")) {
+    reader.ReadMember(json, "", "placement", document.placement.emplace());
+  }
   BCCSKEL_RETURN_IF_ERROR(reader.status());
   BCCSKEL_RETURN_IF_ERROR(CheckEdges(document));
   document.text = std::move(text);

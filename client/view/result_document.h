@@ -2,12 +2,14 @@
 #define BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
 #include "core/lattice/lattice_point.h"
+#include "core/prepare/prepare.h"
 
 namespace bccskel::view {
 
@@ -25,15 +27,23 @@ struct ResultDocument {
     std::vector<double> radii;  // one per point
     double length;
   };
+  // Points on no edge.
+  struct Sheets {
+    std::vector<WorldPoint> points;
+    std::vector<double> radii;  // one per point
+  };
   std::vector<Node> nodes;
   std::vector<Edge> edges;
+  Sheets sheets;
+  std::optional<Placement> placement;  // unknown in results of older versions
+  PreparingOptions preparing;          // what was done to the object before thinning
   Certificate certificate;
   uint64_t object_points = 0;
   std::string text;  // the document itself
 };
 
 // Errors: INVALID_ARGUMENT with the place of the first thing that is not as the schema says.
-// Members that the schema may gain are ignored.
+// Members that the schema may gain are ignored, and those that it has gained may be missing.
 absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
 
 // Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED

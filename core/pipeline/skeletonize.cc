@@ -54,6 +54,7 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
   if (isthmuses.empty()) return;
   for (SkeletonNode& node : graph.nodes) node.at.birth = BirthOf(node.at.point, isthmuses);
   for (SkeletonPoint& p : graph.points) p.birth = BirthOf(p.point, isthmuses);
+  for (SkeletonPoint& p : graph.sheets) p.birth = BirthOf(p.point, isthmuses);
 }
 
 // An edge is there as long as a part of it is.

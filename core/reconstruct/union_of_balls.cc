@@ -25,20 +25,17 @@ Range IntegersWithin(double center, double reach, int32_t size) {
 class Filler {
  public:
   Filler(const LatticeExtent& extent, const Placement& placement)
-      : extent_(extent), builder_(extent, placement) {}
+      : extent_(extent), spacing_(placement.spacing), builder_(extent, placement) {}
 
   void Add(const OpenBall& ball) {
     const double reach = ball.radius * (1 - kRounding);
-    const Range layers = IntegersWithin(ball.center[2], reach, 2 * extent_.nz);
+    const auto [cx, cy, cz] = ball.center;
+    const Range layers = Within(cz, reach, 2, 2 * extent_.nz);
     for (int32_t z = layers.low; z <= layers.high; ++z) {
-      const double dz = z - ball.center[2];
-      const double flat = std::sqrt(std::max(0.0, reach * reach - dz * dz));
-      const Range rows = IntegersWithin(ball.center[1], flat, 2 * extent_.ny);
+      const double flat = Leg(reach, z - cz, 2);
+      const Range rows = Within(cy, flat, 1, 2 * extent_.ny);
       for (int32_t y = rows.low + ((rows.low ^ z) & 1); y <= rows.high; y += 2) {
-        const double dy = y - ball.center[1];
-        AddRow(y, z,
-               IntegersWithin(ball.center[0], std::sqrt(std::max(0.0, flat * flat - dy * dy)),
-                              2 * extent_.nx));
+        AddRow(y, z, Within(cx, Leg(flat, y - cy, 1), 0, 2 * extent_.nx));
       }
     }
   }
@@ -46,6 +43,16 @@ class Filler {
   absl::StatusOr<Volume> Build() && { return std::move(builder_).Build(); }
 
  private:
+  // A lattice unit in the world.
+  double UnitAlong(size_t axis) const { return spacing_[axis] / 2; }
+  Range Within(double center, double reach, size_t axis, int32_t size) const {
+    return IntegersWithin(center, reach / UnitAlong(axis), size);
+  }
+  // What is left of a reach so many lattice units off along an axis.
+  double Leg(double reach, double off, size_t axis) const {
+    const double leg = off * UnitAlong(axis);
+    return std::sqrt(std::max(0.0, reach * reach - leg * leg));
+  }
   // The points of a row, brick by brick.
   void AddRow(int32_t y, int32_t z, const Range& columns) {
     int32_t x = columns.low + ((columns.low ^ z) & 1);
@@ -60,10 +67,25 @@ class Filler {
   }
 
   LatticeExtent extent_;
+  std::array<double, 3> spacing_;
   VolumeBuilder builder_;
 };
 
 }  // namespace
+
+std::vector<OpenBall> BallsOf(const SkeletonGraph& graph) {
+  std::vector<OpenBall> balls;
+  balls.reserve(graph.nodes.size() + graph.points.size() + graph.sheets.size());
+  const auto add = [&](const SkeletonPoint& p) {
+    const auto [x, y, z] = p.point;
+    balls.push_back({{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)},
+                     graph.RadiusOf(p)});
+  };
+  for (const SkeletonNode& node : graph.nodes) add(node.at);
+  std::ranges::for_each(graph.points, add);
+  std::ranges::for_each(graph.sheets, add);
+  return balls;
+}
 
 std::array<double, 3> LatticePlaceOf(const WorldPoint& p, const Placement& placement) {
   const std::array<double, 9>& m = placement.direction;

@@ -33,16 +33,18 @@ class LittleEndianBytes {
 }  // namespace
 
 // Layout, all numbers little-endian:
-//   the 19 characters "bccskel.skeleton.v2"
+//   the 19 characters "bccskel.skeleton.v3"
 //   u64 number of nodes, then for each node
 //     u32 kind: 0 end, 1 junction, 2 loop, 3 isolated, 4 closed surface
 //     i32 x, i32 y, i32 z, f32 radius, u32 loops, u32 cavities
 //   u64 number of edges, then for each edge
 //     u32 source, u32 target, u64 number of points, then for each point
 //     i32 x, i32 y, i32 z, f32 radius
+//   u64 number of points of sheets, then for each point
+//     i32 x, i32 y, i32 z, f32 radius
 std::string SkeletonDigest(const SkeletonGraph& graph) {
   LittleEndianBytes bytes;
-  bytes.Add(std::string_view("bccskel.skeleton.v2"));
+  bytes.Add(std::string_view("bccskel.skeleton.v3"));
   bytes.Add(uint64_t{graph.nodes.size()});
   for (const SkeletonNode& node : graph.nodes) {
     bytes.Add(static_cast<uint32_t>(node.kind));
@@ -57,6 +59,8 @@ std::string SkeletonDigest(const SkeletonGraph& graph) {
     bytes.Add(edge.point_count);
     for (const SkeletonPoint& p : graph.PointsOf(edge)) bytes.Add(p);
   }
+  bytes.Add(uint64_t{graph.sheets.size()});
+  for (const SkeletonPoint& p : graph.sheets) bytes.Add(p);
   return Sha256Of(bytes.bytes()).Hex();
 }
 

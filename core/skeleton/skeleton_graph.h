@@ -88,6 +88,10 @@ struct SkeletonGraph {
   std::vector<SkeletonNode> nodes;
   std::vector<SkeletonEdge> edges;
   std::vector<SkeletonPoint> points;  // of all edges, one after the other
+  // What is on no edge and no node's point: the sheets of a surface skeleton, all but a point of a
+  // closed surface, and the thick spots of curves. With those of nodes and edges they are all
+  // points of the skeleton. In the order of their points.
+  std::vector<SkeletonPoint> sheets;
 
   std::span<const SkeletonPoint> PointsOf(const SkeletonEdge& edge) const {
     return std::span(points).subspan(edge.first_point, edge.point_count);
@@ -110,7 +114,7 @@ struct SkeletonGraph {
 std::string SkeletonDigest(const SkeletonGraph& graph);
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives
-// few nodes for large clusters.
+// few nodes for large clusters, and many points of sheets.
 // Shapes: `radii` one per point of `thin`, in lattice units, in the order of
 //         Volume::ForEachPoint().
 // Cost:   follows the points of `thin`.

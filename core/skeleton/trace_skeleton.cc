@@ -1,4 +1,5 @@
-// Does: points -> clusters -> branches -> graph, then brings the graph into its canonical order.
+// Does: points -> clusters -> branches -> graph, then brings the graph into its canonical order;
+//       what is on no path of it are sheets.
 // Why it is right: see clusters.h for the topology; a cluster's own loops become edges from its
 // node
 //       to itself, or numbers of the node where a cavity leaves a closed surface.
@@ -41,6 +42,7 @@ class GraphBuilder {
         clusters_(clusters),
         poll_(poll),
         node_of_(clusters.size()),
+        on_graph_(points.size()),
         loops_(points, clusters, poll),
         paths_(points, clusters.inner_masks()) {}
 
@@ -73,6 +75,7 @@ class GraphBuilder {
       for (PointPath& path : loops.paths) AddEdge(node_of_[c], node_of_[c], std::move(path));
     }
     node.at = points_[at];
+    on_graph_[at] = 1;
     nodes_.push_back(node);
     if (cluster.branches > 0) paths_.GrowFrom(at, poll_);
   }
@@ -96,6 +99,7 @@ class GraphBuilder {
   }
 
   void AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
+    for (PointIndex p : path) on_graph_[p] = 1;
     edges_.push_back({source, target, std::move(path)});
   }
 
@@ -106,6 +110,7 @@ class GraphBuilder {
   const Clusters& clusters_;
   StopPoll& poll_;
   std::vector<NodeIndex> node_of_;  // by cluster, for those that are no bends
+  std::vector<uint8_t> on_graph_;   // by point, whether it is a node's or on an edge
   ClusterLoopFinder loops_;
   SpanningTrees paths_;
   std::vector<SkeletonNode> nodes_;
@@ -153,6 +158,9 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
   for (const TracedEdge& edge : edges_) {
     graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
     for (PointIndex p : edge.points) graph.points.push_back(points_[p]);
+  }
+  for (PointIndex p = 0; p < points_.size(); ++p) {
+    if (on_graph_[p] == 0) graph.sheets.push_back(points_[p]);
   }
   return graph;
 }

@@ -101,7 +101,7 @@ class Voxelizer {
   absl::StatusOr<Volume> FillAsAsked() {
     if (!options_.spacing) return FillToCount(*options_.points);
     const double unit_spacing = *options_.spacing / surface_.half_size / 2;
-    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(unit_spacing, GridShift::kCentered));
+    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(unit_spacing, options_.shift));
     if (volume.empty()) warnings_.push_back("no lattice point is inside: the spacing is too large");
     return volume;
   }

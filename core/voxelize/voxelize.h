@@ -13,6 +13,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/volume/volume.h"
 #include "core/voxelize/fill_rule.h"
+#include "core/voxelize/grid_fit.h"
 
 namespace bccskel {
 
@@ -24,6 +25,8 @@ struct VoxelizeOptions {
   // them; the spacing is the edge of the cubic cell in the mesh's unit of length.
   std::optional<uint64_t> points = {};
   std::optional<double> spacing = {};
+  // Of a spacing. A number of points takes a centered grid, unless only one off the center has it.
+  GridShift shift = GridShift::kCentered;
   FillRule fill = FillRule::kAuto;
   TopologyCheck topology = TopologyCheck::kCompare;
   uint64_t max_points = uint64_t{1} << 33;
@@ -37,8 +40,8 @@ struct VoxelizeResult {
   std::optional<BettiNumbers> topology;  // of the volume, with TopologyCheck::kCompare
 };
 
-// Lays a bcc grid over the mesh, its middle on the middle of the box, and takes the lattice points
-// inside. Points exactly on the surface are inside where (x + e^3, y + e, z + e^2) is, for a
+// Lays a bcc grid over the mesh, its middle on or near the middle of the box, and takes the lattice
+// points inside. Points exactly on the surface are inside where (x + e^3, y + e, z + e^2) is, for a
 // vanishing e > 0 (see core/mesh/ray_crossing.h), so a box of whole cells gives half-open ranges.
 // Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every lattice
 //          row and fills spans into sparse bricks.

@@ -154,6 +154,7 @@ v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& f
   message.set_node_count(graph.nodes.size());
   message.set_edge_count(graph.edges.size());
   message.set_point_count(graph.points.size());
+  message.set_sheet_point_count(graph.sheets.size());
   message.set_thin_volume_size_bytes(facts.thin_volume_size_bytes);
   *message.mutable_placement() = ToMessage(graph.placement);
   Set(message.mutable_timings(), result.timings, facts);

@@ -126,15 +126,15 @@ absl::Status CheckEdgeColumns(const v1::SkeletonEdgeColumns& c) {
                                RowsOf(c.pruning_level_size(), c.source_size())});
 }
 
-absl::Status AppendPoints(const v1::SkeletonPointColumns& c, SkeletonGraph& graph) {
+absl::Status AppendPoints(const v1::SkeletonPointColumns& c, std::vector<SkeletonPoint>& points) {
   BCCSKEL_RETURN_IF_ERROR(CheckColumns(
       "point", {c.x_size(), c.y_size(), c.z_size(), c.radius_size(),
                 RowsOf(c.birth_size(), c.x_size()), RowsOf(c.shift_x_size(), c.x_size())}));
   BCCSKEL_RETURN_IF_ERROR(
       CheckColumns("point", {c.shift_x_size(), c.shift_y_size(), c.shift_z_size()}));
   for (int row = 0; row < c.x_size(); ++row) {
-    graph.points.push_back(PointOfRow(c, row));
-    if (c.shift_x_size() > 0) graph.points.back().shift = ShiftOfRow(c, row);
+    points.push_back(PointOfRow(c, row));
+    if (c.shift_x_size() > 0) points.back().shift = ShiftOfRow(c, row);
   }
   return absl::OkStatus();
 }
@@ -174,14 +174,18 @@ absl::Status CheckGraph(const SkeletonGraph& graph, uint64_t edge_points,
   BCCSKEL_RETURN_IF_ERROR(CheckCount("edges", graph.edges.size(), summary.edge_count()));
   BCCSKEL_RETURN_IF_ERROR(CheckCount("points", graph.points.size(), summary.point_count()));
   BCCSKEL_RETURN_IF_ERROR(CheckCount("points of edges", edge_points, summary.point_count()));
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckCount("points of sheets", graph.sheets.size(), summary.sheet_point_count()));
   for (size_t n = 0; n < graph.edges.size(); ++n) {
     BCCSKEL_RETURN_IF_ERROR(CheckEdge(graph, n));
   }
   for (const SkeletonNode& node : graph.nodes) {
     BCCSKEL_RETURN_IF_ERROR(CheckRadius(node.at.radius));
   }
-  for (const SkeletonPoint& point : graph.points) {
-    BCCSKEL_RETURN_IF_ERROR(CheckRadius(point.radius));
+  for (const std::vector<SkeletonPoint>* points : {&graph.points, &graph.sheets}) {
+    for (const SkeletonPoint& point : *points) {
+      BCCSKEL_RETURN_IF_ERROR(CheckRadius(point.radius));
+    }
   }
   return absl::OkStatus();
 }
@@ -201,11 +205,13 @@ std::optional<v1::SkeletonChunk> SkeletonChunkPager::Next() {
   AddNodes(budget_bytes, *chunk.mutable_nodes());
   if (node_ == graph_->nodes.size()) AddEdges(budget_bytes, *chunk.mutable_edges());
   if (edge_ == graph_->edges.size()) AddPoints(budget_bytes, *chunk.mutable_points());
+  if (points_edge_ == graph_->edges.size()) AddSheets(budget_bytes, *chunk.mutable_sheets());
   return chunk;
 }
 
 bool SkeletonChunkPager::AtEnd() const {
-  return node_ == graph_->nodes.size() && points_edge_ == graph_->edges.size();
+  return node_ == graph_->nodes.size() && points_edge_ == graph_->edges.size() &&
+         sheet_point_ == graph_->sheets.size();
 }
 
 void SkeletonChunkPager::AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns& columns) {
@@ -247,6 +253,15 @@ void SkeletonChunkPager::AddPoints(size_t& budget_bytes, v1::SkeletonPointColumn
   }
 }
 
+void SkeletonChunkPager::AddSheets(size_t& budget_bytes, v1::SkeletonPointColumns& columns) {
+  for (size_t rows = TakeRows(graph_->sheets.size() - sheet_point_, kPointRowBytes, budget_bytes);
+       rows > 0; --rows) {
+    const SkeletonPoint& point = graph_->sheets[sheet_point_++];
+    AppendPoint(point, columns);
+    if (births_ == Births::kSome) columns.add_birth(BirthInMessage(point));
+  }
+}
+
 absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
   if (chunk.sequence() != chunks_) {
     return absl::DataLossError(
@@ -269,7 +284,8 @@ absl::Status SkeletonAssembler::Add(const v1::SkeletonChunk& chunk) {
     }
     edge_points_ += edges.point_count(row);
   }
-  return AppendPoints(chunk.points(), graph_);
+  BCCSKEL_RETURN_IF_ERROR(AppendPoints(chunk.points(), graph_.points));
+  return AppendPoints(chunk.sheets(), graph_.sheets);
 }
 
 absl::StatusOr<SkeletonizeResult> SkeletonAssembler::Finish(const v1::SkeletonSummary& summary) && {

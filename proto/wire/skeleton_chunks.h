@@ -29,6 +29,7 @@ class SkeletonChunkPager {
   void AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns& columns);
   void AddEdges(size_t& budget_bytes, v1::SkeletonEdgeColumns& columns);
   void AddPoints(size_t& budget_bytes, v1::SkeletonPointColumns& columns);
+  void AddSheets(size_t& budget_bytes, v1::SkeletonPointColumns& columns);
   bool AtEnd() const;
 
   // Whether points are sent with their births and shifts.
@@ -43,6 +44,7 @@ class SkeletonChunkPager {
   size_t edge_ = 0;
   size_t points_edge_ = 0;   // the edge whose points come next
   uint64_t edge_point_ = 0;  // and the point within it
+  size_t sheet_point_ = 0;
 };
 
 // Puts a graph together from chunks and checks it: what a damaged or dishonest server sends is an

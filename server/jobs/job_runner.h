@@ -43,7 +43,7 @@ struct JobRequest {
 // Memory that a graph keeps.
 inline uint64_t GraphBytes(const SkeletonGraph& graph) {
   return graph.nodes.size() * sizeof(SkeletonNode) + graph.edges.size() * sizeof(SkeletonEdge) +
-         graph.points.size() * sizeof(SkeletonPoint);
+         (graph.points.size() + graph.sheets.size()) * sizeof(SkeletonPoint);
 }
 
 struct JobResult {

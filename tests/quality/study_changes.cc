@@ -1,5 +1,4 @@
 #include "absl/strings/str_format.h"
-#include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
 #include "core/mesh/mesh_file.h"
 #include "core/reconstruct/overlap.h"
@@ -90,19 +89,10 @@ absl::Status StudyFreeRotations(const KnownFigure& figure, const StudySize& size
   return absl::OkStatus();
 }
 
-// The union of the largest balls around all skeleton points against the object.
-absl::StatusOr<double> JaccardOfBalls(const Volume& object, const Volume& thin) {
-  const exec::Context context;
-  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
-                           ComputeDistance(object, DistanceKind::kEuclidean, context));
-  ExactRadius radius(object, distance);
-  std::vector<OpenBall> balls;
-  thin.ForEachPoint([&](LatticePoint p) {
-    balls.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)},
-                     radius.At(p)});
-  });
-  BCCSKEL_ASSIGN_OR_RETURN(const Volume all,
-                           UnionOfBalls(balls, object.extent(), object.placement(), context));
+// The union of the balls of the graph, as `bccskel reconstruct` makes it, against the object.
+absl::StatusOr<double> JaccardOfBalls(const Volume& object, const SkeletonGraph& graph) {
+  BCCSKEL_ASSIGN_OR_RETURN(const Volume all, UnionOfBalls(BallsOf(graph), object.extent(),
+                                                          object.placement(), exec::Context()));
   return MeasureOverlap(all, object).Jaccard();
 }
 
@@ -110,7 +100,7 @@ absl::Status StudyBalls(const PlacedFigure& placed, const char* name,
                         const SkeletonizeOptions& options) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result,
                            Skeletonize(placed.object, options, exec::Context()));
-  BCCSKEL_ASSIGN_OR_RETURN(const double jaccard, JaccardOfBalls(placed.object, result.thin));
+  BCCSKEL_ASSIGN_OR_RETURN(const double jaccard, JaccardOfBalls(placed.object, result.graph));
   absl::PrintF(
       "{\"study\": \"reconstruction\", \"figure\": \"%s\", \"kind\": \"%s\", "
       "\"points\": %d, \"skeleton_points\": %d, \"jaccard\": %.4f}\n",

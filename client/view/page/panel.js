@@ -1,6 +1,7 @@
 // ---- Peeling and pruning ----
 
 let layers = [];  // geometries
+let sheets = null;  // a mesh, where the skeleton has any
 function peel() {
   if (layers.length === 0) return redraw();
   const at = Math.min(Number(element("peel").value), layers.length - 1);
@@ -195,6 +196,7 @@ function paint(id) {
   if (colorings[id]) coloring = colorings[id];
   element("color").value = Object.keys(colorings).find((c) => colorings[c] === coloring);
   colorTubes(tubes);
+  if (sheets) sheets.paint();
   showLegend();
   redraw();
 }
@@ -241,7 +243,11 @@ function listen() {
   }
   for (const id of ["peel", "strength", "show-object"]) onInput(id, peel);
   onInput("prune", prune);
-  onInput("show-skeleton", (e) => { tubes.visible = e.target.checked; redraw(); });
+  onInput("show-skeleton", (e) => {
+    tubes.visible = e.target.checked;
+    if (sheets) sheets.visible = e.target.checked;
+    redraw();
+  });
   onInput("show-nodes", (e) => {
     for (const mesh of Object.values(nodes)) mesh.visible = e.target.checked;
     redraw();
@@ -279,10 +285,15 @@ function grant(wish) {
 
 async function start() {
   showPanels();
+  if (data.sheets.triangles > 0) {
+    sheets = await sheetMesh();
+    scene.add(sheets);
+  }
   dress(window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   if (data.layers.length) layers = [await surfaceGeometry(data.layers[0])];
   tubes.geometry.computeBoundingBox();
   const whole = layers.length ? layers[0].boundingBox : tubes.geometry.boundingBox.clone();
+  if (sheets) whole.union(sheets.geometry.boundingBox);
   if (whole.isEmpty()) whole.expandByPoint(new THREE.Vector3(0.5, 0.5, 0.5));
   startView(whole);
   prune();

@@ -168,6 +168,30 @@ function colorTubes(mesh) {
   colors.needsUpdate = true;
 }
 
+// ---- Sheets ----
+
+// Lit from either side, each triangle by itself: sheets meet and have no sides in common.
+async function sheetMesh() {
+  const geometry = await surfaceGeometry(data.sheets);
+  const steps = await unpack(data.sheets.radii, data.sheets.vertices);
+  const radii = Array.from(steps, (step) => step * data.step);
+  const { range } = colorings.radius, { least, most } = rangeOf(radii);
+  Object.assign(range, { least: Math.min(range.least, least), most: Math.max(range.most, most) });
+  const colors = new THREE.BufferAttribute(new Float32Array(3 * radii.length), 3);
+  geometry.setAttribute("color", colors);
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
+    { vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: true, shininess: 30,
+      specular: 0x222222 }));
+  mesh.paint = () => {
+    radii.forEach((radius, n) => {
+      const { r, g, b } = rampColor(radius, range);
+      colors.setXYZ(n, r, g, b);
+    });
+    colors.needsUpdate = true;
+  };
+  return mesh;
+}
+
 const groupOf = (kind) => kind === "end" || kind === "junction" ? kind : "other";
 // A loop's node only stands for its curve.
 const isDrawn = ({ kind }) => kind !== "loop";

@@ -17,6 +17,18 @@ Span SpanOf(float low, float high, int first, int count) {
           static_cast<int>(std::floor(std::clamp(high, static_cast<float>(first) - 1, last))) + 1};
 }
 
+using Weights = std::array<float, 3>;
+
+// Of what the corners of a triangle have.
+std::array<float, 3> Mean(const std::vector<std::array<float, 3>>& of,
+                          const SurfaceTriangle& triangle, const Weights& weights) {
+  std::array<float, 3> mean = {};
+  for (size_t n = 0; n < 3; ++n) {
+    for (size_t part = 0; part < 3; ++part) mean[part] += weights[n] * of[triangle[n]][part];
+  }
+  return mean;
+}
+
 }  // namespace
 
 Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows) {
@@ -30,12 +42,17 @@ Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows)
 void Band::Draw(const Geometry& geometry) {
   for (const SurfaceTriangle& triangle : geometry.glass.triangles) DrawTriangle(geometry, triangle);
   for (const Bead& bead : geometry.beads) DrawBead(bead);
+  for (const SurfaceTriangle& t : geometry.sheets.mesh.triangles) DrawSheet(geometry.sheets, t);
 }
 
-void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle) {
-  const SurfaceVertex& a = geometry.glass.vertices[triangle[0]];
-  const SurfaceVertex& b = geometry.glass.vertices[triangle[1]];
-  const SurfaceVertex& c = geometry.glass.vertices[triangle[2]];
+// Calls visit(index, depth, weights) for each sample that a triangle covers: its depth there and
+// how much each corner counts.
+template <typename Visit>
+void Band::ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangle,
+                         Visit visit) const {
+  const SurfaceVertex& a = mesh.vertices[triangle[0]];
+  const SurfaceVertex& b = mesh.vertices[triangle[1]];
+  const SurfaceVertex& c = mesh.vertices[triangle[2]];
   const Span rows =
       SpanOf(std::min({-a[1], -b[1], -c[1]}), std::max({-a[1], -b[1], -c[1]}), top_, rows_);
   const float area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
@@ -49,18 +66,25 @@ void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangl
       const float w = (dy * (b[0] - a[0]) - dx * (b[1] - a[1])) / area;
       const float u = 1 - v - w;
       if (u < 0 || v < 0 || w < 0) continue;
-      Hit hit = {u * a[2] + v * b[2] + w * c[2], {}};
-      for (size_t axis = 0; axis < 3; ++axis) {
-        hit.normal[axis] = u * geometry.normals[triangle[0]][axis] +
-                           v * geometry.normals[triangle[1]][axis] +
-                           w * geometry.normals[triangle[2]][axis];
-      }
-      Hit& nearest = near_[Index(x, y - top_)];
-      Hit& farthest = far_[Index(x, y - top_)];
-      if (hit.depth > nearest.depth) nearest = hit;
-      if (hit.depth < farthest.depth) farthest = hit;
+      visit(Index(x, y - top_), u * a[2] + v * b[2] + w * c[2], Weights{u, v, w});
     }
   }
+}
+
+void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle) {
+  ForEachSample(geometry.glass, triangle, [&](size_t at, float depth, const Weights& weights) {
+    const Hit hit = {depth, Mean(geometry.normals, triangle, weights)};
+    if (hit.depth > near_[at].depth) near_[at] = hit;
+    if (hit.depth < far_[at].depth) far_[at] = hit;
+  });
+}
+
+void Band::DrawSheet(const SheetGeometry& sheets, const SurfaceTriangle& triangle) {
+  ForEachSample(sheets.mesh, triangle, [&](size_t at, float depth, const Weights& weights) {
+    if (depth <= bead_[at].depth) return;
+    bead_[at] = {depth, Mean(sheets.normals, triangle, weights)};
+    bead_color_[at] = Mean(sheets.colors, triangle, weights);
+  });
 }
 
 void Band::DrawBead(const Bead& bead) {

@@ -11,11 +11,19 @@ namespace bccskel::view {
 
 using ViewNormal = std::array<float, 3>;  // to the right, up, to the viewer
 
+// The skeleton's sheets. Vertices as those of Geometry::glass.
+struct SheetGeometry {
+  SurfaceMesh mesh;
+  std::vector<ViewNormal> normals;  // one per vertex, of either side
+  std::vector<LinearColor> colors;  // one per vertex
+};
+
 // What all bands of a picture show, in sample coordinates.
 struct Geometry {
   SurfaceMesh glass;  // vertices: x to the right, y up from the top edge (negative), depth
   std::vector<ViewNormal> normals;  // one per vertex
   std::vector<Bead> beads;
+  SheetGeometry sheets;
 };
 
 // A piece of surface behind a sample. Needs care: nothing is there while `depth` is infinite.
@@ -24,7 +32,7 @@ struct Hit {
   ViewNormal normal;
 };
 
-// A few rows of samples: the nearest and the farthest glass and the nearest bead of each.
+// A few rows of samples: the nearest and the farthest glass and the nearest bead or sheet of each.
 class Band {
  public:
   Band(int width, int top, int rows);
@@ -41,7 +49,10 @@ class Band {
   size_t Index(int x, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
+  template <typename Visit>
+  void ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, Visit visit) const;
   void DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle);
+  void DrawSheet(const SheetGeometry& sheets, const SurfaceTriangle& triangle);
   void DrawBead(const Bead& bead);
 
   int width_;

@@ -9,12 +9,6 @@ namespace {
 using exporting::PanelPoint;
 using exporting::RadiusRange;
 
-LinearColor ColorOf(double radius, const RadiusRange& range) {
-  const auto rgb = exporting::RadiusRgb(exporting::RadiusColorIndex(radius, range));
-  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
-          static_cast<float>(rgb[2] / 255)};
-}
-
 Bead BeadAt(const PanelPoint& p, double radius, const LinearColor& color) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
           static_cast<float>(radius), color};
@@ -61,6 +55,12 @@ class Stringer {
 
 }  // namespace
 
+LinearColor ColorOf(double radius, const RadiusRange& range) {
+  const auto rgb = exporting::RadiusRgb(exporting::RadiusColorIndex(radius, range));
+  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
+          static_cast<float>(rgb[2] / 255)};
+}
+
 RadiusRange RadiusRangeOf(const ResultDocument& result) {
   if (result.nodes.empty()) return {0, 0};
   RadiusRange range = {result.nodes.front().radius, result.nodes.front().radius};
@@ -70,6 +70,7 @@ RadiusRange RadiusRangeOf(const ResultDocument& result) {
   };
   for (const ResultDocument::Node& node : result.nodes) include(node.radius);
   for (const ResultDocument::Edge& edge : result.edges) std::ranges::for_each(edge.radii, include);
+  std::ranges::for_each(result.sheets.radii, include);
   return range;
 }
 

@@ -23,6 +23,9 @@ struct Bead {
 
 exporting::RadiusRange RadiusRangeOf(const ResultDocument& result);
 
+// As beads and sheets are colored.
+LinearColor ColorOf(double radius, const exporting::RadiusRange& range);
+
 inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
 inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};
 inline constexpr LinearColor kOtherColor = {0.01f, 0.52f, 0.78f};

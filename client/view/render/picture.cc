@@ -13,6 +13,7 @@
 #include "client/view/render/band.h"
 #include "client/view/render/beads.h"
 #include "client/view/render/glass_color.h"
+#include "client/view/sheet_surface.h"
 #include "core/surface/smooth_surface.h"
 
 namespace bccskel::view {
@@ -52,18 +53,51 @@ double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
   return length > 6 * edge ? std::max(0.35, std::sqrt(6 * edge / length)) : 1;
 }
 
+// Of a mesh whose triangles have no common side: those around a vertex are turned to agree. Not of
+// length 1.
+std::vector<ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
+  std::vector<ViewNormal> normals(mesh.vertices.size(), ViewNormal{});
+  for (const SurfaceTriangle& t : mesh.triangles) {
+    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const ViewNormal u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const ViewNormal v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const ViewNormal n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                          u[0] * v[1] - u[1] * v[0]};
+    for (const uint32_t corner : t) {
+      ViewNormal& sum = normals[corner];
+      const float sign = sum[0] * n[0] + sum[1] * n[1] + sum[2] * n[2] < 0 ? -1.0f : 1.0f;
+      for (size_t axis = 0; axis < 3; ++axis) sum[axis] += sign * n[axis];
+    }
+  }
+  for (ViewNormal& n : normals) {
+    if (n[2] < 0) n = {-n[0], -n[1], -n[2]};
+  }
+  return normals;
+}
+
 Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
                     const PictureOptions& options) {
   const exporting::Projection projection = ProjectionOf(surface, options);
   const double above = kSamplesPerPixel * kWordsAbove * FontSize(options);
+  const auto projected = [&](const std::vector<WorldPoint>& vertices) {
+    std::vector<SurfaceVertex> places;
+    for (const WorldPoint& v : vertices) {
+      const exporting::PanelPoint p = projection.Project(v);
+      places.push_back(
+          {static_cast<float>(p.x), static_cast<float>(-p.y - above), static_cast<float>(p.depth)});
+    }
+    return places;
+  };
   Geometry geometry;
-  geometry.glass.triangles = surface.triangles;
-  for (const WorldPoint& v : surface.vertices) {
-    const exporting::PanelPoint p = projection.Project(v);
-    geometry.glass.vertices.push_back(
-        {static_cast<float>(p.x), static_cast<float>(-p.y - above), static_cast<float>(p.depth)});
-  }
+  geometry.glass = {projected(surface.vertices), surface.triangles};
   geometry.normals = NormalsOf(geometry.glass);
+  SheetSurface sheets = SheetSurfaceOf(result);
+  geometry.sheets.mesh = {projected(sheets.vertices), std::move(sheets.triangles)};
+  geometry.sheets.normals = NormalsOfEitherSide(geometry.sheets.mesh);
+  const exporting::RadiusRange radii = RadiusRangeOf(result);
+  for (const double radius : sheets.radii) {
+    geometry.sheets.colors.push_back(ColorOf(radius, radii));
+  }
   const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0 *
                            ThinnedBy(result, surface);
   geometry.beads = BeadsOf(result, projection, thickness);

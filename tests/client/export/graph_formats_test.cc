@@ -40,7 +40,7 @@ TEST(PolylinesTest, NodesComeFirstAndInnerPointsFollow) {
   const Polylines polylines = PolylinesOf(Lollipop());
   EXPECT_EQ(polylines.points.size(), 3 + 1 + 2);
   EXPECT_THAT(polylines.lines, ElementsAre(ElementsAre(0, 3, 1), ElementsAre(1, 4, 5, 1)));
-  EXPECT_THAT(polylines.lone_nodes, ElementsAre(2));
+  EXPECT_THAT(polylines.lone_points, ElementsAre(2));
 }
 
 TEST(ObjTest, HasALinePerEdgeAndAPointPerLoneNodeInWorldCoordinates) {
@@ -93,6 +93,24 @@ TEST(Births, AreInEveryFormatOfFigures) {
   EXPECT_THAT(graphml, HasSubstr("<data key=\"births\">4 5 6</data>"));
   EXPECT_THAT(graphml, HasSubstr("<data key=\"birth\">4</data>"));
   EXPECT_THAT(VtpText(result.graph), HasSubstr("Name=\"birth\" format=\"ascii\">\n4\n0\n0\n5\n"));
+}
+
+SkeletonGraph LollipopWithSheet() {
+  SkeletonGraph graph = Lollipop();
+  graph.sheets = {{{10, 10, 12}, 5}, {{11, 11, 11}, 6}};
+  return graph;
+}
+
+TEST(Sheets, AreInTheFormatsThatHoldPoints) {
+  SkeletonizeResult result;
+  result.graph = LollipopWithSheet();
+  EXPECT_THAT(JsonText(result),
+              HasSubstr("\"sheets\":{\"points\":[[20,30,42],[21,31,41]],\"radii\":[5,6]}"));
+  const std::string vtp = VtpText(result.graph);
+  EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"8\" NumberOfVerts=\"3\" NumberOfLines=\"2\""));
+  EXPECT_THAT(vtp, HasSubstr("2\n5\n6\n</DataArray>"));  // radii, the last ones
+  EXPECT_THAT(LinesThatBegin(ObjText(result.graph), "p "), ElementsAre("p 3", "p 7", "p 8"));
+  EXPECT_EQ(GraphMlText(result.graph), GraphMlText(Lollipop()));
 }
 
 TEST(Births, AreNamedNowhereWhereThereAreNone) {

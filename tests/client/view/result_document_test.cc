@@ -36,6 +36,12 @@ TEST(ResultDocumentTest, HoldsWhatTheJsonExportWrote) {
     ASSERT_EQ(document->edges.size(), graph.edges.size());
     EXPECT_EQ(document->certificate, sample.result.certificate);
     EXPECT_EQ(document->object_points, sample.result.object_points);
+    EXPECT_EQ(document->placement, graph.placement);
+    ASSERT_EQ(document->sheets.points.size(), graph.sheets.size());
+    for (size_t n = 0; n < graph.sheets.size(); ++n) {
+      EXPECT_EQ(document->sheets.points[n], graph.PositionOf(graph.sheets[n]));
+      EXPECT_EQ(document->sheets.radii[n], graph.RadiusOf(graph.sheets[n]));
+    }
     for (size_t n = 0; n < graph.nodes.size(); ++n) {
       EXPECT_EQ(document->nodes[n].position, graph.PositionOf(graph.nodes[n].at));
       EXPECT_EQ(document->nodes[n].radius, graph.RadiusOf(graph.nodes[n].at));
@@ -45,6 +51,27 @@ TEST(ResultDocumentTest, HoldsWhatTheJsonExportWrote) {
       EXPECT_EQ(document->edges[n].source, graph.edges[n].source);
     }
   }
+}
+
+TEST(ResultDocumentTest, KnowsHowTheObjectWasPrepared) {
+  exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  sample.result.options.preparing = {.denoise_passes = 2,
+                                     .cavities = CavityFilling::kOn,
+                                     .min_component_points = 7,
+                                     .min_component_volume = 0.25,
+                                     .components = KeptComponents::kLargest};
+  const auto document = ParseResultDocument(exporting::JsonText(sample.result));
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_EQ(document->preparing, sample.result.options.preparing);
+}
+
+TEST(ResultDocumentTest, OfAnOlderVersionHasNoSheetsAndNoPlacement) {
+  const auto document = ParseResultDocument(kSmall);
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_TRUE(document->sheets.points.empty());
+  EXPECT_EQ(document->placement, std::nullopt);
+  EXPECT_FALSE(document->preparing.Wanted());
+  EXPECT_FALSE(ParseResultDocument(SmallWith("\"something_new\"", "\"options\"")).ok());
 }
 
 TEST(ResultDocumentTest, IgnoresWhatItDoesNotKnow) {

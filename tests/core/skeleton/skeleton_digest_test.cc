@@ -10,14 +10,14 @@ SkeletonGraph Star() {
 }
 
 TEST(SkeletonDigest, OfTheEmptyGraphIsThatOfItsLayout) {
-  // printf 'bccskel.skeleton.v2' and 16 zero bytes | sha256sum
-  EXPECT_EQ(SkeletonDigest({}), "46f2c0f3bd1e733d16db648538f35923ce13e042dbb08b3db6afa4d1a70cff6b");
+  // printf 'bccskel.skeleton.v3' and 24 zero bytes | sha256sum
+  EXPECT_EQ(SkeletonDigest({}), "2734a63cf036faf00b088449e2bdad46cae6c3a021e14cb67c431deef1dbae12");
 }
 
 // The digest was computed from the layout by another program.
 TEST(SkeletonDigestGolden, OfAStarStaysTheSame) {
   EXPECT_EQ(SkeletonDigest(Star()),
-            "f3627c8c89ee3f09b8c02469390c67305b7398ddfdbd925b70c3c62f15b0e0cf");
+            "f59b32d18fcd56b8bf79833b05ba4ba460763a8033729e5f72dc8a1c3e3aca16");
 }
 
 TEST(SkeletonDigest, DoesNotDependOnThePlacement) {
@@ -41,6 +41,7 @@ TEST(SkeletonDigest, DependsOnEveryNumberOfTheGraph) {
   EXPECT_TRUE(changed([](SkeletonGraph& g) { g.edges.pop_back(); }));
   EXPECT_TRUE(changed([](SkeletonGraph& g) { g.points.back().point.z -= 2; }));
   EXPECT_TRUE(changed([](SkeletonGraph& g) { g.points.front().radius += 0.001f; }));
+  EXPECT_TRUE(changed([](SkeletonGraph& g) { g.sheets.push_back({{9, 9, 7}, 2}); }));
 }
 
 }  // namespace

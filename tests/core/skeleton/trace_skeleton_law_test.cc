@@ -127,6 +127,20 @@ void ExpectPlainCurvePointsOnce(const SkeletonGraph& graph, const Volume& thin) 
   });
 }
 
+// Every point of the volume is on an edge, a node's or one of a sheet, and none is both.
+void ExpectAllPoints(const SkeletonGraph& graph, const Volume& thin) {
+  std::set<LatticePoint> found;
+  for (const SkeletonNode& node : graph.nodes) found.insert(node.at.point);
+  for (const SkeletonPoint& p : graph.points) found.insert(p.point);
+  EXPECT_EQ(found.size() + graph.sheets.size(), thin.PointCount());
+  for (const SkeletonPoint& p : graph.sheets) {
+    EXPECT_TRUE(found.insert(p.point).second);
+    EXPECT_EQ(p.radius, test::RuggedDepth(p.point));
+  }
+  EXPECT_EQ(std::vector(found.begin(), found.end()), thin.SortedPoints());
+  EXPECT_TRUE(std::ranges::is_sorted(graph.sheets));
+}
+
 void ExpectInvariants(const std::vector<LatticePoint>& points) {
   const Volume thin = VolumeOfPoints(points);
   const SkeletonGraph graph = test::Trace(points, test::RuggedDepth);
@@ -139,6 +153,7 @@ void ExpectInvariants(const std::vector<LatticePoint>& points) {
   ExpectEdgesToRunFromSourceToTarget(graph, thin);
   ExpectCanonicalOrder(graph);
   ExpectPlainCurvePointsOnce(graph, thin);
+  ExpectAllPoints(graph, thin);
 }
 
 // Removes points that are simple and no end points, one after the other.

@@ -40,12 +40,21 @@ SkeletonGraph WithBirths(SkeletonGraph graph) {
   int32_t birth = std::numeric_limits<int32_t>::max();
   for (SkeletonNode& node : graph.nodes) node.at.birth = birth;
   for (SkeletonPoint& p : graph.points) p.birth = birth--;
+  for (SkeletonPoint& p : graph.sheets) p.birth = birth--;
   return graph;
 }
 
 SkeletonGraph WithShifts(SkeletonGraph graph) {
   int16_t most = std::numeric_limits<int16_t>::max();
   for (SkeletonPoint& p : graph.points) p.shift = {most, 0, static_cast<int16_t>(-most)};
+  return graph;
+}
+
+SkeletonGraph WithSheets(SkeletonGraph graph, uint32_t points) {
+  for (uint32_t n = 0; n < points; ++n) {
+    graph.sheets.push_back(
+        {{kFar - static_cast<int32_t>(n % 1000), kFar, kFar}, static_cast<float>(kLargest - n)});
+  }
   return graph;
 }
 
@@ -85,6 +94,14 @@ TEST(SkeletonChunksRoundTrip, AnEdgeLongerThanAChunk) { ExpectSurvives(Chain(2, 
 TEST(SkeletonChunksRoundTrip, Births) { ExpectSurvives(WithBirths(Chain(3, 5))); }
 TEST(SkeletonChunksRoundTrip, Shifts) { ExpectSurvives(WithShifts(Chain(3, 5))); }
 
+TEST(SkeletonChunksRoundTrip, Sheets) { ExpectSurvives(WithSheets(Chain(3, 5), 7)); }
+TEST(SkeletonChunksRoundTrip, SheetsLongerThanAChunk) {
+  ExpectSurvives(WithBirths(WithSheets(Chain(2, 3), 50'000)));
+}
+TEST(SkeletonChunksRoundTrip, SheetsWithoutEdges) {
+  ExpectSurvives(WithSheets(SkeletonGraph(), 3));
+}
+
 TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
   SkeletonGraph graph;
   int32_t x = 0;
@@ -98,7 +115,7 @@ TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
 TEST(SkeletonChunks, NeverPassTheirLimit) {
   for (const SkeletonGraph& graph :
        {Chain(30'000, 2), Chain(2, 50'000), Chain(3000, 9), WithBirths(Chain(30'000, 2)),
-        WithShifts(WithBirths(Chain(2, 50'000)))}) {
+        WithShifts(WithBirths(Chain(2, 50'000))), WithBirths(WithSheets(Chain(2, 1000), 50'000))}) {
     const auto chunks = ChunksOf(graph);
     EXPECT_GT(chunks.size(), 1u);
     for (const v1::SkeletonChunk& chunk : chunks) {
@@ -144,7 +161,7 @@ struct DamageCase {
 class DamagedSkeletonChunks : public testing::TestWithParam<DamageCase> {};
 
 TEST_P(DamagedSkeletonChunks, AreDataLoss) {
-  const SkeletonGraph graph = Chain(3, 5);
+  const SkeletonGraph graph = WithSheets(Chain(3, 5), 4);
   auto chunks = ChunksOf(graph);
   GetParam().damage(chunks);
   EXPECT_EQ(Assemble(chunks, SummaryFor(graph)).status().code(), absl::StatusCode::kDataLoss);
@@ -176,6 +193,10 @@ INSTANTIATE_TEST_SUITE_P(
                      c[0].mutable_edges()->set_point_count(0, uint64_t{1} << 63);
                      c[0].mutable_edges()->set_point_count(1, (uint64_t{1} << 63) + 10);
                    }},
+        DamageCase{"ShortSheetColumn",
+                   [](auto& c) { c[0].mutable_sheets()->mutable_x()->RemoveLast(); }},
+        DamageCase{"MissingSheets", [](auto& c) { c[0].clear_sheets(); }},
+        DamageCase{"OtherSheetRadius", [](auto& c) { c[0].mutable_sheets()->set_radius(2, 1); }},
         DamageCase{"OtherRadius", [](auto& c) { c[0].mutable_points()->set_radius(2, 1); }}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -36,6 +36,21 @@ TEST(BandTest, BeadsAreRound) {
   EXPECT_EQ(band.bead(7, 12).depth, -kNothing);
 }
 
+TEST(BandTest, SheetsHideWhatIsBehindThem) {
+  Geometry geometry = Layers();
+  geometry.sheets.mesh = {{{0, 0, 7}, {20, 0, 7}, {0, -20, 7}}, {{0, 1, 2}}};
+  geometry.sheets.normals.assign(3, {0, 1, 0});
+  geometry.sheets.colors.assign(3, {0, 0, 1});
+  Band band(20, 0, 20);
+  band.Draw(geometry);
+  EXPECT_FLOAT_EQ(band.bead(2, 2).depth, 7);
+  EXPECT_FLOAT_EQ(band.bead(2, 2).normal[1], 1);
+  EXPECT_EQ(band.bead_color(2, 2), (LinearColor{0, 0, 1}));
+  EXPECT_FLOAT_EQ(band.bead(4, 15).depth, 8);  // the bead is nearer
+  EXPECT_EQ(band.bead_color(4, 15), (LinearColor{1, 0, 0}));
+  EXPECT_FLOAT_EQ(band.far_glass(10, 2).depth, 0);
+}
+
 TEST(BandTest, BandsShowTheirPartOfTheWhole) {
   Band whole(20, 0, 20), lower(20, 12, 8);
   whole.Draw(Layers());

@@ -1,0 +1,17 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RESULT_BALLS_H_
+#define BCCSKEL_CLIENT_VIEW_RESULT_BALLS_H_
+
+#include <vector>
+
+#include "client/view/result_document.h"
+#include "core/reconstruct/union_of_balls.h"
+
+namespace bccskel::view {
+
+// A ball around every point of a result: what BallsOf() of the graph is, with its places on the
+// lattice of `placement`.
+std::vector<OpenBall> BallsOf(const ResultDocument& result, const Placement& placement);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RESULT_BALLS_H_

@@ -1,0 +1,117 @@
+"""Commands that read a result and its object again: what they make of both."""
+
+import json
+import unittest
+
+import harness
+
+# A box with edges of 4, 3 and 2.
+BOX = """OFF
+8 6 0
+0 0 0
+4 0 0
+4 3 0
+0 3 0
+0 0 2
+4 0 2
+4 3 2
+0 3 2
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+"""
+
+
+class ResultsTest(harness.TestCase):
+    def skeletonize(self, volume, *options):
+        """The JSON result."""
+        done = harness.bccskel("skeletonize", volume, "--local", *options,
+                               "-o", self.path("s.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "s.json").read_text())
+
+    def reconstruct(self, *options):
+        """The JSON summary; nothing is warned of."""
+        return json.loads(self.succeed("reconstruct", self.path("s.json"), *options,
+                                       "-o", self.path("balls.bccb"), "--json"))
+
+    def test_the_balls_of_a_torus_cover_it(self):
+        volume = self.generate("torus")
+        self.skeletonize(volume)
+        summary = self.reconstruct("--object", volume)
+        self.assertEqual(summary["points"], summary["common_points"])
+        self.assertGreater(summary["jaccard"], 0.9)
+
+    def test_a_surface_skeleton_is_in_the_result_with_all_points(self):
+        volume = self.generate("box")
+        result = self.skeletonize(volume, "--kind", "surface", "-o", self.path("thin.bccb"))
+        thin = json.loads(self.succeed("info", self.path("thin.bccb"), "--json"))["volume"]
+        places = {tuple(node["position"]) for node in result["nodes"]}
+        for part in (*result["edges"], result["sheets"]):
+            self.assertEqual(len(part["points"]), len(part["radii"]))
+            places.update(map(tuple, part["points"]))
+        self.assertEqual(len(places), thin["points"])
+        summary = self.reconstruct("--object", volume)
+        self.assertEqual(summary["points"], summary["common_points"])
+        self.assertGreater(summary["jaccard"], 0.9)
+
+    def test_a_surface_skeleton_comes_from_a_server_as_it_is_here(self):
+        volume = self.generate("box")
+        here = self.skeletonize(volume, "--kind", "surface")
+        with harness.Server(self.folder) as server:
+            done = harness.bccskel("submit", volume, "--server", server.address, "--kind",
+                                   "surface", "-o", self.path("there.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        there = json.loads((self.folder / "there.json").read_text())
+        self.assertEqual(harness.without_times(there), harness.without_times(here))
+
+    def test_the_object_is_prepared_as_the_result_says(self):
+        volume = self.generate("hollow-ball")
+        result = self.skeletonize(volume, "--fill-cavities")
+        summary = self.reconstruct("--object", volume)
+        self.assertEqual(summary["points"], summary["common_points"])
+        self.assertGreater(summary["points"], 20000)  # of what is full now
+        self.assertGreater(result["object_points"], summary["points"])
+        for command in ("render", "view"):
+            ending = {"render": "png", "view": "html"}[command]
+            self.succeed(command, self.path("s.json"), "--object", volume,
+                         "-o", self.path("x." + ending))
+
+    def test_a_mesh_is_filled_on_the_grid_of_the_result(self):
+        (self.folder / "box.off").write_text(BOX)
+        mesh = self.path("box.off")
+        for grid in (("--points", 3000), ("--spacing", 0.23)):
+            self.skeletonize(mesh, *grid)
+            summary = self.reconstruct("--object", mesh)  # which would warn of another number
+            self.assertEqual(summary["points"], summary["common_points"])
+
+    def test_another_object_is_refused(self):
+        self.skeletonize(self.generate("tree"))
+        (self.folder / "box.off").write_text(BOX)
+        others = [(self.path("box.off"), "box along the axis"),  # elsewhere
+                  (self.generate("ball", 5000, "small.bccb"), "is not what"),
+                  (self.generate("ball", 5000000, "large.bccb"), "its volume is")]
+        for other, why in others:
+            for command, output in (("view", "x.html"), ("render", "x.png"),
+                                    ("reconstruct", "x.bccb")):
+                with self.subTest(command=command, other=other):
+                    done = self.fail_with(3, why, command, self.path("s.json"),
+                                          "--object", other, "-o", self.path(output))
+                    self.assertIn(other, done.stderr)
+                    self.assertFalse((self.folder / output).exists())
+
+    def test_the_same_object_in_another_grid_is_warned_of(self):
+        (self.folder / "box.off").write_text(BOX)
+        self.skeletonize(self.path("box.off"), "--points", 3000)
+        done = harness.bccskel("reconstruct", self.path("s.json"), "--object",
+                               self.path("box.off"), "--points", 20000, "-o",
+                               self.path("x.bccb"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"warning: .*box.off: has [\d,]+ points, but .*s.json was")
+
+
+if __name__ == "__main__":
+    harness.main()
