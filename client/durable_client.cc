@@ -60,14 +60,20 @@ absl::StatusOr<std::string> DurableClient::Upload(const EncodedVolume& volume, c
   absl::StatusOr<std::string> found =
       Retry(calls, [&](auto deadline) { return stub_->FindVolume(volume, deadline); });
   if (!found.ok() || !found->empty()) return found;
-  return FinishUpload("uploads/" + RandomId(), volume, calls);
+  return Send("uploads/" + RandomId(), DurableStub::Begun::kNo, volume, calls);
 }
 
 absl::StatusOr<std::string> DurableClient::FinishUpload(const std::string& upload,
                                                         const EncodedVolume& volume,
                                                         const Calls& calls) {
+  return Send(upload, DurableStub::Begun::kMaybe, volume, calls);
+}
+
+absl::StatusOr<std::string> DurableClient::Send(const std::string& upload, DurableStub::Begun begun,
+                                                const EncodedVolume& volume, const Calls& calls) {
   return Retry(calls, [&](auto deadline) -> absl::StatusOr<std::string> {
-    absl::StatusOr<std::string> sent = stub_->Upload(upload, volume, calls.stop, deadline);
+    const auto known = std::exchange(begun, DurableStub::Begun::kMaybe);
+    absl::StatusOr<std::string> sent = stub_->Upload(upload, known, volume, calls.stop, deadline);
     if (!absl::IsOutOfRange(sent.status())) return sent;
     // The server has other bytes than it said: those of a stream that broke came late.
     return absl::UnavailableError(sent.status().message());

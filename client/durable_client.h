@@ -30,8 +30,11 @@ class DurableStub {
   // The volume's name on the server; empty where it is missing.
   virtual absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
                                                  Deadline deadline) = 0;
-  // Sends what the server does not have of the upload yet, and yields the volume's name.
-  virtual absl::StatusOr<std::string> Upload(const std::string& upload, const EncodedVolume& volume,
+  // Sends what the server does not have of the upload yet, and yields the volume's name. Of a new
+  // upload it has nothing, which need not be asked.
+  enum class Begun { kMaybe, kNo };
+  virtual absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,
+                                             const EncodedVolume& volume,
                                              const std::stop_token& stop, Deadline deadline) = 0;
   virtual absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) = 0;
   virtual absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) = 0;
@@ -88,6 +91,8 @@ class DurableClient {
   absl::StatusOr<SkeletonizeResult> Fetch(const std::string& job, const Calls& calls);
 
  private:
+  absl::StatusOr<std::string> Send(const std::string& upload, DurableStub::Begun begun,
+                                   const EncodedVolume& volume, const Calls& calls);
   template <typename Attempt>
   auto Retry(const Calls& calls, Attempt attempt) -> decltype(attempt(DurableStub::Deadline()));
 

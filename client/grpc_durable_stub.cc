@@ -69,9 +69,13 @@ class GrpcDurableStub final : public DurableStub {
     return absl::DataLossError("the server answered about another number of volumes");
   }
 
-  absl::StatusOr<std::string> Upload(const std::string& upload, const EncodedVolume& volume,
-                                     const std::stop_token& stop, Deadline deadline) override {
-    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t committed, CommittedSize(upload, deadline));
+  absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,
+                                     const EncodedVolume& volume, const std::stop_token& stop,
+                                     Deadline deadline) override {
+    uint64_t committed = 0;
+    if (begun == Begun::kMaybe) {
+      BCCSKEL_ASSIGN_OR_RETURN(committed, CommittedSize(upload, deadline));
+    }
     return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
       return Send(context, upload, volume, committed);
     });

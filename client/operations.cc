@@ -51,6 +51,15 @@ grpc::Status Call(grpc::GenericStub& stub, const char* method, grpc::ClientConte
   return status;
 }
 
+std::optional<ServerStatus::Stored> StoredOf(const v1::GetServerStatusResponse& message) {
+  if (!message.has_stored()) return std::nullopt;
+  return ServerStatus::Stored{.disk_used_bytes = message.stored().disk_used_bytes(),
+                              .disk_available_bytes = message.stored().disk_available_bytes(),
+                              .unfinished_uploads = message.stored().uploads_unfinished(),
+                              .queued_jobs = message.stored().jobs_queued(),
+                              .running_jobs = message.stored().jobs_running()};
+}
+
 ServerStatus FromMessage(const v1::GetServerStatusResponse& message) {
   ServerStatus status;
   status.server_version = message.server_version();
@@ -71,6 +80,7 @@ ServerStatus FromMessage(const v1::GetServerStatusResponse& message) {
   status.jobs = message.totals().jobs();
   status.failed_jobs = message.totals().failed_jobs();
   status.object_points = message.totals().object_points();
+  status.stored = StoredOf(message);
   return status;
 }
 
@@ -111,6 +121,11 @@ absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout) {
   SetDeadline(context, timeout);
   v1::GetServerStatusResponse response;
   const grpc::Status status = stubs_->admin->GetServerStatus(&context, {}, &response);
+  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
+    return absl::UnimplementedError(
+        "takes no admin calls here: they are at the address that the server was given as "
+        "--admin-listen");
+  }
   if (!status.ok()) return FromGrpcStatus(status);
   return FromMessage(response);
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -31,6 +32,15 @@ struct ServerStatus {
   uint64_t jobs = 0;
   uint64_t failed_jobs = 0;
   uint64_t object_points = 0;
+  // What it keeps on disk; nothing where it keeps nothing.
+  struct Stored {
+    uint64_t disk_used_bytes = 0;
+    uint64_t disk_available_bytes = 0;
+    uint32_t unfinished_uploads = 0;
+    uint32_t queued_jobs = 0;  // besides waiting_jobs
+    uint32_t running_jobs = 0;
+  };
+  std::optional<Stored> stored;
 };
 
 // What those ask who run a server. One attempt at each call.

@@ -20,6 +20,7 @@
 #include "server/server_status.h"
 #include "server/service/admin_service.h"
 #include "server/service/durable_gate.h"
+#include "server/service/job_log.h"
 #include "server/service/job_service.h"
 #include "server/service/server_service.h"
 #include "server/service/skeletonization_service.h"
@@ -49,6 +50,7 @@ std::optional<ServerGauges::Stored> StoredGauges(const Ledger* ledger) {
   if (ledger == nullptr) return std::nullopt;
   const Ledger::Usage usage = ledger->usage();
   return ServerGauges::Stored{.disk_bytes = usage.disk_bytes,
+                              .available_bytes = usage.disk_available_bytes,
                               .uploads = usage.uploads,
                               .queued_jobs = usage.queued,
                               .running_jobs = usage.running,
@@ -94,6 +96,7 @@ class Server::Services {
     Add(plan, jobs_, v1::JobService::service_full_name());
     Add(plan, server_, v1::ServerService::service_full_name());
   }
+  void CutOff() { gate_.CutOff(); }
   void AddAdmin(ListenerPlan& plan) {
     Add(plan, admin_, v1::AdminService::service_full_name());
     plan.reflection = ListenerPlan::Reflection::kOn;
@@ -147,6 +150,7 @@ absl::Status Server::OpenData() {
     options.max_job_bytes = config_.limits.max_bytes;
     options.max_runs = config_.limits.max_jobs;
     options.algorithm_version = std::string(kAlgorithmVersion);
+    options.on_job_state = LogJobState;
     BCCSKEL_RETURN_IF_ERROR(work_->OpenLedger(options));
   }
   services_ = std::make_unique<Services>(config_, *callers_, *work_, metrics_);
@@ -244,6 +248,7 @@ void Server::Drain() {
   jobs_.StopAdmitting();
   std::this_thread::sleep_for(config_.lame_duck);
   jobs_.WaitUntilEmpty(config_.drain);
+  services_->CutOff();
   public_listener_->Shutdown(kLastReplies);
   if (admin_listener_ != nullptr) admin_listener_->Shutdown(kLastReplies);
   Log(LogLevel::kInfo, "drained");

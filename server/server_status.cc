@@ -15,6 +15,14 @@ void Set(google::protobuf::Duration& message, std::chrono::duration<double> time
   message.set_nanos(static_cast<int32_t>((time.count() - whole) * 1e9));
 }
 
+void Set(v1::StoredNow& message, const ServerGauges::Stored& stored) {
+  message.set_disk_used_bytes(stored.disk_bytes);
+  message.set_disk_available_bytes(stored.available_bytes);
+  message.set_uploads_unfinished(static_cast<uint32_t>(stored.uploads));
+  message.set_jobs_queued(static_cast<uint32_t>(stored.queued_jobs));
+  message.set_jobs_running(static_cast<uint32_t>(stored.running_jobs));
+}
+
 void Set(v1::GetServerStatusResponse& message, const ServerGauges& now) {
   message.set_draining(now.draining != 0);
   message.mutable_jobs()->set_admitted(static_cast<uint32_t>(now.admitted_jobs));
@@ -24,6 +32,7 @@ void Set(v1::GetServerStatusResponse& message, const ServerGauges& now) {
   message.set_busy_threads(static_cast<uint32_t>(now.busy_threads));
   message.set_admitted_bytes(now.admitted_bytes);
   message.set_max_admitted_bytes(now.max_admitted_bytes);
+  if (now.stored.has_value()) Set(*message.mutable_stored(), *now.stored);
 }
 
 void Set(v1::ServerTotals& message, const ServerSums& sums) {

@@ -14,9 +14,14 @@ namespace {
 // A job frees its place within seconds at most times; clients add jitter and back off.
 const absl::Duration kRetryDelay = absl::Seconds(1);
 
-// The reason of an error that has none of its own.
+// The reason of an error that has none of its own. Wrong arguments all have one: who finds them
+// knows which they are.
 const char* DefaultReason(absl::StatusCode code) {
   switch (code) {
+    case absl::StatusCode::kNotFound:
+      return "NOT_FOUND";
+    case absl::StatusCode::kDataLoss:
+      return "STORED_DATA_DAMAGED";
     case absl::StatusCode::kUnavailable:
       return "UNAVAILABLE";
     case absl::StatusCode::kCancelled:
@@ -51,22 +56,13 @@ absl::Status WithRefusal(absl::Status status, Refusal refusal) {
   return status;
 }
 
-// Handlers name their reasons; a wrong argument that has none was found by a job, in the volume's
-// bytes.
-absl::Status WithVolumeFault(absl::Status status) {
-  return wire::WithField(wire::WithReason(std::move(status), "VOLUME_INVALID"), "chunk.data");
-}
-
-// What a job found too large only while decoding: the number of bricks.
-absl::Status WithJobLimit(absl::Status status) {
-  return wire::WithQuota(wire::WithReason(std::move(status), "VOLUME_TOO_LARGE"), "max_bricks");
-}
-
 // What the ledger found, just now or before a restart.
-absl::Status WithFaultReason(absl::Status status, const Fault& fault) {
+absl::Status WithFaultDetails(absl::Status status, const Fault& fault) {
   std::map<std::string, std::string> metadata;
   if (!fault.key.empty()) metadata[fault.key] = fault.value;
-  return wire::WithReason(std::move(status), fault.reason, metadata);
+  status = wire::WithReason(std::move(status), fault.reason, metadata);
+  if (fault.reason == kDiskFull) status = wire::WithQuota(std::move(status), fault.value);
+  return fault.field.empty() ? status : wire::WithField(std::move(status), fault.field);
 }
 
 absl::Status WithAllDetails(const absl::Status& status) {
@@ -77,10 +73,8 @@ absl::Status WithAllDetails(const absl::Status& status) {
   }
   if (wire::ErrorInfoOf(detailed).has_value()) return detailed;
   if (const auto fault = FaultOf(status); fault.has_value()) {
-    return WithFaultReason(std::move(detailed), *fault);
+    return WithFaultDetails(std::move(detailed), *fault);
   }
-  if (absl::IsResourceExhausted(status)) return WithJobLimit(std::move(detailed));
-  if (absl::IsInvalidArgument(status)) return WithVolumeFault(std::move(detailed));
   return wire::WithReason(std::move(detailed), DefaultReason(status.code()));
 }
 
@@ -95,6 +89,22 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
   const v1::Status detailed = ToStatusMessage(status);
   return grpc::Status(static_cast<grpc::StatusCode>(detailed.code()), detailed.message(),
                       detailed.SerializeAsString());
+}
+
+std::string ReasonOf(const absl::Status& status) {
+  if (status.ok()) return std::string();
+  return wire::ErrorInfoOf(WithAllDetails(status))->reason();
+}
+
+absl::Status WithJobReason(const absl::Status& status) {
+  if (wire::ErrorInfoOf(status).has_value() || RefusalOf(status).has_value() ||
+      FaultOf(status).has_value()) {
+    return status;
+  }
+  if (absl::IsResourceExhausted(status)) {  // the number of bricks
+    return wire::WithQuota(wire::WithReason(status, "VOLUME_TOO_LARGE"), "max_bricks");
+  }
+  return absl::IsInvalidArgument(status) ? WrongVolume(std::string(status.message())) : status;
 }
 
 }  // namespace bccskel::server

@@ -132,7 +132,7 @@ absl::Status MeasureAll(const BenchServerArguments& arguments, const std::stop_t
 ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop) {
   std::vector<ServerMeasurement> all;
   const absl::Status status = MeasureAll(arguments, stop, all);
-  if (!status.ok()) return FailOnServer(arguments.server.address, status);
+  if (!status.ok()) return FailOnServer(arguments.server, status);
   if (arguments.common.summary == SummaryStyle::kText) return Print(SharesTable(all));
   std::string json =
       absl::StrCat("{\"server\":", JsonString(arguments.server.address), ",\"measured\":[");

@@ -1,6 +1,9 @@
 #include "client/cli/console.h"
 
 #include <cstdio>
+#include <string>
+
+#include "proto/wire/error_details.h"
 
 namespace bccskel::cli {
 namespace {
@@ -8,6 +11,17 @@ namespace {
 void PrintLine(std::string_view kind, std::string_view message) {
   std::fprintf(stderr, "bccskel: %.*s: %.*s\n", static_cast<int>(kind.size()), kind.data(),
                static_cast<int>(message.size()), message.data());
+}
+
+// Who speaks plainly to a server with TLS learns from it only that the connection broke.
+bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
+  return absl::IsUnavailable(error) && !wire::ErrorInfoOf(error).has_value() &&
+         server.tls_ca.empty() && server.address.compare(0, 5, "unix:") != 0;
+}
+
+// Files that may not be read are no question of credentials.
+ExitCode CodeOf(const absl::Status& error) {
+  return absl::IsPermissionDenied(error) ? ExitCode::kCredentials : ExitCodeOf(error);
 }
 
 }  // namespace
@@ -25,10 +39,15 @@ ExitCode FailWith(ExitCode code, const absl::Status& error) {
   return code;
 }
 
-ExitCode FailOnServer(const std::string& address, const absl::Status& error,
+ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint) {
-  const std::string message(error.message());
-  return Fail(absl::Status(error.code(), "server " + address + ": " + message), hint);
+  const std::string message = "server " + server.address + ": " + std::string(error.message());
+  const ExitCode code = FailWith(CodeOf(error), absl::Status(error.code(), message));
+  if (!hint.empty()) PrintLine("hint", hint);
+  if (MayWantTls(server, error)) {
+    PrintLine("hint", "should the server speak TLS, say with --tls-ca who signs its certificate");
+  }
+  return code;
 }
 
 ExitCode Print(std::string_view text) {

@@ -6,6 +6,7 @@
 
 #include "absl/status/status.h"
 #include "client/cli/exit_code.h"
+#include "client/cli/server_arguments.h"
 
 namespace bccskel::cli {
 
@@ -17,8 +18,9 @@ void Warn(std::string_view message);
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 
-// For what went wrong between the user and a server, which it names.
-ExitCode FailOnServer(const std::string& address, const absl::Status& error,
+// For what went wrong between the user and a server, which it names. A hint of its own says what
+// else may be wrong with the connection.
+ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint = "");
 
 // Prints a command's result. kOutput when standard output takes no more.

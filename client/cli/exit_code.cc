@@ -13,6 +13,8 @@ ExitCode ExitCodeOf(const absl::Status& status) {
     case absl::StatusCode::kUnimplemented:
     case absl::StatusCode::kOutOfRange:
       return ExitCode::kBadInput;
+    case absl::StatusCode::kUnauthenticated:
+      return ExitCode::kCredentials;
     case absl::StatusCode::kUnavailable:
       return ExitCode::kUnavailable;
     case absl::StatusCode::kCancelled:

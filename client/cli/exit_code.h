@@ -12,9 +12,10 @@ enum class ExitCode : int {
   kBadInput = 3,     // the input cannot be read, or is not what it should be
   kUnavailable = 4,  // no server, or the server went away
   kStopped = 5,      // the deadline passed, or the server cancelled the job
-  kInternal = 6,     // a defect: topology was not kept, or a reply is damaged
+  kInternal = 6,     // a defect: topology was not kept, a reply is damaged, a job crashes servers
   kTooLarge = 7,     // over a limit of the server or of this machine
   kOutput = 8,       // an output file cannot be written
+  kCredentials = 9,  // a token is missing, wrong, or not one for this
   kInterrupted = 130,
   kTerminated = 143,
 };

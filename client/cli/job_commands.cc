@@ -72,7 +72,7 @@ absl::Status CheckFetched(const FetchArguments& arguments, const Volume& object,
 }
 
 ExitCode Finish(const JobArguments& arguments, const absl::StatusOr<DurableJob>& job) {
-  if (!job.ok()) return FailOnServer(arguments.server.address, job.status());
+  if (!job.ok()) return FailOnServer(arguments.server, job.status());
   return Print(JobSummary(arguments.common, *job));
 }
 
@@ -83,12 +83,17 @@ ExitCode Run(const WatchArguments& arguments, const std::stop_token& stop) {
 }
 
 ExitCode Run(const CancelArguments& arguments, const std::stop_token& stop) {
-  return Finish(arguments.job, Cancel(arguments.job, stop));
+  const absl::StatusOr<DurableJob> job = Cancel(arguments.job, stop);
+  const bool text = arguments.job.common.summary == SummaryStyle::kText;
+  if (!job.ok() || job->state == client::JobState::kCancelled || !text) {
+    return Finish(arguments.job, job);
+  }
+  return Print(absl::StrCat(job->name, " had ended before: ", NameOf(job->state), "\n"));
 }
 
 ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop) {
   const absl::Status deleted = Delete(arguments.job, stop);
-  if (!deleted.ok()) return FailOnServer(arguments.job.server.address, deleted);
+  if (!deleted.ok()) return FailOnServer(arguments.job.server, deleted);
   const bool json = arguments.job.common.summary == SummaryStyle::kJson;
   return Print(json ? "{\"deleted\":\"" + arguments.job.job + "\"}\n"
                     : arguments.job.job + " deleted\n");
@@ -99,7 +104,7 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<Volume> object = ObjectOf(arguments, team.context());
   if (!object.ok()) return Fail(object.status());
   const absl::StatusOr<SkeletonizeResult> result = Fetch(arguments, stop);
-  if (!result.ok()) return FailOnServer(arguments.job.server.address, result.status());
+  if (!result.ok()) return FailOnServer(arguments.job.server, result.status());
   const absl::Status fits = CheckFetched(arguments, *object, *result);
   if (!fits.ok()) return Fail(fits);
   const exporting::Subject subject = {*result, *object, TitleOf(arguments), team.context()};

@@ -56,7 +56,7 @@ std::string Json(const std::vector<DurableJob>& jobs) {
 
 ExitCode Run(const JobsArguments& arguments, const std::stop_token& stop) {
   const auto jobs = List(arguments, stop);
-  if (!jobs.ok()) return FailOnServer(arguments.server.address, jobs.status());
+  if (!jobs.ok()) return FailOnServer(arguments.server, jobs.status());
   return Print(arguments.common.summary == SummaryStyle::kJson ? Json(*jobs) : Table(*jobs));
 }
 

@@ -32,7 +32,7 @@ std::string Summary(const ProbeArguments& arguments) {
 
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token&) {
   const absl::Status status = Probe(arguments);
-  return status.ok() ? Print(Summary(arguments)) : FailOnServer(arguments.server.address, status);
+  return status.ok() ? Print(Summary(arguments)) : FailOnServer(arguments.server, status);
 }
 
 }  // namespace bccskel::cli

@@ -200,7 +200,7 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
 
 ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (arguments.place == Place::kLocal) return Fail(error);
-  return FailOnServer(arguments.server.address, error,
+  return FailOnServer(arguments.server, error,
                       absl::IsUnavailable(error)
                           ? "start bccskel-server, name another with --server, or compute here "
                             "with `bccskel skeletonize --local`"

@@ -34,11 +34,11 @@ ExitCode Show(const TopArguments& arguments, const client::ServerStatus& status,
 
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop) {
   const auto operations = Open(arguments);
-  if (!operations.ok()) return FailOnServer(arguments.server.address, operations.status());
+  if (!operations.ok()) return FailOnServer(arguments.server, operations.status());
   std::optional<client::ServerStatus> before;
   while (true) {
     const absl::StatusOr<client::ServerStatus> status = (*operations)->GetStatus(kPatience);
-    if (!status.ok()) return FailOnServer(arguments.server.address, status.status());
+    if (!status.ok()) return FailOnServer(arguments.server, status.status());
     std::optional<TopRates> rates;
     if (before.has_value()) rates = RatesBetween(*before, *status);
     const ExitCode shown = Show(arguments, *status, rates);

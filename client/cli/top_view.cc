@@ -1,5 +1,8 @@
 #include "client/cli/top_view.h"
 
+#include <algorithm>
+#include <string>
+
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/json_text.h"
@@ -39,6 +42,24 @@ std::string RatesText(const TopRates& rates) {
       rates.jobs, rates.points / 1e6, rates.processors);
 }
 
+std::string StoredText(const ServerStatus::Stored& stored) {
+  const double used = Mebibytes(stored.disk_used_bytes);
+  const double available = Mebibytes(stored.disk_available_bytes);
+  return absl::StrFormat(
+      "durable     %d jobs queued, %d running, %d unfinished uploads\n"
+      "disk        %s %.0f MiB used, %.0f MiB left\n",
+      stored.queued_jobs, stored.running_jobs, stored.unfinished_uploads,
+      Bar(used, used + available), used, available);
+}
+
+std::string StoredJson(const ServerStatus::Stored& stored) {
+  return absl::StrFormat(
+      R"(,"stored":{"disk_used_bytes":%d,"disk_available_bytes":%d,"uploads_unfinished":%d,)"
+      R"("jobs_queued":%d,"jobs_running":%d})",
+      stored.disk_used_bytes, stored.disk_available_bytes, stored.unfinished_uploads,
+      stored.queued_jobs, stored.running_jobs);
+}
+
 }  // namespace
 
 TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
@@ -63,6 +84,7 @@ std::string TopText(const std::string& address, const ServerStatus& status,
                       UptimeText(status.uptime), status.draining ? "   draining" : "");
   absl::StrAppendFormat(&text, "jobs        %d admitted: %d running, %d waiting for threads\n",
                         status.admitted_jobs, status.running_jobs, status.waiting_jobs);
+  if (status.stored.has_value()) text += StoredText(*status.stored);
   absl::StrAppendFormat(&text, "threads     %s %d of %d\n",
                         Bar(status.busy_threads, status.threads), status.busy_threads,
                         status.threads);
@@ -90,6 +112,7 @@ std::string TopJson(const ServerStatus& status, const std::optional<TopRates>& r
       status.busy_threads, status.admitted_bytes, status.max_admitted_bytes, status.resident_bytes,
       status.open_files, Seconds(status.processor_time), status.calls, status.failed_calls,
       status.jobs, status.failed_jobs, status.object_points);
+  if (status.stored.has_value()) json += StoredJson(*status.stored);
   if (rates.has_value()) {
     absl::StrAppendFormat(
         &json, R"(,"per_second":{"calls":%.3f,"jobs":%.3f,"object_points":%.1f,"processors":%.3f})",

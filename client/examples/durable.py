@@ -72,10 +72,17 @@ def send_volume(channel, declaration, data, upload=None):
         volumes.FindMissingVolumesRequest(volumes=[key]), timeout=CALL_S))
     if found.volumes[0]:
         return found.volumes[0]
+    begun = upload is not None
     upload = upload or f"uploads/{uuid.uuid4()}"
-    return patiently(lambda: stub.UploadVolume(
-        upload_requests(upload, declaration, data, committed_size(stub, upload)),
-        timeout=STREAM_S), again=AGAIN).upload.volume
+
+    def send():
+        nonlocal begun
+        offset = committed_size(stub, upload) if begun else 0
+        begun = True
+        return stub.UploadVolume(upload_requests(upload, declaration, data, offset),
+                                 timeout=STREAM_S)
+
+    return patiently(send, again=AGAIN).upload.volume
 
 
 def create_job(channel, volume, **wanted):
@@ -88,14 +95,16 @@ def create_job(channel, volume, **wanted):
 def watch(channel, job, after_sequence=0):
     """Events until the job has ended, over breaks."""
     stub, known = jobs_grpc.JobServiceStub(channel), after_sequence
-    while True:
+    ended = False
+    while not ended:
         try:
             request = jobs.WatchJobRequest(job=job, after_sequence=known)
             for event in stub.WatchJob(request, timeout=STREAM_S):
                 known = event.sequence
+                ended = event.state_change.state in ENDED
                 yield event
-                if event.state_change.state in ENDED:
-                    return
+            if not ended:
+                raise RuntimeError(f"the watch ended before {job} did")
         except grpc.RpcError as error:
             if error.code() != grpc.StatusCode.UNAVAILABLE:
                 raise

@@ -40,7 +40,7 @@ DurableLedger::DurableLedger(const DurableOptions& options, JobRunner& runner,
       lock_(std::move(lock)),
       blobs_(options.data_directory),
       quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
-      journal_(RandomId(), options.now),
+      journal_(RandomId(), [this] { return Now(); }),
       loop_(std::move(store)),
       files_(kFileThreads) {}
 
@@ -120,19 +120,18 @@ absl::Status DurableLedger::RecoverFiles(JobStore& store, std::set<std::string>&
 absl::Status DurableLedger::RecoverJobs(JobStore& store) {
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<JobRow> jobs, store.UnfinishedJobs());
   for (JobRow& job : jobs) {
-    BCCSKEL_RETURN_IF_ERROR(RecoverJob(store, job));
-    Apply(Step{.job = job, .event = std::nullopt});
+    BCCSKEL_ASSIGN_OR_RETURN(const auto event, RecoverJob(store, job));
+    Apply(Step{.job = job, .event = event});
   }
   return absl::OkStatus();
 }
 
-absl::Status DurableLedger::RecoverJob(JobStore& store, JobRow& job) {
+absl::StatusOr<std::optional<EventRow>> DurableLedger::RecoverJob(JobStore& store, JobRow& job) {
   if (job.state == JobState::kRunning) return journal_.RecoverRunning(store, job);
   if (job.state != JobState::kReceiving || FindSession(job.tenant, job.upload) != nullptr) {
-    return absl::OkStatus();
+    return std::nullopt;
   }
-  return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"))
-      .status();
+  return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"));
 }
 
 void DurableLedger::Tick(std::stop_token stop) {
@@ -194,7 +193,9 @@ void DurableLedger::Apply(const Step& step) {
       queue_.Add(row);
     }
   }
-  if (step.event.has_value()) watches_.Tell(row.number, EventOf(*step.event));
+  if (!step.event.has_value()) return;
+  options_.on_job_state(row);
+  watches_.Tell(row.number, EventOf(*step.event));
 }
 
 void DurableLedger::Apply(const Erased& erased) {
@@ -224,6 +225,7 @@ Ledger::Usage DurableLedger::usage() const {
     return jobs_in_state_[static_cast<size_t>(state)].load();
   };
   return {.disk_bytes = quota_.used(),
+          .disk_available_bytes = std::min(quota_.available(), SpaceOf(options_.data_directory)),
           .uploads = static_cast<int>(sessions_.size()),
           .queued = count(JobState::kQueued),
           .running = count(JobState::kRunning),

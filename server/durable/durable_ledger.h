@@ -126,7 +126,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   absl::Status RecoverUploads(JobStore& store, std::set<std::string>& keep);
   absl::Status RecoverFiles(JobStore& store, std::set<std::string>& keep);
   absl::Status RecoverJobs(JobStore& store);
-  absl::Status RecoverJob(JobStore& store, JobRow& job);
+  absl::StatusOr<std::optional<EventRow>> RecoverJob(JobStore& store, JobRow& job);
   void Tick(std::stop_token stop);
   void OnLoop(std::function<void()> task);  // returns when it was run
 
@@ -163,7 +163,8 @@ class DurableLedger final : public Ledger, public RunObserver {
   absl::Status CheckAdmitting() const;
   absl::Status CheckFits(const JobRequest& request) const;
   absl::Status CheckRoomForJob() const;
-  Time Now() const { return options_.now(); }
+  // As precise as the store: what callers are told does not change when it is read back.
+  Time Now() const { return std::chrono::floor<std::chrono::microseconds>(options_.now()); }
 
   // ---- Uploads
   Session FindSession(const std::string& tenant, const std::string& upload) const;

@@ -29,6 +29,9 @@ struct DurableOptions {
   uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
 
   std::string algorithm_version;  // results of another one are not found again
+  // Told of every state that a job comes into, once that is on disk. Called on the ledger's thread;
+  // must not block.
+  std::function<void(const JobRow& job)> on_job_state = [](const JobRow&) {};
   std::function<Time()> now = [] { return std::chrono::system_clock::now(); };
 };
 

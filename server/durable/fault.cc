@@ -18,8 +18,8 @@ constexpr char kCommittedSize[] = "committed_size";
 }  // namespace
 
 absl::Status WithFault(absl::Status status, const Fault& fault) {
-  status.SetPayload(kPayloadUrl,
-                    absl::Cord(absl::StrCat(fault.reason, "\n", fault.key, "\n", fault.value)));
+  status.SetPayload(kPayloadUrl, absl::Cord(absl::StrCat(fault.reason, "\n", fault.key, "\n",
+                                                         fault.value, "\n", fault.field)));
   return status;
 }
 
@@ -27,8 +27,10 @@ std::optional<Fault> FaultOf(const absl::Status& status) {
   const auto payload = status.GetPayload(kPayloadUrl);
   if (!payload.has_value()) return std::nullopt;
   const std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
-  if (parts.size() != 3) return std::nullopt;
-  return Fault{.reason = parts[0], .key = parts[1], .value = parts[2]};
+  if (parts.size() < 3) return std::nullopt;
+  // Errors that older servers have stored have no field.
+  const std::string field = parts.size() > 3 ? parts[3] : std::string();
+  return Fault{.reason = parts[0], .key = parts[1], .value = parts[2], .field = field};
 }
 
 absl::Status WithDiskFault(const absl::Status& status) {
@@ -43,6 +45,16 @@ absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {
   return WithFault(
       absl::OutOfRangeError(message),
       {.reason = "CHUNK_OFFSET", .key = kCommittedSize, .value = absl::StrCat(committed_bytes)});
+}
+
+absl::Status WrongField(const std::string& field, const std::string& description) {
+  return WithFault(absl::InvalidArgumentError(absl::StrCat(field, ": ", description)),
+                   {.reason = "FIELD_INVALID", .field = field});
+}
+
+absl::Status WrongVolume(const std::string& message) {
+  return WithFault(absl::InvalidArgumentError(message),
+                   {.reason = "VOLUME_INVALID", .field = "chunk.data"});
 }
 
 std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {

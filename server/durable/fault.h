@@ -9,13 +9,14 @@
 
 namespace bccskel::server {
 
-// An error that states its ErrorInfo: a reason as callers see it, such as SECOND_WRITER, and at
-// most one piece of metadata. It travels as a payload, also through the store; the service turns it
-// into the message.
+// An error that states its details: a reason as callers see it, such as SECOND_WRITER, at most one
+// piece of metadata, and the field of the request that is wrong. It travels as a payload, also
+// through the store; the service turns it into the messages.
 struct Fault {
   std::string reason;
-  std::string key;  // of the metadata; empty: none
-  std::string value;
+  std::string key = {};  // of the metadata; empty: none
+  std::string value = {};
+  std::string field = {};  // its path in the request; empty: none
 };
 inline constexpr char kDiskFull[] = "DISK_FULL";
 absl::Status WithFault(absl::Status status, const Fault& fault);
@@ -26,6 +27,10 @@ std::optional<Fault> FaultOf(const absl::Status& status);
 absl::Status WithDiskFault(const absl::Status& status);
 
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
+// INVALID_ARGUMENT: "<field>: <description>".
+absl::Status WrongField(const std::string& field, const std::string& description);
+// INVALID_ARGUMENT: the bytes of a volume are not what they should be.
+absl::Status WrongVolume(const std::string& message);
 
 }  // namespace bccskel::server
 

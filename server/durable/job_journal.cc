@@ -65,12 +65,12 @@ absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRo
   return std::optional(std::move(event));
 }
 
-absl::Status JobJournal::RecoverRunning(JobStore& store, JobRow& job) {
+absl::StatusOr<std::optional<EventRow>> JobJournal::RecoverRunning(JobStore& store, JobRow& job) {
   ++job.crashes;
   sequences_[job.number] = (job.sequence / kLeap + 1) * kLeap;
   const bool poisoned = job.crashes >= kCrashesToPoison;
   const absl::Status error = poisoned ? Poisoned(job.crashes) : absl::OkStatus();
-  return Enter(store, job, poisoned ? JobState::kFailed : JobState::kQueued, error).status();
+  return Enter(store, job, poisoned ? JobState::kFailed : JobState::kQueued, error);
 }
 
 }  // namespace bccskel::server

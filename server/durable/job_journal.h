@@ -35,7 +35,7 @@ class JobJournal {
 
   // After a crash: a job that ran waits again, or has failed when it was there too often. Its
   // sequence leaps over what was told and not stored.
-  absl::Status RecoverRunning(JobStore& store, JobRow& job);
+  absl::StatusOr<std::optional<EventRow>> RecoverRunning(JobStore& store, JobRow& job);
 
   // The next number of an event, stored or not.
   uint64_t NextSequence(int64_t job, uint64_t stored);

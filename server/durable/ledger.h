@@ -84,7 +84,8 @@ class Ledger {
     struct ThenJob {
       std::string options;
       int priority = 0;
-      int threads = 0;  // wanted; 0 leaves it to the server
+      int threads = 0;         // wanted; 0 leaves it to the server
+      std::string trace = {};  // for the log
     };
     std::optional<ThenJob> then_job;
   };
@@ -135,8 +136,9 @@ class Ledger {
     std::string request_id;  // the same again yields the same job; empty: never the same
     std::string volume;
     std::string options;
-    int priority = 0;  // larger ones first, within the tenant
-    int threads = 0;   // wanted; 0 leaves it to the server
+    int priority = 0;        // larger ones first, within the tenant
+    int threads = 0;         // wanted; 0 leaves it to the server
+    std::string trace = {};  // for the log; a repeat may have another
     Mode mode = Mode::kCreate;
   };
   // With kValidateOnly the job that would be made, without a name.
@@ -157,7 +159,7 @@ class Ledger {
   // Erases the job, its upload if unfinished, and its result unless another job has the same. A job
   // that has not ended is cancelled first.
   virtual void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) = 0;
-  // Events after `after_sequence`; 0 for all.
+  // Events after `after_sequence`, and the end in any case; 0 for all.
   virtual std::unique_ptr<WatchHandle> WatchJob(const std::string& tenant, const std::string& job,
                                                 uint64_t after_sequence,
                                                 std::shared_ptr<JobWatcher> watcher) = 0;
@@ -170,11 +172,12 @@ class Ledger {
 
   struct Usage {
     uint64_t disk_bytes = 0;
-    int uploads = 0;       // unfinished
-    int queued = 0;        // jobs
-    int running = 0;       // jobs
-    uint64_t commits = 0;  // transactions since the start
-    uint64_t cached = 0;   // jobs since the start that were given a stored result
+    uint64_t disk_available_bytes = 0;  // up to the quota, or to the end of the file system
+    int uploads = 0;                    // unfinished
+    int queued = 0;                     // jobs
+    int running = 0;                    // jobs
+    uint64_t commits = 0;               // transactions since the start
+    uint64_t cached = 0;                // jobs since the start that were given a stored result
   };
   virtual Usage usage() const = 0;
 };

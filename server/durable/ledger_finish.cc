@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
+#include "server/durable/fault.h"
 #include "server/durable/names.h"
 
 namespace bccskel::server {
@@ -53,9 +54,9 @@ void DurableLedger::Seal(const std::shared_ptr<Finishing>& finishing) {
     return finishing->done(digest.status());
   }
   if (finishing->expected.has_value() && *finishing->expected != *digest) {
-    const absl::Status error = absl::InvalidArgumentError(
-        absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
-                     ", the request states ", finishing->expected->Hex()));
+    const absl::Status error =
+        WrongVolume(absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
+                                 ", the request states ", finishing->expected->Hex()));
     return EndUpload(session.row().tenant, session.row().name, JobState::kFailed, error,
                      [finishing, error](const absl::Status&) { finishing->done(error); });
   }

@@ -42,7 +42,7 @@ absl::StatusOr<std::optional<JobPosition>> PositionOf(const std::string& token, 
     const JobPosition position = {.created = Time(Time::duration(created)), .name = parts[1]};
     if (TokenOf(position, states) == token) return position;
   }
-  return absl::InvalidArgumentError("page_token: did not come with a page of these states");
+  return WrongField("page_token", "did not come with a page of these states");
 }
 
 // What makes two requests the same.
@@ -51,7 +51,7 @@ std::string BodyOf(const Ledger::NewJob& job) {
 }
 
 absl::Status WithReason(absl::Status status, const char* reason) {
-  return WithFault(std::move(status), {.reason = reason, .key = {}, .value = {}});
+  return WithFault(std::move(status), {.reason = reason});
 }
 
 class BoardWatch final : public WatchHandle {
@@ -141,9 +141,10 @@ absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
     if (found->body != BodyOf(wanted)) {
-      return WithReason(absl::AlreadyExistsError(absl::StrCat("request_id ", wanted.request_id,
-                                                              " was used for something else")),
-                        "REQUEST_ID_REUSED");
+      return WithFault(
+          absl::AlreadyExistsError(absl::StrCat("request_id ", wanted.request_id, " has made ",
+                                                found->name, ", which is something else")),
+          {.reason = "REQUEST_ID_REUSED", .key = "job", .value = found->name});
     }
     BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, *found));
     return absl::OkStatus();
@@ -156,6 +157,7 @@ absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
   job.options = creating.options;
   job.priority = wanted.priority;
   job.threads = wanted.threads;
+  job.trace = wanted.trace;
   job.volume = wanted.volume;
   if (wanted.mode == NewJob::Mode::kValidateOnly) {
     creating.info = PlainInfoOf(job);
@@ -304,14 +306,16 @@ std::unique_ptr<WatchHandle> DurableLedger::WatchJob(const std::string& tenant,
   loop_.Post(
       [this, tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(found->job, FindJobRow(store, tenant, job));
-        BCCSKEL_ASSIGN_OR_RETURN(found->events,
-                                 store.EventsAfter(found->job.number, after_sequence));
+        // The end is told also to a caller who knows it already.
+        const bool ended = IsTerminal(found->job.state);
+        const uint64_t after =
+            ended ? std::min(after_sequence, found->job.sequence - 1) : after_sequence;
+        BCCSKEL_ASSIGN_OR_RETURN(found->events, store.EventsAfter(found->job.number, after));
         return absl::OkStatus();
       },
       [this, found, watch, token = operations_.Begin()](const absl::Status& status) {
         if (!status.ok()) return watch->End(status);
         for (const EventRow& event : found->events) watch->Tell(EventOf(event));
-        // A caller who knew the last event already hears of nothing but the end.
         if (IsTerminal(found->job.state)) return watch->End(absl::OkStatus());
         watches_.Add(found->job.number, watch);
       });

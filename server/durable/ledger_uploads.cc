@@ -72,6 +72,7 @@ absl::Status DurableLedger::PrepareUpload(const NewUpload& upload, Opening& open
   job.options = codec_.OptionsFor(request, options);
   job.priority = upload.then_job->priority;
   job.threads = upload.then_job->threads;
+  job.trace = upload.then_job->trace;
   job.state = JobState::kReceiving;
   opening.row.job = opening.job->name;
   opening.request = RunnerRequest(std::move(request), *opening.job);
@@ -101,7 +102,7 @@ absl::Status DurableLedger::CheckSameUpload(JobStore& store, const Opening& open
   if (same) return absl::OkStatus();
   return WithFault(absl::AlreadyExistsError(
                        absl::StrCat(found.name, " was begun with another declaration or job")),
-                   {.reason = "UPLOAD_EXISTS", .key = {}, .value = {}});
+                   {.reason = "UPLOAD_EXISTS"});
 }
 
 absl::Status DurableLedger::StoreReceivingJob(JobStore& store, Opening& opening) {
@@ -166,10 +167,10 @@ absl::Status DurableLedger::NotWritable(JobStore& store, const std::string& tena
   BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
   if (row.volume.empty()) {  // its file is being opened
     return WithFault(absl::AbortedError(absl::StrCat(upload, " is being opened just now")),
-                     {.reason = "SECOND_WRITER", .key = {}, .value = {}});
+                     {.reason = "SECOND_WRITER"});
   }
   return WithFault(absl::FailedPreconditionError(absl::StrCat(upload, " is finished")),
-                   {.reason = "UPLOAD_FINISHED", .key = {}, .value = {}});
+                   {.reason = "UPLOAD_FINISHED"});
 }
 
 void DurableLedger::AppendNow(const Session& session, std::string bytes,
@@ -179,7 +180,7 @@ void DurableLedger::AppendNow(const Session& session, std::string bytes,
     status =
         WithFault(absl::InvalidArgumentError(absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes),
                                                           ", the request states ", *crc32c)),
-                  {.reason = "CHUNK_CHECKSUM", .key = {}, .value = {}});
+                  {.reason = "CHUNK_CHECKSUM", .field = "chunk.crc32c"});
   }
   if (status.ok()) status = session->file().Append(bytes);
   const std::shared_ptr<Run> along = session->along();
@@ -191,7 +192,7 @@ void DurableLedger::AppendNow(const Session& session, std::string bytes,
   along->Append(std::move(bytes), [this, session, done](const absl::Status& decoded) {
     session->EndWriting(Now());
     // Whatever else has ended the decoding, the bytes are here.
-    if (absl::IsInvalidArgument(decoded)) return done(decoded);
+    if (absl::IsInvalidArgument(decoded)) return done(WrongVolume(std::string(decoded.message())));
     done(session->committed());
   });
 }

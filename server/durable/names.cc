@@ -31,10 +31,10 @@ absl::Status CheckUploadName(const std::string& name) {
       std::all_of(name.begin() + static_cast<ptrdiff_t>(front), name.end(), IsNameCharacter)) {
     return absl::OkStatus();
   }
-  return WithFault(absl::InvalidArgumentError(absl::StrCat(
-                       "upload: must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
-                       " letters, digits, '-' and '_', not ", name.size(), " bytes of others")),
-                   {.reason = "FIELD_INVALID", .key = {}, .value = {}});
+  return WrongField(
+      "config.upload",
+      absl::StrCat("must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
+                   " letters, digits, '-' and '_', not ", name.size(), " bytes of others"));
 }
 
 std::string KeyOf(std::initializer_list<std::string> parts) {

@@ -113,7 +113,7 @@ absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& 
   if (first_record > row.records) {
     return WithFault(
         absl::OutOfRangeError(
-            absl::StrCat("record ", first_record, " of a result with ", row.records)),
+            absl::StrCat("piece ", first_record, " of a result with ", row.records)),
         {.reason = "PIECE_INDEX", .key = "pieces", .value = absl::StrCat(row.records)});
   }
   BCCSKEL_ASSIGN_OR_RETURN(ResultFile file,

@@ -19,7 +19,7 @@ Time UploadSession::used() const {
 absl::Status UploadSession::Begin() {
   if (writing_) {
     return WithFault(absl::AbortedError(absl::StrCat(row_.name, " is being written just now")),
-                     {.reason = "SECOND_WRITER", .key = {}, .value = {}});
+                     {.reason = "SECOND_WRITER"});
   }
   writing_ = true;
   return absl::OkStatus();
@@ -45,7 +45,7 @@ absl::Status UploadSession::BeginFinish(uint64_t size) {
   if (size != row_.size_bytes) {
     return WithFault(absl::InvalidArgumentError(absl::StrCat("finish states ", size, " bytes, ",
                                                              row_.size_bytes, " were declared")),
-                     {.reason = "VOLUME_SIZE", .key = {}, .value = {}});
+                     {.reason = "VOLUME_SIZE", .field = "finish.size_bytes"});
   }
   if (!writing_ && committed_ != size) {
     return WrongOffset(absl::StrCat(row_.name, " has ", committed_, " of ", size, " bytes"),

@@ -7,7 +7,7 @@
 namespace bccskel::server {
 
 void Watch::Tell(const JobEvent& event) {
-  if (over() || event.sequence <= told_) return;
+  if (over() || (event.sequence <= told_ && !event.IsCompleted())) return;
   told_ = event.sequence;
   watcher_->OnEvent(event);
   if (event.IsCompleted()) End(absl::OkStatus());

@@ -20,6 +20,7 @@ class Watch {
       : told_(after_sequence), watcher_(std::move(watcher)) {}
 
   uint64_t told() const { return told_; }
+  // Leaves out what was told already, but for the end: no watch ends without it.
   void Tell(const JobEvent& event);
   void End(const absl::Status& status);
   void Stop() { stopped_ = true; }

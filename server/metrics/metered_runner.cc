@@ -10,7 +10,7 @@ namespace bccskel::server {
 namespace {
 
 EndedJob Ended(const std::string& tenant, const absl::Status& status) {
-  const grpc::Status seen = ToGrpcStatus(status);
+  const grpc::Status seen = ToGrpcStatus(WithJobReason(status));
   EndedJob ended;
   ended.tenant = tenant;
   ended.code = CodeName(seen);

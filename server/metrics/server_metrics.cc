@@ -69,6 +69,9 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges::Stored& stored) {
   return {
       GaugeNow("bccskel_disk_used_bytes", "Volumes, results and declared uploads on disk",
                static_cast<double>(stored.disk_bytes)),
+      GaugeNow("bccskel_disk_available_bytes",
+               "What can still be written: up to the limit, or to the end of the file system",
+               static_cast<double>(stored.available_bytes)),
       GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
       GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued_jobs),
       GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running_jobs),

@@ -33,7 +33,8 @@ struct ServerGauges {
   // What the data directory holds; nothing without one.
   struct Stored {
     uint64_t disk_bytes = 0;
-    int uploads = 0;  // unfinished
+    uint64_t available_bytes = 0;  // that can still be written
+    int uploads = 0;               // unfinished
     int queued_jobs = 0;
     int running_jobs = 0;
     uint64_t reused_results = 0;  // since the start

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "absl/strings/str_cat.h"
+#include "server/admission/refusal.h"
 #include "server/logging/json_log.h"
+#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -35,6 +38,19 @@ std::string TraceOf(const grpc::CallbackServerContext& context) {
   return IsTraceparent(text) ? std::string(text) : std::string();
 }
 
+std::string FullName(const Method& method) { return absl::StrCat("/bccskel.v1.", method.name); }
+
+// The log's field for a name.
+std::string_view FieldOf(const std::string& name) {
+  if (name.compare(0, 8, "uploads/") == 0) return "upload";
+  return name.compare(0, 8, "volumes/") == 0 ? "volume" : "job";
+}
+
+LogLevel LevelOf(const Method& method, const absl::Status& end) {
+  if (!end.ok()) return LogLevel::kWarning;
+  return method.kind == Method::Kind::kQuestion ? LogLevel::kDebug : LogLevel::kInfo;
+}
+
 }  // namespace
 
 CallFacts FactsOf(const grpc::CallbackServerContext& context) {
@@ -42,23 +58,29 @@ CallFacts FactsOf(const grpc::CallbackServerContext& context) {
 }
 
 absl::Status CallFacts::CancelStatus() const {
+  if (cut_off != nullptr && *cut_off) {
+    return Refuse(Refusal::kDraining, "the server stops and cuts the call off");
+  }
   return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
                                   : absl::CancelledError("the caller cancelled the call");
 }
 
 void CallFacts::LogAccepted(const std::string& job, uint64_t volume_bytes) const {
   Log(LogLevel::kInfo, "job accepted",
-      {{"job", job},
+      {{"method", FullName(method)},
+       {"job", job},
        {"tenant", tenant},
        {"volume_bytes", static_cast<int64_t>(volume_bytes)},
        {"traceparent", trace}});
 }
 
-void CallFacts::LogEnded(const std::string& job, const absl::Status& status) const {
-  Log(status.ok() ? LogLevel::kInfo : LogLevel::kWarning, "call ended",
-      {{"job", job},
+void CallFacts::LogEnded(const std::string& subject, const absl::Status& status) const {
+  Log(LevelOf(method, status), "call ended",
+      {{"method", FullName(method)},
+       {FieldOf(subject), subject},
        {"tenant", tenant},
        {"code", absl::StatusCodeToString(status.code())},
+       {"reason", ReasonOf(status)},
        {"message", std::string(status.message())},
        {"seconds", std::chrono::duration<double>(Clock::now() - started).count()},
        {"traceparent", trace}});

@@ -3,6 +3,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,20 +16,31 @@
 
 namespace bccskel::server {
 
+// A method of the interface.
+struct Method {
+  const char* name = "";  // "JobService/CreateJob"
+  // Questions change nothing and come often: while all is well they are left to the debug log.
+  enum class Kind { kWork, kQuestion } kind = Kind::kWork;
+};
+
 // What is known about a call besides its messages.
 struct CallFacts {
   using Clock = exec::Context::Clock;
 
+  Method method = {};
   Clock::time_point started = Clock::now();
   Clock::time_point deadline = Clock::time_point::max();
   std::string trace;                    // the caller's traceparent, if it is one; for the log
   std::string tenant = kDefaultTenant;  // whose call it is
   Role role = Role::kTenant;
+  // Whether the server cuts calls off now; null: it never does. Outlives the call.
+  const std::atomic<bool>* cut_off = nullptr;
 
   // Why gRPC says that the call is over.
   absl::Status CancelStatus() const;
   void LogAccepted(const std::string& job, uint64_t volume_bytes) const;
-  void LogEnded(const std::string& job, const absl::Status& status) const;
+  // `subject` is the name of the job, upload or volume that the call was about, if there is one.
+  void LogEnded(const std::string& subject, const absl::Status& status) const;
 };
 CallFacts FactsOf(const grpc::CallbackServerContext& context);
 

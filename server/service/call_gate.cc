@@ -1,6 +1,7 @@
 #include "server/service/call_gate.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -19,25 +20,35 @@ std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContex
 
 }  // namespace
 
-absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context) const {
+absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context,
+                                          const Method& method) const {
+  CallFacts facts = FactsOf(context);
+  facts.method = method;
+  facts.cut_off = &cut_off_;
   const auto authorization = AuthorizationOf(context);
   absl::StatusOr<Caller> caller = callers_.Identify(authorization);
   if (!caller.ok()) {
-    return wire::WithReason(caller.status(),
-                            authorization.has_value() ? "TOKEN_INVALID" : "TOKEN_MISSING");
+    facts.tenant.clear();
+    const char* const reason = authorization.has_value() ? "TOKEN_INVALID" : "TOKEN_MISSING";
+    return Refused(facts, wire::WithReason(caller.status(), reason));
   }
-  CallFacts facts = FactsOf(context);
   facts.tenant = std::move(caller->tenant);
   facts.role = caller->role;
   return facts;
 }
 
-absl::StatusOr<CallFacts> CallGate::EnterAsAdmin(const grpc::CallbackServerContext& context) const {
-  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context));
+absl::StatusOr<CallFacts> CallGate::EnterAsAdmin(const grpc::CallbackServerContext& context,
+                                                 const Method& method) const {
+  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context, method));
   if (facts.role == Role::kAdmin) return facts;
-  return wire::WithReason(
-      absl::PermissionDeniedError("this call is for admins; the token is a tenant's"),
-      "ADMIN_ONLY");
+  return Refused(facts, wire::WithReason(absl::PermissionDeniedError(
+                                             "this call is for admins; the token is a tenant's"),
+                                         "ADMIN_ONLY"));
+}
+
+absl::Status Refused(const CallFacts& facts, const absl::Status& status) {
+  facts.LogEnded(std::string(), status);
+  return status;
 }
 
 grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,

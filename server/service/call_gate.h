@@ -3,6 +3,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <atomic>
+
 #include "absl/status/statusor.h"
 #include "server/identity/callers.h"
 #include "server/service/call_facts.h"
@@ -10,7 +12,7 @@
 namespace bccskel::server {
 
 // Where every call of every service comes in: whose is it? A handler learns the tenant here and
-// nowhere else.
+// nowhere else. Calls that are refused are logged here.
 // Threads: safe.
 class CallGate {
  public:
@@ -18,13 +20,22 @@ class CallGate {
   explicit CallGate(const Callers& callers) : callers_(callers) {}
 
   // Errors: UNAUTHENTICATED for a missing or wrong token.
-  absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context) const;
+  absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
+                                  const Method& method) const;
   // Errors besides: PERMISSION_DENIED for who is no admin.
-  absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context) const;
+  absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context,
+                                         const Method& method) const;
+
+  // From now on calls that gRPC cancels are the server's doing.
+  void CutOff() { cut_off_ = true; }
 
  private:
   const Callers& callers_;
+  std::atomic<bool> cut_off_ = false;
 };
+
+// The error of a call that goes no further, which is logged.
+absl::Status Refused(const CallFacts& facts, const absl::Status& status);
 
 // Ends a unary call: with OK, or with the error and its details.
 grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,

@@ -3,6 +3,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <string>
+
 #include "absl/status/statusor.h"
 #include "server/durable/ledger.h"
 #include "server/service/call_gate.h"
@@ -25,7 +27,16 @@ class DurableGate {
   DurableGate(const CallGate& gate, Ledger* ledger) : gate_(gate), ledger_(ledger) {}
 
   // Errors: those of CallGate::Enter(); FAILED_PRECONDITION without a ledger.
-  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context) const;
+  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
+                                    const Method& method) const;
+  // For calls about something that has a name, as `field` of the request says.
+  // Errors besides: INVALID_ARGUMENT for what can be nobody's name.
+  struct Name {
+    const char* field;
+    const std::string& name;
+  };
+  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
+                                    const Method& method, const Name& name) const;
 
  private:
   const CallGate& gate_;

@@ -23,8 +23,10 @@ v1::ShellProgress ProgressMessage(const JobProgress& progress) {
   return wire::ToMessage(progress.shell, progress.elapsed);
 }
 
+v1::Status ErrorMessage(const absl::Status& error) { return ToStatusMessage(WithJobReason(error)); }
+
 void SetOutcome(const JobInfo& job, v1::Job& message) {
-  if (!job.error.ok()) *message.mutable_error() = ToStatusMessage(job.error);
+  if (!job.error.ok()) *message.mutable_error() = ErrorMessage(job.error);
   message.set_result_pieces(static_cast<uint32_t>(job.result_records));
   message.set_result_bytes(job.result_bytes);
   if (!job.summary.empty()) message.mutable_summary()->ParseFromString(job.summary);
@@ -32,7 +34,8 @@ void SetOutcome(const JobInfo& job, v1::Job& message) {
 }
 
 void SetTimes(const JobInfo& job, v1::Job& message) {
-  *message.mutable_create_time() = ToMessage(job.created);
+  // A job that was only checked has not been made.
+  if (job.created != Time()) *message.mutable_create_time() = ToMessage(job.created);
   if (job.started.has_value()) *message.mutable_start_time() = ToMessage(*job.started);
   if (job.ended.has_value()) *message.mutable_end_time() = ToMessage(*job.ended);
   if (job.expires.has_value()) *message.mutable_expire_time() = ToMessage(*job.expires);
@@ -91,7 +94,7 @@ v1::WatchJobResponse ToMessage(const JobEvent& event) {
   v1::JobStateChange& state_change = *message.mutable_state_change();
   state_change.set_state(ToMessage(change.state));
   state_change.set_attempt(change.attempt);
-  if (!change.error.ok()) *state_change.mutable_error() = ToStatusMessage(change.error);
+  if (!change.error.ok()) *state_change.mutable_error() = ErrorMessage(change.error);
   return message;
 }
 

@@ -49,7 +49,7 @@ DurableSkeletonize::~DurableSkeletonize() {
 template <typename Next>
 auto DurableSkeletonize::Then(Next next) {
   return [self = shared_from_this(), next = std::move(next)](auto value) {
-    if (!value.ok()) return self->End(WithLedgerReason(value.status()));
+    if (!value.ok()) return self->End(LedgerError(value.status()));
     next(*self, *value);
   };
 }
@@ -65,7 +65,7 @@ void DurableSkeletonize::Begin(const v1::SkeletonizeConfig& config) {
   if (!begun.ok()) return End(begun);
   Ledger::NewUpload upload;
   upload.declaration = DeclarationBytes(config.volume());
-  upload.then_job = {.options = *options, .threads = config.threads()};
+  upload.then_job = {.options = *options, .threads = config.threads(), .trace = call_.facts.trace};
   call_.ledger.CreateUpload(
       call_.tenant(), upload,
       Then([](DurableSkeletonize& it, const UploadInfo& info) { it.Opened(info); }));
@@ -101,9 +101,30 @@ void DurableSkeletonize::OnTakenOver() {
 }
 
 void DurableSkeletonize::OnReadDone(bool ok) {
-  const absl::Status status = ok ? sequence_.Take(request_) : sequence_.HalfClose();
+  if (!ok) return HalfClose();
+  const absl::Status status = sequence_.Take(request_);
   if (!status.ok()) return End(status);
-  if (ok) Take(request_);
+  Take(request_);
+}
+
+void DurableSkeletonize::HalfClose() {
+  const absl::Status status = sequence_.HalfClose();
+  if (status.ok()) return;
+  {
+    std::lock_guard lock(mutex_);
+    half_closed_ = true;
+  }
+  End(status);
+}
+
+void DurableSkeletonize::OnCancel() {
+  const absl::Status status = call_.facts.CancelStatus();
+  {
+    std::lock_guard lock(mutex_);
+    // A connection that breaks looks like a half-close at first.
+    if (half_closed_ && error_.has_value()) error_ = status;
+  }
+  End(status);
 }
 
 void DurableSkeletonize::Take(v1::SkeletonizeRequest& request) {
@@ -145,11 +166,12 @@ void DurableSkeletonize::OnEvent(const JobEvent& event) {
 
 void DurableSkeletonize::OnJobEnd(const JobEvent::StateChange& change) {
   if (change.state == JobState::kSucceeded) return OpenResult();
-  End(change.error.ok() ? absl::CancelledError("the job was cancelled") : change.error);
+  End(change.error.ok() ? absl::CancelledError("the job was cancelled")
+                        : WithJobReason(change.error));
 }
 
 void DurableSkeletonize::OnWatchEnd(const absl::Status& status) {
-  if (!status.ok()) End(WithLedgerReason(status));
+  if (!status.ok()) End(LedgerError(status));
 }
 
 void DurableSkeletonize::OpenResult() {
@@ -167,7 +189,7 @@ void DurableSkeletonize::ReadPiece() {
       status = absl::InternalError("the stored result has no summary");
     }
     if (status.ok()) status = self->TakePiece(**record);
-    if (!status.ok()) self->End(WithLedgerReason(std::move(status)));
+    if (!status.ok()) self->End(LedgerError(status));
   });
 }
 

@@ -46,7 +46,7 @@ class DurableSkeletonize final : public JobWatcher,
   // The stream's reactions; from Begin() on it reads into request_.
   void OnReadDone(bool ok);
   void OnWriteDone(bool ok);
-  void OnCancel() { End(call_.facts.CancelStatus()); }
+  void OnCancel();
   void OnDone();
 
   void OnEvent(const JobEvent& event) override;
@@ -55,6 +55,7 @@ class DurableSkeletonize final : public JobWatcher,
   void OnTakenOver() override;
 
  private:
+  void HalfClose();
   void Take(v1::SkeletonizeRequest& request);
   void Opened(const UploadInfo& upload);
   void Watch();
@@ -95,7 +96,8 @@ class DurableSkeletonize final : public JobWatcher,
   v1::SkeletonizeResponse response_;  // of the write in flight
   bool writing_ = false;
   std::optional<absl::Status> error_;
-  bool ended_ = false;  // the stream is not to be touched any more
+  bool half_closed_ = false;  // before the finish
+  bool ended_ = false;        // the stream is not to be touched any more
 };
 
 }  // namespace bccskel::server

@@ -148,7 +148,7 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));
   BCCSKEL_RETURN_IF_ERROR(CheckDisconnectPolicy(config.on_disconnect()));
-  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads(), "config.threads"));
   request.threads_wanted = config.threads();
   return request;
 }

@@ -16,6 +16,14 @@
 namespace bccskel::server {
 namespace {
 
+constexpr Method kCreateJob{"JobService/CreateJob"};
+constexpr Method kGetJob{"JobService/GetJob", Method::Kind::kQuestion};
+constexpr Method kListJobs{"JobService/ListJobs", Method::Kind::kQuestion};
+constexpr Method kCancelJob{"JobService/CancelJob"};
+constexpr Method kDeleteJob{"JobService/DeleteJob"};
+constexpr Method kWatchJob{"JobService/WatchJob"};
+constexpr Method kReadSkeleton{"JobService/ReadSkeleton"};
+
 constexpr size_t kMaxRequestIdBytes = 128;
 constexpr int kMaxPageSize = 1000, kDefaultPageSize = 50;
 
@@ -31,8 +39,7 @@ absl::Status CheckRequestId(const std::string& id) {
 absl::StatusOr<Ledger::NewJob> NewJobOf(const v1::CreateJobRequest& request) {
   Ledger::NewJob job;
   BCCSKEL_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
-  if (request.volume().empty()) return wire::InvalidField("volume", "must be set");
-  BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
   BCCSKEL_ASSIGN_OR_RETURN(job.options,
                            OptionsBytes(request.options(), request.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
@@ -60,10 +67,14 @@ absl::StatusOr<Ledger::JobQuery> QueryOf(const v1::ListJobsRequest& request) {
 
 // For every response that holds one job.
 template <typename Response>
-auto AnswerJob(grpc::ServerUnaryReactor* reactor, Response* response,
-               const LedgerReasons& reasons = {}) {
-  return Answer(reactor, reasons,
-                [response](const JobInfo& job) { *response->mutable_job() = ToMessage(job); });
+auto AnswerJob(UnaryEnd end, Response* response) {
+  return [end = std::move(end), response](const absl::StatusOr<JobInfo>& job) mutable {
+    if (job.ok()) {
+      *response->mutable_job() = ToMessage(*job);
+      end.set_subject(job->name);
+    }
+    end(LedgerError(job.status()));
+  };
 }
 
 }  // namespace
@@ -71,71 +82,74 @@ auto AnswerJob(grpc::ServerUnaryReactor* reactor, Response* response,
 grpc::ServerUnaryReactor* JobService::CreateJob(grpc::CallbackServerContext* context,
                                                 const v1::CreateJobRequest* request,
                                                 v1::CreateJobResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kCreateJob, {"volume", request->volume()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  const absl::StatusOr<Ledger::NewJob> job = NewJobOf(*request);
-  if (!job.ok()) return EndUnary(*context, job.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  const LedgerReasons reasons = {.precondition = "VOLUME_MISSING", .exists = "REQUEST_ID_REUSED"};
-  call->ledger.CreateJob(call->tenant(), *job, AnswerJob(reactor, response, reasons));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->volume());
+  absl::StatusOr<Ledger::NewJob> job = NewJobOf(*request);
+  if (!job.ok()) return end(job.status());
+  job->trace = call->facts.trace;
+  call->ledger.CreateJob(call->tenant(), *job, AnswerJob(end, response));
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* JobService::GetJob(grpc::CallbackServerContext* context,
                                              const v1::GetJobRequest* request,
                                              v1::GetJobResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kGetJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.GetJob(call->tenant(), request->job(), AnswerJob(reactor, response));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.GetJob(call->tenant(), request->job(), AnswerJob(end, response));
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* context,
                                                const v1::ListJobsRequest* request,
                                                v1::ListJobsResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kListJobs);
   if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, std::string());
   const absl::StatusOr<Ledger::JobQuery> query = QueryOf(*request);
-  if (!query.ok()) return EndUnary(*context, query.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.ListJobs(call->tenant(), *query,
-                        Answer(reactor, {}, [response](const JobPage& page) {
-                          for (const JobInfo& job : page.jobs)
+  if (!query.ok()) return end(query.status());
+  call->ledger.ListJobs(call->tenant(), *query, Answer(end, [response](const JobPage& page) {
+                          for (const JobInfo& job : page.jobs) {
                             *response->add_jobs() = ToMessage(job);
+                          }
                           response->set_next_page_token(page.next_token);
                         }));
-  return reactor;
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* context,
                                                 const v1::CancelJobRequest* request,
                                                 v1::CancelJobResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kCancelJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.CancelJob(call->tenant(), request->job(), AnswerJob(reactor, response));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.CancelJob(call->tenant(), request->job(), AnswerJob(end, response));
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* context,
                                                 const v1::DeleteJobRequest* request,
                                                 v1::DeleteJobResponse*) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kDeleteJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.DeleteJob(call->tenant(), request->job(), AnswerNothing(reactor, {}));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.DeleteJob(call->tenant(), request->job(), AnswerNothing(end));
+  return end.reactor();
 }
 
 grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
     grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
-  return StartWatchStream(gate_.Enter(*context), *request);
+  return StartWatchStream(gate_.Enter(*context, kWatchJob, {"job", request->job()}), *request);
 }
 
 grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* JobService::ReadSkeleton(
     grpc::CallbackServerContext* context, const v1::ReadSkeletonRequest* request) {
-  return StartResultStream(gate_.Enter(*context), *request);
+  return StartResultStream(gate_.Enter(*context, kReadSkeleton, {"job", request->job()}), *request);
 }
 
 }  // namespace bccskel::server

@@ -90,7 +90,7 @@ absl::StatusOr<LabelsRequest> LabelsRequestOf(const v1::SkeletonizeLabelsConfig&
   request.header = WithWorstCase(header, request.labels.size());
   request.min_voxels = config.min_voxels();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
-  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads(), "config.threads"));
   request.threads_wanted = config.threads();
   return request;
 }

@@ -5,15 +5,9 @@
 
 namespace bccskel::server {
 
-// The ledger's error with the details that callers get: its fault becomes ErrorInfo, and where it
-// states none, its code says the reason. Errors that have ErrorInfo, and refusals, stay as they
-// are. `precondition` and `exists` are the reasons of FAILED_PRECONDITION and ALREADY_EXISTS, which
-// mean something else in each call.
-struct LedgerReasons {
-  const char* precondition = "FAILED_PRECONDITION";
-  const char* exists = "ALREADY_EXISTS";
-};
-absl::Status WithLedgerReason(absl::Status status, const LedgerReasons& reasons = {});
+// The ledger's error as callers may see it: a full disk names the limit; what cannot be read or
+// written, with its paths and statements, is for the log.
+absl::Status LedgerError(const absl::Status& status);
 
 }  // namespace bccskel::server
 

@@ -26,6 +26,10 @@ absl::Status RequestSequence::UnknownRequest() {
 
 absl::Status RequestSequence::HalfClose() const {
   if (finished()) return absl::OkStatus();
+  if (expected_ == Expected::kConfig) {
+    return WithReason(absl::InvalidArgumentError("the stream was closed before config"),
+                      "REQUEST_ORDER");
+  }
   return WithReason(absl::InvalidArgumentError(
                         absl::StrCat("the stream was closed without finish after ",
                                      committed_bytes_, " of ", declared_bytes_, " declared bytes")),

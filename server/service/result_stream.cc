@@ -20,8 +20,6 @@ namespace {
 
 using Reactor = grpc::ServerWriteReactor<v1::ReadSkeletonResponse>;
 
-constexpr LedgerReasons kReasons = {.precondition = "JOB_NOT_SUCCEEDED"};
-
 // A ReadSkeleton call: reads a record, writes it, reads the next. So a slow reader costs one
 // record.
 class ResultStream final : public Reactor, public std::enable_shared_from_this<ResultStream> {
@@ -45,7 +43,7 @@ class ResultStream final : public Reactor, public std::enable_shared_from_this<R
     ReadNext();
   }
   void OnCancel() override { End(call_.facts.CancelStatus()); }
-  void OnDone() override { const auto self = std::move(self_); }
+  void OnDone() override;
 
  private:
   void ReadNext();
@@ -64,7 +62,7 @@ class ResultStream final : public Reactor, public std::enable_shared_from_this<R
   bool complete_ = false;  // the summary was written
 
   std::mutex mutex_;
-  bool ended_ = false;  // guarded by mutex_
+  std::optional<absl::Status> end_;  // guarded by mutex_
 };
 
 void ResultStream::ReadNext() {
@@ -82,20 +80,28 @@ absl::Status ResultStream::Write(const ResultRecord& record) {
   grpc::WriteOptions options;
   if (!complete_) options.set_buffer_hint();  // more follows at once
   std::lock_guard lock(mutex_);
-  if (!ended_) StartWrite(&response_, options);
+  if (!end_.has_value()) StartWrite(&response_, options);
   return absl::OkStatus();
 }
 
 // Who asks for the piece after the last one has miscounted.
 absl::Status ResultStream::EndOfResult() const {
   if (complete_) return absl::OkStatus();
-  return absl::OutOfRangeError(absl::StrCat(job_, " has ", piece_, " pieces"));
+  return wire::WithReason(absl::OutOfRangeError(absl::StrCat(job_, " has ", piece_, " pieces")),
+                          "PIECE_INDEX", {{"pieces", absl::StrCat(piece_)}});
 }
 
 void ResultStream::End(const absl::Status& status) {
   std::lock_guard lock(mutex_);
-  if (std::exchange(ended_, true)) return;
-  Finish(ToGrpcStatus(WithLedgerReason(status, kReasons)));
+  if (end_.has_value()) return;
+  end_ = LedgerError(status);
+  Finish(ToGrpcStatus(*end_));
+}
+
+void ResultStream::OnDone() {
+  const std::shared_ptr<ResultStream> self = std::move(self_);
+  std::lock_guard lock(mutex_);
+  call_.facts.LogEnded(job_, *end_);
 }
 
 }  // namespace

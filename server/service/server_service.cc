@@ -9,9 +9,12 @@
 #include "proto/wire/duration.h"
 #include "proto/wire/labels.h"
 #include "server/service/request_sequence.h"
+#include "server/service/unary_answer.h"
 
 namespace bccskel::server {
 namespace {
+
+constexpr Method kGetCapabilities{"ServerService/GetCapabilities", Method::Kind::kQuestion};
 
 void Set(v1::ServerLimits& message, const JobPool::Limits& limits) {
   message.set_max_volume_bytes(limits.max_volume_bytes);
@@ -40,7 +43,7 @@ void Set(v1::Durability& message, const DurableOptions& durable) {
 grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerContext* context,
                                                          const v1::GetCapabilitiesRequest*,
                                                          v1::GetCapabilitiesResponse* response) {
-  const absl::StatusOr<CallFacts> facts = gate_.Enter(*context);
+  const absl::StatusOr<CallFacts> facts = gate_.Enter(*context, kGetCapabilities);
   if (!facts.ok()) return EndUnary(*context, facts.status());
   response->set_server_version(std::string(Version()));
   response->set_algorithm_version(kAlgorithmVersion);
@@ -54,7 +57,7 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   for (int bytes : {1, 2, 4, 8}) response->add_label_types(wire::LabelTypeOf(bytes));
   Set(*response->mutable_limits(), limits_);
   if (!durable_.data_directory.empty()) Set(*response->mutable_durability(), durable_);
-  return EndUnary(*context, absl::OkStatus());
+  return UnaryEnd(*context, *facts, std::string())(absl::OkStatus());
 }
 
 }  // namespace bccskel::server

@@ -24,8 +24,6 @@ namespace {
 
 using Reactor = grpc::ServerReadReactor<v1::UploadVolumeRequest>;
 
-constexpr LedgerReasons kReasons = {.precondition = "UPLOAD_FINISHED", .exists = "UPLOAD_EXISTS"};
-
 absl::Status CheckVolumeBytes(uint64_t bytes, const JobPool::Limits& limits) {
   if (bytes <= limits.max_volume_bytes) return absl::OkStatus();
   return Refuse(Refusal::kVolumeTooLarge,
@@ -54,8 +52,8 @@ class UploadStream final : public Reactor,
   }
 
   void OnReadDone(bool ok) override;
-  void OnCancel() override { End(call_.facts.CancelStatus()); }
-  void OnDone() override { const auto self = std::move(self_); }
+  void OnCancel() override;
+  void OnDone() override;
 
   void OnTurn(UploadWriters::Turn turn) override;
   void OnTakenOver() override {
@@ -64,6 +62,8 @@ class UploadStream final : public Reactor,
   }
 
  private:
+  void HalfClose();
+  absl::Status CheckWanted() const;
   absl::Status Take(v1::UploadVolumeRequest& request);
   absl::Status Open(const v1::UploadVolumeConfig& config);
   void Create();
@@ -77,7 +77,7 @@ class UploadStream final : public Reactor,
   template <typename Next>
   auto Then(Next next) {
     return [self = shared_from_this(), next = std::move(next)](auto value) {
-      if (!value.ok()) return self->End(WithLedgerReason(value.status(), kReasons));
+      if (!value.ok()) return self->End(LedgerError(value.status()));
       next(*self, *value);
     };
   }
@@ -96,22 +96,37 @@ class UploadStream final : public Reactor,
   std::string upload_;
   std::string declaration_;
   bool open_ = false;
+  bool complete_ = false;  // it was, before this call
 
   std::mutex mutex_;
-  v1::UploadVolumeResponse& response_;  // guarded by mutex_; gone once ended_
-  bool ended_ = false;                  // guarded by mutex_
+  v1::UploadVolumeResponse& response_;  // guarded by mutex_; gone once there is an end_
+  std::optional<absl::Status> end_;     // guarded by mutex_
+  bool half_closed_ = false;            // guarded by mutex_: before the finish
 };
 
 void UploadStream::OnReadDone(bool ok) {
-  if (!ok) {
-    // Half-closed. After a finish the answer is on its way.
-    if (open_ && !sequence_.finished()) return AnswerStatus("");
-    if (!open_) End(sequence_.HalfClose());
-    return;
-  }
-  absl::Status status = sequence_.Take(request_);
+  if (!ok) return HalfClose();
+  absl::Status status = CheckWanted();
+  if (status.ok()) status = sequence_.Take(request_);
   if (status.ok()) status = Take(request_);
   if (!status.ok()) End(status);
+}
+
+void UploadStream::HalfClose() {
+  if (sequence_.finished()) return;  // the answer is on its way
+  {
+    std::lock_guard lock(mutex_);
+    half_closed_ = true;
+  }
+  if (!open_) return End(sequence_.HalfClose());
+  AnswerStatus("");
+}
+
+absl::Status UploadStream::CheckWanted() const {
+  if (!complete_ || !request_.has_chunk()) return absl::OkStatus();
+  return wire::WithReason(
+      absl::FailedPreconditionError(absl::StrCat(upload_, " is finished and takes no more chunks")),
+      "UPLOAD_FINISHED");
 }
 
 absl::Status UploadStream::Take(v1::UploadVolumeRequest& request) {
@@ -162,6 +177,7 @@ void UploadStream::Resume(const UploadInfo& upload) {
         "UPLOAD_EXISTS"));
   }
   open_ = true;
+  complete_ = !upload.volume.empty();
   sequence_.ResumeAt(upload.committed_bytes);
   ReadNext();
 }
@@ -185,7 +201,7 @@ void UploadStream::AnswerStatus(const std::string& blob_digest) {
                          Then([blob_digest](UploadStream& it, const UploadInfo& upload) {
                            {
                              std::lock_guard lock(it.mutex_);
-                             if (it.ended_) return;
+                             if (it.end_.has_value()) return;
                              *it.response_.mutable_upload() = ToMessage(upload);
                              it.response_.set_blob_sha256(blob_digest);
                            }
@@ -195,14 +211,30 @@ void UploadStream::AnswerStatus(const std::string& blob_digest) {
 
 void UploadStream::ReadNext() {
   std::lock_guard lock(mutex_);
-  if (!ended_) StartRead(&request_);
+  if (!end_.has_value()) StartRead(&request_);
 }
 
 void UploadStream::End(const absl::Status& status) {
   std::lock_guard lock(mutex_);
-  if (std::exchange(ended_, true)) return;
-  call_.facts.LogEnded(upload_, status);
+  if (end_.has_value()) return;
+  end_ = status;
   Finish(ToGrpcStatus(status));
+}
+
+void UploadStream::OnCancel() {
+  const absl::Status status = call_.facts.CancelStatus();
+  {
+    std::lock_guard lock(mutex_);
+    // A connection that breaks looks like a half-close at first.
+    if (half_closed_ && end_.has_value()) end_ = status;
+  }
+  End(status);
+}
+
+void UploadStream::OnDone() {
+  const std::shared_ptr<UploadStream> self = std::move(self_);
+  std::lock_guard lock(mutex_);
+  call_.facts.LogEnded(upload_, *end_);
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Place
   return grid;
 }
 
-absl::Status CheckThreads(int32_t threads) {
+absl::Status CheckThreads(int32_t threads, const std::string& field) {
   if (threads >= 0) return absl::OkStatus();
-  return InvalidField("config.threads", absl::StrCat(threads, ", must be at least 0"));
+  return InvalidField(field, absl::StrCat(threads, ", must be at least 0"));
 }
 
 }  // namespace bccskel::server

@@ -21,7 +21,7 @@ absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compressio
 absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field);
 absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
                                 const std::string& field);
-absl::Status CheckThreads(int32_t threads);
+absl::Status CheckThreads(int32_t threads, const std::string& field);
 
 }  // namespace bccskel::server
 

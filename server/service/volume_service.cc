@@ -16,6 +16,12 @@
 namespace bccskel::server {
 namespace {
 
+constexpr Method kUploadVolume{"VolumeService/UploadVolume"};
+constexpr Method kGetUploadStatus{"VolumeService/GetUploadStatus", Method::Kind::kQuestion};
+constexpr Method kDeleteUpload{"VolumeService/DeleteUpload"};
+constexpr Method kFindMissingVolumes{"VolumeService/FindMissingVolumes", Method::Kind::kQuestion};
+constexpr Method kDeleteVolume{"VolumeService/DeleteVolume"};
+
 constexpr int kMaxKeys = 256;
 constexpr size_t kDigestBytes = 32;
 
@@ -58,60 +64,61 @@ std::string NameOf(const StoredKey& key, const std::vector<VolumeInfo>& volumes)
 
 grpc::ServerReadReactor<v1::UploadVolumeRequest>* VolumeService::UploadVolume(
     grpc::CallbackServerContext* context, v1::UploadVolumeResponse* response) {
-  return StartUploadStream(gate_.Enter(*context), writers_, limits_, *response);
+  return StartUploadStream(gate_.Enter(*context, kUploadVolume), writers_, limits_, *response);
 }
 
 grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerContext* context,
                                                          const v1::GetUploadStatusRequest* request,
                                                          v1::GetUploadStatusResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kGetUploadStatus, {"upload", request->upload()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  const UnaryEnd end(*context, call->facts, request->upload());
   call->ledger.GetUpload(call->tenant(), request->upload(),
-                         Answer(reactor, {}, [response](const UploadInfo& upload) {
+                         Answer(end, [response](const UploadInfo& upload) {
                            *response->mutable_upload() = ToMessage(upload);
                          }));
-  return reactor;
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* VolumeService::DeleteUpload(grpc::CallbackServerContext* context,
                                                       const v1::DeleteUploadRequest* request,
                                                       v1::DeleteUploadResponse*) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kDeleteUpload, {"upload", request->upload()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(reactor, {}));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->upload());
+  call->ledger.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(end));
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
     grpc::CallbackServerContext* context, const v1::FindMissingVolumesRequest* request,
     v1::FindMissingVolumesResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kFindMissingVolumes);
   if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, std::string());
   absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
-  if (!keys.ok()) return EndUnary(*context, keys.status());
+  if (!keys.ok()) return end(keys.status());
   std::vector<std::string> digests;
   for (const StoredKey& key : *keys) digests.push_back(key.digest);
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   call->ledger.FindVolumes(
       call->tenant(), digests,
-      Answer(reactor, {},
-             [response, keys = *std::move(keys)](const std::vector<VolumeInfo>& found) {
-               for (const StoredKey& key : keys) response->add_volumes(NameOf(key, found));
-             }));
-  return reactor;
+      Answer(end, [response, keys = *std::move(keys)](const std::vector<VolumeInfo>& found) {
+        for (const StoredKey& key : keys) response->add_volumes(NameOf(key, found));
+      }));
+  return end.reactor();
 }
 
 grpc::ServerUnaryReactor* VolumeService::DeleteVolume(grpc::CallbackServerContext* context,
                                                       const v1::DeleteVolumeRequest* request,
                                                       v1::DeleteVolumeResponse*) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context);
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kDeleteVolume, {"volume", request->volume()});
   if (!call.ok()) return EndUnary(*context, call.status());
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  call->ledger.DeleteVolume(call->tenant(), request->volume(),
-                            AnswerNothing(reactor, {.precondition = "VOLUME_IN_USE"}));
-  return reactor;
+  const UnaryEnd end(*context, call->facts, request->volume());
+  call->ledger.DeleteVolume(call->tenant(), request->volume(), AnswerNothing(end));
+  return end.reactor();
 }
 
 }  // namespace bccskel::server

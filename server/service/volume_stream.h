@@ -54,7 +54,7 @@ class VolumeStream
 
   void OnReadDone(bool ok) override;
   void OnWriteDone(bool ok) override;
-  void OnCancel() override { Fail(facts_.CancelStatus()); }
+  void OnCancel() override;
   void OnDone() override;
 
   void OnBytesConsumed() override { ReadNext(); }
@@ -83,6 +83,7 @@ class VolumeStream
 
  private:
   void Take(Request& request);
+  void HalfClose();
   absl::Status StartJob(const Request& request);
   void ReadNext();
   // Ends the call with this error, unless it has one already, and cancels the job.
@@ -106,14 +107,38 @@ class VolumeStream
   bool writing_ = false;                       // guarded by mutex_
   std::chrono::nanoseconds next_progress_{0};  // guarded by mutex_; since the computation began
   std::optional<absl::Status> error_;          // guarded by mutex_
+  bool half_closed_ = false;                   // guarded by mutex_: before the finish
   bool finished_ = false;                      // guarded by mutex_: Finish() was called
 };
 
 template <typename Call>
 void VolumeStream<Call>::OnReadDone(bool ok) {
-  absl::Status status = ok ? sequence_.Take(request_) : sequence_.HalfClose();
+  if (!ok) return HalfClose();
+  absl::Status status = sequence_.Take(request_);
   if (!status.ok()) return Fail(std::move(status));
-  if (ok) Take(request_);
+  Take(request_);
+}
+
+template <typename Call>
+void VolumeStream<Call>::HalfClose() {
+  absl::Status status = sequence_.HalfClose();
+  if (status.ok()) return;
+  {
+    std::lock_guard lock(mutex_);
+    half_closed_ = true;
+  }
+  Fail(std::move(status));
+}
+
+template <typename Call>
+void VolumeStream<Call>::OnCancel() {
+  const absl::Status status = facts_.CancelStatus();
+  {
+    std::lock_guard lock(mutex_);
+    // A connection that breaks looks like a half-close at first.
+    if (half_closed_ && error_.has_value()) error_ = status;
+  }
+  Fail(status);
 }
 
 template <typename Call>
@@ -179,7 +204,7 @@ void VolumeStream<Call>::Report(Progress progress, std::chrono::nanoseconds elap
 
 template <typename Call>
 void VolumeStream<Call>::OnEnd(absl::StatusOr<Result> result) {
-  if (!result.ok()) return Fail(result.status());
+  if (!result.ok()) return Fail(WithJobReason(result.status()));
   Send([&](auto& outbox) { outbox.Complete(*std::move(result)); });
 }
 
@@ -230,9 +255,7 @@ void VolumeStream<Call>::OnDone() {
 // Starts a call's handler. Needs: `runner`, and what `more` refers to, outlive the call.
 template <typename Stream, typename... More>
 grpc::ServerBidiReactor<typename Stream::Request, typename Stream::Response>* StartStream(
-    const grpc::CallbackServerContext& context, const CallGate& gate, JobRunner& runner,
-    const VolumeLimits& limits, More&... more) {
-  absl::StatusOr<CallFacts> facts = gate.Enter(context);
+    absl::StatusOr<CallFacts> facts, JobRunner& runner, const VolumeLimits& limits, More&... more) {
   if (!facts.ok()) {
     return new RefusedCall<
         grpc::ServerBidiReactor<typename Stream::Request, typename Stream::Response>>(

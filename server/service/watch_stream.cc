@@ -46,7 +46,7 @@ class WatchStream final : public Reactor,
   }
 
   void OnEvent(const JobEvent& event) override;
-  void OnWatchEnd(const absl::Status& status) override { End(WithLedgerReason(status)); }
+  void OnWatchEnd(const absl::Status& status) override { End(LedgerError(status)); }
 
   void OnWriteDone(bool ok) override;
   void OnCancel() override { End(call_.facts.CancelStatus()); }
@@ -142,6 +142,7 @@ void WatchStream::OnDone() {
   const std::shared_ptr<WatchStream> self = std::move(self_);
   std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
   std::lock_guard lock(mutex_);
+  call_.facts.LogEnded(job_, *end_);
   handle = std::move(handle_);
 }
 

@@ -1,6 +1,7 @@
 #include "server/store/disk_quota.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
@@ -62,6 +63,12 @@ void DiskQuota::GiveBack(const std::string& tenant, uint64_t bytes) {
 uint64_t DiskQuota::used() const {
   std::lock_guard lock(mutex_);
   return used_;
+}
+
+uint64_t DiskQuota::available() const {
+  std::lock_guard lock(mutex_);
+  if (most_ == 0) return std::numeric_limits<uint64_t>::max();
+  return most_ - std::min(used_, most_);
 }
 
 std::string ExceededQuota(const absl::Status& status) {

@@ -23,6 +23,7 @@ class DiskQuota {
   void Count(const std::string& tenant, uint64_t bytes);
   void GiveBack(const std::string& tenant, uint64_t bytes);
   uint64_t used() const;
+  uint64_t available() const;  // for all; the largest number where there is no limit
 
  private:
   void Add(const std::string& tenant, uint64_t bytes);  // Needs: mutex_ held.

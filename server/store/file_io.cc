@@ -116,6 +116,12 @@ absl::Status MakeFolder(const std::string& path) {
   return error ? SystemError(absl::StrCat("cannot make ", path), error.value()) : absl::OkStatus();
 }
 
+uint64_t SpaceOf(const std::string& path) {
+  std::error_code error;
+  const auto space = std::filesystem::space(path, error);
+  return error ? 0 : space.available;
+}
+
 absl::Status SyncFolder(const std::string& path) {
   const int fd = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return Failed("open", path);

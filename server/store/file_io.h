@@ -61,6 +61,8 @@ absl::Status SyncFolderOf(const std::string& file_path);
 absl::Status RenameDurably(const std::string& from, const std::string& to);
 // OK also where there is none.
 absl::Status RemoveFile(const std::string& path);
+// Bytes that can still be written there; 0 where the system does not tell.
+uint64_t SpaceOf(const std::string& path);
 // All files below, with their paths.
 absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path);
 

@@ -68,6 +68,7 @@ struct JobRow {
   std::string options;
   int priority = 0;
   int threads = 0;
+  std::string trace;  // the traceparent of the call that made it, for the log; may be empty
   Time created;
 
   // From here on what changes.

@@ -54,6 +54,10 @@ CREATE INDEX jobs_by_end ON jobs(ended) WHERE state >= 3;
 DROP INDEX jobs_by_tenant;
 CREATE INDEX jobs_by_creation ON jobs(tenant, created, name);
 )",
+    // 4: the trace to which a job belongs.
+    R"(
+ALTER TABLE jobs ADD COLUMN trace TEXT NOT NULL DEFAULT '';
+)",
 };
 
 absl::StatusOr<int> VersionOf(SqliteDatabase& database) {

@@ -68,6 +68,7 @@ void Read(SqliteQuery& query, JobRow& row) {
          .options = query.Text(),
          .priority = static_cast<int>(query.Number()),
          .threads = static_cast<int>(query.Number()),
+         .trace = query.Text(),
          .created = TimeOf(query.Number()),
          .volume = query.Text(),
          .state = static_cast<JobState>(query.Number()),
@@ -96,9 +97,9 @@ void Read(SqliteQuery& query, std::string& text) { text = query.Text(); }
 #define BCCSKEL_VOLUME_COLUMNS \
   "tenant, name, declaration, blob_digest, volume_digest, size_bytes, created, used"
 #define BCCSKEL_RESULT_COLUMNS "number, tenant, key, file, file_digest, bytes, records, summary"
-#define BCCSKEL_JOB_COLUMNS                                                              \
-  "number, tenant, name, request_id, body, upload, options, priority, threads, created," \
-  "volume, state, attempts, crashes, sequence, owner, error, result, started, ended"
+#define BCCSKEL_JOB_COLUMNS                                                            \
+  "number, tenant, name, request_id, body, upload, options, priority, threads, trace," \
+  "created, volume, state, attempts, crashes, sequence, owner, error, result, started, ended"
 #define BCCSKEL_EVENT_COLUMNS "job, sequence, time, state, attempt, error"
 
 class SqliteJobStore final : public JobStore {
@@ -172,10 +173,10 @@ class SqliteJobStore final : public JobStore {
   absl::StatusOr<int64_t> InsertJob(const JobRow& row) override {
     BCCSKEL_RETURN_IF_ERROR(Run(
         "INSERT INTO jobs(tenant, name, request_id, body, upload, options, priority, threads,"
-        " created, volume, state, attempts, crashes, sequence, owner, error, result, started,"
-        " ended) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        " trace, created, volume, state, attempts, crashes, sequence, owner, error, result,"
+        " started, ended) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         row.tenant, row.name, row.request_id, Blob{row.body}, row.upload, Blob{row.options},
-        int64_t{row.priority}, int64_t{row.threads}, Micros(row.created), row.volume,
+        int64_t{row.priority}, int64_t{row.threads}, row.trace, Micros(row.created), row.volume,
         Number(row.state), int64_t{row.attempts}, int64_t{row.crashes}, Number(row.sequence),
         row.owner, Blob{BytesOf(row.error)}, row.result, Micros(row.started), Micros(row.ended)));
     return database_->LastRow();

@@ -25,6 +25,7 @@ absl::Status Break() { return absl::UnavailableError("the connection broke"); }
 // What a scripted stub was asked.
 struct Asked {
   std::vector<std::string> uploads;
+  std::vector<DurableStub::Begun> begun;  // of each upload
   std::vector<std::string> request_ids;
   std::vector<uint64_t> watched_after;
   std::vector<uint32_t> read_from;
@@ -51,9 +52,10 @@ class ScriptedStub : public DurableStub {
   absl::StatusOr<std::string> FindVolume(const EncodedVolume&, Deadline) override {
     return script_.found;
   }
-  absl::StatusOr<std::string> Upload(const std::string& upload, const EncodedVolume&,
+  absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun, const EncodedVolume&,
                                      const std::stop_token&, Deadline) override {
     asked_.uploads.push_back(upload);
+    asked_.begun.push_back(begun);
     const absl::Status status = Next();
     if (!status.ok()) return status;
     return "volumes/1";
@@ -145,6 +147,9 @@ TEST_F(DurableClientTest, GoesOnWithAnUploadUnderItsName) {
   EXPECT_EQ(*client.Upload({}, {}), "volumes/1");
   EXPECT_EQ(asked_.uploads.size(), 3u);
   EXPECT_EQ(std::set(asked_.uploads.begin(), asked_.uploads.end()).size(), 1u);
+  using Begun = DurableStub::Begun;
+  EXPECT_THAT(asked_.begun, ElementsAre(Begun::kNo, Begun::kMaybe, Begun::kMaybe))
+      << "what cannot be there is not asked for";
   EXPECT_EQ(pauses_, 2);
 }
 

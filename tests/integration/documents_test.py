@@ -26,6 +26,12 @@ def shapes():
     return re.search(r"One of ([a-z, -]+?) Options", text)[1].split(", ")
 
 
+def reasons_in(path):
+    """What looks like a reason in the code: nothing else there is in capitals and quotes."""
+    code = re.sub(r"//.*", "", path.read_text())
+    return set(re.findall(r'"([A-Z]+(?:_[A-Z]+)*)"', code))
+
+
 class DocumentsTest(harness.TestCase):
     def test_the_man_page_has_a_section_per_command_with_every_option(self):
         page = (CLI / "bccskel.1").read_text().replace("\\-", "-")
@@ -120,6 +126,20 @@ class DocumentsTest(harness.TestCase):
         if isinstance(value, list):
             return {k for inner in value for k in self.keys(inner)}
         return set()
+
+    def test_the_servers_readme_has_every_reason_of_an_error_and_no_others(self):
+        given = set()
+        for folder in ("server/admission", "server/durable", "server/service", "proto/wire"):
+            for path in (harness.SOURCES / folder).glob("*.cc"):
+                given |= reasons_in(path)
+        for path in ("server/status_mapping.cc", "server/durable/fault.h"):
+            given |= reasons_in(harness.SOURCES / path)
+        readme = (harness.SOURCES / "server/README.md").read_text()
+        table = readme[readme.index("## Status codes"):readme.index("## Durable jobs")]
+        told = {reason for row in re.findall(r"(?m)^\|[^|]*\|([^|]*)\|", table)
+                for reason in re.findall(r"`([A-Z_]{4,})`", row)}
+        self.assertGreater(len(given), 20)
+        self.assertEqual(told, given)
 
     def test_the_readme_names_every_exit_code(self):
         readme = (harness.SOURCES / "client/README.md").read_text()

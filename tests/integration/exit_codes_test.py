@@ -88,6 +88,15 @@ class ExitCodesTest(harness.TestCase):
         self.assertEqual((done.returncode, done.stderr),
                          (8, "bccskel: error: cannot write to standard output\n"))
 
+    def test_9_for_a_token_that_is_missing_or_wrong(self):
+        tokens, token = pathlib.Path(self.path("tokens")), pathlib.Path(self.path("token"))
+        tokens.write_text("acme " + "0" * 64 + "\n")
+        token.write_text("bccskel_wrong\n")
+        words = self.skeletonize(self.generate("ball"), "--server")
+        with harness.Server(self.folder, "--tokens", tokens) as server:
+            self.fail_with(9, "token", *words, server.address)
+            self.fail_with(9, "token", *words, server.address, "--token-file", token)
+
     def triangle_block(self):
         pathlib.Path(self.path("a.off")).write_text(
             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")

@@ -112,10 +112,18 @@ class JobsTest(harness.TestCase):
             jobs = [self.submit(server, "--shell-width", 1 + n / 8, points=2_000_000)
                     for n in range(3)]
             said = self.succeed("cancel", jobs[-1], "--server", server.address)
-            self.assertIn(said, (f"{jobs[-1]} cancelled\n", f"{jobs[-1]} succeeded\n"))
+            self.assertIn(said, (f"{jobs[-1]} cancelled\n",
+                                 f"{jobs[-1]} had ended before: succeeded\n"))
             if "cancelled" in said:
                 self.fail_with(5, "cancelled", "fetch", jobs[-1], "--server", server.address,
                                "-o", self.path("a.json"))
+
+    def test_cancel_says_that_a_job_had_ended_before(self):
+        with self.server() as server:
+            job = self.submit(server)
+            self.succeed("watch", job, "--server", server.address)
+            self.assertEqual(self.succeed("cancel", job, "--server", server.address),
+                             f"{job} had ended before: succeeded\n")
 
     def test_wrong_words_are_told(self):
         volume = self.generate("torus")

@@ -42,10 +42,37 @@ TEST(StatusMapping, AHandlersDetailsStayAsTheyAre) {
 }
 
 TEST(StatusMapping, AJobsWrongArgumentIsAWrongVolume) {
-  const absl::Status back = Back(ToGrpcStatus(absl::InvalidArgumentError("no magic number")));
+  const absl::Status back =
+      Back(ToGrpcStatus(WithJobReason(absl::InvalidArgumentError("no magic number"))));
   EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "VOLUME_INVALID");
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "chunk.data");
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).description(), "no magic number");
+}
+
+TEST(StatusMapping, NoOtherWrongArgumentIsTakenForAVolume) {
+  const absl::Status back = Back(ToGrpcStatus(absl::InvalidArgumentError("who knows")));
+  EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "SERVER_DEFECT");
+  EXPECT_FALSE(wire::BadRequestOf(back).has_value());
+}
+
+TEST(StatusMapping, AJobsOwnReasonStays) {
+  EXPECT_EQ(ReasonOf(WithJobReason(wire::InvalidField("config.options", "no"))), "FIELD_INVALID");
+  EXPECT_EQ(ReasonOf(WithJobReason(Refuse(Refusal::kDraining, "later"))), "DRAINING");
+  EXPECT_EQ(ReasonOf(WithJobReason(absl::ResourceExhaustedError("9 of 8"))), "VOLUME_TOO_LARGE");
+  EXPECT_EQ(ReasonOf(WithJobReason(absl::OkStatus())), "");
+}
+
+TEST(StatusMapping, AFaultOfTheLedgerNamesItsField) {
+  const absl::Status back = Back(ToGrpcStatus(WrongField("page_token", "did not come from here")));
+  EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "FIELD_INVALID");
+  EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "page_token");
+}
+
+TEST(StatusMapping, AFullDiskNamesTheLimit) {
+  const absl::Status full = WithDiskFault(absl::ResourceExhaustedError("no space in /a/b"));
+  const absl::Status back = Back(ToGrpcStatus(full));
+  EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "DISK_FULL");
+  EXPECT_EQ(wire::QuotaFailureOf(back)->violations(0).subject(), "max_disk_bytes");
 }
 
 TEST(StatusMapping, AFaultOfTheLedgerKeepsItsReason) {

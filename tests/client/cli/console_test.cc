@@ -25,6 +25,7 @@ TEST(ExitCodeTest, FollowsFromTheKindOfError) {
   EXPECT_EQ(ExitCodeOf(absl::ResourceExhaustedError("")), ExitCode::kTooLarge);
   EXPECT_EQ(ExitCodeOf(absl::DataLossError("")), ExitCode::kInternal);
   EXPECT_EQ(ExitCodeOf(absl::InternalError("")), ExitCode::kInternal);
+  EXPECT_EQ(ExitCodeOf(absl::UnauthenticatedError("")), ExitCode::kCredentials);
 }
 
 TEST(ConsoleTest, ErrorsAndHintsGoToStandardError) {
@@ -34,6 +35,31 @@ TEST(ConsoleTest, ErrorsAndHintsGoToStandardError) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "bccskel: error: nobody there\nbccskel: hint: start it\n");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+ServerArguments ServerAt(const std::string& address) {
+  ServerArguments server;
+  server.address = address;
+  return server;
+}
+
+TEST(ConsoleTest, ATokenThatIsNotForACallIsAQuestionOfCredentials) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(FailOnServer(ServerAt("a:1"), absl::PermissionDeniedError("no")),
+            ExitCode::kCredentials);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "bccskel: error: server a:1: no\n");
+}
+
+TEST(ConsoleTest, APlainConnectionThatFailsMayWantTls) {
+  testing::internal::CaptureStderr();
+  FailOnServer(ServerAt("a:1"), absl::UnavailableError("broke"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("--tls-ca"));
+  testing::internal::CaptureStderr();
+  FailOnServer(ServerAt("unix:/a"), absl::UnavailableError("broke"));
+  ServerArguments with_tls = ServerAt("a:1");
+  with_tls.tls_ca = "ca";
+  FailOnServer(with_tls, absl::UnavailableError("broke"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("hint")));
 }
 
 TEST(JsonStringTest, EscapesQuotesAndControlCharactersAndKeepsUtf8) {

@@ -140,6 +140,10 @@ class JobTest(DurableTest):
                               "bccskel_durable_jobs_running": 0, "bccskel_results_reused_total": 1,
                               "bccskel_disk_used_bytes": 2 * len(data) + result_bytes}.items():
             self.assertEqual(float(kept[figure]), value, figure)
+        self.assertGreater(float(kept["bccskel_disk_available_bytes"]), 0)
+        failed = [name for name in kept if name.startswith("bccskel_calls_total")
+                  and 'code="OK"' not in name]
+        self.assertEqual(failed, [], "an ordinary upload asks for nothing that cannot be there")
 
     def test_without_a_data_directory_the_calls_name_the_flag(self):
         with ServerProcess() as server, grpc.insecure_channel(server.address) as channel:

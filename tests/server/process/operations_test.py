@@ -265,6 +265,24 @@ class CommandsTest(unittest.TestCase):
             self.assertEqual((status["totals"]["jobs"], status["threads"]), (1, 2))
             self.assertIn("threads", command("top", "--once", "--server", server.address).stdout)
 
+    def test_top_shows_what_is_stored(self):
+        with tempfile.TemporaryDirectory() as folder:
+            data = ("--data-dir", folder + "/data", "--max-disk-bytes", "1GB")
+            with ServerProcess(*data) as server:
+                shown = command("top", "--once", "--json", "--server", server.address)
+                stored = json.loads(shown.stdout)["stored"]
+                text = command("top", "--once", "--server", server.address).stdout
+        self.assertEqual(stored, {"disk_used_bytes": 0, "disk_available_bytes": 1 << 30,
+                                  "uploads_unfinished": 0, "jobs_queued": 0, "jobs_running": 0})
+        self.assertIn("durable     0 jobs queued, 0 running", text)
+        self.assertIn("0 MiB used, 1024 MiB left", text)
+
+    def test_top_says_where_admin_calls_are(self):
+        with ServerProcess("--admin-listen", "127.0.0.1:0") as server:
+            told = command("top", "--once", "--server", server.address)
+        self.assertEqual(told.returncode, 3)
+        self.assertIn("--admin-listen", told.stderr)
+
     def test_bench_server_counts_calls_for_each_combination(self):
         with ServerProcess() as server:
             ended = command("bench", "server", "--server", server.address, "--clients", "1,2",
@@ -294,7 +312,7 @@ class CommandsTest(unittest.TestCase):
                                                   "5000", "--seconds", "0.1"),
                               ("submit", volume, "-o", str(folder / "torus.json"))):
                     where = (*words, "--server", server.address)
-                    self.assertNotEqual(command(*where).returncode, 0, words)
+                    self.assertEqual(command(*where).returncode, 9, words)
                     flag = command(*where, "--token-file", str(folder / "token"))
                     self.assertEqual(flag.returncode, 0, flag.stderr)
                     self.assertNotIn(token, flag.stdout + flag.stderr)

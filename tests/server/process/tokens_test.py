@@ -145,8 +145,9 @@ class TokensTest(unittest.TestCase):
             self.assertIn(f'bccskel_jobs_total{{code="OK",reason="",tenant="{tenant}"}} {jobs}',
                           metrics)
         ended = [line for line in map(json.loads, log.splitlines()) if line["event"] == "call ended"]
-        self.assertEqual([line["tenant"] for line in ended], ["acme", "lab", "acme", "acme"])
-        self.assertEqual([line["traceparent"] for line in ended], ["", "", trace, ""])
+        self.assertEqual([line["tenant"] for line in ended], ["acme", "lab", "", "acme", "acme"])
+        self.assertEqual(ended[2]["reason"], "TOKEN_INVALID")
+        self.assertEqual([line["traceparent"] for line in ended], ["", "", "", trace, ""])
         for secret in (self.acme, self.lab, self.ops, "bccskel_wrong"):
             self.assertNotIn(secret, log + metrics)
 

@@ -48,6 +48,7 @@ TEST_F(JobStoreTest, KeepsEveryFieldOfAJob) {
   job.options = std::string("\0\xFF", 2);
   job.priority = -1;
   job.threads = 3;
+  job.trace = "00-0af7-01";
   job.volume = "volumes/1";
   job.state = JobState::kRunning;
   job.attempts = 2;
@@ -67,6 +68,7 @@ TEST_F(JobStoreTest, KeepsEveryFieldOfAJob) {
   EXPECT_EQ(found.options, job.options);
   EXPECT_EQ(found.priority, job.priority);
   EXPECT_EQ(found.threads, job.threads);
+  EXPECT_EQ(found.trace, job.trace);
   EXPECT_EQ(found.created, job.created);
   EXPECT_EQ(found.volume, job.volume);
   EXPECT_EQ(found.state, job.state);
@@ -243,6 +245,7 @@ TEST(SchemaTest, TakesOverAFileOfVersion1) {
   EXPECT_EQ(job.state, JobState::kQueued);
   EXPECT_EQ(job.options, "\x03");
   EXPECT_EQ(job.threads, 0);
+  EXPECT_EQ(job.trace, "");
   EXPECT_EQ(job.created, Time(std::chrono::seconds(3)));
   EXPECT_THAT(*(*store)->EventsAfter(5, 0), testing::SizeIs(1));
   EXPECT_EQ((*(*store)->FindVolume("clinic", "volumes/1"))->size_bytes, 7u);

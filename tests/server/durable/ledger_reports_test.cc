@@ -1,0 +1,169 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "server/durable/fault.h"
+#include "tests/server/durable/ledger_fixture.h"
+
+// What the ledger tells of jobs and their errors, to callers and to the log.
+
+namespace bccskel::server {
+namespace {
+
+using testing::ElementsAre, testing::HasSubstr, testing::SizeIs;
+
+class LedgerReportsTest : public LedgerTest {
+ protected:
+  LedgerReportsTest() {
+    options_.on_job_state = [this](const JobRow& job) {
+      std::lock_guard lock(mutex_);
+      rows_.push_back(job);
+    };
+  }
+  void SetUp() override { Open(); }
+  void TearDown() override {  // before what the ledgers report to
+    killed_.clear();
+    Close();
+  }
+
+  // A job with a trace, in state kSucceeded.
+  std::string EndedJob() {
+    const std::string job = CreateName("clinic", TracedJob());
+    WaitForEnd("clinic", job);
+    return job;
+  }
+  Ledger::NewJob TracedJob() {
+    Ledger::NewJob job = JobOf(Upload("clinic", "volume"));
+    job.trace = "trace";
+    return job;
+  }
+  // All that was reported.
+  std::vector<JobRow> Rows() {
+    std::lock_guard lock(mutex_);
+    return rows_;
+  }
+  std::vector<JobState> States() {
+    std::vector<JobState> states;
+    for (const JobRow& row : Rows()) states.push_back(row.state);
+    return states;
+  }
+
+  std::mutex mutex_;
+  std::vector<JobRow> rows_;  // guarded by mutex_
+};
+
+TEST_F(LedgerReportsTest, EveryStateWithTheTraceOfTheCallThatMadeTheJob) {
+  const std::string job = EndedJob();
+  EXPECT_THAT(States(), ElementsAre(JobState::kQueued, JobState::kRunning, JobState::kSucceeded));
+  for (const JobRow& row : Rows()) {
+    EXPECT_EQ(row.name, job);
+    EXPECT_EQ(row.tenant, "clinic");
+    EXPECT_EQ(row.trace, "trace");
+  }
+  EXPECT_EQ(Rows().back().attempts, 1);
+  CreateName("clinic", TracedJob());
+  EXPECT_EQ(States().back(), JobState::kSucceeded) << "that was given a stored result";
+}
+
+TEST_F(LedgerReportsTest, TheTraceOfAJobThatCameWithItsVolume) {
+  Ledger::NewUpload upload = {.name = {}, .declaration = "6", .then_job = {}};
+  upload.then_job.emplace().options = "o";
+  upload.then_job->trace = "trace";
+  const auto begun = CreateUpload("clinic", upload);
+  ASSERT_TRUE(begun.ok()) << begun.status();
+  EXPECT_EQ(Rows().at(0).state, JobState::kReceiving);
+  EXPECT_EQ(Rows().at(0).trace, "trace");
+}
+
+TEST_F(LedgerReportsTest, WhatACrashDidToAJobUpToPoison) {
+  runner_->Hold();
+  CreateName("clinic", TracedJob());
+  for (int crash = 1; crash <= 3; ++crash) {
+    runner_->WaitForComputing(1);
+    Crash();
+    runner_->Hold();
+    Open();
+  }
+  const JobRow last = Rows().back();
+  EXPECT_EQ(last.state, JobState::kFailed);
+  EXPECT_EQ(FaultOf(last.error)->reason, "POISONED");
+  EXPECT_EQ(last.attempts, 3);
+  EXPECT_EQ(last.trace, "trace");
+}
+
+TEST_F(LedgerReportsTest, TheEndAlsoToWhoKnowsIt) {
+  const std::string job = EndedJob();
+  const uint64_t last = GetJob("clinic", job)->sequence;
+  for (const uint64_t after : {last, last + 1, ~uint64_t{0}}) {
+    const auto events = WatchToTheEnd("clinic", job, after)->events();
+    ASSERT_THAT(events, SizeIs(1)) << after;
+    EXPECT_TRUE(events[0].IsCompleted());
+    EXPECT_EQ(events[0].sequence, last);
+  }
+}
+
+TEST_F(LedgerReportsTest, TheEndToWhoWaitsForLaterEventsThanThereWillBe) {
+  runner_->Hold();
+  const std::string job = CreateName("clinic", TracedJob());
+  auto watcher = std::make_shared<RememberingWatcher>();
+  const auto handle = ledger_->WatchJob("clinic", job, 1000, watcher);
+  runner_->WaitForComputing(1);
+  runner_->Release();
+  EXPECT_TRUE(watcher->WaitForEnd().ok());
+  EXPECT_EQ(watcher->States(), "3");
+}
+
+TEST_F(LedgerReportsTest, TheSameTimesAtOnceAndLater) {
+  const auto made = Create("clinic", TracedJob());
+  ASSERT_TRUE(made.ok()) << made.status();
+  EXPECT_EQ(made->created, GetJob("clinic", made->name)->created);
+}
+
+TEST_F(LedgerReportsTest, WhichJobARequestIdHasMade) {
+  Ledger::NewJob job = TracedJob();
+  job.request_id = "request";
+  const std::string first = CreateName("clinic", job);
+  job.trace = "another";
+  EXPECT_EQ(CreateName("clinic", job), first) << "a trace makes no other request";
+  job.options = "p";
+  const absl::Status reused = Create("clinic", job).status();
+  ASSERT_TRUE(FaultOf(reused).has_value()) << reused;
+  EXPECT_EQ(FaultOf(reused)->reason, "REQUEST_ID_REUSED");
+  EXPECT_EQ(FaultOf(reused)->value, first);
+  EXPECT_THAT(std::string(reused.message()), HasSubstr(first));
+}
+
+TEST_F(LedgerReportsTest, WhichFieldIsWrong) {
+  Ledger::JobQuery query;
+  query.page_token = "nonsense";
+  const auto page = Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); });
+  ASSERT_TRUE(FaultOf(page.status()).has_value()) << page.status();
+  EXPECT_EQ(FaultOf(page.status())->field, "page_token");
+  const auto upload = CreateUpload("clinic", {.name = "a b", .declaration = "1", .then_job = {}});
+  EXPECT_EQ(FaultOf(upload.status())->field, "config.upload");
+}
+
+TEST_F(LedgerReportsTest, OtherBytesThanTheDigestSaysAreAWrongVolume) {
+  const auto upload = CreateUpload("clinic", {.name = {}, .declaration = "6", .then_job = {}});
+  ASSERT_TRUE(Append("clinic", upload->name, 0, "volume").ok());
+  const auto finished = Finish("clinic", upload->name, 6, Sha256Of("another"));
+  ASSERT_TRUE(FaultOf(finished.status()).has_value()) << finished.status();
+  EXPECT_EQ(FaultOf(finished.status())->reason, "VOLUME_INVALID");
+}
+
+TEST_F(LedgerReportsTest, HowMuchCanStillBeWritten) {
+  EXPECT_GT(ledger_->usage().disk_available_bytes, 0u);
+  Close();
+  options_.max_disk_bytes = 1000;
+  Open();
+  const uint64_t free = ledger_->usage().disk_available_bytes;
+  EXPECT_EQ(free, 1000u);
+  Upload("clinic", "volume");
+  EXPECT_EQ(ledger_->usage().disk_available_bytes, free - 6);
+}
+
+}  // namespace
+}  // namespace bccskel::server
