@@ -177,9 +177,9 @@ absl::Status DurableLedger::CheckJob(JobStore& store, Creating& creating) {
   creating.volume = *volume;
   BCCSKEL_ASSIGN_OR_RETURN(const JobRequest request,
                            codec_.RequestOf(volume->declaration, creating.wanted.options));
+  creating.options = codec_.OptionsFor(request, creating.wanted.options);
   BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
   return CheckRoomForJob();
-  creating.options = codec_.OptionsFor(request, creating.wanted.options);
 }
 
 absl::Status DurableLedger::InsertJob(JobStore& store, JobRow job, Creating& creating) {
