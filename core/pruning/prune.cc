@@ -62,7 +62,8 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   BCCSKEL_RETURN_IF_ERROR(CheckCurves(curves, options));
   const Volume& thin = curves.thin;
   if (thin.empty()) return PrunedSkeleton{thin, {}, 0, {}};
-  ThinSet set(curves);
+  ThinSet set(curves, context);
+  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   RibFinder ribs(object);

@@ -3,16 +3,23 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/exec/stop_poll.h"
+
 namespace bccskel {
 
-ThinSet::ThinSet(const ThinCurves& curves) : scale_(AxisScaleOf(curves.thin.placement())) {
+ThinSet::ThinSet(const ThinCurves& curves, const exec::Context& context)
+    : scale_(AxisScaleOf(curves.thin.placement())) {
+  StopPoll poll(context);
   points_.Reserve(curves.radii.size());
   size_t n = 0;
   curves.thin.ForEachPoint([&](LatticePoint p) {
+    if (poll.Stopped()) return;
     points_.Set(p, {curves.radii[n], curves.births.empty() ? 0 : curves.births[n], 0});
     ++n;
   });
-  curves.thin.ForEachPoint([&](LatticePoint p) { LinkForward(p); });
+  curves.thin.ForEachPoint([&](LatticePoint p) {
+    if (!poll.Stopped()) LinkForward(p);
+  });
 }
 
 void ThinSet::LinkForward(LatticePoint p) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
+#include "core/exec/context.h"
 #include "core/lattice/directions.h"
 #include "core/pruning/point_table.h"
 #include "core/volume/volume.h"
@@ -33,7 +34,8 @@ struct ThinCurves {
 // its neighbors in the set.
 class ThinSet {
  public:
-  explicit ThinSet(const ThinCurves& curves);
+  // Empty or incomplete where the context says to stop.
+  explicit ThinSet(const ThinCurves& curves, const exec::Context& context = {});
 
   bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
   // Of points of the set.

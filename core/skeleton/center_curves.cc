@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/curve_smoothing.h"
-#include "core/skeleton/stop_poll.h"
 
 namespace bccskel {
 namespace {

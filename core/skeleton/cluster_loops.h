@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/clusters.h"
 #include "core/skeleton/spanning_trees.h"
-#include "core/skeleton/stop_poll.h"
 #include "core/skeleton/thin_points.h"
 
 namespace bccskel {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/skeleton/stop_poll.h"
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/thin_points.h"
 
 namespace bccskel {

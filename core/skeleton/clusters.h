@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/cluster_topology.h"
-#include "core/skeleton/stop_poll.h"
 #include "core/skeleton/thin_points.h"
 
 namespace bccskel {

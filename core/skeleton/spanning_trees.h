@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/skeleton/stop_poll.h"
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/thin_points.h"
 
 namespace bccskel {

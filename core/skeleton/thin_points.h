@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "absl/numeric/int128.h"
+#include "core/exec/stop_poll.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
-#include "core/skeleton/stop_poll.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {

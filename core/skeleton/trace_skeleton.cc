@@ -53,10 +53,17 @@ class GraphBuilder {
   }
 
   void AddBranches(const Branches& branches) {
-    for (const Branch& branch : branches.between) AddBranch(branch);
-    for (const PointPath& curve : branches.closed) AddClosedCurve(curve);
+    for (const Branch& branch : branches.between) {
+      if (poll_.Stopped()) return;
+      AddBranch(branch);
+    }
+    for (const PointPath& curve : branches.closed) {
+      if (poll_.Stopped()) return;
+      AddClosedCurve(curve);
+    }
   }
 
+  // Incomplete where the poll says to stop, as all before.
   SkeletonGraph Finish(const Placement& placement) &&;
 
  private:
@@ -137,6 +144,7 @@ void GraphBuilder::SortNodes() {
 // The list of points is in lattice order, so positions in it compare like the points.
 void GraphBuilder::TurnEdges() {
   for (TracedEdge& edge : edges_) {
+    if (poll_.Stopped()) return;
     PointPath back(edge.points.rbegin(), edge.points.rend());
     if (std::tie(edge.target, edge.source, back) <
         std::tie(edge.source, edge.target, edge.points)) {
@@ -156,10 +164,11 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
   graph.placement = placement;
   graph.nodes = std::move(nodes_);
   for (const TracedEdge& edge : edges_) {
+    if (poll_.Stopped()) break;
     graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
     for (PointIndex p : edge.points) graph.points.push_back(points_[p]);
   }
-  for (PointIndex p = 0; p < points_.size(); ++p) {
+  for (PointIndex p = 0; p < points_.size() && !poll_.Stopped(); ++p) {
     if (on_graph_[p] == 0) graph.sheets.push_back(points_[p]);
   }
   return graph;
@@ -180,7 +189,9 @@ absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const 
   builder.AddClusters();
   if (poll.Stopped()) return context.StopStatus();
   builder.AddBranches(branches);
-  return std::move(builder).Finish(thin.placement());
+  SkeletonGraph graph = std::move(builder).Finish(thin.placement());
+  if (poll.Stopped()) return context.StopStatus();
+  return graph;
 }
 
 }  // namespace bccskel

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_SKELETON_STOP_POLL_H_
-#define BCCSKEL_CORE_SKELETON_STOP_POLL_H_
+#ifndef BCCSKEL_CORE_EXEC_STOP_POLL_H_
+#define BCCSKEL_CORE_EXEC_STOP_POLL_H_
 
 #include <cstdint>
 
@@ -26,4 +26,4 @@ class StopPoll {
 
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_SKELETON_STOP_POLL_H_
+#endif  // BCCSKEL_CORE_EXEC_STOP_POLL_H_
