@@ -50,6 +50,13 @@ std::string BodyOf(const Ledger::NewJob& job) {
   return KeyOf({job.volume, job.options, absl::StrCat(job.priority), absl::StrCat(job.threads)});
 }
 
+// Also who repeats a job with the options that the server tells of it asks for the same.
+bool AsksForTheSame(const JobRow& found, const Ledger::NewJob& wanted) {
+  if (found.body == BodyOf(wanted)) return true;
+  return found.volume == wanted.volume && found.options == wanted.options &&
+         found.priority == wanted.priority && found.threads == wanted.threads;
+}
+
 absl::Status WithReason(absl::Status status, const char* reason) {
   return WithFault(std::move(status), {.reason = reason});
 }
@@ -140,7 +147,7 @@ absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
-    if (found->body != BodyOf(wanted)) {
+    if (!AsksForTheSame(*found, wanted)) {
       return WithFault(
           absl::AlreadyExistsError(absl::StrCat("request_id ", wanted.request_id, " has made ",
                                                 found->name, ", which is something else")),
