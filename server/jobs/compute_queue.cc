@@ -1,5 +1,7 @@
 #include "server/jobs/compute_queue.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +10,18 @@ namespace {
 
 // Who gives way waits for less than it takes itself.
 constexpr uint64_t kTimesSmaller = 2;
+
+// Other threads answer callers and health checks, a moment's work that should not wait until a job
+// has used up its time slice. Beside a tenant that keeps two processors busy, small jobs take 10.7
+// ms so, and 12.9 otherwise, health checks 1.4 and 3.0 (99th percentiles;
+// tests/promises/greedy_tenant).
+constexpr int kNiceness = 5;
+
+// The calling thread, and those that it starts: on Linux threads have priorities of their own.
+void GiveWayToOtherThreads() {
+  const int niceness = getpriority(PRIO_PROCESS, 0);
+  setpriority(PRIO_PROCESS, 0, niceness + kNiceness);
+}
 
 }  // namespace
 
@@ -58,6 +72,7 @@ ComputeQueue::Usage ComputeQueue::usage() const {
 }
 
 void ComputeQueue::Serve(std::stop_token stop) {
+  GiveWayToOtherThreads();
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return free_threads_ > 0 && queue_.Has(); })) {
     if (stop.stop_requested()) return;

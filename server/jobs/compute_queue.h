@@ -26,6 +26,8 @@ namespace bccskel::server {
 // half of its bricks. They run on its thread while it rests; afterwards it gives way to their
 // tenant only when it has had as much time as they took. So beside one other tenant it goes on at
 // half speed or more, and nobody waits for what it owes to others.
+//
+// Its threads, and those that jobs start on them, have a lower priority than others of the process.
 class ComputeQueue {
  public:
   using Clock = std::chrono::steady_clock;

@@ -89,7 +89,7 @@ TEST(NotesOn, NameTheClosedSurfacesAndTheOptionAgainstThem) {
 TEST(NotesOn, SayWhenNothingIsLeft) {
   EXPECT_THAT(NotesOn(SkeletonOf(HollowBall(), {.preparing = {.min_component_points = 1 << 20}})),
               ElementsAre(HasSubstr("nothing is left")));
-  EXPECT_THAT(NotesOn(SkeletonOf(Volume(), {})), IsEmpty());
+  EXPECT_THAT(NotesOn(SkeletonOf(Volume(), {})), ElementsAre("the object has no points"));
 }
 
 TEST(NotesOn, SayWhySimplePointsAreLeft) {

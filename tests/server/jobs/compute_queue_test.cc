@@ -1,6 +1,7 @@
 #include "server/jobs/compute_queue.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
@@ -20,6 +21,22 @@ ComputeQueue::Claim Claim(int most_threads) { return {.origin = {}, .most_thread
 
 void WaitForUsage(const ComputeQueue& queue, const Usage& usage) {
   while (queue.usage() != usage) std::this_thread::yield();
+}
+
+TEST(ComputeQueue, JobsAreNicerThanOtherThreads) {
+  constexpr int kNicest = 19;
+  int niceness = 0;
+  {
+    ComputeQueue queue(1, 1);
+    std::binary_semaphore done(0);
+    queue.Post(Claim(1), [&](ComputeQueue::Turn&) {
+      niceness = getpriority(PRIO_PROCESS, 0);
+      done.release();
+    });
+    done.acquire();
+  }
+  const int here = getpriority(PRIO_PROCESS, 0);
+  EXPECT_TRUE(niceness > here || niceness == kNicest) << niceness << " and " << here;
 }
 
 TEST(ComputeQueue, ALargeJobAloneGetsAllThreads) {

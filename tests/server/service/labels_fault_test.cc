@@ -42,7 +42,7 @@ std::function<void(Requests&)> Volume(Change change) {
 
 std::vector<Fault> StreamFaults() {
   return {
-      {"NoRequest", [](Requests& r) { r.clear(); }, "VOLUME_TRUNCATED"},
+      {"NoRequest", [](Requests& r) { r.clear(); }, "REQUEST_ORDER"},
       {"EmptyRequest", [](Requests& r) { r.assign(1, {}); }, "FIELD_INVALID", "request"},
       {"ChunkBeforeConfig", [](Requests& r) { r.erase(r.begin()); }, "REQUEST_ORDER"},
       {"SecondConfig", [](Requests& r) { r[1] = r[0]; }, "REQUEST_ORDER"},

@@ -65,7 +65,7 @@ std::function<Requests()> At(int place, Change change) {
 
 std::vector<Fault> OrderFaults() {
   return {
-      {"NoRequest", [] { return Requests(); }, StatusCode::kInvalidArgument, "VOLUME_TRUNCATED"},
+      {"NoRequest", [] { return Requests(); }, StatusCode::kInvalidArgument, "REQUEST_ORDER"},
       {"EmptyRequest", [] { return Requests(1); }, StatusCode::kInvalidArgument, "FIELD_INVALID",
        "request"},
       {"ChunkBeforeConfig", [] { return Requests{ChunkRequest(0, "x")}; },
