@@ -8,13 +8,13 @@
 namespace bccskel {
 namespace {
 
-constexpr double kLeastWidth = 0.8;  // half the width where ribs are, in lengths of the branch
-constexpr double kFlatness = 2.5;    // the same in radii
-constexpr double kReach = 1.5;       // of rays, in lengths of the branch
-constexpr size_t kPlaces = 5;        // a tenth of the branch apart, the first next to its end
-constexpr size_t kNarrowPlaces = 2;  // that many show that it is no rib
-constexpr size_t kWayReach = 5;      // points on either side that give the branch's way
-constexpr int kSquare = 4;           // rays go through the rim of a square of 9 by 9 points,
+constexpr double kLeastWidth = 0.75;  // half the width where ribs are, in lengths of the branch
+constexpr double kFlatness = 2.5;     // the same in radii
+constexpr double kReach = 1.5;        // of rays, in lengths of the branch
+constexpr size_t kPlaces = 5;         // a tenth of the branch apart, the first next to its end
+constexpr size_t kNarrowPlaces = 2;   // that many show that it is no rib
+constexpr size_t kWayReach = 5;       // points on either side that give the branch's way
+constexpr int kSquare = 4;            // rays go through the rim of a square of 9 by 9 points,
 constexpr std::array<int, 8> kSteps = {-4, 0, -3, -2, -1, 1, 2, 3};  // first an eighth turn apart:
 constexpr int kFirstBetween = -3;  // in a flat limb one of those is within 22.5 degrees of it and
 constexpr double kHint = 2;        // goes on for 2.6 radii, on either side

@@ -13,7 +13,7 @@ namespace bccskel {
 // rim, where every roughness makes one. Radii know how thick the limb is, not how wide, so by them
 // a rib looks like a limb that leaves a body.
 // Does:  looks along rays, across the branch, from places of its outer half. It is a rib where the
-//        object goes on to both sides for 0.8 of the branch's length on average, and for 2.5 radii:
+//        object goes on to both sides for 3/4 of the branch's length on average, and for 2.5 radii:
 //        there it is wider than long, and flat. A finger is longer than wide, and so is the curve
 //        of the flat limb itself.
 // Cost:  about 30 rays for a branch that is none, which leave a round limb after a step or two.

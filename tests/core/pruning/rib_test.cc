@@ -68,7 +68,7 @@ TEST(Ribs, AreTakenOffFlatLimbsWithRoughRims) {
   for (int32_t height : {0, 4, 6, 8, 10}) {
     SCOPED_TRACE(height);
     const Volume limb = FlatLimb(height, {});
-    EXPECT_EQ(EndsOf(limb), 2u);
+    EXPECT_EQ(EndsOf(limb), height < 10 ? 2u : 3u);  // a torn rim keeps a rib
     EXPECT_GE(EndsWithRibs(limb), height < 8 ? 2u : 12u);
   }
 }
