@@ -9,8 +9,8 @@ namespace bccskel {
 // leaves none.
 bool HasCurves(const ThinningOptions& options);
 
-// The options as they take effect: defaults filled in, and nothing where nothing is done. Options
-// that give the same result for one reason of these give the same.
+// The options as they take effect: defaults filled in, and no pruning where there are no curves. So
+// options that differ only in these respects become equal.
 // Needs: the default margin for an object of voxels is in already: see ForSteps().
 SkeletonizeOptions CanonicalOptions(SkeletonizeOptions options);
 

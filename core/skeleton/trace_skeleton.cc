@@ -1,8 +1,7 @@
 // Does: points -> clusters -> branches -> graph, then brings the graph into its canonical order;
 //       what is on no path of it are sheets.
-// Why it is right: see clusters.h for the topology; a cluster's own loops become edges from its
-// node
-//       to itself, or numbers of the node where a cavity leaves a closed surface.
+// Why it is right: see clusters.h for the topology; a cluster's own loops become edges from
+//       its node to itself, or numbers of the node where a cavity leaves a closed surface.
 // Cost: sorting the points and 14 walks over them; the rest follows clusters and branches.
 #include <algorithm>
 #include <numeric>

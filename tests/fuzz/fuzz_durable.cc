@@ -27,10 +27,10 @@
 #include "server/durable/ledger.h"
 #include "server/durable/message_codec.h"
 #include "server/service/durable_messages.h"
+#include "server/service/job_fields.h"
 #include "server/service/job_request.h"
 #include "server/service/ledger_status.h"
 #include "server/service/request_sequence.h"
-#include "server/service/volume_fields.h"
 #include "server/status_mapping.h"
 
 namespace bccskel::server {
@@ -223,15 +223,7 @@ const std::string& KnownJob() {
 struct CreateJobCall {
   using Request = v1::CreateJobRequest;
   static absl::Status Take(const Request& request) {
-    Ledger::NewJob job;
-    BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
-    BCCSKEL_ASSIGN_OR_RETURN(job.options,
-                             OptionsBytes(request.options(), request.thin_volume_return()));
-    BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
-    job.request_id = request.request_id();
-    job.volume = request.volume();
-    job.threads = request.threads();
-    if (request.validate_only()) job.mode = Ledger::NewJob::Mode::kValidateOnly;
+    BCCSKEL_ASSIGN_OR_RETURN(const Ledger::NewJob job, NewJobOf(request));
     BCCSKEL_ASSIGN_OR_RETURN(const JobInfo made, Create(job));
     const v1::Job message = ToMessage(made);
     Insist(message.request_id() == request.request_id());
@@ -244,13 +236,7 @@ struct CreateJobCall {
 struct ListJobsCall {
   using Request = v1::ListJobsRequest;
   static absl::Status Take(const Request& request) {
-    Ledger::JobQuery query;
-    query.page_size = std::clamp(request.page_size(), 1, 1000);
-    query.page_token = request.page_token();
-    for (const int state : request.states()) {
-      BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
-      query.states.push_back(known);
-    }
+    BCCSKEL_ASSIGN_OR_RETURN(const Ledger::JobQuery query, QueryOf(request));
     BCCSKEL_ASSIGN_OR_RETURN(const JobPage page, Ask<JobPage>([&](auto done) {
                                TheLedger()->ListJobs(kTenant, query, std::move(done));
                              }));
