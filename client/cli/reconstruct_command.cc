@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/json_text.h"
@@ -25,7 +26,8 @@ std::string SummaryOf(const ReconstructArguments& arguments, uint64_t points,
              ",\"common_points\":", overlap.common, ",\"jaccard\":", overlap.Jaccard(), "}\n");
   } else {
     text.Add("points:      ", exporting::GroupedDigits(points), ", of them in the object ",
-             exporting::GroupedDigits(overlap.common), "\noverlap:     ", overlap.Jaccard(),
+             exporting::GroupedDigits(overlap.common),
+             "\noverlap:     ", absl::StrFormat("%.4f", overlap.Jaccard()),
              " (points in both / points in either)\nwritten:     ", arguments.output, '\n');
   }
   return std::move(text).Take();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "client/export/picture/caption.h"
@@ -163,12 +164,13 @@ class Words {
     const bool kept = result.certificate.TopologyKept();
     Write(exporting::GroupedDigits(result.object_points) + " points, " +
               exporting::BettiPhrase(result.certificate.input) +
-              "; skeleton: " + exporting::GroupedDigits(result.edges.size()) +
-              (kept ? " branches, topology kept" : " branches, TOPOLOGY NOT KEPT"),
+              "; skeleton: " + exporting::Counted(result.edges.size(), "branch", "branches") +
+              (kept ? ", topology kept" : ", TOPOLOGY NOT KEPT"),
           kMargin * size_, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
   }
 
-  void AddLegend(const exporting::RadiusRange& radii) {
+  void AddLegend(const ResultDocument& result) {
+    const exporting::RadiusRange radii = RadiusRangeOf(result);
     const double base = height_ - 1.8 * size_;
     double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
     cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
@@ -180,8 +182,11 @@ class Words {
     }
     cairo_set_antialias(pen_, CAIRO_ANTIALIAS_DEFAULT);
     x = Label(Figure(radii.high), x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
-    x = Dot("end", kEndColor, x + size_, base);
-    x = Dot("junction", kJunctionColor, x + size_, base);
+    const auto has = [&](std::string_view kind) {
+      return std::ranges::any_of(result.nodes, [&](const auto& node) { return node.kind == kind; });
+    };
+    if (has("end")) x = Dot("end", kEndColor, x + size_, base);
+    if (has("junction")) Dot("junction", kJunctionColor, x + size_, base);
   }
 
  private:
@@ -256,7 +261,7 @@ absl::StatusOr<std::string> RenderPng(const ResultDocument& result, const Displa
   const Pen pen(cairo_create(image.get()), &cairo_destroy);
   Words words(pen.get(), options);
   words.AddTitle(result, CanWrite(image.get(), options.title) ? options.title : "");
-  words.AddLegend(RadiusRangeOf(result));
+  words.AddLegend(result);
   status = CheckCairo(cairo_status(pen.get()));
   if (!status.ok()) return status;
   return EncodedPng(image.get());
