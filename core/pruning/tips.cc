@@ -102,7 +102,7 @@ class TipPlacer {
   // In noise a thick limb may end in a path through the outermost points, where no tip is.
   void CutHair() {
     const auto radius = [this](LatticePoint p) { return set_.RadiusOf(p); };
-    if (std::ranges::max(path_ | std::views::transform(radius)) < kThickRadius) return;
+    if (radius(*std::ranges::max_element(path_, {}, radius)) < kThickRadius) return;
     size_t last = path_.size() - 1;
     while (radius(path_[last]) < kLeastRadius) --last;
     CutAfter(last);
