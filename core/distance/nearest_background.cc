@@ -49,7 +49,7 @@ HWY_INLINE int NearestBit(uint32_t row, int32_t place) {
   const auto before = static_cast<uint32_t>(BitsBefore(place));
   const uint32_t low = row & before, high = row & ~before;
   if (low == 0) return std::countr_zero(high);
-  const int last = std::bit_width(low) - 1;
+  const int last = static_cast<int>(std::bit_width(low)) - 1;
   if (high == 0) return last;
   const int first = std::countr_zero(high);
   return place - 2 * last <= 2 * first - place ? last : first;
