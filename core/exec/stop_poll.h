@@ -7,14 +7,18 @@
 
 namespace bccskel {
 
-// Asks a context now and then whether to stop: once in 4096 calls, which is well within 20 ms of
+// Asks a context now and then whether to stop: once in 1024 calls, which is well within 20 ms of
 // steps over single points. Once true, always true.
 class StopPoll {
  public:
   explicit StopPoll(const exec::Context& context) : context_(context) {}
 
   bool Stopped() {
-    if (++calls_ % 4096 == 0) stopped_ = stopped_ || context_.ShouldStop();
+    return ++calls_ % 1024 == 0 ? StoppedNow() : stopped_;
+  }
+  // Asks at once: for steps of many points.
+  bool StoppedNow() {
+    stopped_ = stopped_ || context_.ShouldStop();
     return stopped_;
   }
 

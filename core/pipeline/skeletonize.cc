@@ -7,6 +7,7 @@
 #include "core/distance/exact_radius.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
@@ -58,15 +59,19 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
 }
 
 // An edge is there as long as a part of it is.
-void SetPruningLevels(const PruningLevels& levels, SkeletonGraph& graph) {
+absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
+                              SkeletonGraph& graph) {
+  StopPoll poll(context);
   for (SkeletonEdge& edge : graph.edges) {
     double level = -1;
     for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+      if (poll.Stopped()) return context.StopStatus();
       const double* found = levels.Find(p.point);
       if (found != nullptr) level = std::max(level, *found);
     }
     if (level >= 0) edge.pruning_level = level;
   }
+  return absl::OkStatus();
 }
 
 // In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.
@@ -143,12 +148,12 @@ class Pipeline {
                           SparedPoints(result_.thin, isthmuses_, options_), context_);
     result_.timings.certificate = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, context_));
-    SetPruningLevels(levels_, result_.graph);
+    BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(levels_, context_, result_.graph));
     SetBirths(isthmuses_, result_.graph);
     if (options_.distance == DistanceKind::kEuclidean) {
       BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
     }
-    result_.sha256 = SkeletonDigest(result_.graph);
+    BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();
     return absl::OkStatus();

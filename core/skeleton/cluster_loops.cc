@@ -79,7 +79,7 @@ ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster) {
   trees_.GrowFrom(loops.at, poll_);
   const std::vector<Chord> chords = FindChords(kernel);
   const std::vector<uint8_t> is_free = FindFreeChords(kernel, chords);
-  for (size_t n = 0; n < chords.size(); ++n) {
+  for (size_t n = 0; n < chords.size() && !poll_.StoppedNow(); ++n) {
     if (is_free[n] != 0) loops.paths.push_back(CloseLoop(chords[n]));
   }
   return loops;

@@ -136,7 +136,10 @@ ClusterTopology MeasureCluster(const ThinPoints& points, std::span<const PointIn
   uint32_t surfaces = cluster.size() < kNeighborCount ? 1 : 0;
   if (surfaces == 0) {
     SurfaceWalk walk(points, masks, seen, poll);
-    for (PointIndex p : cluster) surfaces += walk.CountNewSurfaces(p);
+    for (PointIndex p : cluster) {
+      if (poll.Stopped()) break;
+      surfaces += walk.CountNewSurfaces(p);
+    }
   }
   const uint32_t cavities = surfaces - 1;
   return {static_cast<uint32_t>(1 + int64_t{cavities} - chi), cavities};

@@ -32,7 +32,7 @@ void Clusters::Classify(const ThinPoints& points, StopPoll& poll) {
   const auto is_single = [&](PointIndex p) {
     return IsPlainCurvePoint(p) || NeighborsIn(points.mask(p)) < 2;
   };
-  for (PointIndex p = 0; p < points.size(); ++p) {
+  for (PointIndex p = 0; p < points.size() && !poll.Stopped(); ++p) {
     plain_[p] = HasPlainCurveMask(points.mask(p)) ? 1 : 0;
   }
   for (PointIndex p = 0; p < points.size() && !poll.Stopped(); ++p) {
@@ -61,6 +61,7 @@ Cluster Clusters::Collect(const ThinPoints& points, PointIndex start, StopPoll& 
       if (collected_[q] == 0) add(q);
     });
   }
+  if (poll.StoppedNow()) return cluster;
   std::ranges::sort(cluster.points);
   return cluster;
 }

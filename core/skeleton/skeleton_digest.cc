@@ -1,13 +1,19 @@
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "core/digest/sha256.h"
+#include "core/exec/stop_poll.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel {
 namespace {
 
-class LittleEndianBytes {
+// Numbers on their way into a digest, little-endian. Collected first: a call for each would cost
+// several times what digesting its bytes costs.
+class DigestedNumbers {
  public:
   void Add(uint32_t value) { AddBytes(value); }
   void Add(int32_t value) { AddBytes(static_cast<uint32_t>(value)); }
@@ -18,17 +24,60 @@ class LittleEndianBytes {
     Add(p.point.z);
     Add(std::bit_cast<uint32_t>(p.radius));
   }
-  void Add(std::string_view text) { bytes_ += text; }
-  const std::string& bytes() const { return bytes_; }
+  void Add(std::string_view text) {
+    Flush();
+    digest_.Add(text);
+  }
+  std::string Hex() && {
+    Flush();
+    return digest_.Finish().Hex();
+  }
 
  private:
   template <typename Unsigned>
   void AddBytes(Unsigned value) {
-    for (size_t n = 0; n < sizeof(value); ++n) bytes_ += static_cast<char>(value >> (8 * n));
+    if (used_ + sizeof(value) > bytes_.size()) Flush();
+    for (size_t n = 0; n < sizeof(value); ++n) {
+      bytes_[used_ + n] = static_cast<std::byte>(value >> (8 * n));
+    }
+    used_ += sizeof(value);
+  }
+  void Flush() {
+    digest_.Add(std::span(bytes_).first(used_));
+    used_ = 0;
   }
 
-  std::string bytes_;
+  Sha256 digest_;
+  std::array<std::byte, 16384> bytes_;
+  size_t used_ = 0;
 };
+
+void AddNodes(const SkeletonGraph& graph, DigestedNumbers& numbers) {
+  numbers.Add(uint64_t{graph.nodes.size()});
+  for (const SkeletonNode& node : graph.nodes) {
+    numbers.Add(static_cast<uint32_t>(node.kind));
+    numbers.Add(node.at);
+    numbers.Add(node.loops);
+    numbers.Add(node.cavities);
+  }
+}
+
+void AddPoints(std::span<const SkeletonPoint> points, StopPoll& poll, DigestedNumbers& numbers) {
+  numbers.Add(uint64_t{points.size()});
+  for (const SkeletonPoint& p : points) {
+    if (poll.Stopped()) return;
+    numbers.Add(p);
+  }
+}
+
+void AddEdges(const SkeletonGraph& graph, StopPoll& poll, DigestedNumbers& numbers) {
+  numbers.Add(uint64_t{graph.edges.size()});
+  for (const SkeletonEdge& edge : graph.edges) {
+    numbers.Add(edge.source);
+    numbers.Add(edge.target);
+    AddPoints(graph.PointsOf(edge), poll, numbers);
+  }
+}
 
 }  // namespace
 
@@ -42,26 +91,16 @@ class LittleEndianBytes {
 //     i32 x, i32 y, i32 z, f32 radius
 //   u64 number of points of sheets, then for each point
 //     i32 x, i32 y, i32 z, f32 radius
-std::string SkeletonDigest(const SkeletonGraph& graph) {
-  LittleEndianBytes bytes;
-  bytes.Add(std::string_view("bccskel.skeleton.v3"));
-  bytes.Add(uint64_t{graph.nodes.size()});
-  for (const SkeletonNode& node : graph.nodes) {
-    bytes.Add(static_cast<uint32_t>(node.kind));
-    bytes.Add(node.at);
-    bytes.Add(node.loops);
-    bytes.Add(node.cavities);
-  }
-  bytes.Add(uint64_t{graph.edges.size()});
-  for (const SkeletonEdge& edge : graph.edges) {
-    bytes.Add(edge.source);
-    bytes.Add(edge.target);
-    bytes.Add(edge.point_count);
-    for (const SkeletonPoint& p : graph.PointsOf(edge)) bytes.Add(p);
-  }
-  bytes.Add(uint64_t{graph.sheets.size()});
-  for (const SkeletonPoint& p : graph.sheets) bytes.Add(p);
-  return Sha256Of(bytes.bytes()).Hex();
+absl::StatusOr<std::string> SkeletonDigest(const SkeletonGraph& graph,
+                                           const exec::Context& context) {
+  StopPoll poll(context);
+  DigestedNumbers numbers;
+  numbers.Add(std::string_view("bccskel.skeleton.v3"));
+  AddNodes(graph, numbers);
+  AddEdges(graph, poll, numbers);
+  AddPoints(graph.sheets, poll, numbers);
+  if (poll.Stopped()) return context.StopStatus();
+  return std::move(numbers).Hex();
 }
 
 }  // namespace bccskel

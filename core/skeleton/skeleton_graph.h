@@ -111,7 +111,9 @@ struct SkeletonGraph {
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
 // topology) in canonical order. Placement, births, shifts and pruning levels are not part of it.
 // The byte layout is stated at the definition; it is a public contract.
-std::string SkeletonDigest(const SkeletonGraph& graph);
+// Errors: those of the context.
+absl::StatusOr<std::string> SkeletonDigest(const SkeletonGraph& graph,
+                                           const exec::Context& context = {});
 
 // Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives
 // few nodes for large clusters, and many points of sheets.

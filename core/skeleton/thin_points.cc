@@ -41,7 +41,10 @@ void ThinPoints::Gather(const Volume& thin, std::span<const float> radii, StopPo
   };
   for (size_t n = 0; n < thin.brick_count() && !poll.Stopped(); ++n) {
     const BrickCoordinates brick = thin.keys()[n].coordinates();
-    if (brick.bz != layer) sort_layer();
+    if (brick.bz != layer) {
+      if (poll.StoppedNow()) return;
+      sort_layer();
+    }
     layer = brick.bz;
     thin.bricks()[n].ForEachSetBit([&](int bit) {
       points_.push_back({PointOf(brick, bit), radii[points_.size()]});
@@ -57,6 +60,7 @@ void ThinPoints::FindNeighbors(StopPoll& poll) {
   keys.reserve(size() + 1);
   for (const SkeletonPoint& p : points_) keys.push_back(KeyOf(p.point));
   keys.push_back(absl::Uint128Max());
+  if (poll.StoppedNow()) return;
   for (int bit = 0; bit < kNeighborCount; ++bit) {
     if (IsForward(Direction(bit))) LinkAlong(Direction(bit), keys, poll);
   }

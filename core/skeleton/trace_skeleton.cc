@@ -161,9 +161,12 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
   TurnEdges();
   SkeletonGraph graph;
   graph.placement = placement;
+  size_t points = 0;
+  for (const TracedEdge& edge : edges_) points += edge.points.size();
+  graph.points.reserve(points);
   graph.nodes = std::move(nodes_);
   for (const TracedEdge& edge : edges_) {
-    if (poll_.Stopped()) break;
+    if (poll_.StoppedNow()) break;
     graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
     for (PointIndex p : edge.points) graph.points.push_back(points_[p]);
   }

@@ -68,7 +68,7 @@ std::vector<v1::SkeletonChunk> ChunksOf(const SkeletonGraph& graph) {
 v1::SkeletonSummary SummaryFor(const SkeletonGraph& graph) {
   SkeletonizeResult result;
   result.graph = graph;
-  result.sha256 = SkeletonDigest(graph);
+  result.sha256 = *SkeletonDigest(graph);
   return SummaryOf(result, {});
 }
 
