@@ -293,7 +293,8 @@ absl::StatusOr<SkeletonizeResult> SkeletonAssembler::Finish(const v1::SkeletonSu
   BCCSKEL_RETURN_IF_ERROR(CheckGraph(graph_, edge_points_, summary));
   graph_.placement = result.graph.placement;
   result.graph = std::move(graph_);
-  if (const std::string digest = SkeletonDigest(result.graph); digest != result.sha256) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string digest, SkeletonDigest(result.graph));
+  if (digest != result.sha256) {
     return absl::DataLossError(absl::StrCat("the received skeleton has the digest ", digest,
                                             ", the summary states ", result.sha256));
   }
