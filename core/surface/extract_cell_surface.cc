@@ -63,7 +63,7 @@ class CellSurface {
       }
     }
     std::ranges::sort(keys_);
-    keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     ids_.resize(keys_.size());
   }
 
