@@ -54,8 +54,7 @@ std::vector<LatticePoint> BoundaryOf(const Volume& object, const Clay& clay) {
     if (boundary.size() > before) boundary.push_back(p);
   });
   std::ranges::sort(boundary);
-  const auto repeated = std::ranges::unique(boundary);
-  boundary.erase(repeated.begin(), repeated.end());
+  boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
   return boundary;
 }
 
