@@ -108,9 +108,10 @@ absl::Status CenterCurves(const Volume& object, const DistanceField& field,
   DiscCenters centers(object, field);
   StopPoll poll(context);
   for (const SkeletonEdge& edge : graph.edges) {
+    if (poll.StoppedNow()) return context.StopStatus();
     CenterEdge(centers, edge, ShapeOf(graph, edge), poll, graph);
   }
-  return poll.Stopped() ? context.StopStatus() : absl::OkStatus();
+  return poll.StoppedNow() ? context.StopStatus() : absl::OkStatus();
 }
 
 }  // namespace bccskel
