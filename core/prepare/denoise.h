@@ -19,6 +19,10 @@ namespace bccskel {
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> Denoise(const Volume& object, const exec::Context& context);
 
+// Only what Denoise() adds: pits, that is background points with eight object points around them. A
+// convex object has none: of two opposite neighbors of a background point one is background.
+absl::StatusOr<ChangedVolume> FillPits(const Volume& object, const exec::Context& context);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_PREPARE_DENOISE_H_
