@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 // Longer than a healthy pass over a small object, far shorter than a time slice. Pauses last 40 to
 // 140 cycles, depending on the processor, so the clock decides.
-constexpr auto kSpinTime = std::chrono::microseconds(20);
+constexpr auto kSpinTime = std::chrono::microseconds(100);
 constexpr int kPausesPerLook = 16;
 
 void Pause() {
@@ -96,11 +96,16 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   }
 }
 
-Barrier::Duration Barrier::Wait(int worker) {
-  if (meetings_.size() == 1) return {};
+void Barrier::Arrive(int worker) {
   std::atomic<uint32_t>& own = meetings_[static_cast<size_t>(worker)].count;
-  const uint32_t count = own.fetch_add(1) + 1;
+  own.fetch_add(1);
   own.notify_all();
+  CheckWhole();
+}
+
+Barrier::Duration Barrier::Await(int worker) {
+  // Breaking raises all counts: who sees its own raised sees that the barrier is broken, too.
+  const uint32_t count = meetings_[static_cast<size_t>(worker)].count.load();
   CheckWhole();
   Duration blocked = {};
   for (const Meetings& other : meetings_) blocked += WaitFor(other, count);

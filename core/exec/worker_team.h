@@ -57,10 +57,18 @@ class Barrier {
   using Duration = std::chrono::steady_clock::duration;
 
   explicit Barrier(int size) : meetings_(static_cast<size_t>(size)) {}
-  // Called by each worker, 0..size-1, with its number.
+  // Both are called by each worker, 0..size-1, with its number. What a worker wrote before it
+  // arrived others can read after they awaited it; between the two it can do what nobody needs.
+  // Both throw what broke the barrier: a worker that will never come.
+  void Arrive(int worker);
+  // Until all have arrived as often as the caller. Any number of times.
   // Returns: for how long the caller was blocked; zero when the others came while it was spinning.
-  // Throws what broke the barrier: a worker that will never come.
-  Duration Wait(int worker);
+  Duration Await(int worker);
+
+  Duration Wait(int worker) {
+    Arrive(worker);
+    return Await(worker);
+  }
 
   // Runs a worker's part. Whatever it throws ends the others' parts at their next meeting, too, so
   // that nobody waits for ever; the barrier is of no further use.

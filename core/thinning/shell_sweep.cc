@@ -14,22 +14,29 @@
 namespace bccskel {
 namespace {
 
-// One worker's bricks and buffers.
-struct alignas(64) Worker {
+// Bricks that a worker looks at in one go, and its buffers for them.
+struct Part {
   exec::Share bricks = {0, 0};
-  std::vector<BrickIndex> by_first_shell;  // own bricks in the order in which shells reach them
-  size_t reached = 0;                      // how many of them have been reached
-  std::vector<BrickIndex> opening;         // reached, and deeper points still to come
-
   BrickLists to_do;
   BrickLists end_points_to_do;
   BrickLists thin;   // bricks that may have end points
   MarkBuffer marks;  // of this pass
 
-  // Bricks of other workers that border on points removed here. Written in one pass and read by
-  // their owners in the next, hence two.
-  std::array<std::vector<BrickIndex>, 2> seen_elsewhere;
-  size_t parity = 0;  // of the pass
+  bool empty() const { return bricks.begin == bricks.end; }
+};
+
+// One worker's bricks and buffers.
+struct alignas(128) Worker {
+  exec::Share bricks = {0, 0};
+  // Its bricks near others' below and above, and those between.
+  std::array<Part, 3> parts;
+  std::vector<BrickIndex> by_first_shell;  // own bricks in the order in which shells reach them
+  size_t reached = 0;                      // how many of them have been reached
+  std::vector<BrickIndex> opening;         // reached, and deeper points still to come
+
+  // Bricks of other workers that border on points removed here. Written while points are removed
+  // and read by their owners before the next marks.
+  std::vector<BrickIndex> seen_elsewhere;
   // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
   std::vector<BrickIndex> beside_sleepers_elsewhere;
   uint64_t removed = 0;
@@ -86,6 +93,8 @@ class ShellSweep {
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
           if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
+        if (index == 0) alone_ = alone_ || patience_.Lost();
+        Meet(index);  // the new object is complete, and so are the sums
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
       } while (shell == last_ && TotalRemoved() != before);
@@ -103,7 +112,7 @@ class ShellSweep {
               static_cast<BrickIndex>(worker.bricks.begin));
     SortByFirstShell(worker);
     if (workers_.size() > 1) MarkBorder(worker);
-    Reserve(worker, count);
+    Split(worker);
   }
 
   void SortByFirstShell(Worker& worker) const {
@@ -111,10 +120,34 @@ class ShellSweep {
                              [this](BrickIndex n) { return shells_.RangeOf(n).first; });
   }
 
-  static void Reserve(Worker& worker, size_t bricks) {
-    worker.to_do.Reserve(bricks);
-    worker.end_points_to_do.Reserve(bricks);
-    worker.thin.Reserve(bricks);
+  // Whether a point goes depends on points three steps away, so bricks with a layer of bricks
+  // between them and others' have nothing to do with those.
+  void Split(Worker& worker) const {
+    const auto [begin, end] = worker.bricks;
+    size_t low = begin, high = end;
+    if (begin > 0 && begin < end) low = FirstFromLayer(LayerOf(begin - 1) + 2);
+    if (begin < end && end < state_.brick_count()) high = FirstFromLayer(LayerOf(end) - 1);
+    low = std::clamp(RoundUp(low), begin, end);
+    high = std::clamp(high / kUnsettledGroup * kUnsettledGroup, low, end);
+    worker.parts[0].bricks = {begin, low};
+    worker.parts[1].bricks = {high, end};
+    worker.parts[2].bricks = {low, high};
+    for (Part& part : worker.parts) {
+      const size_t bricks = part.bricks.end - part.bricks.begin;
+      part.to_do.Reserve(bricks);
+      part.end_points_to_do.Reserve(bricks);
+      part.thin.Reserve(bricks);
+    }
+  }
+
+  static size_t RoundUp(size_t n) {
+    return (n + kUnsettledGroup - 1) / kUnsettledGroup * kUnsettledGroup;
+  }
+  int32_t LayerOf(size_t brick) const { return state_.keys[brick].coordinates().bz; }
+  size_t FirstFromLayer(int32_t layer) const {
+    const auto first = std::ranges::lower_bound(state_.keys, layer, {},
+                                                [](BrickKey key) { return key.coordinates().bz; });
+    return static_cast<size_t>(first - state_.keys.begin());
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
@@ -126,7 +159,7 @@ class ShellSweep {
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
     SortByFirstShell(first);
-    Reserve(first, state_.brick_count());
+    Split(first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -135,9 +168,7 @@ class ShellSweep {
   }
 
   void TakeOver(Worker& other, Worker& first) {
-    for (std::vector<BrickIndex>& seen : other.seen_elsewhere) {
-      for (BrickIndex n : seen) UnsettledView().Add(n, enabled_[n]);
-    }
+    for (BrickIndex n : other.seen_elsewhere) UnsettledView().Add(n, enabled_[n]);
     const auto not_reached = std::span(other.by_first_shell).subspan(other.reached);
     first.by_first_shell.insert(first.by_first_shell.end(), not_reached.begin(), not_reached.end());
     first.opening.insert(first.opening.end(), other.opening.begin(), other.opening.end());
@@ -183,17 +214,22 @@ class ShellSweep {
   // so they are settled. All that are awake were listed in the last one.
   void FallAsleep(Worker& worker, int32_t cycle) {
     worker.beside_sleepers_elsewhere.clear();
-    for (Sublattice sublattice : kSublattices) {
-      for (const BrickIndex n : worker.to_do.Of(sublattice)) {
-        if ((unsettled_[n] & kAwake) == 0 || ChangedAround(n, cycle)) continue;
-        unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
-        for (const BrickIndex near : state_.neighbors[n]) {
-          if (Owns(worker, near)) {
-            unsettled_[near] |= kBesideSleeper;
-          } else if (near < state_.brick_count()) {
-            worker.beside_sleepers_elsewhere.push_back(near);
-          }
+    for (const Part& part : worker.parts) {
+      for (Sublattice sublattice : kSublattices) {
+        for (const BrickIndex n : part.to_do.Of(sublattice)) {
+          if ((unsettled_[n] & kAwake) != 0 && !ChangedAround(n, cycle)) PutToSleep(n, worker);
         }
+      }
+    }
+  }
+
+  void PutToSleep(BrickIndex n, Worker& worker) {
+    unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
+    for (const BrickIndex near : state_.neighbors[n]) {
+      if (Owns(worker, near)) {
+        unsettled_[near] |= kBesideSleeper;
+      } else if (near < state_.brick_count()) {
+        worker.beside_sleepers_elsewhere.push_back(near);
       }
     }
   }
@@ -218,41 +254,62 @@ class ShellSweep {
 
   // One pass. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, PassStep at) {
+    Await(index);  // what others removed near here is gone
     if (index == 0) {
       stopped_ = context_.ShouldStop();
       ++passes_;
     }
     TakeOverUnsettled(worker);
-    worker.marks.Clear();
-    worker.thin.SetCounts(0, 0);
-    TakeUnsettled(UnsettledView(), worker.bricks.begin, worker.bricks.end, rule_.LooksFor(at),
-                  worker.to_do, worker.end_points_to_do);
     for (; at.step < rule_.steps(); ++at.step) {
+      if (at.step > 0) Await(index);  // and what they did in the step before is done
       if (index == 0) context_.Rest();
-      rule_.Mark(at, worker.to_do, unsettled_.data(), worker.marks, worker.thin);
-      if (at.step + 1 == rule_.steps()) MarkStubble(worker);
-      Meet(index);  // nobody reads any more what the next step changes
-      if (stopped_) return false;
+      BorderFirst(index, worker, [&](Part& part) { Mark(at, part); });
     }
-    if (index == 0) alone_ = alone_ || patience_.Lost();
-    rule_.Finish(worker.to_do);
+    Await(index);  // nobody reads any more what is removed near others
+    if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(worker);
-    Remove(worker, at.cycle);
-    Meet(index);  // the new object is complete
-    worker.parity ^= 1;
+    worker.seen_elsewhere.clear();
+    BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
     return true;
   }
 
-  void Meet(int index) {
-    if (workers_.size() == 1 || (index == 0 && joined_)) return;
-    const exec::Barrier::Duration blocked = barrier_.Wait(index);
+  // The bricks near others' first: while this worker is at the rest, others learn that they are
+  // done, so that hardly anybody has to wait.
+  template <typename Work>
+  void BorderFirst(int index, Worker& worker, Work work) {
+    for (Part& part : std::span(worker.parts).first(2)) {
+      if (!part.empty()) work(part);
+    }
+    if (meets(index)) barrier_.Arrive(index);
+    if (!worker.parts[2].empty()) work(worker.parts[2]);
+  }
+
+  void Mark(const PassStep& at, Part& part) {
+    if (at.step == 0) {
+      part.marks.Clear();
+      part.thin.SetCounts(0, 0);
+      TakeUnsettled(UnsettledView(), part.bricks.begin, part.bricks.end, rule_.LooksFor(at),
+                    part.to_do, part.end_points_to_do);
+    }
+    rule_.Mark(at, part.to_do, unsettled_.data(), part.marks, part.thin);
+    if (at.step + 1 == rule_.steps()) MarkStubble(part);
+  }
+
+  bool meets(int index) const { return workers_.size() > 1 && !(index == 0 && joined_); }
+  void Await(int index) {
+    if (!meets(index)) return;
+    const exec::Barrier::Duration blocked = barrier_.Await(index);
     if (index == 0) patience_.Blocked(blocked);
+  }
+  void Meet(int index) {
+    if (meets(index)) barrier_.Arrive(index);
+    Await(index);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.
   void TakeOverUnsettled(const Worker& worker) {
     for (const Worker& other : workers_) {
-      for (BrickIndex n : other.seen_elsewhere[worker.parity ^ 1]) {
+      for (BrickIndex n : other.seen_elsewhere) {
         if (Owns(worker, n)) UnsettledView().Add(n, enabled_[n]);
       }
     }
@@ -260,28 +317,27 @@ class ShellSweep {
 
   // Whether an end point is a stubble point depends on points up to three steps away, so a brick
   // with end points stays unsettled for them.
-  void MarkStubble(Worker& worker) {
+  void MarkStubble(Part& part) {
     if (stubble_ == StubblePolicy::kNone) return;
     const ObjectView view = state_.View();
     for (Sublattice sublattice : kSublattices) {
-      worker.thin.Add(sublattice, KeepThinBricks(view, worker.end_points_to_do.Of(sublattice),
-                                                 worker.thin.Room(sublattice)));
-      const std::span<const BrickIndex> thin = worker.thin.Of(sublattice);
-      MarkedBrick* marked = worker.marks.Room(thin.size());
+      part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
+                                               part.thin.Room(sublattice)));
+      const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
+      MarkedBrick* marked = part.marks.Room(thin.size());
       const size_t count = MarkEndPoints(view, sublattice, thin, marked);
       for (const MarkedBrick& m : std::span(marked, count)) {
         unsettled_[m.brick] |= kEndPointsUnsettled;
         const BrickBits stubble = SelectStubble(state_, m, stubble_);
         if (stubble.Empty()) continue;
-        *worker.marks.Room(1) = {stubble, m.brick};
-        worker.marks.Add(1);
+        *part.marks.Room(1) = {stubble, m.brick};
+        part.marks.Add(1);
       }
     }
   }
 
-  void Remove(Worker& worker, int32_t cycle) {
-    std::vector<BrickIndex>& elsewhere = worker.seen_elsewhere[worker.parity];
-    elsewhere.clear();
+  void Remove(int32_t cycle, Part& part, Worker& worker) {
+    rule_.Finish(part.to_do);
     const RemovalView view = {.object = state_.object.data(),
                               .candidates = state_.candidates.data(),
                               .neighbors = state_.neighbors.data(),
@@ -292,7 +348,7 @@ class ShellSweep {
                               .first = static_cast<BrickIndex>(worker.bricks.begin),
                               .last = static_cast<BrickIndex>(worker.bricks.end),
                               .none = static_cast<BrickIndex>(state_.brick_count())};
-    worker.removed += RemoveMarked(view, worker.marks.marked(), elsewhere);
+    worker.removed += RemoveMarked(view, part.marks.marked(), worker.seen_elsewhere);
   }
 
   static bool Owns(const Worker& worker, BrickIndex n) {
