@@ -64,14 +64,14 @@ bool HasContractibleLink(const ReferencePointSet& object, std::span<const Lattic
 
 std::set<LatticePoint> ReferenceRuleB(const ReferencePointSet& object,
                                       std::set<LatticePoint> simple, const Priority& priority) {
-  for (size_t size : {2, 3, 4}) Subtract(TakenOut(object, simple, size, priority), simple);
+  for (const size_t size : {2U, 3U, 4U}) Subtract(TakenOut(object, simple, size, priority), simple);
   return simple;
 }
 
 std::set<LatticePoint> ReferenceRuleC(const ReferencePointSet& object,
                                       std::set<LatticePoint> simple, const Priority& priority) {
   std::set<LatticePoint> taken;
-  for (size_t size : {2, 3, 4}) taken.merge(TakenOut(object, simple, size, priority));
+  for (const size_t size : {2U, 3U, 4U}) taken.merge(TakenOut(object, simple, size, priority));
   Subtract(taken, simple);
   return simple;
 }

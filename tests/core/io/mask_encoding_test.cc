@@ -86,7 +86,7 @@ TEST(MaskEncoding, DecodesToTheConversionOfItsVoxels) {
       const ConvertedMask expected = Converted(voxels, adjacency);
       const auto header = MakeMaskHeader({grid, adjacency}, {});
       ASSERT_TRUE(header.ok()) << header.status();
-      for (size_t chunk_bytes : {1, 3, 1000}) {
+      for (const size_t chunk_bytes : {1U, 3U, 1000U}) {
         const auto decoded = Decode(*header, Packed(voxels), chunk_bytes);
         ASSERT_TRUE(decoded.ok()) << decoded.status();
         EXPECT_EQ(decoded->volume, expected.volume) << grid.nx << ' ' << grid.ny << ' ' << grid.nz;

@@ -33,7 +33,7 @@ Peeled Peel(const Volume& object, const SkeletonizeOptions& options, int threads
 std::vector<Volume> Objects() {
   std::vector<Volume> objects = {*GenerateShape(Shape::kTree, {.points = 20'000, .noise = 0.05}),
                                  *GenerateShape(Shape::kHollowBall, {.points = 10'000})};
-  for (uint64_t seed : {1, 2}) {
+  for (uint64_t seed : {1U, 2U}) {
     objects.push_back(VolumeOfPoints(test::RandomBlob(seed, {40, 30, 30}, 8, 14)));
     objects.push_back(VolumeOfPoints(test::RandomCloud(seed, {20, 20, 20}, 0.6)));
   }

@@ -150,7 +150,7 @@ TEST(FillCavities, MakesNoObjectOfMoreBricksThanAllowed) {
 TEST(DropSmallComponentsLaw, KeepsTheComponentsOfAtLeastSoManyPoints) {
   for (const Points& points : RandomObjects()) {
     const std::vector<Points> components = test::ReferenceComponents(points);
-    for (uint64_t least : {1, 2, 5, 40}) {
+    for (uint64_t least : {1U, 2U, 5U, 40U}) {
       Points expected;
       uint64_t dropped = 0;
       for (const Points& component : components) {

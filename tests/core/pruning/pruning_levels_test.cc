@@ -34,7 +34,7 @@ std::vector<RuledCurves> Objects() {
     add(clean);
     add(test::WithSimpleNoise(clean, 0.1, 7));
   }
-  for (uint64_t seed : {1, 2, 3}) {
+  for (uint64_t seed : {1U, 2U, 3U}) {
     add(VolumeOfPoints(test::RandomCloud(seed, {20, 20, 20}, 0.6)));
   }
   return objects;

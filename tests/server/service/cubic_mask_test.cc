@@ -53,7 +53,7 @@ TEST(CubicMask, BecomesASkeletonWithTheMasksTopologyInTheWorldOfItsVoxels) {
   EXPECT_EQ(skeleton->certificate.skeleton, frame);
   for (const SkeletonPoint& point : skeleton->graph.points) {
     const WorldPoint world = skeleton->graph.PositionOf(point);
-    for (size_t axis : {0, 1, 2}) {  // within the outer faces of the outer voxels
+    for (size_t axis : {0U, 1U, 2U}) {  // within the outer faces of the outer voxels
       EXPECT_GE(world[axis], -0.5 * static_cast<double>(axis + 1));
       EXPECT_LE(world[axis], (kEdge - 0.5) * static_cast<double>(axis + 1));
     }

@@ -170,7 +170,7 @@ TEST_F(JobStoreTest, GivesUpAResultWithItsLastJob) {
 
 TEST_F(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
   const int64_t job = Insert(Job("clinic", "jobs/1"));
-  for (uint64_t sequence : {1, 2, 3}) {
+  for (uint64_t sequence : {1U, 2U, 3U}) {
     EventRow event;
     event.job = job;
     event.sequence = sequence;
