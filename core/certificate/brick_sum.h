@@ -11,13 +11,16 @@
 
 namespace bccskel {
 
+// In the unit of Context::WorkersFor(): workers meet once.
+inline constexpr size_t kBrickSumWork = 8;
+
 // The sum of term(worker, batch) over batches that make up 0..count-1, each worker taking one
 // contiguous share. When the context says stop, the rest is left out and the sum means nothing.
 template <typename Term>
 int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   // A noisy brick costs up to 20 us, so a batch ends well within 20 ms.
   constexpr size_t kBatch = 512;
-  const int workers = context.WorkersFor(count);
+  const int workers = context.WorkersFor(count, kBrickSumWork);
   std::vector<int64_t> sums(static_cast<size_t>(workers), 0);
   const auto work = [&](int worker) {
     if (worker >= workers) return;

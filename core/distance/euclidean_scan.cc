@@ -70,14 +70,14 @@ class EuclideanScan {
   // Some steps more than to the end of a stack: see kBorderRows of the loops.
   static constexpr size_t kFartherThanStack = 16;
 
-  // Splits the items among the workers, who ask before every `at_once` of them whether to stop.
+  // Hands out the items to the workers, who ask before every `at_once` of them whether to stop.
   template <typename Work>
   static void Share(const exec::Context& context, size_t count, size_t at_once, Work work) {
-    context.Run([&](int worker) {
-      const exec::Share mine = exec::ShareOf(count, worker, context.threads());
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        if (n % at_once == 0 && context.ShouldStop()) return;
-        work(n);
+    exec::Portions portions(count, at_once);
+    context.Run([&](int) {
+      for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+        if (context.ShouldStop()) return;
+        for (size_t n = mine.begin; n < mine.end; ++n) work(n);
       }
     });
   }

@@ -95,12 +95,12 @@ absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const Volume& 
   thin.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
   std::vector<float> radii(points.size());
   const ExactRadius untouched(object, field);
-  context.Run([&](int worker) {
+  exec::Portions portions(points.size(), 64);
+  context.Run([&](int) {
     ExactRadius radius = untouched;
-    const exec::Share mine = exec::ShareOf(points.size(), worker, context.threads());
-    for (size_t n = mine.begin; n < mine.end; ++n) {
-      if (n % 64 == 0 && context.ShouldStop()) return;
-      radii[n] = radius.At(points[n]);
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      for (size_t n = mine.begin; n < mine.end; ++n) radii[n] = radius.At(points[n]);
     }
   });
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;

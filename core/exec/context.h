@@ -37,8 +37,10 @@ class Context {
   // not depend on it.
   std::function<void()> interlude = nullptr;
 
-  // A stage gives a worker at least this many bricks: on smaller shares the workers would spend
-  // more time waiting for each other than thinning.
+  // A directional pass gives a worker at least this many bricks: on smaller shares the workers
+  // would spend more time waiting for each other, and for bricks in each other's caches, than
+  // thinning. Where it pays was found by measuring: from 4,000 bricks on two threads are never
+  // slower.
   size_t min_bricks_per_worker = 2048;
 
   // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
@@ -46,9 +48,10 @@ class Context {
   double patience = 0.5;
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
-  // How many workers share `bricks` bricks; at least 1, at most threads().
-  int WorkersFor(size_t bricks) const {
-    const size_t shares = bricks / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
+  // How many workers share `bricks` bricks; at least 1, at most threads(). `work` is what is done
+  // with a brick between two meetings, compared with a directional pass.
+  int WorkersFor(size_t bricks, size_t work = 1) const {
+    const size_t shares = bricks * work / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
     const auto most = static_cast<size_t>(threads());
     return static_cast<int>(shares < 1 ? 1 : (shares < most ? shares : most));
   }

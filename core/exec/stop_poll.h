@@ -13,9 +13,7 @@ class StopPoll {
  public:
   explicit StopPoll(const exec::Context& context) : context_(context) {}
 
-  bool Stopped() {
-    return ++calls_ % 1024 == 0 ? StoppedNow() : stopped_;
-  }
+  bool Stopped() { return ++calls_ % 1024 == 0 ? StoppedNow() : stopped_; }
   // Asks at once: for steps of many points.
   bool StoppedNow() {
     stopped_ = stopped_ || context_.ShouldStop();

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_EXEC_WORKER_TEAM_H_
 #define BCCSKEL_CORE_EXEC_WORKER_TEAM_H_
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -129,6 +130,25 @@ constexpr Share ShareOf(size_t count, int worker, int workers) {
   const auto w = static_cast<size_t>(worker), n = static_cast<size_t>(workers);
   return {count * w / n, count * (w + 1) / n};
 }
+
+// Items that are handed out in order, some at a time, to whoever has nothing to do: where some take
+// longer than others and it does not matter who takes which.
+// Threads: safe.
+class Portions {
+ public:
+  Portions(size_t count, size_t at_once) : count_(count), at_once_(at_once) {}
+
+  // The next ones; an empty share when there are no more.
+  Share Take() {
+    const size_t begin = std::min(next_.fetch_add(at_once_, std::memory_order_relaxed), count_);
+    return {begin, std::min(begin + at_once_, count_)};
+  }
+
+ private:
+  const size_t count_;
+  const size_t at_once_;
+  std::atomic<size_t> next_{0};
+};
 
 }  // namespace bccskel::exec
 

@@ -85,9 +85,11 @@ Coordinates WayAt(std::span<const Coordinates> curve, size_t n, CurveShape shape
   return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
 }
 
-// The first and the last point of an open curve are its nodes' and stay.
-void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape, StopPoll& poll,
+// Those of the edge's points that are among `mine`. The first and the last point of an open curve
+// are its nodes' and stay.
+void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, exec::Share mine, StopPoll& poll,
                 SkeletonGraph& graph) {
+  const CurveShape shape = ShapeOf(graph, edge);
   const std::span<SkeletonPoint> points =
       std::span(graph.points).subspan(edge.first_point, edge.point_count);
   std::vector<Coordinates> places;
@@ -95,8 +97,9 @@ void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape
   const std::vector<Coordinates> curve = MeansAlong(places, shape);
   const size_t skip = shape == CurveShape::kClosed ? 0 : 1;
   for (size_t n = skip; n + skip < points.size() && !poll.Stopped(); ++n) {
+    const size_t at = edge.first_point + n;
     const Coordinates way = WayAt(curve, n, shape);
-    if (Dot(way, way) == 0) continue;
+    if (at < mine.begin || at >= mine.end || Dot(way, way) == 0) continue;
     points[n].shift = centers.ShiftOf(centers.WayToCenter(curve[n], way, points[n].radius));
   }
 }
@@ -105,13 +108,18 @@ void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, CurveShape shape
 
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph) {
-  DiscCenters centers(object, field);
-  StopPoll poll(context);
-  for (const SkeletonEdge& edge : graph.edges) {
-    if (poll.StoppedNow()) return context.StopStatus();
-    CenterEdge(centers, edge, ShapeOf(graph, edge), poll, graph);
-  }
-  return poll.StoppedNow() ? context.StopStatus() : absl::OkStatus();
+  context.Run([&](int worker) {
+    DiscCenters centers(object, field);
+    StopPoll poll(context);
+    const exec::Share mine = exec::ShareOf(graph.points.size(), worker, context.threads());
+    for (const SkeletonEdge& edge : graph.edges) {
+      if (edge.first_point >= mine.end || edge.first_point + edge.point_count <= mine.begin)
+        continue;
+      if (poll.StoppedNow()) return;
+      CenterEdge(centers, edge, mine, poll, graph);
+    }
+  });
+  return context.StopStatus();
 }
 
 }  // namespace bccskel

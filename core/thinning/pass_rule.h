@@ -46,6 +46,8 @@ class PassRule {
 
   virtual int passes_per_cycle() const = 0;
   virtual int steps() const = 0;
+  // Of a pass, in the unit of Context::WorkersFor().
+  virtual size_t work() const = 0;
   // A pass looks at bricks that are unsettled in one of these bits.
   virtual Unsettled LooksFor(const PassStep& at) const = 0;
 

@@ -60,7 +60,7 @@ class ShellSweep {
         busy_groups_(groups()),
         enabled_(unsettled_.size()),
         changed_(unsettled_.size(), -1),
-        workers_(static_cast<size_t>(context.WorkersFor(state.brick_count()))),
+        workers_(static_cast<size_t>(context.WorkersFor(state.brick_count(), rule.work()))),
         barrier_(static_cast<int>(workers_.size())),
         points_at_start_(CountPoints(state.object)),
         patience_(context.patience) {

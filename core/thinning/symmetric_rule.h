@@ -35,6 +35,7 @@ class SymmetricRule : public PassRule {
 
   int passes_per_cycle() const override { return 1; }
   int steps() const override { return 4; }
+  size_t work() const override { return 4; }
   Unsettled LooksFor(const PassStep&) const override { return kDirectionsUnsettled; }
   void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
             BrickLists& thin) override;

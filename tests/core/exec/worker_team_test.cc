@@ -97,6 +97,28 @@ TEST(Barrier, WaitsForAWorkerThatSleeps) {
   EXPECT_EQ(seen, 7);
 }
 
+TEST(Barrier, ShowsAfterAwaitingWhatOthersWroteBeforeTheyArrived) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    Barrier barrier(size);
+    std::vector<int> written(static_cast<size_t>(size)), aside(written.size());
+    std::atomic<int> wrong{0};
+    team.Run([&](int worker) {
+      for (int phase = 1; phase <= 40; ++phase) {
+        written[static_cast<size_t>(worker)] = phase;
+        barrier.Arrive(worker);
+        ++aside[static_cast<size_t>(worker)];
+        barrier.Await(worker);
+        barrier.Await(worker);  // does no harm
+        for (int other : written) wrong += other != phase ? 1 : 0;
+        barrier.Wait(worker);
+      }
+    });
+    EXPECT_EQ(wrong, 0) << size << " workers";
+    EXPECT_EQ(aside, std::vector<int>(aside.size(), 40));
+  }
+}
+
 TEST(WorkerTeam, ThrowsWhatOneOfItsWorkersThrowsAndGoesOn) {
   for (int size : TeamSizes()) {
     WorkerTeam team(size);
@@ -129,6 +151,42 @@ TEST(Barrier, GuardedPartsEndTogetherWhenOneThrows) {
       const auto work = [&](int worker) { barrier.Guard([&] { part(worker); }); };
       EXPECT_THROW(team.Run(work), std::bad_alloc) << "worker " << thrower << " of " << size;
       EXPECT_EQ(ended, 0);
+    }
+  }
+}
+
+TEST(Barrier, PartsThatArriveEarlyEndTogetherWhenOneThrows) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    Barrier barrier(size);
+    std::atomic<int> ended{0};
+    const auto part = [&](int worker) {
+      for (int phase = 0; phase < 10; ++phase) {
+        barrier.Await(worker);
+        if (phase == 5 && worker == 0) throw std::bad_alloc();
+        barrier.Arrive(worker);
+      }
+      barrier.Await(worker);
+      ++ended;
+    };
+    const auto work = [&](int worker) { barrier.Guard([&] { part(worker); }); };
+    EXPECT_THROW(team.Run(work), std::bad_alloc) << size << " workers";
+    EXPECT_EQ(ended, 0);
+  }
+}
+
+TEST(Portions, HandOutEveryItemOnce) {
+  for (size_t count : {size_t{0}, size_t{1}, size_t{64}, size_t{1000}}) {
+    for (size_t at_once : {size_t{1}, size_t{7}, size_t{64}, size_t{5000}}) {
+      WorkerTeam team(3);
+      Portions portions(count, at_once);
+      std::vector<std::atomic<int>> taken(count);
+      team.Run([&](int) {
+        for (Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+          for (size_t n = mine.begin; n < mine.end; ++n) ++taken[n];
+        }
+      });
+      for (size_t n = 0; n < count; ++n) EXPECT_EQ(taken[n], 1) << n << " of " << count;
     }
   }
 }

@@ -39,6 +39,26 @@ TEST(Thinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
   exec::ChooseInstructionSet("");
 }
 
+// So tall that workers have bricks far from others', which they look at while others wait for the
+// bricks near them.
+TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
+  const Volume object = VolumeOfPoints(test::RandomBlob(13, {60, 60, 280}, 8, 90));
+  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
+  for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
+    const auto alone = ThinToCurve(object, *distance, {.method = method}, {});
+    for (int threads : {2, 3, 4, 7, 16}) {
+      exec::WorkerTeam team(threads);
+      exec::Context context;
+      context.team = &team;
+      context.min_bricks_per_worker = 1;
+      const auto shared = ThinToCurve(object, *distance, {.method = method}, context);
+      EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
+      EXPECT_EQ(shared->removed, alone->removed) << threads << " threads";
+      EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
+    }
+  }
+}
+
 TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
   const Volume object = Blob(12);
   constexpr double kNever = 1e9, kAtOnce = -1e9;
