@@ -70,7 +70,7 @@ TEST_F(LedgerReportsTest, EveryStateWithTheTraceOfTheCallThatMadeTheJob) {
 
 TEST_F(LedgerReportsTest, TheTraceOfAJobThatCameWithItsVolume) {
   Ledger::NewUpload upload = {.name = {}, .declaration = "6", .then_job = {}};
-  upload.then_job.emplace().options = "o";
+  upload.then_job = Ledger::NewUpload::ThenJob{.options = "o"};
   upload.then_job->trace = "trace";
   const auto begun = CreateUpload("clinic", upload);
   ASSERT_TRUE(begun.ok()) << begun.status();

@@ -26,7 +26,7 @@ class LedgerUploadsTest : public LedgerTest {
   }
   UploadInfo BeginWithJob(const std::string& name, uint64_t size) {
     Ledger::NewUpload upload = {.name = name, .declaration = std::to_string(size), .then_job = {}};
-    upload.then_job.emplace().options = "o";
+    upload.then_job = Ledger::NewUpload::ThenJob{.options = "o"};
     const auto info = CreateUpload("clinic", upload);
     EXPECT_TRUE(info.ok()) << info.status();
     return *info;
@@ -237,7 +237,7 @@ TEST_F(LedgerUploadsTest, EndsAJobWhoseVolumeIsMalformed) {
 TEST_F(LedgerUploadsTest, TellsTheRunnersRefusalBeforeAnythingIsStored) {
   runner_->Refuse(Refuse(Refusal::kQueueFull, "full"));
   Ledger::NewUpload upload = {.name = "uploads/a", .declaration = "6", .then_job = {}};
-  upload.then_job.emplace();
+  upload.then_job = Ledger::NewUpload::ThenJob{.options = {}};
   EXPECT_EQ(RefusalOf(CreateUpload("clinic", upload).status()), Refusal::kQueueFull);
   EXPECT_EQ(GetUpload("clinic", "uploads/a").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(ledger_->usage().disk_bytes, 0u);
