@@ -23,7 +23,6 @@ int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   const int workers = context.WorkersFor(count, kBrickSumWork);
   std::vector<int64_t> sums(static_cast<size_t>(workers), 0);
   const auto work = [&](int worker) {
-    if (worker >= workers) return;
     const exec::Share share = exec::ShareOf(count, worker, workers);
     int64_t sum = 0;
     for (size_t n = share.begin; n < share.end && !context.ShouldStop(); n += kBatch) {
@@ -31,7 +30,7 @@ int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
     }
     sums[static_cast<size_t>(worker)] = sum;
   };
-  workers == 1 ? work(0) : context.Run(work);
+  context.Run(workers, work);
   return std::accumulate(sums.begin(), sums.end(), int64_t{0});
 }
 

@@ -48,7 +48,7 @@ class SectionScan {
       : slabs_(section.slabs()), view_(section.View(weights, runs)), context_(context) {}
 
   void Rise() const {
-    const bool alone = context_.threads() == 1;
+    const bool alone = context_.WorkersFor(brick_count(), kSweepWork) == 1;
     if (!alone) SweepTogether();
     LayerTeam team(WorkersFor(), context_);
     team.Run([&](int worker) {
@@ -76,12 +76,17 @@ class SectionScan {
   }
 
  private:
-  // What counts is the work between two meetings: a layer of a slab, not all bricks. A layer of a
-  // quarter of the bricks that a worker needs elsewhere is enough.
-  int WorkersFor() const {
+  // In the unit of Context::WorkersFor(): workers that sweep meet once, others after each layer of
+  // a slab, where they have nearly the same to do.
+  static constexpr size_t kSweepWork = 8, kLayerWork = 24;
+
+  size_t brick_count() const {
     size_t bricks = 0;
     for (const BrickSlab& slab : slabs_) bricks += slab.size();
-    return slabs_.empty() ? 1 : context_.WorkersFor(4 * bricks / slabs_.size());
+    return bricks;
+  }
+  int WorkersFor() const {
+    return slabs_.empty() ? 1 : context_.WorkersFor(brick_count() / slabs_.size(), kLayerWork);
   }
 
   void SweepTogether() const {

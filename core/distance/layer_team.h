@@ -15,13 +15,7 @@ class LayerTeam {
   // Runs `part(worker)` on each.
   template <typename Part>
   void Run(Part part) {
-    if (size_ == 1) {
-      part(0);
-      return;
-    }
-    context_.Run([&](int worker) {
-      if (worker < size_) barrier_.Guard([&] { part(worker); });
-    });
+    context_.Run(size_, [&](int worker) { barrier_.Guard([&] { part(worker); }); });
   }
 
   // What a worker does of a layer that all share.

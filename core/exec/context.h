@@ -64,6 +64,13 @@ class Context {
       team->Run(work);
     }
   }
+  // The same on the first `workers` of it; a single one does not wake the others.
+  void Run(int workers, const std::function<void(int)>& work) const {
+    if (workers == 1) return work(0);
+    Run([&](int worker) {
+      if (worker < workers) work(worker);
+    });
+  }
 
   // Lends this thread where somebody wants it. Called where ShouldStop() is not asked for more than
   // about a millisecond.

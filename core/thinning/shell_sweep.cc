@@ -71,10 +71,8 @@ class ShellSweep {
   }
 
   absl::StatusOr<SweepTotals> Run() {
-    context_.Run([this](int index) {
-      if (static_cast<size_t>(index) >= workers_.size()) return;
-      barrier_.Guard([&] { Work(index); });
-    });
+    context_.Run(static_cast<int>(workers_.size()),
+                 [this](int index) { barrier_.Guard([&] { Work(index); }); });
     if (stopped_) return context_.StopStatus();
     return SweepTotals{TotalRemoved(), passes_};
   }
