@@ -5,7 +5,7 @@ namespace bccskel {
 
 // Raised whenever the same volume and options may give another skeleton: stored results are found
 // again by it.
-inline constexpr char kAlgorithmVersion[] = "5";
+inline constexpr char kAlgorithmVersion[] = "6";
 
 }  // namespace bccskel
 

@@ -1,7 +1,6 @@
 #include "core/pruning/prune.h"
 
 #include "absl/strings/str_format.h"
-#include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/pruning_defaults.h"
@@ -74,8 +73,7 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   }
   pruned.levels = PruningLevelsOf(set, ribs, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    ExactRadius radius(object, field);
-    PlaceTips(set, radius, object, kept, context);
+    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, field, kept, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);

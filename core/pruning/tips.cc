@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/distance/exact_radius.h"
+#include "core/exec/status_macros.h"
+#include "core/prepare/denoise.h"
 #include "core/pruning/branch_walk.h"
 
 namespace bccskel {
@@ -13,23 +17,29 @@ namespace {
 // How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
 // like a round cap, the end of a pointed limb by less until its tip.
 constexpr double kSlope = 0.75;
+constexpr double kRidgeSlope = 0.3;  // what falls by less is a ridge for sure
 constexpr double kLeastGain = 0.5;   // a tip farther out is better by this, or noise has made it
 constexpr double kAnchorRadii = 4;   // how far back the anchor lies, in radii
 constexpr double kAnchorMargin = 5;  // and in lattice units
 constexpr double kLeastAim = 4;      // from the anchor to what gives the limb its direction
 constexpr double kCutRadii = 1.75;   // a cut takes the way into a cap or a corner at most, in radii
-constexpr double kCutMargin = 6;     // and in lattice units: noise makes the radii smaller
+constexpr double kCutMargin = 6;     // and in lattice units
+constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
-constexpr float kLeastRadius = 2;      // in lattice units, of a tip
-constexpr float kThickRadius = 6;      // limbs that reach it do not end in hair
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
+constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep)
-      : set_(set), radius_(radius), object_(object), keep_(keep) {}
+  TipPlacer(ThinSet& set, const Volume& object, ExactRadius radius, ExactRadius firm_radius,
+            const PointSet& keep)
+      : set_(set),
+        object_(object),
+        radius_(std::move(radius)),
+        firm_radius_(std::move(firm_radius)),
+        keep_(keep) {}
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || set_.Degree(end) != 1) return;
@@ -41,8 +51,7 @@ class TipPlacer {
     CutHair();
     const size_t first = FirstCut();
     aim_ = set_.Between(anchor_, path_[first]) < kLeastAim ? path_.back() : path_[first];
-    CutAfter(BestFrom(first));
-    Extend();
+    GrowAnew(first);
     CutAfter(SafestFrom(first));
   }
 
@@ -73,19 +82,28 @@ class TipPlacer {
     return (ap * ap + aq * aq - pq * pq) / (2 * aq);
   }
 
-  double Merit(LatticePoint p) const { return kSlope * Along(p) + set_.RadiusOf(p); }
+  // The distance to the background but for pits.
+  double Depth(LatticePoint p) {
+    const float* known = depths_.Find(p);
+    if (known != nullptr) return *known;
+    const float depth = firm_radius_.At(p);
+    depths_.Set(p, depth);
+    return depth;
+  }
+
+  double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + Depth(p); }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
-  size_t BestFrom(size_t first) const {
+  size_t BestFrom(size_t first, double slope = kSlope) {
     size_t best = first;
     for (size_t n = first + 1; n < path_.size(); ++n) {
-      if (Merit(path_[n]) >= Merit(path_[best])) best = n;
+      if (Merit(path_[n], slope) >= Merit(path_[best], slope)) best = n;
     }
     return best;
   }
 
   // Position in the path of the first point that is about as good as the best.
-  size_t SafestFrom(size_t first) const {
+  size_t SafestFrom(size_t first) {
     const double enough = Merit(path_[BestFrom(first)]) - kLeastGain;
     while (Merit(path_[first]) < enough) ++first;
     return first;
@@ -98,38 +116,54 @@ class TipPlacer {
     }
   }
 
-  // In noise a thick limb may end in a path through the outermost points, where no tip is.
+  // Whether p takes the side of the majority.
+  bool IsFirm(LatticePoint p) const {
+    const auto in_object = [&](LatticePoint offset) { return object_.Contains(p + offset); };
+    return std::ranges::count_if(kDirections14, in_object) >= kMajority;
+  }
+
+  // Where noise lies on the surface the path may end in single points, where no tip is.
   void CutHair() {
-    const auto radius = [this](LatticePoint p) { return set_.RadiusOf(p); };
-    if (radius(*std::ranges::max_element(path_, {}, radius)) < kThickRadius) return;
     size_t last = path_.size() - 1;
-    while (radius(path_[last]) < kLeastRadius) --last;
-    CutAfter(last);
+    while (last > 0 && !IsFirm(path_[last])) --last;
+    const double length = set_.Between(path_[last], path_.back());
+    if (IsFirm(path_[last]) && length <= kHairLength) CutAfter(last);
   }
 
   // Position in the path of the first point that may become the tip. What is cut off must lie in
   // the cap that the new tip is the center of: a body behind a short limb has a larger distance
   // than the limb, but the limb is no part of it.
-  size_t FirstCut() const {
+  size_t FirstCut() {
     size_t first = path_.size() - 1;
     while (first > 0 && set_.Between(path_.back(), path_[first - 1]) <=
-                            kCutRadii * set_.RadiusOf(path_[first - 1]) + kCutMargin) {
+                            kCutRadii * Depth(path_[first - 1]) + kCutMargin) {
       --first;
     }
     return first;
   }
 
+  // Thinning may leave the ridge before it ends, so the path grows anew from where it is on the
+  // ridge for sure. Single points do not grow.
+  void GrowAnew(size_t first) {
+    if (!IsFirm(path_.back())) return;
+    CutAfter(BestFrom(first, kRidgeSlope));
+    Extend();
+  }
+
   void Extend() {
     double best = Merit(path_.back());
     while (const std::optional<LatticePoint> next = NextTip()) {
-      const float radius = radius_.At(*next);
-      if (radius < kLeastRadius) break;
-      set_.Add(*next, radius);
-      path_.push_back(*next);
+      if (!IsFirm(*next)) break;
+      Append(*next);
       const double merit = Merit(*next);
       if (merit < best - kPatience) break;
       best = std::max(best, merit);
     }
+  }
+
+  void Append(LatticePoint p) {
+    set_.Add(p, radius_.At(p));
+    path_.push_back(p);
   }
 
   // The object point to go on to; its only neighbor in the set is the tip.
@@ -143,7 +177,7 @@ class TipPlacer {
       const LatticePoint next = tip + offset;
       const double cosine = Cosine(from, tip, next);
       if (cosine < kLeastCosine || !IsFreeWay(tip, next)) continue;
-      const double rise = (radius_.At(next) - set_.RadiusOf(tip)) / set_.Between(tip, next);
+      const double rise = (Depth(next) - Depth(tip)) / set_.Between(tip, next);
       const double score = rise + kCosineWeight * cosine;
       if (best.has_value() && score <= best_score) continue;
       best = next;
@@ -165,9 +199,11 @@ class TipPlacer {
   }
 
   ThinSet& set_;
-  ExactRadius& radius_;
   const Volume& object_;
+  ExactRadius radius_;
+  ExactRadius firm_radius_;
   const PointSet& keep_;
+  PointTable<float> depths_;  // as far as they were asked for
   LatticePoint anchor_;
   LatticePoint aim_;                // the limb runs from the anchor to here
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
@@ -175,13 +211,22 @@ class TipPlacer {
 
 }  // namespace
 
-void PlaceTips(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep,
-               const exec::Context& context) {
-  TipPlacer placer(set, radius, object, keep);
-  for (LatticePoint end : set.Ends()) {
-    if (context.ShouldStop()) return;
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const DistanceField& field,
+                       const PointSet& keep, const exec::Context& context) {
+  const std::vector<LatticePoint> ends = set.Ends();
+  if (ends.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const ChangedVolume filled, FillPits(object, context));
+  const DistanceField unmeasured(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(),
+                                 0);
+  const ExactRadius radius(object, field);
+  TipPlacer placer(set, object, radius,
+                   filled.points_added == 0 ? radius : ExactRadius(filled.object, unmeasured),
+                   keep);
+  for (LatticePoint end : ends) {
+    if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);
   }
+  return absl::OkStatus();
 }
 
 }  // namespace bccskel

@@ -1,20 +1,24 @@
 #ifndef BCCSKEL_CORE_PRUNING_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
-#include "core/distance/exact_radius.h"
+#include "absl/status/status.h"
+#include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/pruning/thin_set.h"
+#include "core/volume/volume.h"
 
 namespace bccskel {
 
 // Cuts every branch back, or lets it grow, to where the ridge of the distances ends. Seen along the
 // limb the distance hardly changes on a ridge, falls ever faster toward a point, and by 1 per unit
 // into a round cap or off into the corner of a box: so the tip is the place with the largest sum of
-// the distance and 0.75 of the way along the limb.
+// the distance and 0.75 of the way along the limb. Distances are to the background without pits,
+// and no tip is put on a bump (FillPits(), Denoise()): a single point says nothing of the limb.
 // Points of `keep` are not cut off.
-// Errors: none; stops early when the context says so.
-void PlaceTips(ThinSet& set, ExactRadius& radius, const Volume& object, const PointSet& keep,
-               const exec::Context& context);
+// Needs:  `field` belongs to `object`.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const DistanceField& field,
+                       const PointSet& keep, const exec::Context& context);
 
 }  // namespace bccskel
 
