@@ -14,23 +14,24 @@ namespace bccskel {
 // In the unit of Context::WorkersFor(): workers meet once.
 inline constexpr size_t kBrickSumWork = 8;
 
-// The sum of term(worker, batch) over batches that make up 0..count-1, each worker taking one
-// contiguous share. When the context says stop, the rest is left out and the sum means nothing.
+// The sum of term(worker, batch) over batches that make up 0..count-1, in increasing order for
+// each worker. When the context says stop, the rest is left out and the sum means nothing.
 template <typename Term>
 int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   // A noisy brick costs up to 20 us, so a batch ends well within 20 ms.
-  constexpr size_t kBatch = 512;
+  constexpr size_t kBatch = 128;
   const int workers = context.WorkersFor(count, kBrickSumWork);
   std::vector<int64_t> sums(static_cast<size_t>(workers), 0);
+  exec::Portions portions(count, kBatch);
   const auto work = [&](int worker) {
-    const exec::Share share = exec::ShareOf(count, worker, workers);
     int64_t sum = 0;
-    for (size_t n = share.begin; n < share.end && !context.ShouldStop(); n += kBatch) {
-      sum += term(worker, exec::Share{n, std::min(share.end, n + kBatch)});
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end && !context.ShouldStop();
+         mine = portions.Take()) {
+      sum += term(worker, mine);
     }
     sums[static_cast<size_t>(worker)] = sum;
   };
-  context.Run(workers, work);
+  context.Offer(workers, work);
   return std::accumulate(sums.begin(), sums.end(), int64_t{0});
 }
 

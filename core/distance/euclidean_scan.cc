@@ -67,14 +67,15 @@ class EuclideanScan {
 
  private:
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
+  static constexpr size_t kScanWork = 16;  // in the unit of Context::WorkersFor()
   // Some steps more than to the end of a stack: see kBorderRows of the loops.
   static constexpr size_t kFartherThanStack = 16;
 
   // Hands out the items to the workers, who ask before every `at_once` of them whether to stop.
   template <typename Work>
-  static void Share(const exec::Context& context, size_t count, size_t at_once, Work work) {
+  void Share(const exec::Context& context, size_t count, size_t at_once, Work work) const {
     exec::Portions portions(count, at_once);
-    context.Run([&](int) {
+    context.Offer(context.WorkersFor(object_.brick_count(), kScanWork), [&](int) {
       for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
         if (context.ShouldStop()) return;
         for (size_t n = mine.begin; n < mine.end; ++n) work(n);

@@ -98,7 +98,7 @@ absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const Volume& 
   // In the unit of Context::WorkersFor(). In a Euclidean field radii are only looked up.
   const size_t work = field.kind() == DistanceKind::kEuclidean ? 1 : 32;
   exec::Portions portions(points.size(), 64);
-  context.Run(context.WorkersFor(points.size(), work), [&](int) {
+  context.Offer(context.WorkersFor(points.size(), work), [&](int) {
     ExactRadius radius = untouched;
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;

@@ -72,6 +72,15 @@ class Context {
     });
   }
 
+  // Work of which any worker can do all, such as taking Portions: whoever of the first `workers`
+  // comes in time takes part.
+  void Offer(int workers, const std::function<void(int)>& work) const {
+    if (workers == 1) return work(0);
+    team->Offer([&](int worker) {
+      if (worker < workers) work(worker);
+    });
+  }
+
   // Lends this thread where somebody wants it. Called where ShouldStop() is not asked for more than
   // about a millisecond.
   void Rest() const {

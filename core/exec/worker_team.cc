@@ -56,14 +56,37 @@ void WorkerTeam::Run(const std::function<void(int)>& work) {
     work(0);
     return;
   }
+  Begin(work, size_ - 1);
+  Try(work, 0);
+  AwaitOthers();
+}
+
+void WorkerTeam::Offer(const std::function<void(int)>& work) {
+  if (size_ == 1) {
+    work(0);
+    return;
+  }
+  Begin(work, 0);
+  Try(work, 0);
+  {
+    std::lock_guard lock(mutex_);
+    work_ = nullptr;
+  }
+  AwaitOthers();
+}
+
+void WorkerTeam::Begin(const std::function<void(int)>& work, int others) {
   {
     std::lock_guard lock(mutex_);
     work_ = &work;
-    running_ = size_ - 1;
+    running_ = others;
+    offered_ = others == 0;
     ++generation_;
   }
   wake_.notify_all();
-  Try(work, 0);
+}
+
+void WorkerTeam::AwaitOthers() {
   SpinUntil(static_cast<size_t>(size_), [this] { return running_ == 0; });
   std::unique_lock lock(mutex_);
   done_.wait(lock, [this] { return running_ == 0; });
@@ -89,6 +112,8 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
       if (!wake_.wait(lock, stop, [&] { return generation_ != seen; })) return;
       seen = generation_;
       work = work_;
+      if (work == nullptr) continue;
+      if (offered_) ++running_;
     }
     Try(*work, worker);
     std::lock_guard lock(mutex_);

@@ -33,7 +33,14 @@ class WorkerTeam {
   // that meets at a Barrier must see to it that the others come to an end (Barrier::Guard()).
   void Run(const std::function<void(int worker)>& work);
 
+  // The same for work of which any worker can do all, with those who come before worker 0 is done:
+  // nobody is waited for who has not begun, be it that waking takes long or that the processors
+  // are busy.
+  void Offer(const std::function<void(int worker)>& work);
+
  private:
+  void Begin(const std::function<void(int)>& work, int others);
+  void AwaitOthers();
   void Serve(std::stop_token stop, int worker);
   void Try(const std::function<void(int)>& work, int worker);
 
@@ -41,7 +48,8 @@ class WorkerTeam {
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::condition_variable done_;
-  const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_
+  const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_; null once withdrawn
+  bool offered_ = false;                            // guarded by mutex_; who comes counts itself
   std::atomic<uint64_t> generation_{0};             // changed under mutex_
   std::atomic<int> running_{0};                     // changed under mutex_
   std::exception_ptr thrown_;                       // guarded by mutex_; the first of a run

@@ -147,16 +147,18 @@ class StreamSlicer : public DistanceSink {
   std::vector<Shells::Range> ranges_;
 };
 
+constexpr size_t kSliceWork = 16;  // in the unit of Context::WorkersFor()
+
 Shells SliceAll(const Volume& object, const DistanceField& distance, double width,
                 const exec::Context& context) {
   const FieldSlicer slice(object, distance, width);
   PlanesOfBricks planes = PlanesFor(object);
   std::vector<Shells::Range> ranges(object.brick_count());
-  context.Run([&](int worker) {
-    const exec::Share share = exec::ShareOf(object.brick_count(), worker, context.threads());
-    for (size_t n = share.begin; n < share.end; ++n) {
-      if (n % 1024 == 0) context.Rest();
-      ranges[n] = slice(n, planes[n]);
+  exec::Portions portions(object.brick_count(), 64);
+  context.Offer(context.WorkersFor(object.brick_count(), kSliceWork), [&](int) {
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      context.Rest();
+      for (size_t n = mine.begin; n < mine.end; ++n) ranges[n] = slice(n, planes[n]);
     }
   });
   return Shells(std::move(planes), std::move(ranges));

@@ -175,6 +175,29 @@ TEST(Barrier, PartsThatArriveEarlyEndTogetherWhenOneThrows) {
   }
 }
 
+TEST(WorkerTeam, DoesWhatIsOfferedWithWhoeverComesAndTakesPartInTheNextRunWithAll) {
+  for (int size : TeamSizes()) {
+    WorkerTeam team(size);
+    std::atomic<int> running{0}, late{0};
+    std::vector<int> runs(static_cast<size_t>(size));
+    for (int n = 1; n <= 200; ++n) {
+      bool first = false;
+      running = 0;
+      team.Offer([&](int worker) {
+        ++running;
+        if (worker == 0) first = true;
+        --running;
+      });
+      late += running;  // who has begun is waited for
+      ASSERT_TRUE(first);
+      if (n % 3 == 0) team.Run([&](int worker) { ++runs[static_cast<size_t>(worker)]; });
+    }
+    EXPECT_EQ(late, 0) << size << " workers";
+    EXPECT_EQ(runs, std::vector<int>(runs.size(), 66));
+    EXPECT_THROW(team.Offer([](int) { throw std::bad_alloc(); }), std::bad_alloc);
+  }
+}
+
 TEST(Portions, HandOutEveryItemOnce) {
   for (size_t count : {size_t{0}, size_t{1}, size_t{64}, size_t{1000}}) {
     for (size_t at_once : {size_t{1}, size_t{7}, size_t{64}, size_t{5000}}) {
