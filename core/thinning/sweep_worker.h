@@ -1,0 +1,46 @@
+#ifndef BCCSKEL_CORE_THINNING_SWEEP_WORKER_H_
+#define BCCSKEL_CORE_THINNING_SWEEP_WORKER_H_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/exec/worker_team.h"
+#include "core/thinning/pass_rule.h"
+#include "core/thinning/unsettled.h"
+
+namespace bccskel {
+
+// Bricks that a worker looks at in one go, and its buffers for them.
+struct SweepPart {
+  exec::Share bricks = {0, 0};
+  BrickLists to_do;
+  BrickLists end_points_to_do;
+  BrickLists thin;   // bricks that may have end points
+  MarkBuffer marks;  // of this pass
+
+  bool empty() const { return bricks.begin == bricks.end; }
+};
+
+// One worker's bricks and buffers.
+struct alignas(128) SweepWorker {
+  exec::Share bricks = {0, 0};
+  // Its bricks near others' below and above, and those between.
+  std::array<SweepPart, 3> parts;
+  std::vector<BrickIndex> by_first_shell;  // own bricks in the order in which shells reach them
+  size_t reached = 0;                      // how many of them have been reached
+  std::vector<BrickIndex> opening;         // reached, and deeper points still to come
+
+  // Bricks of other workers that border on points removed here. Written while points are removed
+  // and read by their owners before the next marks.
+  std::vector<BrickIndex> seen_elsewhere;
+  // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
+  std::vector<BrickIndex> beside_sleepers_elsewhere;
+  uint64_t removed = 0;
+  std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_SWEEP_WORKER_H_
