@@ -78,7 +78,7 @@ class SectionScan {
  private:
   // In the unit of Context::WorkersFor(): workers that sweep meet once, others after each layer of
   // a slab, where they have nearly the same to do.
-  static constexpr size_t kSweepWork = 8, kLayerWork = 24;
+  static constexpr size_t kSweepWork = 8, kLayerWork = 8;
 
   size_t brick_count() const {
     size_t bricks = 0;

@@ -45,7 +45,7 @@ class Context {
 
   // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
   // more than this share of the time.
-  double patience = 0.5;
+  double patience = 0.2;
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
   // How many workers share `bricks` bricks; at least 1, at most threads(). `work` is what is done

@@ -118,7 +118,7 @@ class Patience {
   void Blocked(Barrier::Duration time) { blocked_ += time; }
   // More than its share of the time, and not just a hiccup, went into waiting.
   bool Lost() const {
-    constexpr auto kHiccup = std::chrono::milliseconds(1);
+    constexpr auto kHiccup = std::chrono::microseconds(300);
     return blocked_ - kHiccup > share_ * (Clock::now() - start_);
   }
 
