@@ -60,6 +60,7 @@ RadiusRange RadiusRangeOf(const SkeletonGraph& graph) {
   };
   for (const SkeletonNode& node : graph.nodes) include(node.at);
   for (const SkeletonPoint& p : graph.points) include(p);
+  for (const SkeletonPoint& p : graph.sheets) include(p);
   return range;
 }
 

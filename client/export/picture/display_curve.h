@@ -22,7 +22,7 @@ std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points);
 
 std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph);
 
-// The radii of a graph's points, nodes included; {0, 0} for an empty graph.
+// The radii of a graph's points, those of nodes and sheets included; {0, 0} for an empty graph.
 struct RadiusRange {
   double low;
   double high;

@@ -97,6 +97,31 @@ void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, double width) {
   svg.Add("</g>\n");
 }
 
+struct Dot {
+  PanelPoint at;
+  int color;
+};
+
+// The points of sheets, the nearest last. Dots of one color that follow each other are one path of
+// lines without length.
+void AddSheets(Text& svg, const SkeletonGraph& graph, const RadiusRange& radii,
+               const Projection& projection, double width) {
+  std::vector<Dot> dots;
+  for (const SkeletonPoint& p : graph.sheets) {
+    dots.push_back(
+        {projection.Project(graph.PositionOf(p)), RadiusColorIndex(graph.RadiusOf(p), radii)});
+  }
+  std::ranges::stable_sort(dots, {}, [](const Dot& dot) { return dot.at.depth; });
+  svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"", Rounded(width), "\">\n");
+  for (size_t n = 0; n < dots.size(); ++n) {
+    const bool starts = n == 0 || dots[n].color != dots[n - 1].color;
+    if (starts)
+      svg.Add(n == 0 ? "" : "\"/>\n", "<path stroke=\"", RadiusColor(dots[n].color), "\" d=\"");
+    svg.Add("M", Rounded(dots[n].at.x), ' ', Rounded(dots[n].at.y), "h0");
+  }
+  svg.Add(dots.empty() ? "" : "\"/>\n", "</g>\n");
+}
+
 std::string_view NodeStyle(NodeKind kind) {
   switch (kind) {
     case NodeKind::kEnd:
@@ -145,6 +170,8 @@ absl::Status AddPanel(Text& svg, const Subject& subject, const Scene& scene, con
           "\" href=\"data:image/png;base64,", EncodeBase64(png), "\"/>\n");
   const double boldness = panel.size.width > 500 ? 1 : 0.7;
   const bool dense = subject.result.graph.nodes.size() > 300;
+  AddSheets(svg, subject.result.graph, scene.radii, projection,
+            std::max(scene.point_spacing * projection.scale(), 1.0));
   AddStrokes(svg, StrokesFromBack(scene, projection), (dense ? 1.6 : 2.6) * boldness);
   AddNodes(svg, subject.result.graph, projection, (dense ? 1.8 : 3.6) * boldness);
   AddAxes(svg, view, panel.size);

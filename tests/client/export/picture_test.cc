@@ -126,6 +126,27 @@ TEST(PictureTest, EveryKindOfSkeletonHasOneThatNamesItsTopologyAndNeedsNoNetwork
   }
 }
 
+// A dot is a line without length.
+size_t DotsOf(const std::string& svg) {
+  size_t count = 0;
+  for (const std::string& line : LinesOf(svg)) {
+    if (!line.starts_with("<path stroke")) continue;
+    for (size_t at = line.find("h0"); at != std::string::npos; at = line.find("h0", at + 1)) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+TEST(PictureTest, ShowsEveryPointOfSheetsInEveryView) {
+  Sample box = SampleOf(Shape::kBox);
+  SkeletonizeOptions options;
+  options.thinning.kind = SkeletonKind::kSurface;
+  box.result = *Skeletonize(box.object, options, {});
+  ASSERT_GT(box.result.graph.sheets.size(), 20u);
+  EXPECT_EQ(DotsOf(*SvgText({box.result, box.object, ""})), 3 * box.result.graph.sheets.size());
+}
+
 TEST(PictureTest, AnEmptyObjectHasOne) {
   const Sample sample;
   EXPECT_THAT(*SvgText({sample.result, sample.object, ""}), HasSubstr("</svg>"));
