@@ -115,7 +115,7 @@ void DurableLedger::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult>
   }
   const auto held = std::make_shared<std::optional<JobResult>>(*std::move(result));
   files_.Post({.tenant = run->tenant()}, [this, run, held] {
-    absl::StatusOr<ResultRow> row = WriteResult(**held, run->tenant(), codec_, blobs_, quota_);
+    absl::StatusOr<ResultRow> row = WriteResult(**held, *run, codec_, blobs_, quota_);
     held->reset();  // its memory is admitted until here
     if (!row.ok()) row = WithDiskFault(row.status());
     loop_.Post([this, run, row = std::move(row)] { RunEnded(run.get(), row); });

@@ -45,7 +45,10 @@ void Run::FeedNext() {
   job_->Append(*std::move(bytes));
 }
 
-void Run::Cancel() { job_->Cancel(); }
+void Run::Cancel() {
+  cancelled_ = true;
+  job_->Cancel();
+}
 
 void Run::Fail(absl::Status status) {
   {

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_DURABLE_RUN_H_
 #define BCCSKEL_SERVER_DURABLE_RUN_H_
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -55,6 +56,8 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
 
   // Ends the run soon; OnRunEnd() comes all the same.
   void Cancel();
+  // Whether anybody did that: a result that has come in the meantime is not wanted any more.
+  bool cancelled() const { return cancelled_; }
   // The same, because its bytes cannot be had.
   void Fail(absl::Status status);
 
@@ -71,7 +74,8 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   RunObserver& observer_;
   const std::string tenant_;
   const Operations::Token operation_;
-  std::shared_ptr<Job> job_;         // set by Start()
+  std::shared_ptr<Job> job_;  // set by Start()
+  std::atomic<bool> cancelled_{false};
   TaskThreads* threads_ = nullptr;   // set by Feed()
   std::optional<CheckedFile> file_;  // used by one task at a time
 

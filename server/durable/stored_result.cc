@@ -52,13 +52,15 @@ class CountedWriter {
   std::string summary_;
 };
 
-absl::StatusOr<ResultRow> WriteFile(const JobResult& result, const std::string& tenant,
+absl::StatusOr<ResultRow> WriteFile(const JobResult& result, const Run& run,
                                     const std::string& file, const JobCodec& codec,
                                     const BlobStore& blobs, DiskQuota& quota) {
-  BCCSKEL_ASSIGN_OR_RETURN(ResultWriter opened, blobs.NewResult(tenant, file));
-  CountedWriter writer(std::move(opened), tenant, quota);
-  BCCSKEL_RETURN_IF_ERROR(
-      codec.WriteResult(result, [&](const ResultRecord& record) { return writer.Add(record); }));
+  BCCSKEL_ASSIGN_OR_RETURN(ResultWriter opened, blobs.NewResult(run.tenant(), file));
+  CountedWriter writer(std::move(opened), run.tenant(), quota);
+  const auto add = [&](const ResultRecord& record) {
+    return run.cancelled() ? absl::CancelledError("the run was cancelled") : writer.Add(record);
+  };
+  BCCSKEL_RETURN_IF_ERROR(codec.WriteResult(result, add));
   BCCSKEL_ASSIGN_OR_RETURN(ResultRow row, writer.Finish());
   row.file = file;
   return row;
@@ -91,12 +93,12 @@ class FileReader final : public ResultReader, public std::enable_shared_from_thi
 
 }  // namespace
 
-absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const std::string& tenant,
+absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
                                       const JobCodec& codec, const BlobStore& blobs,
                                       DiskQuota& quota) {
   const std::string file = RandomId();
-  absl::StatusOr<ResultRow> row = WriteFile(result, tenant, file, codec, blobs, quota);
-  if (!row.ok()) blobs.RemoveResult(tenant, file).IgnoreError();
+  absl::StatusOr<ResultRow> row = WriteFile(result, run, file, codec, blobs, quota);
+  if (!row.ok()) blobs.RemoveResult(run.tenant(), file).IgnoreError();
   return row;
 }
 

@@ -7,16 +7,17 @@
 #include "absl/status/statusor.h"
 #include "server/durable/job_codec.h"
 #include "server/durable/ledger.h"
+#include "server/durable/run.h"
 #include "server/jobs/task_threads.h"
 #include "server/store/blob_store.h"
 #include "server/store/disk_quota.h"
 
 namespace bccskel::server {
 
-// Writes the result's file and counts its bytes. What the row says of the key is left to the
-// caller. After an error there is no file.
-// Errors: RESOURCE_EXHAUSTED for quota and disk; the codec's.
-absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const std::string& tenant,
+// Writes the run's result into a file and counts its bytes. What the row says of the key is left to
+// the caller. After an error there is no file.
+// Errors: RESOURCE_EXHAUSTED for quota and disk; CANCELLED once the run is; the codec's.
+absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
                                       const JobCodec& codec, const BlobStore& blobs,
                                       DiskQuota& quota);
 // The opposite.
