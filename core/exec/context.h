@@ -39,8 +39,8 @@ class Context {
 
   // A directional pass gives a worker at least this many bricks: on smaller shares the workers
   // would spend more time waiting for each other, and for bricks in each other's caches, than
-  // thinning. Where it pays was found by measuring: from 4,000 bricks on two threads are never
-  // slower.
+  // thinning. Found by measuring: from 4,000 bricks on two threads were not slower where nothing
+  // else kept the processors busy.
   size_t min_bricks_per_worker = 2048;
 
   // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
