@@ -48,9 +48,10 @@ class SectionScan {
       : slabs_(section.slabs()), view_(section.View(weights, runs)), context_(context) {}
 
   void Rise() const {
-    const bool alone = context_.WorkersFor(brick_count(), kSweepWork) == 1;
-    if (!alone) SweepTogether();
-    LayerTeam team(WorkersFor(), context_);
+    const int sweepers = context_.WorkersFor(brick_count(), kSweepWork);
+    const bool alone = sweepers == 1;
+    if (!alone) SweepTogether(sweepers);
+    LayerTeam team(LayerWorkers(), context_);
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
         // A slab is still in the cache when it is raised.
@@ -62,7 +63,7 @@ class SectionScan {
   }
 
   void Fall(const OnFinal& on_final) const {
-    LayerTeam team(WorkersFor(), context_);
+    LayerTeam team(LayerWorkers(), context_);
     team.Run([&](int worker) {
       for (size_t s = slabs_.size(); s-- > 0;) {
         const BrickSlab& slab = slabs_[s];
@@ -76,8 +77,8 @@ class SectionScan {
   }
 
  private:
-  // In the unit of Context::WorkersFor(): workers that sweep meet once, others after each layer of
-  // a slab, where they have nearly the same to do.
+  // In the unit of Context::WorkersFor(): workers that sweep take whole slabs, others meet after
+  // each layer of a slab, where they have nearly the same to do.
   static constexpr size_t kSweepWork = 8, kLayerWork = 8;
 
   size_t brick_count() const {
@@ -85,15 +86,17 @@ class SectionScan {
     for (const BrickSlab& slab : slabs_) bricks += slab.size();
     return bricks;
   }
-  int WorkersFor() const {
-    return slabs_.empty() ? 1 : context_.WorkersFor(brick_count() / slabs_.size(), kLayerWork);
+  int LayerWorkers() const {
+    if (slabs_.empty()) return 1;
+    return context_.MeetingWorkersFor(brick_count() / slabs_.size(), kLayerWork);
   }
 
-  void SweepTogether() const {
-    context_.Run([&](int worker) {
-      const exec::Share mine = exec::ShareOf(slabs_.size(), worker, context_.threads());
-      for (size_t s = mine.begin; s < mine.end && !context_.ShouldStop(); ++s) {
-        SweepWithinLayers(view_, slabs_[s].first, slabs_[s].last);
+  void SweepTogether(int workers) const {
+    exec::Portions portions(slabs_.size(), 1);
+    context_.Offer(workers, [&](int) {
+      for (exec::Share next = portions.Take(); next.begin < next.end && !context_.ShouldStop();
+           next = portions.Take()) {
+        SweepWithinLayers(view_, slabs_[next.begin].first, slabs_[next.begin].last);
       }
     });
   }

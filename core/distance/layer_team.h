@@ -16,6 +16,7 @@ class LayerTeam {
   template <typename Part>
   void Run(Part part) {
     context_.Run(size_, [&](int worker) { barrier_.Guard([&] { part(worker); }); });
+    if (size_ > 1) patience_.Tell(context_.team->confidence());
   }
 
   // What a worker does of a layer that all share.

@@ -56,24 +56,23 @@ class Context {
     return static_cast<int>(shares < 1 ? 1 : (shares < most ? shares : most));
   }
 
-  // Runs `work(worker)` on every worker of the team.
-  void Run(const std::function<void(int)>& work) const {
-    if (team == nullptr) {
-      work(0);
-    } else {
-      team->Run(work);
-    }
+  // The same for workers that meet on their way, and so may have to wait for each other.
+  int MeetingWorkersFor(size_t bricks, size_t work = 1) const {
+    const int workers = WorkersFor(bricks, work);
+    return workers == 1 || !team->confidence().Holds() ? 1 : workers;
   }
-  // The same on the first `workers` of it; a single one does not wake the others.
+
+  // Runs `work(worker)` on the first `workers` of the team; a single one does not wake the others.
   void Run(int workers, const std::function<void(int)>& work) const {
     if (workers == 1) return work(0);
-    Run([&](int worker) {
+    team->Run([&](int worker) {
       if (worker < workers) work(worker);
     });
   }
 
   // Work of which any worker can do all, such as taking Portions: whoever of the first `workers`
   // comes in time takes part.
+  void Offer(const std::function<void(int)>& work) const { Offer(threads(), work); }
   void Offer(int workers, const std::function<void(int)>& work) const {
     if (workers == 1) return work(0);
     team->Offer([&](int worker) {

@@ -39,7 +39,20 @@ bool SpinUntil(size_t workers, Condition condition) {
   return false;
 }
 
+constexpr Confidence::Duration kLongestPause = std::chrono::milliseconds(3200);
+
 }  // namespace
+
+void Confidence::Lose(Duration waited) {
+  pause_ = std::min(std::max(2 * pause_, 12 * waited), kLongestPause);
+  together_ = {};
+  alone_until_ = Clock::now() + pause_;
+}
+
+void Confidence::Gain(Duration together) {
+  together_ += together;
+  if (together_ >= pause_) pause_ = {};
+}
 
 WorkerTeam::WorkerTeam(int size) : size_(size) {
   for (int worker = 1; worker < size_; ++worker) {

@@ -15,6 +15,27 @@
 
 namespace bccskel::exec {
 
+// Whether it pays to let the workers of a team meet. Once the others have kept worker 0 waiting,
+// since the machine had other work for their processors, it goes on alone for twelve times as long,
+// and for twice as long as before when trying again does no good: on a machine that stays busy
+// hardly any time is lost.
+class Confidence {
+ public:
+  using Duration = std::chrono::steady_clock::duration;
+
+  bool Holds() const { return Clock::now() >= alone_until_; }
+  void Lose(Duration waited);
+  // Workers met during this time, and it was no loss. What was before is forgotten once they have
+  // been together for as long as the last pause.
+  void Gain(Duration together);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point alone_until_ = {};
+  Duration pause_ = {};     // the last one, while it is remembered
+  Duration together_ = {};  // since then
+};
+
 // A fixed team of threads that run one function together. The caller is worker 0, so a team of one
 // owns no thread and serial is simply a size of one. Between runs threads look out for the next one
 // for some microseconds, since the stages of a job follow each other; then they block.
@@ -27,6 +48,9 @@ class WorkerTeam {
   WorkerTeam& operator=(const WorkerTeam&) = delete;
 
   int size() const { return size_; }
+
+  // Worker 0's, from stage to stage.
+  Confidence& confidence() { return confidence_; }
 
   // Calls `work(worker)` for worker = 0..size()-1 at the same time and returns when all are done.
   // What one of them throws, such as std::bad_alloc, is thrown again here once all are done; work
@@ -45,6 +69,7 @@ class WorkerTeam {
   void Try(const std::function<void(int)>& work, int worker);
 
   const int size_;
+  Confidence confidence_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::condition_variable done_;
@@ -116,17 +141,29 @@ class Patience {
   explicit Patience(double share) : share_(share) {}
 
   void Blocked(Barrier::Duration time) { blocked_ += time; }
-  // More than its share of the time, and not just a hiccup, went into waiting.
-  bool Lost() const {
+  // More than its share of the time, and not just a hiccup, went into waiting, now or before.
+  bool Lost() {
     constexpr auto kHiccup = std::chrono::microseconds(300);
-    return blocked_ - kHiccup > share_ * (Clock::now() - start_);
+    lost_ = lost_ || blocked_ - kHiccup > share_ * Elapsed();
+    return lost_;
+  }
+  // At the end.
+  void Tell(Confidence& confidence) {
+    if (Lost()) {
+      confidence.Lose(blocked_);
+    } else {
+      confidence.Gain(Elapsed());
+    }
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  Barrier::Duration Elapsed() const { return Clock::now() - start_; }
+
   double share_;
   Clock::time_point start_ = Clock::now();
   Barrier::Duration blocked_ = {};
+  bool lost_ = false;
 };
 
 // The half-open range of items that `worker` of `workers` owns when `count` items are split evenly.

@@ -120,7 +120,7 @@ absl::StatusOr<SparseImage> NearestEdges(const MaskGrid& grid, const LabeledObje
   const std::vector<RunIndex> components = ComponentsOfRuns(object.runs, adjacency);
   const ComponentPoints points(curve, components, grid.placement.spacing);
   NearestEdgeWork work(grid, object, points, context);
-  context.Run([&work](int) { work.Work(); });
+  context.Offer([&work](int) { work.Work(); });
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
   return work.Finish();
 }

@@ -70,7 +70,7 @@ class LabelWork {
 
   void RunSmall(size_t begin, size_t end) {
     std::atomic<size_t> next = begin;
-    context_.Run([&](int) {
+    context_.Offer([&](int) {
       for (size_t n = next++; n < end && RunOne(n, alone_); n = next++) {
       }
     });

@@ -14,8 +14,9 @@
 namespace bccskel {
 namespace {
 
-constexpr int kRings = 3;            // of samples from the curve to the rim of the disc
-constexpr double kLeastStep = 1;     // between samples, in lattice units
+constexpr int kRings = 3;         // of samples from the curve to the rim of the disc
+constexpr double kLeastStep = 1;  // between samples, in lattice units
+constexpr size_t kPointsAtOnce = 1024;
 constexpr size_t kPointWork = 16;    // in the unit of Context::WorkersFor()
 constexpr size_t kTangentReach = 2;  // points on either side that give the curve's way
 
@@ -110,15 +111,17 @@ void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, exec::Share mine
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph) {
   const int workers = context.WorkersFor(graph.points.size(), kPointWork);
-  context.Run(workers, [&](int worker) {
+  exec::Portions portions(graph.points.size(), kPointsAtOnce);
+  context.Offer(workers, [&](int) {
     DiscCenters centers(object, field);
     StopPoll poll(context);
-    const exec::Share mine = exec::ShareOf(graph.points.size(), worker, workers);
-    for (const SkeletonEdge& edge : graph.edges) {
-      if (edge.first_point >= mine.end || edge.first_point + edge.point_count <= mine.begin)
-        continue;
-      if (poll.StoppedNow()) return;
-      CenterEdge(centers, edge, mine, poll, graph);
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      for (const SkeletonEdge& edge : graph.edges) {
+        if (edge.first_point >= mine.end || edge.first_point + edge.point_count <= mine.begin)
+          continue;
+        if (poll.StoppedNow()) return;
+        CenterEdge(centers, edge, mine, poll, graph);
+      }
     }
   });
   return context.StopStatus();

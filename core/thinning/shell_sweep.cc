@@ -35,7 +35,7 @@ class ShellSweep {
         busy_groups_(groups()),
         enabled_(unsettled_.size()),
         changed_(unsettled_.size(), -1),
-        workers_(static_cast<size_t>(context.WorkersFor(state.brick_count(), rule.work()))),
+        workers_(static_cast<size_t>(context.MeetingWorkersFor(state.brick_count(), rule.work()))),
         barrier_(static_cast<int>(workers_.size())),
         points_at_start_(CountPoints(state.object)),
         patience_(context.patience) {
@@ -48,6 +48,7 @@ class ShellSweep {
   absl::StatusOr<SweepTotals> Run() {
     context_.Run(static_cast<int>(workers_.size()),
                  [this](int index) { barrier_.Guard([&] { Work(index); }); });
+    if (workers_.size() > 1) patience_.Tell(context_.team->confidence());
     if (stopped_) return context_.StopStatus();
     return SweepTotals{TotalRemoved(), passes_};
   }
@@ -66,7 +67,7 @@ class ShellSweep {
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
           if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
-        if (index == 0) alone_ = alone_ || patience_.Lost();
+        if (index == 0) alone_ = patience_.Lost();
         Meet(index);  // the new object is complete, and so are the sums
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;

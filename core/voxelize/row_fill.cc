@@ -262,7 +262,7 @@ absl::StatusOr<Volume> FillRows(const FillRequest& request, const SegmentRule& r
                                 const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckWork(request, rule));
   SlabFiller filler(request, rule, context);
-  context.Run([&filler](int) { filler.Work(); });
+  context.Offer([&filler](int) { filler.Work(); });
   return filler.Finish();
 }
 

@@ -143,7 +143,7 @@ absl::Status DrawObject(const Geometry& geometry, cairo_surface_t* image,
   const int height = cairo_image_surface_get_height(image);
   std::atomic<int> next = 0;
   cairo_surface_flush(image);
-  context.Run([&](int) {
+  context.Offer([&](int) {
     for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
       DrawBand(geometry, top, std::min(kBandRows, height - top), image);
     }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
@@ -18,7 +20,7 @@ TEST(Context, ByDefaultIsOneThreadThatNeverStopsAndTellsNobody) {
   EXPECT_TRUE(context.StopStatus().ok());
   context.Report({.shell = 1});
   std::vector<int> workers;
-  context.Run([&](int worker) { workers.push_back(worker); });
+  context.Run(context.threads(), [&](int worker) { workers.push_back(worker); });
   EXPECT_EQ(workers, std::vector<int>{0});
 }
 
@@ -28,7 +30,7 @@ TEST(Context, RunsOnItsTeam) {
   context.team = &team;
   EXPECT_EQ(context.threads(), 3);
   std::vector<int> ran(3);
-  context.Run([&](int worker) { ran[static_cast<size_t>(worker)] = 1; });
+  context.Run(3, [&](int worker) { ran[static_cast<size_t>(worker)] = 1; });
   EXPECT_EQ(ran, std::vector<int>(3, 1));
 }
 
@@ -85,6 +87,50 @@ TEST(Context, GivesAWorkerAtLeastTheLeastNumberOfBricks) {
   context.min_bricks_per_worker = 0;
   EXPECT_EQ(context.WorkersFor(0), 1);
   EXPECT_EQ(context.WorkersFor(3), 3);
+}
+
+// The clock has to pass, so times are short; what is compared are orders of them.
+TEST(Context, LetsNobodyMeetForAWhileAfterAMeetingTookLong) {
+  using std::chrono::milliseconds;
+  WorkerTeam team(2);
+  Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  EXPECT_EQ(context.MeetingWorkersFor(1), 1);
+  EXPECT_EQ(context.MeetingWorkersFor(100), 2);
+  const auto start = Context::Clock::now();
+  team.confidence().Lose(milliseconds(5));
+  EXPECT_EQ(context.WorkersFor(100), 2);
+  while (context.MeetingWorkersFor(100) == 1) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_GE(Context::Clock::now() - start, milliseconds(60));
+}
+
+TEST(Context, LetsNobodyMeetForTwiceAsLongWhileMeetingsGoOnTakingLong) {
+  using std::chrono::milliseconds;
+  const auto pause = [](Confidence& confidence, milliseconds waited) {
+    const auto start = Context::Clock::now();
+    confidence.Lose(waited);
+    while (!confidence.Holds()) std::this_thread::sleep_for(milliseconds(1));
+    return Context::Clock::now() - start;
+  };
+  Confidence confidence;
+  EXPECT_GE(pause(confidence, milliseconds(3)), milliseconds(36));
+  EXPECT_GE(pause(confidence, milliseconds(0)), milliseconds(72));
+  confidence.Gain(milliseconds(20));  // not as long as the pause
+  EXPECT_GE(pause(confidence, milliseconds(0)), milliseconds(144));
+  confidence.Gain(milliseconds(100));
+  confidence.Gain(milliseconds(100));
+  confidence.Lose(milliseconds(0));
+  EXPECT_TRUE(confidence.Holds());  // what was before is forgotten
+}
+
+TEST(Context, NeverLetsAWaitCostMoreThanSeconds) {
+  Confidence confidence;
+  confidence.Lose(std::chrono::hours(1));
+  EXPECT_FALSE(confidence.Holds());
+  const auto start = Context::Clock::now();
+  while (!confidence.Holds()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GE(Context::Clock::now() - start, std::chrono::milliseconds(3200));
 }
 
 TEST(InstructionSets, CanAllBeChosenAndTheEmptyNameMeansTheBest) {
