@@ -181,6 +181,9 @@ struct TopArguments {
 struct BenchServerArguments {
   CommonArguments common;
   ServerArguments server;
+  std::string shape = "ball";  // one of kBenchObjects
+  ThinningMethod method = ThinningMethod::kSymmetric;
+  std::optional<DistanceKind> distance;  // none: as for BenchCoreArguments
   std::vector<int> clients = {1, 2, 4, 8};
   std::vector<uint64_t> points = {10'000, 850'000};
   VolumeEncoding encoding = VolumeEncoding::kRawPlanes;

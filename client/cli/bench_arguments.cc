@@ -23,8 +23,7 @@ std::vector<std::pair<std::string, std::string>> Themselves(const Names& names) 
 }
 
 void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
-  CLI::Option* shape = AddChoice<std::string>(
-      core, "--shape", arguments.shape, "What to thin (default ball)", Themselves(kBenchObjects));
+  CLI::Option* shape = AddBenchShape(core, arguments.shape, "What to thin (default ball)");
   core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
       ->excludes(shape)
       ->option_text("FILE");
@@ -42,12 +41,7 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
   AddChoice<std::string>(core, "--isa", arguments.instruction_set,
                          "Instruction set (default the first)",
                          Themselves(exec::SupportedInstructionSets()));
-  AddChoice<ThinningMethod>(core, "--method", arguments.method, "How to thin (default directional)",
-                            Choices(kMethodWords));
-  AddChoice<DistanceKind>(
-      core, "--distance", [&arguments](DistanceKind distance) { arguments.distance = distance; },
-      "How distances are measured (default chamfer; with symmetric euclidean)",
-      Choices(kDistanceWords));
+  AddBenchMethod(core, arguments.method, arguments.distance, "How to thin (default directional)");
 }
 
 }  // namespace
@@ -67,6 +61,19 @@ CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
       "--json", [&arguments] { arguments.common.summary = SummaryStyle::kJson; },
       "Print the summary as one JSON object");
   return bench;
+}
+
+CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description) {
+  return AddChoice<std::string>(command, "--shape", shape, description, Themselves(kBenchObjects));
+}
+
+void AddBenchMethod(CLI::App& command, ThinningMethod& method,
+                    std::optional<DistanceKind>& distance, const char* description) {
+  AddChoice<ThinningMethod>(command, "--method", method, description, Choices(kMethodWords));
+  AddChoice<DistanceKind>(
+      command, "--distance", [&distance](DistanceKind chosen) { distance = chosen; },
+      "How distances are measured (default with symmetric euclidean, otherwise chamfer)",
+      Choices(kDistanceWords));
 }
 
 }  // namespace bccskel::cli

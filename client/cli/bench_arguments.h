@@ -1,16 +1,25 @@
 #ifndef BCCSKEL_CLIENT_CLI_BENCH_ARGUMENTS_H_
 #define BCCSKEL_CLIENT_CLI_BENCH_ARGUMENTS_H_
 
+#include <optional>
+#include <string>
+
 #include "client/cli/arguments.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace bccskel::cli {
 
 // Adds `bench core` to the command line and returns `bench`.
 CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments);
+
+// What all benchmarks take.
+CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
+void AddBenchMethod(CLI::App& command, ThinningMethod& method,
+                    std::optional<DistanceKind>& distance, const char* description);
 
 }  // namespace bccskel::cli
 

@@ -42,6 +42,12 @@ struct CoreMeasurement {
   std::string sha256;  // of the skeleton
 };
 
+// Those of the paper for its method unless others are given.
+inline DistanceKind DistanceFor(ThinningMethod method, std::optional<DistanceKind> given) {
+  const bool symmetric = method == ThinningMethod::kSymmetric;
+  return given.value_or(symmetric ? DistanceKind::kEuclidean : DistanceKind::kChamfer);
+}
+
 // One cold run and `repeat` warm ones. A tiny object goes first, so that the cold run does not have
 // to load the program's code.
 // Needs:  repeat >= 1.

@@ -31,12 +31,6 @@ std::string NameOf(const BenchCoreArguments& arguments) {
   return arguments.object.empty() ? arguments.shape : std::string(FileName(arguments.object));
 }
 
-// The paper's method with the paper's distances.
-DistanceKind DistanceOf(const BenchCoreArguments& arguments) {
-  const bool symmetric = arguments.method == ThinningMethod::kSymmetric;
-  return arguments.distance.value_or(symmetric ? DistanceKind::kEuclidean : DistanceKind::kChamfer);
-}
-
 // What is timed, in milliseconds.
 struct Figure {
   const char* name;
@@ -80,8 +74,8 @@ std::string Json(const BenchCoreArguments& arguments, int threads,
   const double ns = NanosecondsPerPoint(measured);
   Text text;
   text.Add("{\"method\":\"", WordFor(kMethodWords, arguments.method), "\",\"distance\":\"",
-           WordFor(kDistanceWords, DistanceOf(arguments)), "\",\"isa\":\"",
-           exec::ChosenInstructionSet(), "\",\"threads\":", threads,
+           WordFor(kDistanceWords, DistanceFor(arguments.method, arguments.distance)),
+           "\",\"isa\":\"", exec::ChosenInstructionSet(), "\",\"threads\":", threads,
            ",\"shape\":", JsonString(NameOf(arguments)), ",\"points\":", measured.points,
            ",\"bricks\":", measured.bricks, ",\"repeat\":", arguments.repeat);
   text.Add(",\"ns_per_point\":", SpreadJson(WarmSpread(measured, kCore.of, ns)),
@@ -132,9 +126,9 @@ std::string Summary(const BenchCoreArguments& arguments, int threads,
   text.Add("object:      ", NameOf(arguments), ", ", GroupedDigits(measured.points), " points in ",
            GroupedDigits(measured.bricks), " bricks\n");
   text.Add("engine:      ", WordFor(kMethodWords, arguments.method), ", ",
-           WordFor(kDistanceWords, DistanceOf(arguments)), " distances, ",
-           exec::ChosenInstructionSet(), ", ", threads, threads == 1 ? " thread, " : " threads, ",
-           arguments.repeat, " warm runs\n\n");
+           WordFor(kDistanceWords, DistanceFor(arguments.method, arguments.distance)),
+           " distances, ", exec::ChosenInstructionSet(), ", ", threads,
+           threads == 1 ? " thread, " : " threads, ", arguments.repeat, " warm runs\n\n");
   text.Add(Table(measured), "\npeak memory: ", PeakText(measured),
            "\nsha256:      ", measured.sha256, '\n');
   return std::move(text).Take();
@@ -147,8 +141,9 @@ ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Volume> object = ObjectOf(arguments, team.context());
   if (!object.ok()) return Fail(object.status());
-  const SkeletonizeOptions options = {.thinning = {.method = arguments.method},
-                                      .distance = DistanceOf(arguments)};
+  const SkeletonizeOptions options = {
+      .thinning = {.method = arguments.method},
+      .distance = DistanceFor(arguments.method, arguments.distance)};
   const auto measured = MeasureCore(*object, options, arguments.repeat, team.context());
   if (!measured.ok()) return Fail(measured.status());
   const int threads = team.context().threads();

@@ -26,13 +26,14 @@ struct Share {
 class Client {
  public:
   Client(std::unique_ptr<client::Stub> stub, const client::EncodedVolume& volume,
-         const std::stop_token& stop)
-      : stub_(std::move(stub)), volume_(volume), stop_(stop) {}
+         const SkeletonizeOptions& skeletonize, const std::stop_token& stop)
+      : stub_(std::move(stub)), volume_(volume), skeletonize_(skeletonize), stop_(stop) {}
 
   // Errors: see MeasureServer(); CANCELLED.
   absl::Status CallOnce() {
     ServedCall call;
     client::CallOptions options;
+    options.skeletonize = skeletonize_;
     options.stop = stop_;
     options.on_times = [&call](const client::CallTimes& times) { call.way = times; };
     const auto deadline = client::Stub::Clock::now() + options.timeout;
@@ -61,12 +62,14 @@ class Client {
  private:
   const std::unique_ptr<client::Stub> stub_;
   const client::EncodedVolume& volume_;
+  const SkeletonizeOptions& skeletonize_;
   const std::stop_token stop_;
   Share share_;
 };
 
 absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpoint& endpoint,
                                                              const client::EncodedVolume& volume,
+                                                             const SkeletonizeOptions& options,
                                                              int clients,
                                                              const std::stop_token& stop) {
   client::Endpoint alone = endpoint;
@@ -74,7 +77,7 @@ absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpo
   std::vector<std::unique_ptr<Client>> all;
   for (int n = 0; n < clients; ++n) {
     BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(alone));
-    all.push_back(std::make_unique<Client>(std::move(stub), volume, stop));
+    all.push_back(std::make_unique<Client>(std::move(stub), volume, options, stop));
     BCCSKEL_RETURN_IF_ERROR(all.back()->CallOnce());
     all.back()->share() = Share();
   }
@@ -114,10 +117,11 @@ std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double sh
 }
 
 absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
-                                                const client::EncodedVolume& volume, int clients,
+                                                const client::EncodedVolume& volume,
+                                                const SkeletonizeOptions& options, int clients,
                                                 milliseconds duration,
                                                 const std::stop_token& stop) {
-  BCCSKEL_ASSIGN_OR_RETURN(auto all, Connect(endpoint, volume, clients, stop));
+  BCCSKEL_ASSIGN_OR_RETURN(auto all, Connect(endpoint, volume, options, clients, stop));
   const Clock::time_point start = Clock::now();
   {
     std::vector<std::jthread> threads;

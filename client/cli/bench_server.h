@@ -11,6 +11,7 @@
 #include "client/call_options.h"
 #include "client/encoded_volume.h"
 #include "client/endpoint.h"
+#include "core/pipeline/skeletonize.h"
 #include "core/pipeline/stage_timings.h"
 
 namespace bccskel::cli {
@@ -48,11 +49,12 @@ std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeS
 // The latency that `share` of the calls did not exceed, 0 to 1. Needs: a call.
 std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share);
 
-// Each client has its own connection and sends `volume` again as soon as it has the skeleton. What
-// comes back is checked as always. A first call of each is not counted.
-// Errors: of the first call that fails otherwise than by UNAVAILABLE with a delay.
+// Each client has its own connection and sends `volume` with `options` again as soon as it has the
+// skeleton. What comes back is checked as always. A first call of each is not counted. Errors: of
+// the first call that fails otherwise than by UNAVAILABLE with a delay.
 absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
-                                                const client::EncodedVolume& volume, int clients,
+                                                const client::EncodedVolume& volume,
+                                                const SkeletonizeOptions& options, int clients,
                                                 std::chrono::milliseconds duration,
                                                 const std::stop_token& stop);
 

@@ -6,6 +6,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "client/cli/bench_core.h"
+#include "client/cli/bench_objects.h"
 #include "client/cli/bench_server.h"
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
@@ -13,7 +15,6 @@
 #include "client/cli/server_arguments.h"
 #include "client/encoded_volume.h"
 #include "core/exec/status_macros.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::cli {
 namespace {
@@ -30,17 +31,24 @@ double PointsPerSecond(const ServerMeasurement& measured) {
   return CallsPerSecond(measured) * static_cast<double>(measured.points);
 }
 
+// A call in the middle and the encoding before it, by points.
+double NanosecondsPerPoint(const ServerMeasurement& measured) {
+  const auto time = measured.encode + Percentile(measured, 0.5);
+  return static_cast<double>(time.count()) / static_cast<double>(measured.points);
+}
+
 std::string Row(const ServerMeasurement& measured) {
   const auto ms = [&](double share) { return Milliseconds(Percentile(measured, share)); };
-  return absl::StrFormat("%8d%10d%9d%9d%10.1f%10.2f%9.2f%9.2f%9.2f%9.2f\n", measured.clients,
+  return absl::StrFormat("%8d%10d%9d%9d%10.1f%10.2f%9.2f%9.2f%9.2f%9.2f%10.2f\n", measured.clients,
                          measured.points, measured.calls.size(), measured.refused,
                          CallsPerSecond(measured), PointsPerSecond(measured) / 1e6, ms(0.5),
-                         ms(0.9), ms(0.99), ms(1));
+                         ms(0.9), ms(0.99), ms(1), NanosecondsPerPoint(measured));
 }
 
 std::string Heading() {
-  return absl::StrFormat("%8s%10s%9s%9s%10s%10s%9s%9s%9s%9s\n", "clients", "points", "calls",
-                         "refused", "calls/s", "Mpts/s", "p50 ms", "p90 ms", "p99 ms", "max ms");
+  return absl::StrFormat("%8s%10s%9s%9s%10s%10s%9s%9s%9s%9s%10s\n", "clients", "points", "calls",
+                         "refused", "calls/s", "Mpts/s", "p50 ms", "p90 ms", "p99 ms", "max ms",
+                         "ns/point");
 }
 
 // What a call's time consists of, a column for each measurement.
@@ -75,11 +83,11 @@ std::string Json(const ServerMeasurement& measured) {
   const auto ms = [&](double share) { return Milliseconds(Percentile(measured, share)); };
   return absl::StrFormat(
       R"({"clients":%d,"points":%d,"volume_bytes":%d,"seconds":%.3f,"calls":%d,"refused":%d,)"
-      R"("calls_per_second":%.3f,"points_per_second":%.0f,)"
+      R"("calls_per_second":%.3f,"points_per_second":%.0f,"ns_per_point":%.3f,)"
       R"("latency_ms":{"p50":%.4f,"p90":%.4f,"p99":%.4f,"max":%.4f},"median_ms":%s})",
       measured.clients, measured.points, measured.volume_bytes, measured.seconds,
       measured.calls.size(), measured.refused, CallsPerSecond(measured), PointsPerSecond(measured),
-      ms(0.5), ms(0.9), ms(0.99), ms(1), SharesJson(measured));
+      NanosecondsPerPoint(measured), ms(0.5), ms(0.9), ms(0.99), ms(1), SharesJson(measured));
 }
 
 // The best of a few runs, as the calls are warm, too.
@@ -102,13 +110,17 @@ absl::StatusOr<client::EncodedVolume> EncodeInTime(const Volume& volume, VolumeE
 absl::Status MeasureSize(const BenchServerArguments& arguments, const client::Endpoint& endpoint,
                          uint64_t points, const std::stop_token& stop,
                          std::vector<ServerMeasurement>& all) {
-  BCCSKEL_ASSIGN_OR_RETURN(const Volume volume, GenerateShape(Shape::kBall, {.points = points}));
+  BCCSKEL_ASSIGN_OR_RETURN(const Volume volume, MakeBenchObject(arguments.shape, points));
   std::chrono::nanoseconds encode{0};
   BCCSKEL_ASSIGN_OR_RETURN(const client::EncodedVolume encoded,
                            EncodeInTime(volume, arguments.encoding, stop, encode));
+  SkeletonizeOptions options;
+  options.thinning.method = arguments.method;
+  options.distance = DistanceFor(arguments.method, arguments.distance);
   for (const int clients : arguments.clients) {
-    BCCSKEL_ASSIGN_OR_RETURN(ServerMeasurement measured,
-                             MeasureServer(endpoint, encoded, clients, arguments.duration, stop));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ServerMeasurement measured,
+        MeasureServer(endpoint, encoded, options, clients, arguments.duration, stop));
     measured.points = volume.PointCount();
     measured.encode = encode;
     all.push_back(std::move(measured));

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 
+#include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/server_arguments.h"
 #include "core/shapes/shapes.h"
@@ -63,12 +64,12 @@ CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->option_text("N,...");
-  command
-      .add_option("--points", arguments.points,
-                  "Points of the volume, a ball (default 10000,850000)")
+  command.add_option("--points", arguments.points, "Points of the volume (default 10000,850000)")
       ->delimiter(',')
       ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
       ->option_text("N,...");
+  AddBenchShape(command, arguments.shape, "What the volume is (default ball)");
+  AddBenchMethod(command, arguments.method, arguments.distance, "How to thin (default symmetric)");
   AddChoice<VolumeEncoding>(command, "--encoding", arguments.encoding,
                             "How volumes travel (default raw)",
                             {{"raw", VolumeEncoding::kRawPlanes},

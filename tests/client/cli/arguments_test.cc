@@ -374,6 +374,13 @@ TEST(ArgumentsTest, BenchServerTakesListsAndRefusesWhatIsOutOfBounds) {
   EXPECT_THAT(arguments.points, ElementsAre(5000u, 90000u));
   EXPECT_EQ(arguments.encoding, VolumeEncoding::kBricks);
   EXPECT_EQ(arguments.duration, std::chrono::milliseconds(500));
+  EXPECT_EQ(arguments.shape, "ball");
+  EXPECT_EQ(arguments.method, ThinningMethod::kSymmetric);
+  const auto chosen = Parse({"bench", "server", "--shape", "horse", "--method", "directional"})
+                          .as<BenchServerArguments>();
+  EXPECT_EQ(chosen.shape, "horse");
+  EXPECT_EQ(chosen.method, ThinningMethod::kDirectional);
+  EXPECT_FALSE(chosen.distance.has_value());
   for (const char* clients : {"0", "1025", "many"}) {
     EXPECT_EQ(Parse({"bench", "server", "--clients", clients}).code(), ExitCode::kUsage);
   }

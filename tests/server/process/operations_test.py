@@ -297,6 +297,22 @@ class CommandsTest(unittest.TestCase):
             self.assertLessEqual({"encode", "upload", "decode", "thinning", "download"}, set(shares))
             self.assertGreater(shares["thinning"], 0)
             self.assertLess(shares["thinning"], row["latency_ms"]["max"])
+            self.assertAlmostEqual(row["ns_per_point"],
+                                   1e6 * (shares["encode"] + row["latency_ms"]["p50"]) / row["points"],
+                                   delta=0.01 * row["ns_per_point"])
+
+    def test_bench_server_measures_other_shapes_and_methods(self):
+        with ServerProcess() as server:
+            cleaned = []
+            for method in "directional", "symmetric":
+                ended = command("bench", "server", "--server", server.address, "--clients", "1",
+                                "--points", "5000", "--seconds", "0.2", "--json",
+                                "--shape", "horse", "--method", method)
+                self.assertEqual(ended.returncode, 0, ended.stderr)
+                cleaned.append(json.loads(ended.stdout)["measured"][0]["median_ms"]["cleanup"])
+        # Directional passes leave something to clean up.
+        self.assertGreater(cleaned[0], 0)
+        self.assertEqual(cleaned[1], 0)
 
     def test_every_command_with_a_server_takes_a_token_from_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
