@@ -31,8 +31,7 @@ class UploadCall {
   // Errors: the server's; DATA_LOSS; those of Take(), which cancel the call.
   absl::Status Converse(const Request& config, const std::string& bytes) {
     // A write that fails means that the call has ended; Finish() knows why.
-    const bool sent =
-        stream_.Write(config) && ReadAccepted() && SendVolume(bytes) && stream_.WritesDone();
+    const bool sent = stream_.Write(config) && ReadAccepted() && SendVolume(bytes);
     sent_at_ = Clock::now();
     if (sent) ReadReplies();
     const grpc::Status ended = stream_.Finish();
@@ -69,12 +68,13 @@ class UploadCall {
     for (size_t offset = 0; offset < bytes.size() && chunk_bytes_ > 0; offset += chunk_bytes_) {
       request.mutable_chunk()->set_offset(offset);
       request.mutable_chunk()->set_data(bytes.substr(offset, chunk_bytes_));
-      if (!stream_.Write(request)) return false;
+      // Something follows at once: small volumes go in one write to the socket.
+      if (!stream_.Write(request, grpc::WriteOptions().set_buffer_hint())) return false;
     }
     const Sha256Digest digest = Sha256Of(bytes);
     request.mutable_finish()->set_size_bytes(bytes.size());
     request.mutable_finish()->set_sha256(digest.bytes.data(), digest.bytes.size());
-    return stream_.Write(request);
+    return stream_.Write(request, grpc::WriteOptions().set_last_message());
   }
 
   void ReadReplies() {

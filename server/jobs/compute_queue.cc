@@ -43,7 +43,7 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
     std::lock_guard lock(mutex_);
     entry = queue_.Push(claim.origin, now_(),
                         {claim.origin.tenant, claim.most_threads, claim.bricks, std::move(work)});
-    NoteWaiting();
+    if (claim.most_threads == 1) least_waiting_ = std::min<uint64_t>(least_waiting_, claim.bricks);
   }
   wake_.notify_one();
   return entry;
@@ -51,9 +51,7 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
 
 ComputeQueue::Removal ComputeQueue::Remove(Entry entry) {
   std::lock_guard lock(mutex_);
-  const bool removed = queue_.Remove(entry);
-  NoteWaiting();
-  return removed ? Removal::kRemoved : Removal::kNotWaiting;
+  return queue_.Remove(entry) ? Removal::kRemoved : Removal::kNotWaiting;
 }
 
 void ComputeQueue::SetTenants(const TenantTable& tenants) {
@@ -77,7 +75,6 @@ void ComputeQueue::Serve(std::stop_token stop) {
   while (wake_.wait(lock, stop, [this] { return free_threads_ > 0 && queue_.Has(); })) {
     if (stop.stop_requested()) return;
     Taken next = *queue_.Take();
-    NoteWaiting();
     const int threads = std::min(next.item.most_threads, free_threads_);
     free_threads_ -= threads;
     ++running_;
@@ -107,12 +104,22 @@ std::optional<ComputeQueue::Taken> ComputeQueue::TakeSmaller(const Turn& turn) {
     const auto found = turn.not_before_.find(waiting.tenant);
     return found == turn.not_before_.end() || now >= found->second;
   });
-  NoteWaiting();
+  if (!next.has_value()) FindLeastWaiting();
   return next;
 }
 
+// Those that were taken or removed since have left it too low.
+void ComputeQueue::FindLeastWaiting() {
+  uint64_t least = kNoBricks;
+  queue_.ForEach([&least](const Waiting& waiting) {
+    if (waiting.most_threads == 1) least = std::min(least, waiting.bricks);
+  });
+  least_waiting_ = least;
+}
+
 void ComputeQueue::Turn::GiveWay() {
-  if (queue_.waiting_ == 0 || std::this_thread::get_id() != thread_) return;
+  if (queue_.least_waiting_ > bricks_ / kTimesSmaller) return;
+  if (std::this_thread::get_id() != thread_) return;
   std::optional<Taken> next = queue_.TakeSmaller(*this);
   if (!next.has_value()) return;
   const std::string tenant = next->tenant;

@@ -75,17 +75,20 @@ class ComputeQueue {
   };
   using Taken = FairQueue<Waiting>::Taken;
 
+  static constexpr uint64_t kNoBricks = UINT64_MAX;
+
   void Serve(std::stop_token stop);
   void Run(Taken taken, int threads);
   std::optional<Taken> TakeSmaller(const Turn& turn);
-  void NoteWaiting() { waiting_ = static_cast<int>(queue_.size()); }  // needs: mutex_ held
+  void FindLeastWaiting();  // needs: mutex_ held
 
   const int threads_;
   const std::function<Clock::time_point()> now_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
-  FairQueue<Waiting> queue_;           // guarded by mutex_
-  std::atomic<int> waiting_ = 0;       // items in queue_
+  FairQueue<Waiting> queue_;  // guarded by mutex_
+  // No job in queue_ that takes one thread has fewer bricks. Changed with mutex_ held.
+  std::atomic<uint64_t> least_waiting_ = kNoBricks;
   int running_ = 0;                    // guarded by mutex_
   int free_threads_;                   // guarded by mutex_
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
@@ -97,7 +100,7 @@ class ComputeQueue::Turn {
   int threads() const { return threads_; }
 
   // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
-  // may be run in between. Costs next to nothing where none wait.
+  // may be run in between. Costs next to nothing where none wait that are small enough.
   void GiveWay();
 
  private:

@@ -68,6 +68,14 @@ class FairQueue {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
 
+  // Of all that wait, whoever is at work.
+  template <typename Visit>
+  void ForEach(Visit visit) const {
+    for (const auto& [name, tenant] : tenants_) {
+      for (const auto& [rank, item] : tenant.waiting) visit(item);
+    }
+  }
+
   // Whether Take() would give something.
   template <typename Fits>
   bool Has(Fits fits) const {

@@ -29,9 +29,10 @@ class LabelsOutbox {
 
   // The labels' summary has been handed out: nothing will come any more.
   bool AtEnd() const { return at_end_; }
-  // A piece of a label, on which another one follows.
-  static bool IsPiece(const v1::SkeletonizeLabelsResponse& response) {
-    return response.has_skeleton_chunk();
+  // Next() has another one at once.
+  bool HasMore() const {
+    return accepted_.has_value() || progress_.has_value() || !labels_.empty() ||
+           (result_.has_value() && !at_end_);
   }
 
  private:

@@ -31,6 +31,11 @@ class ResponseOutbox {
 
   // The summary has been handed out: nothing will come any more.
   bool AtEnd() const { return stage_ == Stage::kEnd; }
+  // Next() has another one at once.
+  bool HasMore() const {
+    return accepted_.has_value() || progress_.has_value() || !shell_points_.empty() ||
+           (stage_ != Stage::kJob && stage_ != Stage::kEnd);
+  }
   // A piece of the result, on which another one follows.
   static bool IsPiece(const v1::SkeletonizeResponse& response) {
     return response.has_skeleton_chunk() || response.has_thin_volume_chunk() ||

@@ -61,7 +61,8 @@ class VolumeStream
   void OnEnd(absl::StatusOr<Result> result) override;
 
  protected:
-  // The newest progress goes out at once or, within 1 ms of the one before, with what comes next.
+  // The newest progress goes out, or, within kProgressInterval of the one before or the beginning,
+  // with what comes next.
   // `elapsed` since the computation began.
   template <typename Progress>
   void Report(Progress progress, std::chrono::nanoseconds elapsed);
@@ -91,6 +92,10 @@ class VolumeStream
   // Writes the next response or finishes the call, if it is time. Needs: mutex_ held.
   void Advance();
 
+  // Every reply costs about 30 us on either side; a small object has dozens of shells in a
+  // millisecond. The newest progress is always sent.
+  static constexpr std::chrono::milliseconds kProgressInterval{1};
+
   JobRunner& runner_;
   const VolumeLimits limits_;
   const CallFacts facts_;
@@ -101,14 +106,15 @@ class VolumeStream
   RequestSequence sequence_;
 
   std::mutex mutex_;
-  std::shared_ptr<Job> job_;                   // guarded by mutex_
-  typename Call::Outbox outbox_;               // guarded by mutex_
-  Response response_;                          // of the write in flight
-  bool writing_ = false;                       // guarded by mutex_
-  std::chrono::nanoseconds next_progress_{0};  // guarded by mutex_; since the computation began
-  std::optional<absl::Status> error_;          // guarded by mutex_
-  bool half_closed_ = false;                   // guarded by mutex_: before the finish
-  bool finished_ = false;                      // guarded by mutex_: Finish() was called
+  std::shared_ptr<Job> job_;      // guarded by mutex_
+  typename Call::Outbox outbox_;  // guarded by mutex_
+  Response response_;             // of the write in flight
+  bool writing_ = false;          // guarded by mutex_
+  // Since the computation began; guarded by mutex_.
+  std::chrono::nanoseconds next_progress_ = kProgressInterval;
+  std::optional<absl::Status> error_;  // guarded by mutex_
+  bool half_closed_ = false;           // guarded by mutex_: before the finish
+  bool finished_ = false;              // guarded by mutex_: Finish() was called
 };
 
 template <typename Call>
@@ -192,9 +198,6 @@ void VolumeStream<Call>::OnWriteDone(bool ok) {
 template <typename Call>
 template <typename Progress>
 void VolumeStream<Call>::Report(Progress progress, std::chrono::nanoseconds elapsed) {
-  // Every reply costs about 30 us on either side; a small object has dozens of shells in a
-  // millisecond. The newest progress is always sent.
-  constexpr std::chrono::milliseconds kProgressInterval(1);
   std::lock_guard lock(mutex_);
   outbox_.Report(std::move(progress));
   if (elapsed < next_progress_) return;  // goes with whatever comes next
@@ -237,8 +240,8 @@ void VolumeStream<Call>::Advance() {
     return this->StartWriteAndFinish(&response_, grpc::WriteOptions(), grpc::Status::OK);
   }
   grpc::WriteOptions options;
-  // More of the result follows at once, so gRPC may send it together.
-  if (Call::Outbox::IsPiece(response_)) options.set_buffer_hint();
+  // What follows at once goes with it in one write to the socket.
+  if (outbox_.HasMore()) options.set_buffer_hint();
   this->StartWrite(&response_, options);
 }
 

@@ -201,6 +201,22 @@ TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
   EXPECT_EQ(order_, "|ab");
 }
 
+TEST_F(GivingWay, ToSmallJobsThatComeAfterOthersWereTooLarge) {
+  RunLarge([this](Turn& turn) {
+    PostSmall("l", kLargeBricks);
+    turn.GiveWay();
+    PostSmall("s");
+    turn.GiveWay();
+    order_ += "|";
+    now_ms_ += kSmallMs;
+    turn.GiveWay();  // nobody is left, which is noticed here
+    PostSmall("t");
+    turn.GiveWay();
+    order_ += "|";
+  });
+  EXPECT_EQ(order_, "s|t|l");
+}
+
 TEST_F(GivingWay, OnlyOnTheThreadOfTheJob) {
   RunLarge([this](Turn& turn) {
     PostSmall("s");

@@ -70,5 +70,27 @@ TEST(ResponseOutbox, CutsTheResultOnePieceAtATime) {
   EXPECT_TRUE(outbox.AtEnd());
 }
 
+// A write that waits for another one that does not come would never be sent.
+TEST(ResponseOutbox, HasMoreExactlyWhenTheNextResponseIsThere) {
+  ResponseOutbox outbox;
+  const auto expect_truth = [&](int responses) {
+    for (int n = 0; n < responses; ++n) {
+      EXPECT_TRUE(outbox.HasMore());
+      ASSERT_TRUE(outbox.Next().has_value());
+    }
+    EXPECT_FALSE(outbox.HasMore());
+    EXPECT_FALSE(outbox.Next().has_value());
+  };
+  expect_truth(0);
+  outbox.Accept("jobs/1");
+  outbox.Report(Progress(1));
+  expect_truth(2);
+  outbox.Peel(v1::ShellPoints().SerializeAsString());
+  expect_truth(1);
+  outbox.Report(Progress(9));
+  outbox.Complete(TorusResult(600'000));
+  expect_truth(6);
+}
+
 }  // namespace
 }  // namespace bccskel::server
