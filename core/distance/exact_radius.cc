@@ -36,26 +36,33 @@ void PutNearestFirst(std::span<NearBox> boxes) {
 
 }  // namespace
 
-ExactRadius::ExactRadius(const Volume& object, const DistanceField& field)
-    : ExactRadius(object, field, AxisScaleOf(object.placement())) {}
+ExactRadius::ExactRadius(const Volume& object) : ExactRadius(object, nullptr) {}
 
-ExactRadius::ExactRadius(const Volume& object, const DistanceField& field, const AxisScale& scale)
+ExactRadius::ExactRadius(const Volume& object, const DistanceField& field)
+    : ExactRadius(object, field.kind() == DistanceKind::kEuclidean ? &field : nullptr) {}
+
+ExactRadius::ExactRadius(const Volume& object, const DistanceField* field)
     : object_(object),
       field_(field),
-      squares_({Square(scale[0]), Square(scale[1]), Square(scale[2])}),
-      squared_y_(scale[1]),
-      squared_z_(scale[2]) {
-  if (field.kind() == DistanceKind::kEuclidean) return;
+      scale_(AxisScaleOf(object.placement())),
+      squares_({Square(scale_[0]), Square(scale_[1]), Square(scale_[2])}),
+      squared_y_(scale_[1]),
+      squared_z_(scale_[2]) {
+  if (!searches()) return;
   border_ = std::make_shared<const BorderBricks>(object);
   near_groups_.resize(border_->groups().size());
 }
 
+std::span<const BrickBits> ExactRadius::Bricks() const {
+  return changed_bricks_.empty() ? object_.padded_bricks() : changed_bricks_;
+}
+
 float ExactRadius::At(LatticePoint p) {
   if (!object_.Contains(p)) return 0;
-  if (field_.kind() == DistanceKind::kEuclidean) {
+  if (!searches()) {
     const BrickAddress address = AddressOf(p);
     const BrickIndex brick = *object_.Find(BrickKey(address.brick));
-    return static_cast<float>(field_.ToLatticeUnits(field_.At(brick, address.bit)));
+    return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));
   while (!SearchWithin(reach, p)) reach *= 2;
@@ -74,7 +81,7 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   PutNearestFirst(groups);
   for (const NearBox& group : groups) {
     if (group.squared >= last_.squared) continue;
-    FindNearestBackground(*border_, group.box, object_.padded_bricks(), search, last_);
+    FindNearestBackground(*border_, group.box, Bricks(), search, last_);
   }
   return last_.squared < reach * reach;
 }
@@ -88,15 +95,29 @@ float ExactRadius::SquareOf(LatticePoint way, int32_t most) const {
   return x * x * squares_[0] + *squared_y_.From(way.y) + *squared_z_.From(way.z);
 }
 
-absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const Volume& object,
-                                              const DistanceField& field,
+float ExactRadius::Between(LatticePoint p, LatticePoint background) const {
+  const LatticePoint way = background - p;
+  const auto x = static_cast<float>(std::abs(way.x));
+  const float squared = x * x * squares_[0] + Square(scale_[1] * way.y) + Square(scale_[2] * way.z);
+  return static_cast<float>(std::sqrt(double{squared}));
+}
+
+void ExactRadius::TakeFromBackground(LatticePoint q) {
+  if (changed_bricks_.empty()) {
+    changed_bricks_.assign(object_.padded_bricks().begin(), object_.padded_bricks().end());
+  }
+  const BrickAddress address = AddressOf(q);
+  changed_bricks_[*object_.Find(BrickKey(address.brick))].Set(address.bit);
+  if (last_.at == q) last_ = kOutside;
+}
+
+absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const ExactRadius& untouched,
                                               const exec::Context& context) {
   std::vector<LatticePoint> points;
   thin.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
   std::vector<float> radii(points.size());
-  const ExactRadius untouched(object, field);
   // In the unit of Context::WorkersFor(). In a Euclidean field radii are only looked up.
-  const size_t work = field.kind() == DistanceKind::kEuclidean ? 1 : 32;
+  const size_t work = untouched.searches() ? 32 : 1;
   exec::Portions portions(points.size(), 64);
   context.Offer(context.WorkersFor(points.size(), work), [&](int) {
     ExactRadius radius = untouched;

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/distance/border_bricks.h"
+#include "core/distance/chamfer_weights.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/nearest_background.h"
 #include "core/exec/context.h"
@@ -17,37 +19,54 @@ namespace bccskel {
 // The exact Euclidean distance of single points to the nearest background point, where only few are
 // asked for. Taken from a Euclidean field; else searched for, brick by brick. Copies share what was
 // found out about the object.
-// Needs:   `object` and `field`, which belongs to it, outlive this. Of chamfer fields the kind is
-//          enough: their values are not read.
+// Needs:   `object` and `field`, which belongs to it, outlive this.
 // Threads: one thread per instance.
 class ExactRadius {
  public:
+  // One that searches. Looking at all bricks first takes as long as 50 to 200 searches.
+  explicit ExactRadius(const Volume& object);
+  // Searches unless the field is Euclidean; of others the kind is enough, their values are not
+  // read.
   ExactRadius(const Volume& object, const DistanceField& field);
+
+  bool searches() const { return field_ == nullptr; }
 
   // Lattice units; 0 for background points. The same bits however it is found.
   float At(LatticePoint p);
+  // A background point as far away as At() said last.
+  // Needs: this searches, and At() was asked for an object point.
+  LatticePoint nearest() const { return last_.at; }
+  // From p to a background point, with the bits of At().
+  float Between(LatticePoint p, LatticePoint background) const;
+
+  // From now on this copy does not find q. Background that has no object point beside it might not
+  // be found either, so q must have enough of them around: see FirmDepth.
+  // Needs: this searches; q lies in a stored brick.
+  void TakeFromBackground(LatticePoint q);
 
  private:
-  ExactRadius(const Volume& object, const DistanceField& field, const AxisScale& scale);
+  ExactRadius(const Volume& object, const DistanceField* field);
+  std::span<const BrickBits> Bricks() const;
+  static constexpr NearestPoint kOutside = {{-1, -1, -1}, 0};
+
   bool SearchWithin(float reach, LatticePoint p);
   float SquareOf(LatticePoint way, int32_t most) const;
 
   const Volume& object_;
-  const DistanceField& field_;
-  std::shared_ptr<const BorderBricks> border_;  // null where the field is Euclidean
+  const DistanceField* field_;                  // null where background is searched for
+  std::shared_ptr<const BorderBricks> border_;  // null where it is not
+  std::vector<BrickBits> changed_bricks_;       // padded; empty where nothing was taken
   std::vector<NearBox> near_groups_;            // room for all
-  std::array<float, 3> squares_;                // of a lattice coordinate along each axis
+  AxisScale scale_;
+  std::array<float, 3> squares_;  // of a lattice coordinate along each axis
   SquaredWays<1> squared_y_;
   SquaredWays<kBrickY> squared_z_;
-  NearestPoint last_ = {{-1, -1, -1},
-                        0};  // of the point asked for before, which is mostly close by
+  NearestPoint last_ = kOutside;  // of the point asked for before, which is mostly close by
 };
 
 // The radii of all points of `thin`, in the order of Volume::ForEachPoint().
-// Needs:  the points of `thin` are points of `object`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const Volume& object,
-                                              const DistanceField& field,
+absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const ExactRadius& radius,
                                               const exec::Context& context);
 
 }  // namespace bccskel

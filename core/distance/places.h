@@ -82,6 +82,14 @@ class NearbyBricks {
     return last.brick;
   }
 
+  // As Volume::Contains(). Needs: a lattice point.
+  bool Contains(LatticePoint p) {
+    if (!object_.extent().Contains(p)) return false;
+    const BrickAddress address = AddressOf(p);
+    const std::optional<BrickIndex> brick = Find(address.brick);
+    return brick.has_value() && object_.bricks()[*brick].Test(address.bit);
+  }
+
  private:
   struct LastBrick {
     std::optional<BrickKey> key;

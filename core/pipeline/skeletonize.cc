@@ -201,22 +201,22 @@ class Pipeline {
   absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
                                                      DistanceField& distance) {
     BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
-    BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii,
-                             ExactRadii(result_.thin, object, distance, context_));
-    if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, distance, radii));
+    const ExactRadius radius(object, distance);
+    BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
+    if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, radius, radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
     return radii;
   }
 
-  absl::Status PruneCurves(const Volume& object, const DistanceField& distance,
+  absl::Status PruneCurves(const Volume& object, const ExactRadius& radius,
                            std::vector<float>& radii) {
     std::vector<int32_t> births;
     if (options_.thinning.kind == SkeletonKind::kIsthmusCurve) {
       births = BirthsOf(result_.thin, isthmuses_);
     }
     BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
-                             Prune({result_.thin, radii, births}, object, distance,
+                             Prune({result_.thin, radii, births}, object, radius,
                                    options_.thinning.keep, options_.pruning, context_));
     if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, pruned.thin));
     result_.thin = std::move(pruned.thin);

@@ -55,7 +55,7 @@ absl::Status CheckPruningOptions(const PruningOptions& options) {
 }
 
 absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
-                                     const DistanceField& field, std::span<const LatticePoint> keep,
+                                     const ExactRadius& radius, std::span<const LatticePoint> keep,
                                      const PruningOptions& options, const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options));
   BCCSKEL_RETURN_IF_ERROR(CheckCurves(curves, options));
@@ -73,7 +73,7 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   }
   pruned.levels = PruningLevelsOf(set, ribs, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, field, kept, context));
+    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, radius, kept, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);

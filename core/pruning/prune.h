@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/distance/distance_field.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/pruning/thin_set.h"
@@ -72,11 +72,11 @@ struct PrunedSkeleton {
 // with points of `keep` stays.
 // Isthmuses that later became simple make curves thick: where births are known, such points go
 // first.
-// Shapes: the points of `curves` are points of `object`, to which `field` belongs.
+// Shapes: the points of `curves` are points of `object`, to which `radius` belongs.
 // Needs:  a thin curve skeleton, or one of isthmuses with their births.
 // Errors: INVALID_ARGUMENT (options, or persistence without births), CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
-                                     const DistanceField& field, std::span<const LatticePoint> keep,
+                                     const ExactRadius& radius, std::span<const LatticePoint> keep,
                                      const PruningOptions& options, const exec::Context& context);
 
 }  // namespace bccskel

@@ -22,7 +22,7 @@ constexpr double kHint = 2;        // goes on for 2.6 radii, on either side
 }  // namespace
 
 RibFinder::RibFinder(const Volume& object)
-    : object_(object), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+    : scale_(AxisScaleOf(object.placement())), bricks_(object) {}
 
 bool RibFinder::IsRib(const ThinSet& set, const FreeBranch& branch) {
   const LatticePoint end = branch.points[0];
@@ -85,11 +85,7 @@ double RibFinder::WayOut(const Coordinates& from, const Coordinates& way, double
 }
 
 bool RibFinder::InObject(const Coordinates& place) {
-  const LatticePoint p = PointNear(place, scale_);
-  if (!object_.extent().Contains(p)) return false;
-  const BrickAddress address = AddressOf(p);
-  const std::optional<BrickIndex> brick = bricks_.Find(address.brick);
-  return brick.has_value() && object_.bricks()[*brick].Test(address.bit);
+  return bricks_.Contains(PointNear(place, scale_));
 }
 
 }  // namespace bccskel

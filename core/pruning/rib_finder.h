@@ -41,7 +41,6 @@ class RibFinder {
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
   bool InObject(const Coordinates& place);
 
-  const Volume& object_;
   const AxisScale scale_;
   NearbyBricks bricks_;
   PointTable<Verdict> verdicts_;  // by the branch's end

@@ -47,6 +47,7 @@ class ThinSet {
   NeighborMask NeighborsAround(LatticePoint p) const;
 
   void Add(LatticePoint p, float radius);
+  void SetRadius(LatticePoint p, float radius) { points_.Find(p)->radius = radius; }  // of the set
   void Remove(LatticePoint p);
 
   // End points, in lattice order.

@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/distance/exact_radius.h"
-#include "core/exec/status_macros.h"
-#include "core/prepare/denoise.h"
+#include "core/distance/places.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/firm_depth.h"
 
 namespace bccskel {
 namespace {
@@ -33,13 +32,9 @@ constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const Volume& object, ExactRadius radius, ExactRadius firm_radius,
-            const PointSet& keep)
-      : set_(set),
-        object_(object),
-        radius_(std::move(radius)),
-        firm_radius_(std::move(firm_radius)),
-        keep_(keep) {}
+  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, const PointSet& keep,
+            const exec::Context& context)
+      : set_(set), bricks_(object), radius_(radius), depth_(object, radius, context), keep_(keep) {}
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || set_.Degree(end) != 1) return;
@@ -53,6 +48,7 @@ class TipPlacer {
     aim_ = set_.Between(anchor_, path_[first]) < kLeastAim ? path_.back() : path_[first];
     GrowAnew(first);
     CutAfter(SafestFrom(first));
+    MeasureGrown();
   }
 
  private:
@@ -82,22 +78,20 @@ class TipPlacer {
     return (ap * ap + aq * aq - pq * pq) / (2 * aq);
   }
 
-  // The distance to the background but for pits.
-  double Depth(LatticePoint p) {
-    const float* known = depths_.Find(p);
-    if (known != nullptr) return *known;
-    const float depth = firm_radius_.At(p);
-    depths_.Set(p, depth);
-    return depth;
+  double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
+  // Merit() is no more: sums and products of more are no less, in floating point, too.
+  double MeritAtMost(LatticePoint p, double slope = kSlope) const {
+    return slope * Along(p) + depth_.AtMost(p);
   }
-
-  double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + Depth(p); }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
   size_t BestFrom(size_t first, double slope = kSlope) {
-    size_t best = first;
-    for (size_t n = first + 1; n < path_.size(); ++n) {
-      if (Merit(path_[n], slope) >= Merit(path_[best], slope)) best = n;
+    size_t best = path_.size() - 1;
+    double most = Merit(path_[best], slope);
+    for (size_t n = best; n-- > first;) {
+      if (MeritAtMost(path_[n], slope) <= most || Merit(path_[n], slope) <= most) continue;
+      best = n;
+      most = Merit(path_[n], slope);
     }
     return best;
   }
@@ -105,7 +99,7 @@ class TipPlacer {
   // Position in the path of the first point that is about as good as the best.
   size_t SafestFrom(size_t first) {
     const double enough = Merit(path_[BestFrom(first)]) - kLeastGain;
-    while (Merit(path_[first]) < enough) ++first;
+    while (MeritAtMost(path_[first]) < enough || Merit(path_[first]) < enough) ++first;
     return first;
   }
 
@@ -117,8 +111,8 @@ class TipPlacer {
   }
 
   // Whether p takes the side of the majority.
-  bool IsFirm(LatticePoint p) const {
-    const auto in_object = [&](LatticePoint offset) { return object_.Contains(p + offset); };
+  bool IsFirm(LatticePoint p) {
+    const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(p + offset); };
     return std::ranges::count_if(kDirections14, in_object) >= kMajority;
   }
 
@@ -135,11 +129,15 @@ class TipPlacer {
   // than the limb, but the limb is no part of it.
   size_t FirstCut() {
     size_t first = path_.size() - 1;
-    while (first > 0 && set_.Between(path_.back(), path_[first - 1]) <=
-                            kCutRadii * Depth(path_[first - 1]) + kCutMargin) {
-      --first;
-    }
+    while (first > 0 && IsInCapOf(path_[first - 1])) --first;
     return first;
+  }
+
+  // The depth is no less than the radius, so mostly that is enough.
+  bool IsInCapOf(LatticePoint p) {
+    const double way = set_.Between(path_.back(), p);
+    return way <= kCutRadii * set_.RadiusOf(p) + kCutMargin ||
+           way <= kCutRadii * depth_.At(p) + kCutMargin;
   }
 
   // Thinning may leave the ridge before it ends, so the path grows anew from where it is on the
@@ -161,33 +159,64 @@ class TipPlacer {
     }
   }
 
+  // Its radius is measured once it is sure to stay: most points do not.
   void Append(LatticePoint p) {
-    set_.Add(p, radius_.At(p));
+    set_.Add(p, 0);
     path_.push_back(p);
   }
 
-  // The object point to go on to; its only neighbor in the set is the tip.
+  void MeasureGrown() {
+    for (size_t n = path_.size(); n > 0 && set_.RadiusOf(path_[n - 1]) == 0; --n) {
+      set_.SetRadius(path_[n - 1], radius_.At(path_[n - 1]));
+    }
+  }
+
+  // A point to go on to.
+  struct Step {
+    LatticePoint to;
+    size_t rank = 0;
+    double length = 0;
+    double straightness = 0;  // its part of the score
+    double score_most = 0;    // the score is no more
+  };
+
+  // The object point to go on to, the first of the best; its only neighbor in the set is the tip.
+  // Depths are searched for, so the steps that may be best come first: they rule out most others.
   std::optional<LatticePoint> NextTip() {
+    const double depth = depth_.At(path_.back());
+    const Step* best = nullptr;
+    double best_score = 0;
+    FindSteps(depth);
+    for (const Step& step : steps_) {
+      if (best != nullptr && step.score_most < best_score) break;
+      const double score = (depth_.At(step.to) - depth) / step.length + step.straightness;
+      const bool is_better =
+          best == nullptr || score > best_score || (score == best_score && step.rank < best->rank);
+      if (!is_better) continue;
+      best = &step;
+      best_score = score;
+    }
+    return best == nullptr ? std::nullopt : std::optional(best->to);
+  }
+
+  void FindSteps(double depth) {
     const LatticePoint tip = path_.back();
     const LatticePoint from =
         path_.size() > kHeadingPoints ? path_[path_.size() - 1 - kHeadingPoints] : anchor_;
-    std::optional<LatticePoint> best;
-    double best_score = 0;
-    for (const LatticePoint offset : kDirections14) {
-      const LatticePoint next = tip + offset;
-      const double cosine = Cosine(from, tip, next);
-      if (cosine < kLeastCosine || !IsFreeWay(tip, next)) continue;
-      const double rise = (Depth(next) - Depth(tip)) / set_.Between(tip, next);
-      const double score = rise + kCosineWeight * cosine;
-      if (best.has_value() && score <= best_score) continue;
-      best = next;
-      best_score = score;
+    steps_.clear();
+    for (size_t rank = 0; rank < kDirections14.size(); ++rank) {
+      const LatticePoint to = tip + kDirections14[rank];
+      const double cosine = Cosine(from, tip, to);
+      if (cosine < kLeastCosine || !IsFreeWay(tip, to)) continue;
+      const double length = set_.Between(tip, to), straightness = kCosineWeight * cosine;
+      const double score_most = (depth_.AtMost(to) - depth) / length + straightness;
+      steps_.push_back({to, rank, length, straightness, score_most});
     }
-    return best;
+    std::ranges::sort(steps_, std::ranges::greater(), &Step::score_most);
   }
 
-  bool IsFreeWay(LatticePoint tip, LatticePoint next) const {
-    if (!object_.Contains(next) || set_.Contains(next)) return false;
+  bool IsFreeWay(LatticePoint tip, LatticePoint next) {
+    if (!bricks_.Contains(next) || set_.Contains(next)) return false;
     if (set_.Between(next, anchor_) <= set_.Between(tip, anchor_)) return false;
     return std::has_single_bit(set_.NeighborsAround(next));
   }
@@ -199,29 +228,23 @@ class TipPlacer {
   }
 
   ThinSet& set_;
-  const Volume& object_;
+  NearbyBricks bricks_;
   ExactRadius radius_;
-  ExactRadius firm_radius_;
+  FirmDepth depth_;
   const PointSet& keep_;
-  PointTable<float> depths_;  // as far as they were asked for
   LatticePoint anchor_;
   LatticePoint aim_;                // the limb runs from the anchor to here
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
+  std::vector<Step> steps_;         // from the tip, the most promising first
 };
 
 }  // namespace
 
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const DistanceField& field,
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
                        const PointSet& keep, const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(const ChangedVolume filled, FillPits(object, context));
-  const DistanceField unmeasured(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(),
-                                 0);
-  const ExactRadius radius(object, field);
-  TipPlacer placer(set, object, radius,
-                   filled.points_added == 0 ? radius : ExactRadius(filled.object, unmeasured),
-                   keep);
+  TipPlacer placer(set, object, radius, keep, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

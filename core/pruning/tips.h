@@ -2,7 +2,7 @@
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
 #include "absl/status/status.h"
-#include "core/distance/distance_field.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/pruning/thin_set.h"
 #include "core/volume/volume.h"
@@ -15,9 +15,9 @@ namespace bccskel {
 // the distance and 0.75 of the way along the limb. Distances are to the background without pits,
 // and no tip is put on a bump (FillPits(), Denoise()): a single point says nothing of the limb.
 // Points of `keep` are not cut off.
-// Needs:  `field` belongs to `object`.
+// Needs:  `radius` belongs to `object`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const DistanceField& field,
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
                        const PointSet& keep, const exec::Context& context);
 
 }  // namespace bccskel

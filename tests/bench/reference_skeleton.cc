@@ -18,9 +18,10 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
   BCCSKEL_ASSIGN_OR_RETURN(const Volume thin, std::move(builder).Build());
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                            ComputeDistance(object, DistanceKind::kChamfer, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, ExactRadii(thin, object, distance, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii,
+                           ExactRadii(thin, ExactRadius(object, distance), {}));
   BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
-                           Prune({thin, radii}, object, distance, {}, {}, {}));
+                           Prune({thin, radii}, object, ExactRadius(object, distance), {}, {}, {}));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
   return SkeletonDigest(graph);
 }

@@ -29,13 +29,13 @@ TEST_P(ExactRadiusLaw, IsFoundWithTheSameBitsWhateverTheField) {
                                 std::array{2.5, 1.0, 1.1}, std::array{1.0, 40.0, 1.0}}) {
       const Volume object = Placed(points, spacing);
       const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
-      const std::vector<float> expected = *ExactRadii(object, object, *euclidean, {});
+      const std::vector<float> expected = *ExactRadii(object, ExactRadius(object, *euclidean), {});
       for (DistanceKind kind : {DistanceKind::kChamfer, DistanceKind::kChamferOptimal}) {
         const auto chamfer = ComputeDistance(object, kind, {});
         exec::WorkerTeam team(3);
         exec::Context context;
         context.team = &team;
-        ASSERT_EQ(*ExactRadii(object, object, *chamfer, context), expected);
+        ASSERT_EQ(*ExactRadii(object, ExactRadius(object, *chamfer), context), expected);
       }
     }
   }
@@ -45,11 +45,11 @@ INSTANTIATE_TEST_SUITE_P(Seeds, ExactRadiusLaw, testing::Range<uint64_t>(0, 3));
 TEST(ExactRadii, AreTheSameForEveryInstructionSetAndWithoutTheFieldsValues) {
   const Volume object = Placed(test::RandomBlob(5, {40, 30, 30}, 3, 20), {0.3, 0.7, 1.5});
   const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
-  const std::vector<float> expected = *ExactRadii(object, object, *euclidean, {});
+  const std::vector<float> expected = *ExactRadii(object, ExactRadius(object, *euclidean), {});
   const DistanceField none(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(), 0);
   for (const std::string& name : exec::SupportedInstructionSets()) {
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
-    EXPECT_EQ(*ExactRadii(object, object, none, {}), expected) << name;
+    EXPECT_EQ(*ExactRadii(object, ExactRadius(object, none), {}), expected) << name;
   }
   exec::ChooseInstructionSet("");
 }
@@ -69,7 +69,8 @@ TEST(ExactRadii, AreFoundWhereBricksAreMissing) {
   const Volume object = *std::move(builder).Build();
   const auto euclidean = ComputeDistance(object, DistanceKind::kEuclidean, {});
   const DistanceField none(DistanceKind::kChamfer, ChamferWeights(), DistanceField::Values(), 0);
-  EXPECT_EQ(*ExactRadii(object, object, none, {}), *ExactRadii(object, object, *euclidean, {}));
+  EXPECT_EQ(*ExactRadii(object, ExactRadius(object, none), {}),
+            *ExactRadii(object, ExactRadius(object, *euclidean), {}));
 }
 
 TEST(ExactRadius, OfABackgroundPointIsZero) {
@@ -88,7 +89,7 @@ TEST(ExactRadii, StopWhenAsked) {
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(ExactRadii(object, object, *field, context).status().code(),
+  EXPECT_EQ(ExactRadii(object, ExactRadius(object, *field), context).status().code(),
             absl::StatusCode::kCancelled);
 }
 

@@ -111,9 +111,11 @@ TEST(PruningByPersistence, NeedsBirths) {
     EXPECT_NE(status.message().find("isthmus-curve"), std::string::npos) << status;
   }
   const test::RawCurves raw(VolumeOfPoints({{{2, 2, 2}, {3, 3, 3}}}), SkeletonKind::kCurve);
-  EXPECT_EQ(
-      Prune({raw.thin, raw.radii}, raw.object, raw.field, {}, options.pruning, {}).status().code(),
-      absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(Prune({raw.thin, raw.radii}, raw.object, ExactRadius(raw.object, raw.field), {},
+                  options.pruning, {})
+                .status()
+                .code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 // One run, all thresholds: what any of them leaves has the topology of the object.

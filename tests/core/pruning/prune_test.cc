@@ -114,8 +114,9 @@ TEST(PruningOptions, AreChecked) {
 }
 
 TEST(Pruning, OfNothingIsNothing) {
-  const auto field = ComputeDistance(Volume(), DistanceKind::kChamfer, {});
-  const auto pruned = Prune({Volume(), {}}, Volume(), *field, {}, {}, {});
+  const Volume nothing;
+  const auto field = ComputeDistance(nothing, DistanceKind::kChamfer, {});
+  const auto pruned = Prune({nothing, {}}, nothing, ExactRadius(nothing, *field), {}, {}, {});
   ASSERT_TRUE(pruned.ok()) << pruned.status();
   EXPECT_TRUE(pruned->thin.empty() && pruned->radii.empty());
 }
@@ -124,13 +125,14 @@ TEST(Pruning, StopsWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
   const Volume thin = ThinToCurve(object, *field, {}, {})->thin;
-  const auto radii = ExactRadii(thin, object, *field, {});
+  const auto radii = ExactRadii(thin, ExactRadius(object, *field), {});
   std::stop_source source;
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(Prune({thin, *radii}, object, *field, {}, {}, context).status().code(),
-            absl::StatusCode::kCancelled);
+  EXPECT_EQ(
+      Prune({thin, *radii}, object, ExactRadius(object, *field), {}, {}, context).status().code(),
+      absl::StatusCode::kCancelled);
 }
 
 class PruningLaw : public testing::TestWithParam<uint64_t> {};

@@ -18,7 +18,7 @@ struct RawCurves {
     const ThinningOptions options = {.method = ThinningMethod::kSymmetric, .kind = kind};
     ThinningResult result = *ThinToCurve(object, field, options, {});
     thin = std::move(result.thin);
-    radii = *ExactRadii(thin, object, field, {});
+    radii = *ExactRadii(thin, ExactRadius(object, field), {});
     if (kind != SkeletonKind::kIsthmusCurve) return;
     thin.ForEachPoint([&](LatticePoint p) {
       const auto found = std::ranges::find(result.isthmuses, p, &IsthmusBirth::point);
@@ -28,7 +28,7 @@ struct RawCurves {
 
   PrunedSkeleton PrunedBy(PruningRule rule, double threshold) const {
     const PruningOptions options = {rule, threshold, TipPlacement::kAsThinned};
-    return *Prune({thin, radii, births}, object, field, {}, options, {});
+    return *Prune({thin, radii, births}, object, ExactRadius(object, field), {}, options, {});
   }
 
   Volume object;

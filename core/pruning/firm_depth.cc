@@ -1,0 +1,71 @@
+#include "core/pruning/firm_depth.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/lattice/directions.h"
+#include "core/prepare/denoise.h"
+
+namespace bccskel {
+namespace {
+
+constexpr LatticePoint kOutside = {-1, -1, -1};
+constexpr int kMajority = 8;  // of a background point's 14 neighbors and itself
+
+}  // namespace
+
+FirmDepth::FirmDepth(const Volume& object, const ExactRadius& radius, const exec::Context& context)
+    : object_(object),
+      context_(context),
+      bricks_(object),
+      radius_(radius.searches() ? radius : ExactRadius(object)) {
+  lately_.fill(kOutside);
+}
+
+float FirmDepth::At(LatticePoint p) {
+  if (const float* known = known_.Find(p); known != nullptr) return *known;
+  const float depth = Search(p);
+  known_.Set(p, depth);
+  return depth;
+}
+
+float FirmDepth::AtMost(LatticePoint p) const {
+  if (const float* known = known_.Find(p); known != nullptr) return *known;
+  float least = std::numeric_limits<float>::infinity();
+  for (LatticePoint q : lately_) least = std::min(least, radius_->Between(p, q));
+  return least;
+}
+
+float FirmDepth::Search(LatticePoint p) {
+  float depth = radius_->At(p);
+  while (filled_ == nullptr && IsPit(radius_->nearest())) {
+    const LatticePoint pit = radius_->nearest();
+    if (bricks_.Find(AddressOf(pit).brick).has_value()) {
+      radius_->TakeFromBackground(pit);
+    } else {
+      FillAllPits();
+    }
+    depth = radius_->At(p);
+  }
+  Remember(radius_->nearest());
+  return depth;
+}
+
+bool FirmDepth::IsPit(LatticePoint q) {
+  const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(q + offset); };
+  return std::ranges::count_if(kDirections14, in_object) >= kMajority;
+}
+
+void FirmDepth::FillAllPits() {
+  absl::StatusOr<ChangedVolume> filled = FillPits(object_, context_);
+  filled_ = std::make_unique<const Volume>(filled.ok() ? std::move(filled->object) : object_);
+  radius_.emplace(*filled_);
+}
+
+void FirmDepth::Remember(LatticePoint background) {
+  lately_[oldest_] = background;
+  oldest_ = (oldest_ + 1) % lately_.size();
+}
+
+}  // namespace bccskel
