@@ -1,8 +1,8 @@
 #include "core/pruning/branch_pruner.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
-#include <set>
 
 #include "core/pruning/persistence.h"
 #include "core/pruning/simple_points.h"
@@ -116,31 +116,36 @@ std::vector<LatticePoint> BranchPruner::Remove(const FreeBranch& branch) {
     removed.push_back(p);
     ForEachNeighbor(p, set_.NeighborsAround(p), add);
   }
-  for (LatticePoint p : around) {
-    if (set_.Contains(p)) JudgeAround(p);
-  }
+  JudgeAround(around);
   return removed;
 }
 
-// Looks again at the branches with a free end that start near p.
-void BranchPruner::JudgeAround(LatticePoint p) {
-  if (set_.Degree(p) <= 2) {
-    JudgeBeyond(p);
-    return;
+// Looks again at the branches with a free end that start near these places, at each branch once:
+// it is met from all around its junction.
+void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
+  std::set<LatticePoint> sources, ends;
+  for (LatticePoint p : places) {
+    if (!set_.Contains(p)) continue;
+    sources.insert(p);
+    if (set_.Degree(p) <= 2) continue;
+    for (LatticePoint q : ClusterOf(p)) sources.insert(q);
   }
-  for (LatticePoint q : ClusterOf(p)) JudgeBeyond(q);
+  for (LatticePoint p : sources) FindEndsBeyond(p, ends);
+  for (LatticePoint end : ends) Judge(end);
 }
 
-void BranchPruner::JudgeBeyond(LatticePoint p) {
-  if (set_.Degree(p) == 1) Judge(p);
+void BranchPruner::FindEndsBeyond(LatticePoint p, std::set<LatticePoint>& ends) const {
+  if (set_.Degree(p) == 1) ends.insert(p);
   ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint q) {
     LatticePoint previous = p;
-    while (set_.Degree(q) == 2 && q != p) {
-      const LatticePoint next = NextPoint(q, set_.NeighborsOf(q), previous);
+    NeighborMask mask = set_.NeighborsOf(q);
+    while (IsPair(mask) && q != p) {
+      const LatticePoint next = NextPoint(q, mask, previous);
       previous = q;
       q = next;
+      mask = set_.NeighborsOf(q);
     }
-    if (set_.Degree(q) == 1) Judge(q);
+    if (std::has_single_bit(mask)) ends.insert(q);
   });
 }
 

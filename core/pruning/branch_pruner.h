@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <queue>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -47,8 +48,8 @@ class BranchPruner {
  private:
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
   void Judge(LatticePoint end);
-  void JudgeAround(LatticePoint p);
-  void JudgeBeyond(LatticePoint p);
+  void JudgeAround(const std::set<LatticePoint>& places);
+  void FindEndsBeyond(LatticePoint p, std::set<LatticePoint>& ends) const;
 
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
   double WorthOf(const FreeBranch& branch, LatticePoint junction) const;

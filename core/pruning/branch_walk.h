@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_PRUNING_BRANCH_WALK_H_
 #define BCCSKEL_CORE_PRUNING_BRANCH_WALK_H_
 
+#include <bit>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,11 @@ struct FreeBranch {
   std::vector<LatticePoint> points;      // the end first; without the junction
   std::optional<LatticePoint> junction;  // none: the walk came to the other end
 };
+
+// Whether there are two neighbors: such points make up curves.
+inline bool IsPair(NeighborMask mask) {
+  return std::has_single_bit(static_cast<NeighborMask>(mask & (mask - 1)));
+}
 
 // The one neighbor in `mask` that is not `previous`. Needs: there is one.
 inline LatticePoint NextPoint(LatticePoint p, NeighborMask mask, LatticePoint previous) {
@@ -28,16 +34,18 @@ inline FreeBranch BranchFrom(const ThinSet& set, LatticePoint end) {
   FreeBranch branch{{end}, std::nullopt};
   LatticePoint previous = end;
   LatticePoint p = NextPoint(end, set.NeighborsOf(end), end);
-  while (set.Degree(p) == 2) {
+  NeighborMask mask = set.NeighborsOf(p);
+  while (IsPair(mask)) {
     branch.points.push_back(p);
-    const LatticePoint next = NextPoint(p, set.NeighborsOf(p), previous);
+    const LatticePoint next = NextPoint(p, mask, previous);
     previous = p;
     p = next;
+    mask = set.NeighborsOf(p);
   }
-  if (set.Degree(p) > 2) {
-    branch.junction = p;
-  } else {
+  if (std::has_single_bit(mask)) {
     branch.points.push_back(p);
+  } else {
+    branch.junction = p;
   }
   return branch;
 }
