@@ -96,7 +96,7 @@ class NearestEdgeWork {
     std::array<double, 3> at = {0, run.y * spacing_[1], run.z * spacing_[2]};
     for (int32_t x = run.begin; x < run.end; ++x) {
       at[0] = x * spacing_[0];
-      const NearestPoint nearest = index->Find(at, hint.point);
+      const NearestCurvePoint nearest = index->Find(at, hint.point);
       hint.point = nearest.point;
       Append(image, {run.z, run.y, x, x + 1}, nearest.value);
     }

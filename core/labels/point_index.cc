@@ -41,7 +41,8 @@ void PointIndex::Build(size_t begin, size_t end) {
   Build(middle + 1, end);
 }
 
-void PointIndex::Offer(const std::array<double, 3>& at, size_t point, NearestPoint& best) const {
+void PointIndex::Offer(const std::array<double, 3>& at, size_t point,
+                       NearestCurvePoint& best) const {
   const std::array<double, 3>& p = points_[point].at;
   const double dx = at[0] - p[0], dy = at[1] - p[1], dz = at[2] - p[2];
   best.Offer(dx * dx + dy * dy + dz * dz, points_[point].value, point);
@@ -50,7 +51,7 @@ void PointIndex::Offer(const std::array<double, 3>& at, size_t point, NearestPoi
 // `away` is how far the range lies from the place along each axis, at least. Rounding keeps order,
 // so what it bounds is never nearer than the bound, ties included.
 void PointIndex::Search(const std::array<double, 3>& at, size_t begin, size_t end,
-                        const std::array<double, 3>& away, NearestPoint& best) const {
+                        const std::array<double, 3>& away, NearestCurvePoint& best) const {
   if (end - begin <= kLeaf) {
     for (size_t n = begin; n < end; ++n) Offer(at, n, best);
     return;
@@ -67,8 +68,8 @@ void PointIndex::Search(const std::array<double, 3>& at, size_t begin, size_t en
   Search(at, below ? middle + 1 : begin, below ? end : middle, far, best);
 }
 
-NearestPoint PointIndex::Find(const std::array<double, 3>& at, size_t hint) const {
-  NearestPoint best;
+NearestCurvePoint PointIndex::Find(const std::array<double, 3>& at, size_t hint) const {
+  NearestCurvePoint best;
   Offer(at, hint, best);
   Search(at, 0, points_.size(), {}, best);
   return best;

@@ -16,7 +16,7 @@ struct ValuePoint {
 };
 
 // The point nearest to a place, exactly; of several the one with the smallest value.
-struct NearestPoint {
+struct NearestCurvePoint {
   double squared = std::numeric_limits<double>::infinity();
   uint32_t value = std::numeric_limits<uint32_t>::max();
   size_t point = 0;
@@ -36,13 +36,13 @@ class PointIndex {
 
   // `hint` is the position of a point that may be near, such as that of the last answer.
   // Needs: at least one point; hint < their number.
-  NearestPoint Find(const std::array<double, 3>& at, size_t hint) const;
+  NearestCurvePoint Find(const std::array<double, 3>& at, size_t hint) const;
 
  private:
   void Build(size_t begin, size_t end);
   void Search(const std::array<double, 3>& at, size_t begin, size_t end,
-              const std::array<double, 3>& away, NearestPoint& best) const;
-  void Offer(const std::array<double, 3>& at, size_t point, NearestPoint& best) const;
+              const std::array<double, 3>& away, NearestCurvePoint& best) const;
+  void Offer(const std::array<double, 3>& at, size_t point, NearestCurvePoint& best) const;
 
   std::vector<ValuePoint> points_;
   std::vector<uint8_t> axes_;  // that the node splits

@@ -165,7 +165,7 @@ def context_lines(programs, rows, loads, seconds):
     quiet = "" if max(loads[0], 0) < 0.5 else " **The machine was not quiet: trust ratios alone.**"
     return [f"- machine: {processor()}, {os.cpu_count()} processors, "
             f"{os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES') / 2**30:.0f} GiB, "
-            f"{platform.system()} {platform.release()}",
+            f"{platform.system()} {platform.release().split('-')[0]}",
             f"- instruction sets: {', '.join(rows.sets)}",
             f"- compiler: {compiler}, {programs.cached('CMAKE_BUILD_TYPE')}; revision {revision()}",
             f"- scikit-image {skimage.__version__}, Python {platform.python_version()}",

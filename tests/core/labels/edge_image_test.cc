@@ -343,7 +343,7 @@ TEST(PointIndex, FindsTheNearestPointAndTheSmallestValueOnTies) {
         for (size_t a = 0; a < 3; ++a) sum += (p.at[a] - at[a]) * (p.at[a] - at[a]);
         best = std::min(best, {sum, p.value});
       }
-      const NearestPoint found = index.Find(at, random() % count);
+      const NearestCurvePoint found = index.Find(at, random() % count);
       EXPECT_EQ(std::pair(found.squared, found.value), best);
     }
   }
