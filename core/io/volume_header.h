@@ -38,7 +38,7 @@ struct VolumeLimits {
 };
 
 // A header fits in the first bytes of an encoding, whatever it declares.
-inline constexpr size_t kMaxHeaderBytes = 64 * 1024;
+inline constexpr size_t kMaxHeaderBytes = size_t{64} * 1024;
 
 // A cubic mask that becomes a volume by the exact conversion of core/mask.
 struct MaskDeclaration {

@@ -59,7 +59,8 @@ bool FirmDepth::IsPit(LatticePoint q) {
 
 void FirmDepth::FillAllPits() {
   absl::StatusOr<ChangedVolume> filled = FillPits(object_, context_);
-  filled_ = std::make_unique<const Volume>(filled.ok() ? std::move(filled->object) : object_);
+  filled_ = filled.ok() ? std::make_unique<const Volume>(std::move(filled->object))
+                        : std::make_unique<const Volume>(object_);
   radius_.emplace(*filled_);
 }
 
