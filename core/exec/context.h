@@ -39,9 +39,9 @@ class Context {
 
   // A directional pass gives a worker at least this many bricks: on smaller shares the workers
   // would spend more time waiting for each other, and for bricks in each other's caches, than
-  // thinning. Found by measuring: from 4,000 bricks on two threads were not slower where nothing
+  // thinning. Found by measuring: from 1,000 bricks on two threads were not slower where nothing
   // else kept the processors busy.
-  size_t min_bricks_per_worker = 2048;
+  size_t min_bricks_per_worker = 512;
 
   // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
   // more than this share of the time.

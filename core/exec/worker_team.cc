@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#if defined(__linux__)
+#include <sys/resource.h>
+#endif
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -23,9 +26,9 @@ void Pause() {
 }
 
 // Returns whether it came true in time. With more workers than processors the others cannot come
-// while this one spins.
-template <typename Condition>
-bool SpinUntil(size_t workers, Condition condition) {
+// while this one spins. Calls `between` about every microsecond.
+template <typename Condition, typename Between>
+bool SpinUntil(size_t workers, Condition condition, Between between) {
   static const size_t processors = std::thread::hardware_concurrency();
   if (condition()) return true;
   if (workers > processors) return false;
@@ -35,11 +38,28 @@ bool SpinUntil(size_t workers, Condition condition) {
       if (condition()) return true;
       Pause();
     }
+    between();
   } while (Clock::now() < end);
   return false;
 }
+template <typename Condition>
+bool SpinUntil(size_t workers, Condition condition) {
+  return SpinUntil(workers, condition, [] {});
+}
 
 constexpr Confidence::Duration kLongestPause = std::chrono::milliseconds(3200);
+
+// Of the time of offered work; less is no loss, since the others did their part.
+constexpr double kMostWaiting = 0.2;
+
+// How often this thread had to leave its processor to others.
+long TimesPreempted() {
+#if defined(__linux__)
+  rusage usage = {};
+  if (getrusage(RUSAGE_THREAD, &usage) == 0) return usage.ru_nivcsw;
+#endif
+  return 0;
+}
 
 }  // namespace
 
@@ -75,17 +95,32 @@ void WorkerTeam::Run(const std::function<void(int)>& work) {
 }
 
 void WorkerTeam::Offer(const std::function<void(int)>& work) {
-  if (size_ == 1) {
+  if (size_ == 1 || !confidence_.Holds()) {
     work(0);
     return;
   }
+  const Clock::time_point start = Clock::now();
   Begin(work, 0);
   Try(work, 0);
+  const Clock::time_point done = Clock::now();
   {
     std::lock_guard lock(mutex_);
     work_ = nullptr;
   }
   AwaitOthers();
+  const Clock::time_point end = Clock::now();
+  JudgeOffer(end - start, end - done);
+}
+
+// Portions may be uneven: who is waited for without having been kept from working is no loss.
+void WorkerTeam::JudgeOffer(Confidence::Duration together, Confidence::Duration waited) {
+  std::lock_guard lock(mutex_);
+  if (!shared_) return;
+  if (preempted_ && waited > kSpinTime && waited > kMostWaiting * together) {
+    confidence_.Lose(waited);
+  } else {
+    confidence_.Gain(together);
+  }
 }
 
 void WorkerTeam::Begin(const std::function<void(int)>& work, int others) {
@@ -94,6 +129,7 @@ void WorkerTeam::Begin(const std::function<void(int)>& work, int others) {
     work_ = &work;
     running_ = others;
     offered_ = others == 0;
+    shared_ = preempted_ = false;
     ++generation_;
   }
   wake_.notify_all();
@@ -119,7 +155,10 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   uint64_t seen = 0;
   while (true) {
     const std::function<void(int)>* work = nullptr;
-    SpinUntil(static_cast<size_t>(size_), [&] { return generation_ != seen; });
+    // On a busy machine worker 0 may share this processor. (Between meetings that must be told as
+    // waiting: there nobody gives way.)
+    SpinUntil(
+        static_cast<size_t>(size_), [&] { return generation_ != seen; }, std::this_thread::yield);
     {
       std::unique_lock lock(mutex_);
       if (!wake_.wait(lock, stop, [&] { return generation_ != seen; })) return;
@@ -127,9 +166,13 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
       work = work_;
       if (work == nullptr) continue;
       if (offered_) ++running_;
+      shared_ = true;
     }
+    const long preempted_before = TimesPreempted();
     Try(*work, worker);
+    const bool preempted = TimesPreempted() != preempted_before;
     std::lock_guard lock(mutex_);
+    preempted_ = preempted_ || preempted;
     if (--running_ == 0) done_.notify_one();
   }
 }

@@ -59,12 +59,14 @@ class WorkerTeam {
 
   // The same for work of which any worker can do all, with those who come before worker 0 is done:
   // nobody is waited for who has not begun, be it that waking takes long or that the processors
-  // are busy.
+  // are busy. While there is no confidence worker 0 does it alone, and waiting for one who had to
+  // leave its processor to others takes it away.
   void Offer(const std::function<void(int worker)>& work);
 
  private:
   void Begin(const std::function<void(int)>& work, int others);
   void AwaitOthers();
+  void JudgeOffer(Confidence::Duration together, Confidence::Duration waited);
   void Serve(std::stop_token stop, int worker);
   void Try(const std::function<void(int)>& work, int worker);
 
@@ -75,6 +77,8 @@ class WorkerTeam {
   std::condition_variable done_;
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_; null once withdrawn
   bool offered_ = false;                            // guarded by mutex_; who comes counts itself
+  bool shared_ = false;                             // guarded by mutex_; somebody came
+  bool preempted_ = false;                          // guarded by mutex_; and was kept from working
   std::atomic<uint64_t> generation_{0};             // changed under mutex_
   std::atomic<int> running_{0};                     // changed under mutex_
   std::exception_ptr thrown_;                       // guarded by mutex_; the first of a run

@@ -1,9 +1,13 @@
 #include "core/exec/worker_team.h"
 
 #include <gtest/gtest.h>
+#if defined(__linux__)
+#include <sched.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <new>
 #include <set>
 #include <thread>
@@ -196,6 +200,63 @@ TEST(WorkerTeam, DoesWhatIsOfferedWithWhoeverComesAndTakesPartInTheNextRunWithAl
     EXPECT_EQ(runs, std::vector<int>(runs.size(), 66));
     EXPECT_THROW(team.Offer([](int) { throw std::bad_alloc(); }), std::bad_alloc);
   }
+}
+
+// Worker 1 takes part for `theirs` while worker 0 only waits for it to begin. Returns: whether the
+// team has confidence afterwards.
+template <typename Theirs>
+bool HasConfidenceAfter(WorkerTeam& team, Theirs theirs) {
+  std::atomic<bool> begun{false};
+  team.Offer([&](int worker) {
+    if (worker == 0) {
+      while (!begun) std::this_thread::yield();
+    } else {
+      begun = true;
+      theirs();
+    }
+  });
+  return team.confidence().Holds();
+}
+
+#if defined(__linux__)
+TEST(WorkerTeam, LosesConfidenceWhenOneWhoCameIsKeptFromWorking) {
+  using std::chrono::milliseconds;
+  cpu_set_t allowed, first;
+  ASSERT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
+  CPU_ZERO(&first);
+  for (int cpu = 0; CPU_COUNT(&first) == 0; ++cpu) {
+    if (CPU_ISSET(cpu, &allowed)) CPU_SET(cpu, &first);
+  }
+  // All threads that begin now share one processor, and one of them never sleeps.
+  ASSERT_EQ(sched_setaffinity(0, sizeof(first), &first), 0);
+  std::jthread busy([](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+    }
+  });
+  WorkerTeam team(2);
+  EXPECT_TRUE(team.confidence().Holds());
+  EXPECT_FALSE(HasConfidenceAfter(team, [] {
+    const auto end = std::chrono::steady_clock::now() + milliseconds(200);
+    while (std::chrono::steady_clock::now() < end) {
+    }
+  }));
+  std::thread::id caller;
+  int workers = 0;
+  team.Offer([&](int) {
+    ++workers;
+    caller = std::this_thread::get_id();
+    std::this_thread::sleep_for(milliseconds(20));
+  });
+  EXPECT_EQ(workers, 1);
+  EXPECT_EQ(caller, std::this_thread::get_id());
+  ASSERT_EQ(sched_setaffinity(0, sizeof(allowed), &allowed), 0);
+}
+#endif
+
+TEST(WorkerTeam, KeepsConfidenceWhenOneWhoCameHasMoreToDo) {
+  WorkerTeam team(2);
+  EXPECT_TRUE(
+      HasConfidenceAfter(team, [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }));
 }
 
 TEST(Portions, HandOutEveryItemOnce) {
