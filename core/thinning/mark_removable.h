@@ -32,6 +32,7 @@ struct ObjectView {
   const BrickBits* object = nullptr;      // padded: index keys.size() is the empty brick
   const BrickBits* candidates = nullptr;  // points that may go: reached by the shells, not kept
   const BrickNeighborhood* neighbors = nullptr;
+  bool is_far = false;  // too large for the caches near a processor
 };
 
 struct MarkedBrick {

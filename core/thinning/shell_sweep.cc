@@ -131,6 +131,7 @@ class ShellSweep {
     if (joined_) return true;
     joined_ = true;
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
+    first.cut_from = -1;
     first.bricks.end = state_.brick_count();
     SortByFirstShell(first);
     Split(first);
@@ -162,23 +163,48 @@ class ShellSweep {
 
   // Condition 5: the points of this shell become candidates.
   void OpenShell(Worker& worker, int32_t shell) {
-    while (worker.reached < worker.by_first_shell.size() &&
-           shells_.RangeOf(worker.by_first_shell[worker.reached]).first <= shell) {
-      worker.opening.push_back(worker.by_first_shell[worker.reached++]);
-    }
+    const int32_t within = shell % kShellsAtOnce;
+    if (worker.cut_from != shell - within) CutShellsFrom(shell - within, worker);
     const OpeningView view = {
         .object = state_.object.data(),
         .kept = state_.kept.empty() ? nullptr : state_.kept.data(),
-        .planes = shells_.planes().data(),
         .candidates = state_.candidates.data(),
         .unsettled = UnsettledView(),
         .enabled = enabled_.data(),
         .watched = watched_,
         .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
     };
+    const BrickBits* points =
+        worker.cut.data() + static_cast<size_t>(within) * worker.opening.size();
     worker.shell_points[static_cast<size_t>(shell & 1)] =
-        ::bccskel::OpenShell(view, shell, worker.opening);
-    std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last == shell; });
+        ::bccskel::OpenShell(view, worker.opening, points);
+  }
+
+  void CutShellsFrom(int32_t first, Worker& worker) {
+    std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last < first; });
+    while (worker.reached < worker.by_first_shell.size() &&
+           shells_.RangeOf(worker.by_first_shell[worker.reached]).first < first + kShellsAtOnce) {
+      worker.opening.push_back(worker.by_first_shell[worker.reached++]);
+    }
+    worker.cut_from = first;
+    worker.cut.resize(static_cast<size_t>(kShellsAtOnce) * worker.opening.size());
+    CutShells(shells_.planes(), first, worker.opening, worker.cut.data());
+    ClearOtherShells(worker);
+  }
+
+  // Planes tell shells modulo 64, so those that are cut together with shells of a brick may seem to
+  // be others of its shells, where it has nearly as many.
+  void ClearOtherShells(Worker& worker) {
+    const size_t count = worker.opening.size();
+    for (size_t at = 0; at < count; ++at) {
+      const Shells::Range range = shells_.RangeOf(worker.opening[at]);
+      if (range.last - range.first <= (1 << kShellPlanes) - kShellsAtOnce) continue;
+      for (int32_t k = 0; k < kShellsAtOnce; ++k) {
+        const int32_t shell = worker.cut_from + k;
+        if (shell >= range.first && shell <= range.last) continue;
+        worker.cut[static_cast<size_t>(k) * count + at] = BrickBits();
+      }
+    }
   }
 
   // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.

@@ -27,7 +27,10 @@ struct ThinningState {
   Sublattice SublatticeOf(BrickIndex brick) const {
     return static_cast<Sublattice>(keys[brick].value() & 1);
   }
-  ObjectView View() const { return {object.data(), candidates.data(), neighbors.data()}; }
+  ObjectView View() const {
+    constexpr size_t kNearBricks = 8192;  // 200 bytes each, of which the surface is at work
+    return {object.data(), candidates.data(), neighbors.data(), brick_count() > kNearBricks};
+  }
 
   // The neighbors of a point that are object points.
   NeighborMask NeighborsOf(BrickIndex brick, int bit) const;

@@ -107,11 +107,21 @@ struct RemovalView {
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere);
 
+// Shells that are cut out of the planes together: planes lie far away, six to a brick, and would
+// otherwise be read for every shell. Whole groups of them share all but two planes.
+inline constexpr int32_t kShellsAtOnce = 4;
+
+// The points of the shells from `first` on, modulo 64.
+// Shapes: `points` has room for kShellsAtOnce times the bricks; those of shell first + k in the
+//         bricks begin at k times the number of bricks.
+// Needs:  first is a multiple of kShellsAtOnce.
+void CutShells(std::span<const ShellPlanes> planes, int32_t first,
+               std::span<const BrickIndex> bricks, BrickBits* points);
+
 // What opening a shell reads and changes.
 struct OpeningView {
   const BrickBits* object = nullptr;
   const BrickBits* kept = nullptr;  // points that never go; null if there are none
-  const ShellPlanes* planes = nullptr;
   BrickBits* candidates = nullptr;
   UnsettledBricks unsettled;
   Unsettled* enabled = nullptr;
@@ -120,8 +130,9 @@ struct OpeningView {
 };
 
 // Condition 5: makes the points of one shell in the given bricks candidates.
-// Returns: how many points.
-uint64_t OpenShell(const OpeningView& view, int32_t shell, std::span<const BrickIndex> bricks);
+// Shapes: `points` are those of the shell, as many as bricks. Returns: how many points.
+uint64_t OpenShell(const OpeningView& view, std::span<const BrickIndex> bricks,
+                   const BrickBits* points);
 
 }  // namespace bccskel
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
+#include "core/shells/shells.h"
 #include "core/thinning/thinning_state.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_point_set.h"
@@ -64,12 +65,12 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
   constexpr double kNever = 1e9, kAtOnce = -1e9;
   for (const double patience : {kNever, kAtOnce}) {
     for (int threads : {2, 3, 8}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
-      context.min_bricks_per_worker = 1;
-      context.patience = patience;
       for (int32_t last_shell : {1, 2, 0}) {
+        exec::WorkerTeam team(threads);  // another one each time: it has no confidence afterwards
+        exec::Context context;
+        context.team = &team;
+        context.min_bricks_per_worker = 1;
+        context.patience = patience;
         const Volume alone = Thin(object, {.last_shell = last_shell}).thin;
         EXPECT_TRUE(Thin(object, {.last_shell = last_shell}, context).thin == alone)
             << threads << " threads, patience " << patience << ", last shell " << last_shell;
@@ -97,6 +98,46 @@ TEST(Thinning, ReportsEveryShellOnce) {
   EXPECT_EQ(reports.back().removed, result.removed);
   EXPECT_EQ(result.thin.PointCount() + result.removed + result.removed_by_cleanup,
             object.PointCount());
+}
+
+// A block around one corner of a brick with a hole beyond the corner across. With these spacings
+// chamfer distances grow along this diagonal nearly as fast as anywhere, so the brick has 62
+// shells, 7 to 68, of the 64 that planes tell apart; 4 looks like 68.
+Volume BlockWithHoleBeyondABrick() {
+  constexpr LatticePoint kCorner = {96, 32, 48};
+  constexpr LatticePoint kHole = kCorner + LatticePoint{31, 7, 17};
+  VolumeBuilder builder({90, 40, 50}, {.spacing = {1, 3, 2}});
+  for (int32_t z = 10; z <= 86; ++z) {
+    for (int32_t y = 6; y <= 58; ++y) {
+      for (int32_t x = 22; x <= 170; ++x) {
+        const LatticePoint p = {x, y, z};
+        if (IsOnLattice(p) && p != kHole) builder.Add(p);
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+TEST(Thinning, OpensEachPointWithItsShellWhereABrickHasNearlyAllThatPlanesTellApart) {
+  const Volume object = BlockWithHoleBeyondABrick();
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, {});
+  const double width = EffectiveShellWidth(kMinShellWidth, AxisScaleOf(object.placement()));
+  std::vector<uint64_t> expected(200);
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      ++expected.at(static_cast<size_t>(ShellOf(distance->At(n, bit), distance->weights(), width)));
+    });
+  }
+  const BrickIndex brick = *object.Find(BrickKey({3, 4, 3, Sublattice::kEven}));
+  const Shells shells = BuildShells(object, *distance, kMinShellWidth, {});
+  ASSERT_EQ(shells.RangeOf(brick).first, 7);
+  ASSERT_EQ(shells.RangeOf(brick).last, 68);
+
+  exec::Context context;
+  context.on_shell = [&](const exec::ShellProgress& at) {
+    EXPECT_EQ(at.points, expected[static_cast<size_t>(at.shell)]) << "shell " << at.shell;
+  };
+  ASSERT_TRUE(ThinToCurve(object, *distance, {.shell_width = kMinShellWidth}, context).ok());
 }
 
 TEST(Thinning, KeepsExtentAndPlacement) {
