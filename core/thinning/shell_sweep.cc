@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -80,18 +79,9 @@ class ShellSweep {
     const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
     worker.bricks = {share.begin * kUnsettledGroup,
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
-    const size_t count = worker.bricks.end - worker.bricks.begin;
-    worker.by_first_shell.resize(count);
-    std::iota(worker.by_first_shell.begin(), worker.by_first_shell.end(),
-              static_cast<BrickIndex>(worker.bricks.begin));
-    SortByFirstShell(worker);
+    worker.opener.Begin(shells_, worker.bricks);
     if (workers_.size() > 1) MarkBorder(worker);
     Split(worker);
-  }
-
-  void SortByFirstShell(Worker& worker) const {
-    std::ranges::stable_sort(worker.by_first_shell, {},
-                             [this](BrickIndex n) { return shells_.RangeOf(n).first; });
   }
 
   // Whether a point goes depends on points three steps away, so bricks with a layer of bricks
@@ -131,9 +121,7 @@ class ShellSweep {
     if (joined_) return true;
     joined_ = true;
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
-    first.cut_from = -1;
     first.bricks.end = state_.brick_count();
-    SortByFirstShell(first);
     Split(first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
@@ -144,9 +132,7 @@ class ShellSweep {
 
   void TakeOver(Worker& other, Worker& first) {
     for (BrickIndex n : other.seen_elsewhere) UnsettledView().Add(n, enabled_[n]);
-    const auto not_reached = std::span(other.by_first_shell).subspan(other.reached);
-    first.by_first_shell.insert(first.by_first_shell.end(), not_reached.begin(), not_reached.end());
-    first.opening.insert(first.opening.end(), other.opening.begin(), other.opening.end());
+    first.opener.TakeOver(other.opener);
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
@@ -163,8 +149,6 @@ class ShellSweep {
 
   // Condition 5: the points of this shell become candidates.
   void OpenShell(Worker& worker, int32_t shell) {
-    const int32_t within = shell % kShellsAtOnce;
-    if (worker.cut_from != shell - within) CutShellsFrom(shell - within, worker);
     const OpeningView view = {
         .object = state_.object.data(),
         .kept = state_.kept.empty() ? nullptr : state_.kept.data(),
@@ -174,37 +158,7 @@ class ShellSweep {
         .watched = watched_,
         .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
     };
-    const BrickBits* points =
-        worker.cut.data() + static_cast<size_t>(within) * worker.opening.size();
-    worker.shell_points[static_cast<size_t>(shell & 1)] =
-        ::bccskel::OpenShell(view, worker.opening, points);
-  }
-
-  void CutShellsFrom(int32_t first, Worker& worker) {
-    std::erase_if(worker.opening, [&](BrickIndex n) { return shells_.RangeOf(n).last < first; });
-    while (worker.reached < worker.by_first_shell.size() &&
-           shells_.RangeOf(worker.by_first_shell[worker.reached]).first < first + kShellsAtOnce) {
-      worker.opening.push_back(worker.by_first_shell[worker.reached++]);
-    }
-    worker.cut_from = first;
-    worker.cut.resize(static_cast<size_t>(kShellsAtOnce) * worker.opening.size());
-    CutShells(shells_.planes(), first, worker.opening, worker.cut.data());
-    ClearOtherShells(worker);
-  }
-
-  // Planes tell shells modulo 64, so those that are cut together with shells of a brick may seem to
-  // be others of its shells, where it has nearly as many.
-  void ClearOtherShells(Worker& worker) {
-    const size_t count = worker.opening.size();
-    for (size_t at = 0; at < count; ++at) {
-      const Shells::Range range = shells_.RangeOf(worker.opening[at]);
-      if (range.last - range.first <= (1 << kShellPlanes) - kShellsAtOnce) continue;
-      for (int32_t k = 0; k < kShellsAtOnce; ++k) {
-        const int32_t shell = worker.cut_from + k;
-        if (shell >= range.first && shell <= range.last) continue;
-        worker.cut[static_cast<size_t>(k) * count + at] = BrickBits();
-      }
-    }
+    worker.shell_points[static_cast<size_t>(shell & 1)] = worker.opener.Open(view, shell);
   }
 
   // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.

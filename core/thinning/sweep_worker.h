@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/exec/uninitialized.h"
 #include "core/exec/worker_team.h"
 #include "core/thinning/pass_rule.h"
+#include "core/thinning/shell_opener.h"
 #include "core/thinning/unsettled.h"
 
 namespace bccskel {
@@ -29,12 +29,7 @@ struct alignas(128) SweepWorker {
   exec::Share bricks = {0, 0};
   // Its bricks near others' below and above, and those between.
   std::array<SweepPart, 3> parts;
-  std::vector<BrickIndex> by_first_shell;  // own bricks in the order in which shells reach them
-  size_t reached = 0;                      // how many of them have been reached
-  // Bricks with points in the shells that are cut, those shells' first, and their points there.
-  std::vector<BrickIndex> opening;
-  int32_t cut_from = -1;                     // none
-  exec::UninitializedVector<BrickBits> cut;  // as CutShells() has it
+  ShellOpener opener;
 
   // Bricks of other workers that border on points removed here. Written while points are removed
   // and read by their owners before the next marks.

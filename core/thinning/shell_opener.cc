@@ -1,0 +1,62 @@
+#include "core/thinning/shell_opener.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace bccskel {
+
+void ShellOpener::Begin(const Shells& shells, exec::Share bricks) {
+  shells_ = &shells;
+  by_first_shell_.resize(bricks.end - bricks.begin);
+  std::iota(by_first_shell_.begin(), by_first_shell_.end(), static_cast<BrickIndex>(bricks.begin));
+  SortByFirstShell();
+}
+
+void ShellOpener::SortByFirstShell() {
+  std::ranges::stable_sort(by_first_shell_, {},
+                           [this](BrickIndex n) { return shells_->RangeOf(n).first; });
+}
+
+uint64_t ShellOpener::Open(const OpeningView& view, int32_t shell) {
+  const int32_t within = shell % kShellsAtOnce;
+  if (cut_from_ != shell - within) CutFrom(shell - within);
+  return OpenShell(view, opening_, points_.data() + static_cast<size_t>(within) * opening_.size());
+}
+
+void ShellOpener::CutFrom(int32_t first) {
+  std::erase_if(opening_, [&](BrickIndex n) { return shells_->RangeOf(n).last < first; });
+  while (reached_ < by_first_shell_.size() &&
+         shells_->RangeOf(by_first_shell_[reached_]).first < first + kShellsAtOnce) {
+    opening_.push_back(by_first_shell_[reached_++]);
+  }
+  cut_from_ = first;
+  points_.resize(static_cast<size_t>(kShellsAtOnce) * opening_.size());
+  CutShells(shells_->planes(), first, opening_, points_.data());
+  ClearOtherShells();
+}
+
+// Planes tell shells modulo 64, so those that are cut together with shells of a brick may seem to
+// be others of its shells, where it has nearly as many.
+void ShellOpener::ClearOtherShells() {
+  for (size_t at = 0; at < opening_.size(); ++at) {
+    const Shells::Range range = shells_->RangeOf(opening_[at]);
+    if (range.last - range.first <= (1 << kShellPlanes) - kShellsAtOnce) continue;
+    for (int32_t k = 0; k < kShellsAtOnce; ++k) {
+      const int32_t shell = cut_from_ + k;
+      if (shell >= range.first && shell <= range.last) continue;
+      points_[static_cast<size_t>(k) * opening_.size() + at] = BrickBits();
+    }
+  }
+}
+
+void ShellOpener::TakeOver(ShellOpener& other) {
+  const auto not_reached = std::span(other.by_first_shell_).subspan(other.reached_);
+  by_first_shell_.insert(by_first_shell_.end(), not_reached.begin(), not_reached.end());
+  opening_.insert(opening_.end(), other.opening_.begin(), other.opening_.end());
+  SortByFirstShell();
+  cut_from_ = kNone;
+  other = {};
+}
+
+}  // namespace bccskel
