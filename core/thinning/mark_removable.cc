@@ -49,7 +49,7 @@ HWY_INLINE RemovableAndThin Removable(const ObjectView& view, BrickIndex brick) 
   // direction is positive there; in terms of moved axes both sublattices read alike.
   constexpr Step kOther = kStep == Step::kDown ? Step::kUp : Step::kDown;
   Plane right = diagonal[kAxes ^ 1];
-  Plane axial[6];
+  Plane towards[3], aways[3];  // by axis
   const auto imply = [&]<int kAxis>(std::integral_constant<int, kAxis>) HWY_ATTR {
     constexpr bool kMoved = ((kAxes >> kAxis) & 1) != 0;
     const Plane toward = read.template Axial < kAxis, kMoved ? kStep : kOther > (own);
@@ -59,13 +59,13 @@ HWY_INLINE RemovableAndThin Removable(const ObjectView& view, BrickIndex brick) 
     removable = AndNot(AndNot(toward, alone), removable);
     removable = AndNot(AndNot(opposite, away), removable);
     right = Or(right, Or(toward, opposite));
-    axial[2 * kAxis] = toward;
-    axial[2 * kAxis + 1] = away;
+    towards[kAxis] = toward;
+    aways[kAxis] = away;
   };
   imply(std::integral_constant<int, 0>());
   imply(std::integral_constant<int, 1>());
   imply(std::integral_constant<int, 2>());
-  return {And(removable, right), AtMostOne(axial[2], axial[3], axial[4], axial[5], candidates)};
+  return {And(removable, right), AtMostOne(towards[1], aways[1], towards[2], aways[2], candidates)};
 }
 
 HWY_INLINE Plane Thin(const ObjectView& view, BrickIndex brick) {
