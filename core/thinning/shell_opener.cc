@@ -31,7 +31,9 @@ void ShellOpener::CutFrom(int32_t first) {
     opening_.push_back(by_first_shell_[reached_++]);
   }
   cut_from_ = first;
-  points_.resize(static_cast<size_t>(kShellsAtOnce) * opening_.size());
+  const size_t room = static_cast<size_t>(kShellsAtOnce) * opening_.size();
+  if (points_.capacity() < room) points_ = {};  // growing would keep both for a while
+  points_.resize(room);
   CutShells(shells_->planes(), first, opening_, points_.data());
   ClearOtherShells();
 }
