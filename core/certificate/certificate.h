@@ -47,10 +47,15 @@ struct Certificate {
   // Points that could still go: simple, and nothing that the kind of skeleton keeps. 0 where
   // thinning went to its end.
   uint64_t simple_points_left = 0;
+  // Whether the object is no exact conversion of the mask but a sampling, which may have changed
+  // the topology before all else.
+  bool sampled = false;
 
   // Of the object as it was given.
   const BettiNumbers& Given() const { return unprepared.has_value() ? *unprepared : input; }
   bool TopologyKept() const { return input == skeleton; }
+  // Whether the object has the numbers of the mask, where there is one.
+  bool MaskKept() const { return !mask.has_value() || *mask == Given(); }
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };
 

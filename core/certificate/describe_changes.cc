@@ -16,4 +16,12 @@ std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& afte
   return changes;
 }
 
+std::string VerdictInWords(const Certificate& certificate) {
+  if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
+  if (!certificate.sampled) return "topology kept";
+  const std::string kept = "topology of the sampled object kept, sampling ";
+  if (certificate.MaskKept()) return kept + "may have changed the mask's";
+  return kept + "changed " + DescribeChanges(*certificate.mask, certificate.Given());
+}
+
 }  // namespace bccskel

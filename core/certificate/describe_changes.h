@@ -10,6 +10,9 @@ namespace bccskel {
 // What became of a topology, such as "components 1 -> 3, loops 2 -> 7"; empty when nothing.
 std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& after);
 
+// What the certificate proves: "topology kept", or what kept or changed it.
+std::string VerdictInWords(const Certificate& certificate);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_CERTIFICATE_DESCRIBE_CHANGES_H_

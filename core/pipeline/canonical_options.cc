@@ -1,6 +1,7 @@
 #include "core/pipeline/canonical_options.h"
 
 #include "core/pruning/pruning_defaults.h"
+#include "core/pruning/sheet_pruner.h"
 
 namespace bccskel {
 
@@ -9,10 +10,24 @@ bool HasCurves(const ThinningOptions& options) {
          (options.kind == SkeletonKind::kCurve || options.kind == SkeletonKind::kIsthmusCurve);
 }
 
+bool HasSheets(const ThinningOptions& options) {
+  return options.last_shell == 0 && options.kind == SkeletonKind::kSurface;
+}
+
+bool HasGraphOfCurves(const ThinningOptions& options) {
+  return options.last_shell == 0 && options.kind != SkeletonKind::kSurface;
+}
+
 SkeletonizeOptions CanonicalOptions(SkeletonizeOptions options) {
-  if (!HasCurves(options.thinning)) {
+  if (HasSheets(options.thinning)) {
+    options.pruning.tips = TipPlacement::kAsThinned;
+    if (options.pruning.threshold == 0) {
+      options.pruning.threshold = kDefaultSheetMargin * SurfaceStepOf(options.source);
+    }
+  } else if (!HasCurves(options.thinning)) {
     options.pruning = {.rule = PruningRule::kNone, .tips = TipPlacement::kAsThinned};
   }
+  if (!HasGraphOfCurves(options.thinning)) options.junction_reach = 0;
   options.pruning = WithDefaults(options.pruning);
   return options;
 }

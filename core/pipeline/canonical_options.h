@@ -9,9 +9,15 @@ namespace bccskel {
 // leaves none.
 bool HasCurves(const ThinningOptions& options);
 
-// The options as they take effect: defaults filled in, and no pruning where there are no curves. So
-// options that differ only in these respects become equal.
-// Needs: the default margin for an object of voxels is in already: see ForSteps().
+// Whether the result has sheets, which are pruned.
+bool HasSheets(const ThinningOptions& options);
+
+// Whether the result is a graph of curves alone, whose junctions are merged.
+bool HasGraphOfCurves(const ThinningOptions& options);
+
+// The options as they take effect: defaults filled in, no pruning where there are no curves and
+// sheets, and no merging where there is no graph of them. So options that differ only in these
+// respects become equal.
 SkeletonizeOptions CanonicalOptions(SkeletonizeOptions options);
 
 }  // namespace bccskel

@@ -43,11 +43,27 @@ const char* WordsFor(DistanceKind distance) {
   return "";
 }
 
+const char* WordsFor(ObjectSource source) {
+  switch (source) {
+    case ObjectSource::kPoints:
+      return "";
+    case ObjectSource::kVoxels:
+      return ", of a mask converted exactly at 2 points a voxel";
+    case ObjectSource::kRefinedVoxels:
+      return ", of a mask converted exactly at 16 points a voxel";
+    case ObjectSource::kSampledVoxels:
+      return ", of a sampled mask, whose topology may have changed";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance) {
-  return absl::StrFormat("%s by parallel %s thinning on the body-centered cubic grid by %s shells",
-                         WordsFor(thinning.kind), WordsFor(thinning.method), WordsFor(distance));
+std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance,
+                          ObjectSource source) {
+  return absl::StrFormat(
+      "%s by parallel %s thinning on the body-centered cubic grid by %s shells%s",
+      WordsFor(thinning.kind), WordsFor(thinning.method), WordsFor(distance), WordsFor(source));
 }
 
 }  // namespace bccskel

@@ -4,12 +4,14 @@
 #include <string>
 
 #include "core/distance/distance_field.h"
+#include "core/pipeline/skeletonize.h"
 #include "core/thinning/thinning.h"
 
 namespace bccskel {
 
 // What kind of skeleton is made, and how: one line for whoever reads a result.
-std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance);
+std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance,
+                          ObjectSource source = ObjectSource::kPoints);
 
 }  // namespace bccskel
 

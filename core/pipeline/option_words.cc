@@ -34,7 +34,9 @@ std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options) {
           NumberFact("last_shell", thinning.last_shell),
           {"pruning", WordFor(kPruningWords, options.pruning.rule)},
           NumberFact("pruning_threshold", options.pruning.threshold),
-          {"tips", WordFor(kTipsWords, options.pruning.tips)}};
+          {"tips", WordFor(kTipsWords, options.pruning.tips)},
+          {"source", WordFor(kSourceWords, options.source)},
+          NumberFact("merge_junctions", options.junction_reach)};
 }
 
 }  // namespace bccskel

@@ -31,13 +31,18 @@ inline constexpr Words<StubblePolicy, 3> kStubbleWords = {{{"keep-two", StubbleP
                                                            {"literal", StubblePolicy::kLiteral},
                                                            {"none", StubblePolicy::kNone}}};
 inline constexpr Words<PruningRule, 5> kPruningWords = {
-    {{"slope", PruningRule::kSlope},
+    {{"significance", PruningRule::kSignificance},
      {"length", PruningRule::kLength},
      {"relative-length", PruningRule::kRelativeLength},
      {"persistence", PruningRule::kPersistence},
      {"none", PruningRule::kNone}}};
 inline constexpr Words<TipPlacement, 2> kTipsWords = {
     {{"ridge", TipPlacement::kRidge}, {"as-thinned", TipPlacement::kAsThinned}}};
+inline constexpr Words<ObjectSource, 4> kSourceWords = {
+    {{"points", ObjectSource::kPoints},
+     {"voxels", ObjectSource::kVoxels},
+     {"refined-voxels", ObjectSource::kRefinedVoxels},
+     {"sampled-voxels", ObjectSource::kSampledVoxels}}};
 inline constexpr Words<PreparingStepKind, 4> kPreparingWords = {
     {{"denoise", PreparingStepKind::kDenoise},
      {"fill-cavities", PreparingStepKind::kFillCavities},

@@ -1,5 +1,3 @@
-#include "core/pipeline/skeletonize.h"
-
 #include <algorithm>
 
 #include "core/certificate/describe_changes.h"
@@ -11,7 +9,11 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
+#include "core/pipeline/skeletonize_within.h"
+#include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
+#include "core/skeleton/trace_skeleton.h"
+#include "core/skeleton/voxel_radii.h"
 
 namespace bccskel {
 namespace {
@@ -108,13 +110,14 @@ absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceFiel
 // The stages, in their order, and what they hand to each other.
 class Pipeline {
  public:
-  Pipeline(const SkeletonizeOptions& options, const exec::Context& context,
-           const OnShellPoints& on_points)
-      : options_(options), context_(context), on_points_(on_points) {
+  Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
+           const exec::Context& context, const OnShellPoints& on_points)
+      : options_(options), memory_(memory), context_(context), on_points_(on_points) {
     result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
-    result_.method = MethodInWords(options.thinning, options.distance);
-    result_.algorithm_version = std::string(kAlgorithmVersion);
+    result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
+    result_.method = MethodInWords(options.thinning, options.distance, options.source);
+    result_.algorithm_version = AlgorithmVersionOf(options.source);
   }
 
   absl::StatusOr<SkeletonizeResult> Run(const Volume& given) && {
@@ -141,22 +144,35 @@ class Pipeline {
     DistanceField distance = NoDistances(options_.distance);
     BCCSKEL_RETURN_IF_ERROR(NeedsDistances() ? ThinInField(object, distance)
                                              : ThinInShells(object));
+    BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
+                                            "points that thinning leaves"));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
     BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
         CountSimplePoints(result_.thin, ThatMayGo(options_),
                           SparedPoints(result_.thin, isthmuses_, options_), context_);
     result_.timings.certificate = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, memory_, context_));
     BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(levels_, context_, result_.graph));
+    BCCSKEL_RETURN_IF_ERROR(
+        MergeJunctions(result_.options.junction_reach, context_, result_.graph));
     SetBirths(isthmuses_, result_.graph);
     if (options_.distance == DistanceKind::kEuclidean) {
       BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
     }
+    BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(object));
     BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();
     return absl::OkStatus();
+  }
+
+  absl::Status MeasureVoxels(const Volume& object) {
+    const bool converted =
+        options_.source == ObjectSource::kVoxels || options_.source == ObjectSource::kRefinedVoxels;
+    if (!converted) return absl::OkStatus();
+    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), context_,
+                         result_.graph);
   }
 
   // The directional methods only look at shells, and radii are found without chamfer distances.
@@ -204,6 +220,7 @@ class Pipeline {
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
     if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, radius, radii));
+    if (HasSheets(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneSurface(radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
     return radii;
@@ -215,17 +232,34 @@ class Pipeline {
     if (options_.thinning.kind == SkeletonKind::kIsthmusCurve) {
       births = BirthsOf(result_.thin, isthmuses_);
     }
-    BCCSKEL_ASSIGN_OR_RETURN(PrunedSkeleton pruned,
-                             Prune({result_.thin, radii, births}, object, radius,
-                                   options_.thinning.keep, options_.pruning, context_));
-    if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, pruned.thin));
-    result_.thin = std::move(pruned.thin);
-    radii = std::move(pruned.radii);
+    BCCSKEL_ASSIGN_OR_RETURN(
+        PrunedSkeleton pruned,
+        Prune({result_.thin, radii, births, SurfaceStepOf(options_.source)}, object, radius,
+              options_.thinning.keep, options_.pruning, context_));
+    TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
     levels_ = std::move(pruned.levels);
     return absl::OkStatus();
   }
 
+  absl::Status PruneSurface(std::vector<float>& radii) {
+    const PruningOptions& pruning = result_.options.pruning;
+    if (pruning.rule == PruningRule::kNone) return absl::OkStatus();
+    const std::vector<int32_t> births = BirthsOf(result_.thin, isthmuses_);
+    BCCSKEL_ASSIGN_OR_RETURN(PrunedSheets pruned,
+                             PruneSheets({result_.thin, radii, births}, pruning.threshold,
+                                         options_.thinning.keep, context_));
+    TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
+    return absl::OkStatus();
+  }
+
+  void TakeOver(Volume thin, std::vector<float> new_radii, std::vector<float>& radii) {
+    if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, thin));
+    result_.thin = std::move(thin);
+    radii = std::move(new_radii);
+  }
+
   const SkeletonizeOptions& options_;
+  exec::MemoryBudget& memory_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
   exec::StageClock clock_;
@@ -236,10 +270,37 @@ class Pipeline {
 
 }  // namespace
 
+namespace {
+
+bool IsForSheets(PruningRule rule) {
+  return rule == PruningOptions().rule || rule == PruningRule::kNone;
+}
+
+}  // namespace
+
+double SurfaceStepOf(ObjectSource source) {
+  switch (source) {
+    case ObjectSource::kPoints:
+      return 1;
+    case ObjectSource::kVoxels:
+    case ObjectSource::kSampledVoxels:
+      return 2;
+    case ObjectSource::kRefinedVoxels:
+      return 4;
+  }
+  return 1;
+}
+
 absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
   BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options.preparing));
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
   BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options.pruning));
+  BCCSKEL_RETURN_IF_ERROR(CheckJunctionReach(options.junction_reach));
+  if (options.thinning.kind == SkeletonKind::kSurface && !IsForSheets(options.pruning.rule)) {
+    return absl::InvalidArgumentError(
+        "pruning by length, relative length or persistence: is for curves; the kind surface is "
+        "pruned by the default rule, the thickness of its sheets, or by none");
+  }
   if (options.pruning.rule == PruningRule::kPersistence &&
       options.thinning.kind != SkeletonKind::kIsthmusCurve) {
     return absl::InvalidArgumentError(
@@ -253,8 +314,17 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
                                               const exec::Context& context,
                                               const OnShellPoints& on_points) {
+  exec::UnlimitedMemory memory;
+  return SkeletonizeWithin(memory, object, options, context, on_points);
+}
+
+absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
+                                                    const Volume& object,
+                                                    const SkeletonizeOptions& options,
+                                                    const exec::Context& context,
+                                                    const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  return Pipeline(options, context, on_points).Run(object);
+  return Pipeline(options, memory, context, on_points).Run(object);
 }
 
 }  // namespace bccskel

@@ -12,11 +12,24 @@
 #include "core/pipeline/stage_timings.h"
 #include "core/prepare/prepare.h"
 #include "core/pruning/prune.h"
+#include "core/skeleton/junction_merger.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/thinning/thinning.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// What the points of the object were made of.
+enum class ObjectSource : uint8_t {
+  kPoints,         // nothing else: the lattice of a solid
+  kVoxels,         // a mask, converted exactly: two points a voxel
+  kRefinedVoxels,  // the same with sixteen points
+  kSampledVoxels,  // a mask, sampled: its topology may have changed
+};
+
+// How high the steps of the object's surface are, in lattice units: a voxel's edge, for samplings
+// about that.
+double SurfaceStepOf(ObjectSource source);
 
 struct SkeletonizeOptions {
   PreparingOptions preparing = {};
@@ -27,6 +40,10 @@ struct SkeletonizeOptions {
   DistanceKind distance = DistanceKind::kEuclidean;
   // Not done where thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};
+  ObjectSource source = ObjectSource::kPoints;
+  // Junctions this near to each other, in radii, are one node; 0 leaves all. Only where there is a
+  // graph of curves.
+  double junction_reach = kDefaultJunctionReach;
 };
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
@@ -43,7 +60,7 @@ struct SkeletonizeResult {
   uint64_t skeleton_points = 0;
   int32_t last_shell = 0;
   std::string method;             // MethodInWords()
-  std::string algorithm_version;  // kAlgorithmVersion of whoever made this
+  std::string algorithm_version;  // AlgorithmVersionOf() of whoever made this
   std::string sha256;             // SkeletonDigest(graph)
 };
 

@@ -59,7 +59,7 @@ double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) co
     case PruningRule::kPersistence:
       return PersistenceOf(set_, branch);
     default:
-      return WorthBySlope(branch, junction);
+      return significance_.Of(set_, branch);
   }
 }
 
@@ -68,20 +68,6 @@ double BranchPruner::BallAt(LatticePoint junction) const {
   float ball = 0;
   for (LatticePoint p : ClusterOf(junction)) ball = std::max(ball, set_.RadiusOf(p));
   return ball;
-}
-
-// How far the branch reaches out of the junction's ball, its slope given. Ribs are worth less than
-// the default margin, short ones less than long ones.
-double BranchPruner::WorthBySlope(const FreeBranch& branch, LatticePoint junction) const {
-  const double ball = BallAt(junction), enough = std::max(threshold_, kDefaultSlopeMargin);
-  double worth = -std::numeric_limits<double>::infinity();
-  for (LatticePoint p : branch.points) {
-    worth = std::max(worth, 0.5 * set_.Between(p, junction) + set_.RadiusOf(p) - ball);
-    if (worth >= enough) break;  // the rest cannot make it spurious
-  }
-  if (worth < kDefaultSlopeMargin || !ribs_.IsRib(set_, branch)) return worth;
-  const double length = set_.Between(branch.points[0], junction);
-  return kDefaultSlopeMargin * length / (length + 1);
 }
 
 double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) const {

@@ -12,7 +12,7 @@
 #include "core/exec/context.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/prune.h"
-#include "core/pruning/rib_finder.h"
+#include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
@@ -33,10 +33,10 @@ class BranchPruner {
 
   // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
   // The arguments must outlive the pruner.
-  BranchPruner(ThinSet& set, RibFinder& ribs, PruningRule rule, double threshold,
+  BranchPruner(ThinSet& set, Significance& significance, PruningRule rule, double threshold,
                const PointSet& keep, const exec::Context& context)
       : set_(set),
-        ribs_(ribs),
+        significance_(significance),
         rule_(rule),
         threshold_(threshold),
         keep_(keep),
@@ -53,7 +53,6 @@ class BranchPruner {
 
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
   double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
-  double WorthBySlope(const FreeBranch& branch, LatticePoint junction) const;
   double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
   std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
@@ -63,7 +62,7 @@ class BranchPruner {
   using Turn = std::pair<double, LatticePoint>;
 
   ThinSet& set_;
-  RibFinder& ribs_;
+  Significance& significance_;
   const PruningRule rule_;
   const double threshold_;
   const PointSet& keep_;

@@ -22,7 +22,7 @@ double ThresholdOf(const PruningOptions& options, const Placement& placement) {
 PruningRule RuleOfLevels(const PruningOptions& options, const ThinCurves& curves) {
   const bool by_births = options.rule == PruningRule::kNone && !curves.births.empty();
   return by_births || options.rule == PruningRule::kPersistence ? PruningRule::kPersistence
-                                                                : PruningRule::kSlope;
+                                                                : PruningRule::kSignificance;
 }
 
 absl::Status CheckCurves(const ThinCurves& curves, const PruningOptions& options) {
@@ -34,13 +34,6 @@ absl::Status CheckCurves(const ThinCurves& curves, const PruningOptions& options
 }
 
 }  // namespace
-
-PruningOptions ForSteps(const PruningOptions& options, double step) {
-  PruningOptions stepped = options;
-  const bool is_default = options.rule == PruningRule::kSlope && options.threshold == 0;
-  if (is_default && step > 1) stepped.threshold = kDefaultSlopeMargin * step;
-  return stepped;
-}
 
 absl::Status CheckPruningOptions(const PruningOptions& options) {
   if (!(options.threshold >= 0 && options.threshold <= 1e9)) {
@@ -65,15 +58,16 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
-  RibFinder ribs(object);
+  Significance significance(object, curves.surface_step);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
-    pruned.branches_removed = BranchPruner(set, ribs, options.rule, threshold, kept, context).Run();
+    pruned.branches_removed =
+        BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
   }
-  pruned.levels = PruningLevelsOf(set, ribs, RuleOfLevels(options, curves), kept, context);
+  pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, radius, kept, context));
+    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, radius, kept, curves.surface_step, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);

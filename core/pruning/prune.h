@@ -15,49 +15,42 @@
 
 namespace bccskel {
 
-// Which branches, from an end to the first junction, are spurious. J is the junction point, R the
-// largest radius of its cluster, D(p) the radius at p.
+// Which branches, from an end to the first junction, are spurious.
 enum class PruningRule : uint8_t {
-  // Those with |p - J| / 2 + D(p) < R + threshold (lattice units, 4 by default, 16 where voxels
-  // were converted exactly: see ForSteps()) at all their points p: the radius falls about as fast
-  // as the branch leaves the junction's ball, so the branch is a bump of the surface. And ribs of
-  // flat limbs (rib_finder.h), which count as less than 4.
-  kSlope,
+  // Those that stick out by less than the threshold, 0.4 by default, in half-widths of the object
+  // beside them: bumps, ribs of flat parts, and strands beside another one. See significance.h.
+  kSignificance,
   // Those shorter than the threshold, in world units.
   kLength,
-  // Those shorter than threshold * R; the factor is 1 by default.
+  // Those shorter than threshold * R; R is the largest radius of the junction, the factor 1 by
+  // default.
   kRelativeLength,
   // Those of a persistence below the threshold: see persistence.h. Needs the births of isthmuses.
   kPersistence,
   kNone,
 };
 
-// Of the slope rule, lattice units.
-inline constexpr double kDefaultSlopeMargin = 4;
+// Of the rule of significance, half-widths.
+inline constexpr double kDefaultSignificance = 0.4;
 
 // Whether ends are moved along the ridge of the distances to where it ends.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };
 
 struct PruningOptions {
-  PruningRule rule = PruningRule::kSlope;
+  PruningRule rule = PruningRule::kSignificance;
   double threshold = 0;  // 0: the rule's default; a length must be given
   TipPlacement tips = TipPlacement::kRidge;
 
   friend bool operator==(const PruningOptions&, const PruningOptions&) = default;
 };
 
-// The options for an object whose surface goes in steps of so many lattice units, 1 where it was
-// sampled point by point. Bumps are as high as steps, so the default threshold of the slope rule
-// grows with them; one that was given stays.
-PruningOptions ForSteps(const PruningOptions& options, double step);
-
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 
 // For each point of a branch, the threshold above which it goes; infinity where it never does.
 // Points at junctions and tips that have grown have none. Thresholds are those of pruning by
-// persistence where that was the rule, or none was and births are known; else those of the slope
-// rule.
+// persistence where that was the rule, or none was and births are known; else those of
+// significance.
 using PruningLevels = PointTable<double>;
 
 struct PrunedSkeleton {

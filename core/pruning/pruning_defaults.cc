@@ -8,8 +8,8 @@ constexpr double kDefaultPersistence = 6;
 
 double DefaultOf(PruningRule rule) {
   switch (rule) {
-    case PruningRule::kSlope:
-      return kDefaultSlopeMargin;
+    case PruningRule::kSignificance:
+      return kDefaultSignificance;
     case PruningRule::kRelativeLength:
       return kDefaultRelativeLength;
     case PruningRule::kPersistence:

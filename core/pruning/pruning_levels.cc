@@ -7,8 +7,8 @@
 
 namespace bccskel {
 
-PruningLevels PruningLevelsOf(ThinSet set, RibFinder& ribs, PruningRule rule, const PointSet& keep,
-                              const exec::Context& context) {
+PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRule rule,
+                              const PointSet& keep, const exec::Context& context) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
   set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, kNever); });
@@ -17,7 +17,7 @@ PruningLevels PruningLevelsOf(ThinSet set, RibFinder& ribs, PruningRule rule, co
     level = std::max(level, worth);
     if (double* found = levels.Find(p); found != nullptr) *found = level;
   };
-  BranchPruner(set, ribs, rule, kNever, keep, context).Run(record);
+  BranchPruner(set, significance, rule, kNever, keep, context).Run(record);
   return levels;
 }
 

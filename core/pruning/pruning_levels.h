@@ -3,7 +3,7 @@
 
 #include "core/exec/context.h"
 #include "core/pruning/prune.h"
-#include "core/pruning/rib_finder.h"
+#include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
@@ -15,8 +15,8 @@ namespace bccskel {
 // Why it is right: the rule takes the least first, so pruning by a threshold is the first part of
 //        this run, up to where all branches left are worth the threshold or more.
 // Errors: none; what is left when the context says stop stays at infinity.
-PruningLevels PruningLevelsOf(ThinSet set, RibFinder& ribs, PruningRule rule, const PointSet& keep,
-                              const exec::Context& context);
+PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRule rule,
+                              const PointSet& keep, const exec::Context& context);
 
 }  // namespace bccskel
 

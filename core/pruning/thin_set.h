@@ -28,6 +28,8 @@ struct ThinCurves {
   // The pass of thinning in which the point became an isthmus, from 1; 0 for points that never did.
   // Empty where the kind of skeleton keeps no isthmuses.
   std::span<const int32_t> births = {};
+  // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
+  double surface_step = 1;
 };
 
 // The points of a thin volume while branches go and tips move: each with its radius, its birth and

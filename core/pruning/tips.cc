@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/firm_depth.h"
+#include "core/pruning/significance.h"
 
 namespace bccskel {
 namespace {
@@ -27,18 +29,26 @@ constexpr double kHairLength = 6;  // in lattice units; longer ends of single po
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
+constexpr double kGrowthMargin = 6;    // a tip grows by this and the radius at the limb's root
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
 constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, const PointSet& keep,
-            const exec::Context& context)
-      : set_(set), bricks_(object), radius_(radius), depth_(object, radius, context), keep_(keep) {}
+            double step, const exec::Context& context)
+      : set_(set),
+        bricks_(object),
+        radius_(radius),
+        depth_(object, radius, context),
+        keep_(keep),
+        balls_(set, AxisScaleOf(object.placement())),
+        noise_(NoiseOf(step)) {}
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || set_.Degree(end) != 1) return;
     FreeBranch branch = BranchFrom(set_, end);
+    FindRoot(branch);
     const std::optional<LatticePoint> anchor = TakeAnchor(branch);
     if (!anchor.has_value() || branch.points.empty()) return;
     anchor_ = *anchor;
@@ -52,6 +62,20 @@ class TipPlacer {
   }
 
  private:
+  // Finds where the limb begins, by its largest run: no tip lies before that.
+  void FindRoot(const FreeBranch& branch) {
+    std::vector<LatticePoint> path(branch.points.rbegin(), branch.points.rend());
+    junction_ = branch.junction;
+    own_ = PointSet(path.begin(), path.end());
+    if (junction_.has_value()) {
+      path.insert(path.begin(), *junction_);
+    } else {
+      path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2));
+    }
+    root_ = path.size() < 2 ? path[0] : path[LargestRun(set_, path, noise_).from];
+    root_radius_ = set_.RadiusOf(root_);
+  }
+
   // Finds the anchor and leaves the points between the end and it.
   std::optional<LatticePoint> TakeAnchor(FreeBranch& branch) const {
     std::vector<LatticePoint>& points = branch.points;
@@ -125,11 +149,11 @@ class TipPlacer {
   }
 
   // Position in the path of the first point that may become the tip. What is cut off must lie in
-  // the cap that the new tip is the center of: a body behind a short limb has a larger distance
-  // than the limb, but the limb is no part of it.
+  // the cap that the new tip is the center of, and the new tip in the limb: a body behind a short
+  // limb has a larger distance than the limb, but the limb is no part of it.
   size_t FirstCut() {
     size_t first = path_.size() - 1;
-    while (first > 0 && IsInCapOf(path_[first - 1])) --first;
+    while (first > 0 && path_[first] != root_ && IsInCapOf(path_[first - 1])) --first;
     return first;
   }
 
@@ -150,13 +174,20 @@ class TipPlacer {
 
   void Extend() {
     double best = Merit(path_.back());
+    const LatticePoint start = path_.back();
+    const double longest = root_radius_ + kGrowthMargin;
     while (const std::optional<LatticePoint> next = NextTip()) {
-      if (!IsFirm(*next)) break;
+      if (!IsFirm(*next) || set_.Between(*next, start) > longest) break;
+      if (IsInBallOfAnother(*next)) break;
       Append(*next);
       const double merit = Merit(*next);
       if (merit < best - kPatience) break;
       best = std::max(best, merit);
     }
+  }
+
+  bool IsInBallOfAnother(LatticePoint p) const {
+    return junction_.has_value() && balls_.IsCovered(p, set_.Between(p, *junction_), set_, own_);
   }
 
   // Its radius is measured once it is sure to stay: most points do not.
@@ -232,6 +263,12 @@ class TipPlacer {
   ExactRadius radius_;
   FirmDepth depth_;
   const PointSet& keep_;
+  const BallIndex balls_;
+  const double noise_;
+  std::optional<LatticePoint> junction_;  // of the branch
+  PointSet own_;                          // its points
+  LatticePoint root_;                     // where the limb begins; it may be cut off
+  double root_radius_ = 0;
   LatticePoint anchor_;
   LatticePoint aim_;                // the limb runs from the anchor to here
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
@@ -241,10 +278,10 @@ class TipPlacer {
 }  // namespace
 
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       const PointSet& keep, const exec::Context& context) {
+                       const PointSet& keep, double step, const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, radius, keep, context);
+  TipPlacer placer(set, object, radius, keep, step, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

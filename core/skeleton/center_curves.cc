@@ -73,37 +73,57 @@ class DiscCenters {
   NearbyBricks bricks_;
 };
 
-// The way of the curve at a place, of length 1; none where it stands still.
-Coordinates WayAt(std::span<const Coordinates> curve, size_t n, CurveShape shape) {
-  size_t before = n - std::min(n, kTangentReach);
-  size_t after = std::min(n + kTangentReach, curve.size() - 1);
-  if (shape == CurveShape::kClosed) {
-    const size_t once = curve.size() - 1;
-    before = (n + once - std::min(once, kTangentReach)) % once;
-    after = (n + kTangentReach) % once;
+// The smooth curve of one edge, place by place: shares of a long edge cost what their points cost.
+class SmoothEdge {
+ public:
+  SmoothEdge(const DiscCenters& centers, const SkeletonGraph& graph, const SkeletonEdge& edge)
+      : centers_(centers), points_(graph.PointsOf(edge)), shape_(ShapeOf(graph, edge)) {}
+
+  CurveShape shape() const { return shape_; }
+  Coordinates At(size_t n) const {
+    const auto place_at = [this](size_t k) { return centers_.PlaceOf(points_[k].point); };
+    return MeanAt(place_at, points_.size(), n, shape_);
   }
-  const Coordinates way = Sum(curve[after], -1, curve[before]);
-  const double length = std::sqrt(Dot(way, way));
-  return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
-}
+  // The way of the curve, of length 1; none where it stands still.
+  Coordinates WayAt(size_t n) const {
+    size_t before = n - std::min(n, kTangentReach);
+    size_t after = std::min(n + kTangentReach, points_.size() - 1);
+    if (shape_ == CurveShape::kClosed) {
+      const size_t once = points_.size() - 1;
+      before = (n + once - std::min(once, kTangentReach)) % once;
+      after = (n + kTangentReach) % once;
+    }
+    const Coordinates way = Sum(At(after), -1, At(before));
+    const double length = std::sqrt(Dot(way, way));
+    return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
+  }
+
+ private:
+  const DiscCenters& centers_;
+  const std::span<const SkeletonPoint> points_;
+  const CurveShape shape_;
+};
 
 // Those of the edge's points that are among `mine`. The first and the last point of an open curve
 // are its nodes' and stay.
 void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, exec::Share mine, StopPoll& poll,
                 SkeletonGraph& graph) {
-  const CurveShape shape = ShapeOf(graph, edge);
-  const std::span<SkeletonPoint> points =
-      std::span(graph.points).subspan(edge.first_point, edge.point_count);
-  std::vector<Coordinates> places;
-  for (const SkeletonPoint& p : points) places.push_back(centers.PlaceOf(p.point));
-  const std::vector<Coordinates> curve = MeansAlong(places, shape);
-  const size_t skip = shape == CurveShape::kClosed ? 0 : 1;
-  for (size_t n = skip; n + skip < points.size() && !poll.Stopped(); ++n) {
-    const size_t at = edge.first_point + n;
-    const Coordinates way = WayAt(curve, n, shape);
-    if (at < mine.begin || at >= mine.end || Dot(way, way) == 0) continue;
-    points[n].shift = centers.ShiftOf(centers.WayToCenter(curve[n], way, points[n].radius));
+  const SmoothEdge curve(centers, graph, edge);
+  const size_t skip = curve.shape() == CurveShape::kClosed ? 0 : 1;
+  const size_t first = edge.first_point, end = first + edge.point_count;
+  for (size_t at = std::max(mine.begin, first + skip);
+       at < mine.end && at + skip < end && !poll.Stopped(); ++at) {
+    const Coordinates way = curve.WayAt(at - first);
+    if (Dot(way, way) == 0) continue;
+    SkeletonPoint& p = graph.points[at];
+    p.shift = centers.ShiftOf(centers.WayToCenter(curve.At(at - first), way, p.radius));
   }
+}
+
+// The first edge with a point at this position of SkeletonGraph::points or behind it.
+std::vector<SkeletonEdge>::const_iterator FirstEdgeAt(const SkeletonGraph& graph, size_t position) {
+  const auto end_of = [](const SkeletonEdge& edge) { return edge.first_point + edge.point_count; };
+  return std::ranges::upper_bound(graph.edges, position, {}, end_of);
 }
 
 }  // namespace
@@ -116,11 +136,10 @@ absl::Status CenterCurves(const Volume& object, const DistanceField& field,
     DiscCenters centers(object, field);
     StopPoll poll(context);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      for (const SkeletonEdge& edge : graph.edges) {
-        if (edge.first_point >= mine.end || edge.first_point + edge.point_count <= mine.begin)
-          continue;
-        if (poll.StoppedNow()) return;
-        CenterEdge(centers, edge, mine, poll, graph);
+      if (poll.StoppedNow()) return;
+      for (auto edge = FirstEdgeAt(graph, mine.begin);
+           edge != graph.edges.end() && edge->first_point < mine.end; ++edge) {
+        CenterEdge(centers, *edge, mine, poll, graph);
       }
     }
   });

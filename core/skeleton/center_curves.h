@@ -10,15 +10,15 @@
 namespace bccskel {
 
 // Does:  finds the middle below the lattice: sets SkeletonPoint::shift of the points of all edges
-// to
-//        the way from the smooth curve to the center of the disc across it, as wide as the point's
-//        ball, in which each place weighs the square of its distance to the background.
+//        to the way from the smooth curve to the center of the disc across it, as wide as the
+//        point's ball, in which each place weighs the square of its distance to the background.
 // Why:   lattice points next to a line are 0.7 units off it and smoothing leaves a third of that;
 //        and noise draws single points aside, while the distances around them still know the
 //        middle. Inside the ball everything is object, so no neighboring limb draws the curve to
 //        its side.
 // Cost:  up to 29 distances per point of the graph.
-// Shapes: `field` belongs to `object`, whose points the graph's are.
+// Shapes: `field` belongs to `object`, whose points the graph's are; the points of its edges follow
+//         each other in the order of the edges.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph);

@@ -72,15 +72,24 @@ ClusterLoopFinder::ClusterLoopFinder(const ThinPoints& points, const Clusters& c
       masks_(clusters.inner_masks().begin(), clusters.inner_masks().end()),
       trees_(points, masks_) {}
 
-ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster) {
+ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster,
+                                     const std::function<bool(PointPath)>& add) {
   const std::vector<PointIndex> kernel = ThinToKernel(cluster);
   ClusterLoops loops;
   loops.at = points_.DeepestOf(kernel);
   trees_.GrowFrom(loops.at, poll_);
   const std::vector<Chord> chords = FindChords(kernel);
   const std::vector<uint8_t> is_free = FindFreeChords(kernel, chords);
+  size_t room = kPathPointsPerPoint * cluster.points.size();
   for (size_t n = 0; n < chords.size() && !poll_.StoppedNow(); ++n) {
-    if (is_free[n] != 0) loops.paths.push_back(CloseLoop(chords[n]));
+    if (is_free[n] == 0) continue;
+    const size_t points = chords[n].steps + 1;
+    if (points > room) {
+      ++loops.without_path;
+      continue;
+    }
+    room -= points;
+    if (!add(CloseLoop(chords[n]))) break;
   }
   return loops;
 }

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_SKELETON_CURVE_SMOOTHING_H_
 #define BCCSKEL_CORE_SKELETON_CURVE_SMOOTHING_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,8 +15,30 @@ namespace bccskel {
 enum class CurveShape : uint8_t { kOpen, kClosed };
 CurveShape ShapeOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
-// For each place along a curve the mean of the values there and at up to four places on either
-// side. The first and last value of an open curve stay.
+// The values whose mean replaces value n of `size`: [first, first + count), counted again from the
+// start of a closed curve after its `period` values.
+struct MeanRange {
+  size_t first;
+  size_t count;
+  size_t period;
+};
+MeanRange RangeOfMean(size_t size, size_t n, CurveShape shape);
+
+// The mean of the values at place n of a curve and at up to four places on either side. The first
+// and last value of an open curve stay. `value_at(n)` gives a value.
+template <typename ValueAt>
+Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
+  const MeanRange range = RangeOfMean(size, n, shape);
+  Coordinates mean = {0, 0, 0};
+  for (size_t k = range.first; k < range.first + range.count; ++k) {
+    const Coordinates value = value_at(k % range.period);
+    for (size_t axis = 0; axis < 3; ++axis) mean[axis] += value[axis];
+  }
+  for (double& coordinate : mean) coordinate /= static_cast<double>(range.count);
+  return mean;
+}
+
+// MeanAt() for each place along a curve.
 std::vector<Coordinates> MeansAlong(std::span<const Coordinates> values, CurveShape shape);
 
 }  // namespace bccskel

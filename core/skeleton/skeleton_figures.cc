@@ -78,10 +78,15 @@ std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEd
 }
 
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
+  return FiguresOf(graph, edge, SmoothCurve(graph, edge));
+}
+
+EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                      std::span<const WorldPoint> curve) {
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   EdgeFigures figures;
   if (points.empty()) return figures;
-  figures.length = LengthOfCurve(SmoothCurve(graph, edge));
+  figures.length = LengthOfCurve(curve);
   const auto [thinnest, thickest] = std::ranges::minmax_element(points, {}, &SkeletonPoint::radius);
   figures.min_radius = graph.RadiusOf(*thinnest);
   figures.max_radius = graph.RadiusOf(*thickest);

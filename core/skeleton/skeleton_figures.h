@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -19,6 +20,9 @@ struct EdgeFigures {
   std::optional<double> tortuosity;
 };
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
+// The same where SmoothCurve() of the edge is known.
+EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                      std::span<const WorldPoint> curve);
 
 // The totals of a connected piece of the graph.
 struct ComponentFigures {

@@ -21,7 +21,7 @@ namespace bccskel {
 // two or more branches.
 enum class NodeKind : uint8_t {
   kEnd,            // one branch
-  kJunction,       // three or more branches, or a cluster that encloses loops
+  kJunction,       // three or more branches, or a cluster that encloses loops; see MergeJunctions()
   kLoop,           // stands for a closed curve without junction; one edge leads from it to itself
   kIsolated,       // no branch
   kClosedSurface,  // what a cavity leaves: a cluster with cavities
@@ -52,7 +52,8 @@ struct SkeletonNode {
   // The point that stands for the node: for a cluster or a closed curve its deepest point, on ties
   // the smallest; for a cluster that encloses loops the deepest point on those loops.
   SkeletonPoint at;
-  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any.
+  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any, and loops
+  // clusters of so many that their paths would not follow the number of points.
   uint32_t loops = 0;
   uint32_t cavities = 0;
 
@@ -61,7 +62,8 @@ struct SkeletonNode {
 
 // A branch, or a loop inside a cluster. Its points run from the source node's point to the target
 // node's point, both included; consecutive points are neighbors in N14. Inside a cluster it takes a
-// path of the fewest steps.
+// path of the fewest steps; through junctions that were merged it takes the edges between them,
+// which it shares with others.
 struct SkeletonEdge {
   uint32_t source = 0;  // index into nodes
   uint32_t target = 0;
@@ -69,7 +71,7 @@ struct SkeletonEdge {
       0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
   // The threshold of pruning above which the edge goes: with branches that end, one after the
-  // other. Edges on loops, and one path of a tree, never do. By slope, in lattice units, or by
+  // other. Edges on loops, and one path of a tree, never do. By significance, or by
   // persistence: see PruningLevels.
   double pruning_level = std::numeric_limits<double>::infinity();
 

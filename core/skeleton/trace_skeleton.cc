@@ -3,6 +3,8 @@
 // Why it is right: see clusters.h for the topology; a cluster's own loops become edges from
 //       its node to itself, or numbers of the node where a cavity leaves a closed surface.
 // Cost: sorting the points and 14 walks over them; the rest follows clusters and branches.
+#include "core/skeleton/trace_skeleton.h"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -11,7 +13,6 @@
 #include "core/skeleton/branches.h"
 #include "core/skeleton/cluster_loops.h"
 #include "core/skeleton/clusters.h"
-#include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/spanning_trees.h"
 #include "core/skeleton/thin_points.h"
 
@@ -36,36 +37,58 @@ struct TracedEdge {
 
 class GraphBuilder {
  public:
-  GraphBuilder(const ThinPoints& points, const Clusters& clusters, StopPoll& poll)
+  GraphBuilder(const ThinPoints& points, const Clusters& clusters, exec::MemoryBudget& memory,
+               StopPoll& poll)
       : points_(points),
         clusters_(clusters),
+        memory_(memory),
         poll_(poll),
+        room_(kEdgePointsPerPoint * points.size() + kEdgePointsAtOnce),
         node_of_(clusters.size()),
         on_graph_(points.size()),
         loops_(points, clusters, poll),
         paths_(points, clusters.inner_masks()) {}
 
   void AddClusters() {
-    for (ClusterIndex c = 0; c < clusters_.size() && !poll_.Stopped(); ++c) {
+    for (ClusterIndex c = 0; c < clusters_.size() && !Stopped(); ++c) {
       if (!clusters_[c].IsBend()) AddCluster(c);
     }
   }
 
   void AddBranches(const Branches& branches) {
     for (const Branch& branch : branches.between) {
-      if (poll_.Stopped()) return;
+      if (Stopped()) return;
       AddBranch(branch);
     }
     for (const PointPath& curve : branches.closed) {
-      if (poll_.Stopped()) return;
+      if (Stopped()) return;
       AddClosedCurve(curve);
     }
   }
+
+  // Not OK where the memory for more points on edges was refused; then the graph is incomplete.
+  const absl::Status& refused() const { return refused_; }
 
   // Incomplete where the poll says to stop, as all before.
   SkeletonGraph Finish(const Placement& placement) &&;
 
  private:
+  static constexpr size_t kEdgePointsAtOnce = size_t{1} << 16;
+
+  bool Stopped() { return poll_.Stopped() || !refused_.ok(); }
+
+  // Asks for more where `points` more points on edges do not fit into what was taken.
+  bool HasRoomFor(size_t points) {
+    if (points > room_) {
+      const size_t more = points - room_ + kEdgePointsAtOnce;
+      refused_ = memory_.TakeFor(more, kTraceBytesPerEdgePoint, "more points on edges");
+      if (!refused_.ok()) return false;
+      room_ += more;
+    }
+    room_ -= points;
+    return true;
+  }
+
   void AddCluster(ClusterIndex c) {
     const Cluster& cluster = clusters_[c];
     const NodeKind kind = KindOf(cluster);
@@ -76,9 +99,10 @@ class GraphBuilder {
       node.loops = cluster.topology.loops;
       node.cavities = cluster.topology.cavities;
     } else if (cluster.topology.loops > 0) {
-      ClusterLoops loops = loops_.Find(cluster);
+      const ClusterLoops loops = loops_.Find(
+          cluster, [&](PointPath path) { return AddEdge(node_of_[c], node_of_[c], path); });
       at = loops.at;
-      for (PointPath& path : loops.paths) AddEdge(node_of_[c], node_of_[c], std::move(path));
+      node.loops = loops.without_path;
     }
     node.at = points_[at];
     on_graph_[at] = 1;
@@ -104,9 +128,12 @@ class GraphBuilder {
     AddEdge(node, node, std::move(turned));
   }
 
-  void AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
+  // False where there is no room for it.
+  bool AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
+    if (!HasRoomFor(path.size())) return false;
     for (PointIndex p : path) on_graph_[p] = 1;
     edges_.push_back({source, target, std::move(path)});
+    return true;
   }
 
   void SortNodes();
@@ -114,7 +141,10 @@ class GraphBuilder {
 
   const ThinPoints& points_;
   const Clusters& clusters_;
+  exec::MemoryBudget& memory_;
   StopPoll& poll_;
+  size_t room_;  // points on edges for which there is memory
+  absl::Status refused_;
   std::vector<NodeIndex> node_of_;  // by cluster, for those that are no bends
   std::vector<uint8_t> on_graph_;   // by point, whether it is a node's or on an edge
   ClusterLoopFinder loops_;
@@ -180,6 +210,13 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
 
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
                                             const exec::Context& context) {
+  exec::UnlimitedMemory memory;
+  return TraceSkeleton(thin, radii, memory, context);
+}
+
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
+                                            exec::MemoryBudget& memory,
+                                            const exec::Context& context) {
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   StopPoll poll(context);
   const ThinPoints points(thin, radii, poll);
@@ -187,10 +224,11 @@ absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const 
   const Clusters clusters(points, poll);
   if (poll.Stopped()) return context.StopStatus();
   const Branches branches = FollowBranches(points, clusters, poll);
-  GraphBuilder builder(points, clusters, poll);
+  GraphBuilder builder(points, clusters, memory, poll);
   builder.AddClusters();
   if (poll.Stopped()) return context.StopStatus();
   builder.AddBranches(branches);
+  if (!builder.refused().ok()) return builder.refused();
   SkeletonGraph graph = std::move(builder).Finish(thin.placement());
   if (poll.Stopped()) return context.StopStatus();
   return graph;

@@ -104,7 +104,7 @@ TEST(PruningByPersistence, LeavesTheLimbsOfANoisyTree) {
 
 TEST(PruningByPersistence, NeedsBirths) {
   SkeletonizeOptions options = ByPersistence(0);
-  for (SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kSurface, SkeletonKind::kKernel}) {
+  for (SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kKernel}) {
     options.thinning.kind = kind;
     const absl::Status status = CheckSkeletonizeOptions(options);
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);

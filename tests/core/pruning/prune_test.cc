@@ -73,7 +73,7 @@ TEST(Pruning, RemovesWhatNoiseRaises) {
   EXPECT_LT(ends_with({PruningRule::kRelativeLength, 1, TipPlacement::kAsThinned}), raw);
   EXPECT_LT(ends_with({PruningRule::kLength, 3, TipPlacement::kAsThinned}), raw);
   EXPECT_EQ(ends_with({PruningRule::kLength, 1e-3, TipPlacement::kAsThinned}), raw);
-  EXPECT_EQ(ends_with({PruningRule::kSlope, 0, TipPlacement::kAsThinned}), 34u);
+  EXPECT_EQ(ends_with({PruningRule::kSignificance, 0, TipPlacement::kAsThinned}), 34u);
 }
 
 TEST(Pruning, LeavesKeptPointsAndTheirBranches) {
@@ -109,7 +109,7 @@ TEST(PruningOptions, AreChecked) {
   EXPECT_TRUE(CheckPruningOptions({}).ok());
   EXPECT_EQ(CheckPruningOptions({PruningRule::kLength, 0}).code(),
             absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(CheckPruningOptions({PruningRule::kSlope, -1}).code(),
+  EXPECT_EQ(CheckPruningOptions({PruningRule::kSignificance, -1}).code(),
             absl::StatusCode::kInvalidArgument);
 }
 
@@ -144,7 +144,7 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
   for (const auto& points : {blob, test::WithNoisyBoundary(seed, blob, 0.1),
                              test::RandomCloud(seed, {16, 16, 16}, 0.6)}) {
     const Volume object = VolumeOfPoints(points);
-    for (PruningRule rule : {PruningRule::kSlope, PruningRule::kLength,
+    for (PruningRule rule : {PruningRule::kSignificance, PruningRule::kLength,
                              PruningRule::kRelativeLength, PruningRule::kNone}) {
       for (TipPlacement tips : {TipPlacement::kRidge, TipPlacement::kAsThinned}) {
         for (double threshold : {3.0, 1000.0}) {
@@ -159,19 +159,6 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4));
-
-TEST(ForSteps, MakesTheDefaultMarginOfTheSlopeRuleGrowWithTheSteps) {
-  EXPECT_EQ(ForSteps({}, 4).threshold, 16);
-  EXPECT_EQ(ForSteps({}, 1), PruningOptions());
-  EXPECT_EQ(ForSteps({}, 0.5), PruningOptions());
-}
-
-TEST(ForSteps, LeavesWhatWasAskedFor) {
-  const PruningOptions given = {.threshold = 3};
-  EXPECT_EQ(ForSteps(given, 4), given);
-  const PruningOptions relative = {.rule = PruningRule::kRelativeLength};
-  EXPECT_EQ(ForSteps(relative, 4), relative);
-}
 
 }  // namespace
 }  // namespace bccskel

@@ -26,7 +26,7 @@ struct RuledCurves {
 std::vector<RuledCurves> Objects() {
   std::vector<RuledCurves> objects;
   const auto add = [&](const Volume& object) {
-    objects.push_back({RawCurves(object, SkeletonKind::kCurve), PruningRule::kSlope});
+    objects.push_back({RawCurves(object, SkeletonKind::kCurve), PruningRule::kSignificance});
     objects.push_back({RawCurves(object, SkeletonKind::kIsthmusCurve), PruningRule::kPersistence});
   };
   for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot, Shape::kHollowBall}) {
@@ -88,7 +88,7 @@ TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
 TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
   for (Shape shape : {Shape::kTorus, Shape::kKnot, Shape::kTree}) {
     const Volume object = test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7);
-    for (const auto& [kind, rule] : {std::pair(SkeletonKind::kCurve, PruningRule::kSlope),
+    for (const auto& [kind, rule] : {std::pair(SkeletonKind::kCurve, PruningRule::kSignificance),
                                      {SkeletonKind::kIsthmusCurve, PruningRule::kPersistence}}) {
       const PrunedSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
       EXPECT_FALSE(pruned.levels.empty());
@@ -102,8 +102,9 @@ TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
   const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
   const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
   const PointSet keep(ends.begin(), ends.end());
-  RibFinder ribs(raw.object);
-  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), ribs, PruningRule::kSlope, keep, {})
+  Significance significance(raw.object, 1);
+  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), significance, PruningRule::kSignificance, keep,
+                  {})
       .ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
 }
 

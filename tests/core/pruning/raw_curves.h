@@ -19,7 +19,7 @@ struct RawCurves {
     ThinningResult result = *ThinToCurve(object, field, options, {});
     thin = std::move(result.thin);
     radii = *ExactRadii(thin, ExactRadius(object, field), {});
-    if (kind != SkeletonKind::kIsthmusCurve) return;
+    if (kind != SkeletonKind::kIsthmusCurve && kind != SkeletonKind::kSurface) return;
     thin.ForEachPoint([&](LatticePoint p) {
       const auto found = std::ranges::find(result.isthmuses, p, &IsthmusBirth::point);
       births.push_back(found == result.isthmuses.end() ? 0 : found->pass);

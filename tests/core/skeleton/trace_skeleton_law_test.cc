@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "core/certificate/certificate.h"
 #include "core/lattice/directions.h"
+#include "core/skeleton/junction_merger.h"
 #include "core/topology/neighborhood.h"
 #include "tests/core/skeleton/traced.h"
 #include "tests/support/random_objects.h"
@@ -128,23 +130,21 @@ void ExpectPlainCurvePointsOnce(const SkeletonGraph& graph, const Volume& thin) 
 }
 
 // Every point of the volume is on an edge, a node's or one of a sheet, and none is both.
-void ExpectAllPoints(const SkeletonGraph& graph, const Volume& thin) {
+void ExpectAllPoints(const SkeletonGraph& graph, const Volume& thin, const test::Depth& depth) {
   std::set<LatticePoint> found;
   for (const SkeletonNode& node : graph.nodes) found.insert(node.at.point);
   for (const SkeletonPoint& p : graph.points) found.insert(p.point);
   EXPECT_EQ(found.size() + graph.sheets.size(), thin.PointCount());
   for (const SkeletonPoint& p : graph.sheets) {
     EXPECT_TRUE(found.insert(p.point).second);
-    EXPECT_EQ(p.radius, test::RuggedDepth(p.point));
+    EXPECT_EQ(p.radius, depth(p.point));
   }
   EXPECT_EQ(std::vector(found.begin(), found.end()), thin.SortedPoints());
   EXPECT_TRUE(std::ranges::is_sorted(graph.sheets));
 }
 
-void ExpectInvariants(const std::vector<LatticePoint>& points) {
-  const Volume thin = VolumeOfPoints(points);
-  const SkeletonGraph graph = test::Trace(points, test::RuggedDepth);
-  const BettiNumbers expected = CountBettiNumbers(thin, {}).value();
+void ExpectGraphOf(const Volume& thin, const BettiNumbers& expected, const SkeletonGraph& graph,
+                   const test::Depth& depth) {
   const BettiNumbers found = BettiOf(graph);
   EXPECT_EQ(found.components, expected.components);
   EXPECT_EQ(found.loops, expected.loops);
@@ -152,8 +152,24 @@ void ExpectInvariants(const std::vector<LatticePoint>& points) {
   ExpectNodesToBeOfTheirKind(graph);
   ExpectEdgesToRunFromSourceToTarget(graph, thin);
   ExpectCanonicalOrder(graph);
-  ExpectPlainCurvePointsOnce(graph, thin);
-  ExpectAllPoints(graph, thin);
+  ExpectAllPoints(graph, thin, depth);
+}
+
+float ShallowDepth(LatticePoint p) { return (test::RuggedDepth(p) - 177) / 4; }
+
+void ExpectInvariants(const std::vector<LatticePoint>& points) {
+  const Volume thin = VolumeOfPoints(points);
+  const BettiNumbers expected = CountBettiNumbers(thin, {}).value();
+  // All junctions of a component lie in one ball, or some do.
+  for (const test::Depth& depth : {test::Depth(test::RuggedDepth), test::Depth(ShallowDepth)}) {
+    SkeletonGraph graph = test::Trace(points, depth);
+    ExpectGraphOf(thin, expected, graph, depth);
+    ExpectPlainCurvePointsOnce(graph, thin);
+    const size_t nodes = graph.nodes.size();
+    ASSERT_TRUE(MergeJunctions(kDefaultJunctionReach, {}, graph).ok());
+    EXPECT_LE(graph.nodes.size(), nodes);
+    ExpectGraphOf(thin, expected, graph, depth);
+  }
 }
 
 // Removes points that are simple and no end points, one after the other.
@@ -229,6 +245,26 @@ TEST(TraceSkeletonLaw, MovingTheObjectMovesTheGraph) {
       }
     }
   }
+}
+
+// A sponge of one cluster: all its loops begin at one point, and the longest are only counted.
+TEST(TraceSkeletonLaw, PathsOfALongSpongeFollowItsPoints) {
+  std::mt19937 random(17);
+  std::vector<LatticePoint> points;
+  for (int32_t z = 0; z < 3000; ++z) {
+    for (int32_t y = z % 2; y < 6; y += 2) {
+      for (int32_t x = z % 2; x < 6; x += 2) {
+        if (random() % 100 < 60) points.push_back({x, y, z});
+      }
+    }
+  }
+  const Volume sponge = VolumeOfPoints(points);
+  const SkeletonGraph graph = TraceSkeleton(sponge, test::RadiiOf(sponge), {}).value();
+  EXPECT_LT(graph.points.size(), 80 * points.size());  // those of branches included
+  const auto longest = std::ranges::max_element(graph.nodes, {}, &SkeletonNode::loops);
+  EXPECT_EQ(longest->kind, NodeKind::kJunction);
+  EXPECT_GT(longest->loops, 0u);
+  EXPECT_EQ(BettiOf(graph), CountBettiNumbers(sponge, {}).value());
 }
 
 }  // namespace

@@ -1,14 +1,19 @@
+#include "core/pruning/significance.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <random>
 #include <vector>
 
 #include "core/pipeline/skeletonize.h"
-#include "core/pruning/rib_finder.h"
+#include "core/shapes/rasterize.h"
 #include "core/shapes/shapes.h"
+#include "core/shapes/solids.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 
@@ -68,7 +73,7 @@ TEST(Ribs, AreTakenOffFlatLimbsWithRoughRims) {
   for (int32_t height : {0, 4, 6, 8, 10}) {
     SCOPED_TRACE(height);
     const Volume limb = FlatLimb(height, {});
-    EXPECT_EQ(EndsOf(limb), height < 10 ? 2u : 3u);  // a torn rim keeps a rib
+    EXPECT_EQ(EndsOf(limb), height < 10 ? 2u : 3u);  // a torn rim keeps a tooth
     EXPECT_GE(EndsWithRibs(limb), height < 8 ? 2u : 12u);
   }
 }
@@ -100,39 +105,91 @@ TEST(Ribs, AreNotTheArmsAndEarsOfFlatLimbs) {
   }
 }
 
-TEST(Ribs, StayWhereTheMarginIsSmall) {
+TEST(Ribs, StayWhereTheThresholdIsSmall) {
   const Volume limb = FlatLimb(8, {});
-  EXPECT_GE(EndsOf(limb, {PruningRule::kSlope, 1}), 12u);
-  EXPECT_EQ(EndsOf(limb, {PruningRule::kSlope, kDefaultSlopeMargin}), 2u);
+  EXPECT_GE(EndsOf(limb, {PruningRule::kSignificance, 0.02}), 6u);
+  EXPECT_EQ(EndsOf(limb, {PruningRule::kSignificance, kDefaultSignificance}), 2u);
 }
 
-TEST(Ribs, HaveLevelsThatTellWhatEveryMarginLeaves) {
+TEST(Ribs, HaveLevelsThatTellWhatEveryThresholdLeaves) {
   const RawCurves raw(FlatLimb(8, {}), SkeletonKind::kCurve);
   const PruningLevels levels = raw.PrunedBy(PruningRule::kNone, 0).levels;
-  for (double margin : {1.0, 3.0, 3.6, 3.8, 3.9, 4.0, 16.0}) {
-    const Volume pruned = raw.PrunedBy(PruningRule::kSlope, margin).thin;
+  for (double threshold : {0.05, 0.1, 0.2, 0.3, 0.4, 1.0, 4.0}) {
+    const Volume pruned = raw.PrunedBy(PruningRule::kSignificance, threshold).thin;
     levels.ForEach([&](LatticePoint p, double level) {
-      ASSERT_EQ(pruned.Contains(p), level >= margin) << margin;
+      ASSERT_EQ(pruned.Contains(p), level >= threshold) << threshold;
     });
   }
 }
 
-// The rule of length knows nothing of ribs, so what it leaves has not lost any.
-TEST(Ribs, AreNoLimbsOfRoundThings) {
-  for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kTubes}) {
-    const Volume clean = *GenerateShape(shape, {.points = 60'000});
-    for (double noise : {0.0, 0.05}) {
-      const Volume object = noise == 0 ? clean : test::WithSimpleNoise(clean, noise, 1);
-      const RawCurves raw(object, SkeletonKind::kCurve);
-      const PrunedSkeleton pruned = raw.PrunedBy(PruningRule::kRelativeLength, 1.5);
-      const ThinSet set({pruned.thin, pruned.radii});
-      RibFinder ribs(object);
-      for (LatticePoint end : set.Ends()) {
-        const FreeBranch branch = BranchFrom(set, end);
-        EXPECT_FALSE(branch.junction.has_value() && ribs.IsRib(set, branch));
+// A ball with six spines as long as `length` says, in radii of the ball.
+Volume Spiny(double radius, double spine, double length) {
+  using shapes::RoundCone;
+  std::vector<shapes::Solid> solids = {shapes::Spheroid{{}, {1, 0, 0}, radius, radius}};
+  for (const double side : {-1.0, 1.0}) {
+    const double tip = side * (radius * (1 + length) - spine);
+    for (const shapes::Vector& to :
+         {shapes::Vector{tip, 0.1 * tip, 0}, {0, tip, 0.1 * tip}, {0.1 * tip, 0, tip}}) {
+      solids.push_back(RoundCone{{}, to, spine, spine});
+    }
+  }
+  return *shapes::Rasterize(solids, 1);
+}
+
+// They stick out by less than the body's radius, however far the junction lies inside.
+TEST(Significance, KeepsThinSpinesOfAThickBody) {
+  for (const double size : {1.0, 2.0}) {
+    for (const double length : {0.4, 0.8, 1.2}) {
+      SCOPED_TRACE(testing::Message() << size << ' ' << length);
+      EXPECT_EQ(EndsOf(Spiny(36 * size, 3 * size, length)), 6u);
+    }
+  }
+}
+
+TEST(Significance, KeepsThinSpinesWhereTheSurfaceIsRough) {
+  const Volume rough = test::WithSimpleNoise(Spiny(36, 4, 0.6), 0.1, 3);
+  EXPECT_EQ(EndsOf(rough), 6u);
+}
+
+TEST(Significance, OfLimbsIsTheSameAtAnyResolution) {
+  const auto levels_of = [](uint64_t points) {
+    const Volume horse = *GenerateShape(Shape::kHorse, {.points = points});
+    std::vector<double> levels;
+    const SkeletonizeResult result = *Skeletonize(horse, {}, {});
+    for (const SkeletonEdge& edge : result.graph.edges) levels.push_back(edge.pruning_level);
+    std::ranges::sort(levels, std::greater());
+    return levels;
+  };
+  const std::vector<double> coarse = levels_of(100'000), fine = levels_of(800'000);
+  ASSERT_EQ(coarse.size(), fine.size());
+  for (size_t n = 0; n < coarse.size(); ++n) {
+    if (!std::isfinite(coarse[n])) continue;
+    EXPECT_NEAR(coarse[n] / fine[n], 1, 0.25);
+  }
+}
+
+// A trunk along x and a branch that leaves it and runs along beside it, `apart` from it, all with
+// the same radius.
+double StrandBeside(int32_t apart) {
+  VolumeBuilder object({110, 60, 60}), thin({110, 60, 60});
+  for (int32_t z = 0; z < 120; ++z) {
+    for (int32_t y = 0; y < 120; ++y) {
+      for (int32_t x = 0; x < 220; ++x) {
+        if (IsOnLattice({x, y, z})) object.Add({x, y, z});
       }
     }
   }
+  for (int32_t x = 10; x <= 200; x += 2) thin.Add({x, 40, 60});
+  for (int32_t y = 42; y < 40 + apart; y += 2) thin.Add({40, y, 60});
+  for (int32_t x = 40; x <= 190; x += 2) thin.Add({x, 40 + apart, 60});
+  const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
+  const std::vector<float> radii(curves.PointCount(), 10.0f);
+  const ThinSet set({curves, radii});
+  return Significance(solid, 1).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
+}
+
+TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {
+  EXPECT_LT(StrandBeside(8), 0.25 * StrandBeside(24));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#ifndef BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_
+#define BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_
+
+#include <cstdint>
+
+#include "core/exec/memory_budget.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel {
+
+// Memory for each point that thinning leaves, from pruning to the graph; see kTraceBytesPerPoint.
+// It follows what the object looks like: a brick of dust leaves 256 points, one of a solid none or
+// one.
+inline constexpr uint64_t kBytesPerThinPoint = 576;
+
+// Skeletonize() in a budget. The caller has taken what follows the bricks of the object; the
+// pipeline takes kBytesPerThinPoint before it prunes, and what TraceSkeleton() asks for. All that
+// was taken stays taken, also for the result.
+// Errors: as Skeletonize(); the budget's.
+absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
+                                                    const Volume& object,
+                                                    const SkeletonizeOptions& options,
+                                                    const exec::Context& context,
+                                                    const OnShellPoints& on_points = nullptr);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_

@@ -1,0 +1,44 @@
+#ifndef BCCSKEL_CORE_PRUNING_BALL_INDEX_H_
+#define BCCSKEL_CORE_PRUNING_BALL_INDEX_H_
+
+#include <array>
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+#include "core/distance/places.h"
+#include "core/pruning/thin_set.h"
+
+namespace bccskel {
+
+// Tells whether a point of a branch lies in the ball of another branch.
+// Does:  keeps the points of all curves by the power of two above their radius, in cubes as wide as
+//        that power: a ball that holds a point has its center in one of 27 cubes around it.
+// Cost:  a search looks at the points of a few cubes for each power.
+class BallIndex {
+ public:
+  // The points that `set` has now, with their radii. Points may go from the set later.
+  BallIndex(const ThinSet& set, const AxisScale& scale);
+
+  // Whether p lies within 0.9 of the radius of a point of `set` that is not one of `own`, the
+  // branch of p. `way` leads from p to the branch's junction: points with a radius of half of that
+  // and more do not count, since branches that meet are always near each other.
+  bool IsCovered(LatticePoint p, double way, const ThinSet& set, const PointSet& own) const;
+
+ private:
+  static constexpr size_t kLevels = 32;
+  struct Ball {
+    LatticePoint center;
+    float radius;
+  };
+  using Cubes = std::unordered_map<LatticePoint, std::vector<Ball>, LatticePointHash>;
+
+  LatticePoint CubeOf(LatticePoint p, size_t level) const;
+
+  AxisScale scale_;
+  std::array<Cubes, kLevels> levels_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_BALL_INDEX_H_

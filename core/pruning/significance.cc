@@ -1,0 +1,176 @@
+#include "core/pruning/significance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace bccskel {
+namespace {
+
+constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
+constexpr double kNoiseInSteps = 3;
+constexpr double kWidthShare = 3;    // of what the object is wider than thick
+constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
+constexpr size_t kMostSamples = 48;
+constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
+constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
+constexpr double kLongestRay = 400;
+constexpr size_t kCoverSamples = 16;
+
+// Quarter turns in eight steps: cosine and sine.
+constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
+                                                          {0.92387953, 0.38268343},
+                                                          {0.70710678, 0.70710678},
+                                                          {0.38268343, 0.92387953},
+                                                          {0, 1},
+                                                          {-0.38268343, 0.92387953},
+                                                          {-0.70710678, 0.70710678},
+                                                          {-0.92387953, 0.38268343}}};
+
+// The junction first.
+std::vector<LatticePoint> PathOf(const FreeBranch& branch) {
+  std::vector<LatticePoint> path = {*branch.junction};
+  path.insert(path.end(), branch.points.rbegin(), branch.points.rend());
+  return path;
+}
+
+// The way of the path around its point n, of length 1.
+Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
+  const LatticePoint from = path[n - std::min(n, kWayReach)];
+  const LatticePoint to = path[std::min(n + kWayReach, path.size() - 1)];
+  return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
+}
+
+// Position in the path of one of the places that a run is looked at in.
+size_t PlaceIn(const Run& run, size_t place) {
+  return run.from + (run.to - run.from) * place / (Significance::kPlaces - 1);
+}
+
+// Of the values from the place on.
+double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place) {
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(place);
+  const auto middle = first + (values.end() - first) / 2;
+  std::nth_element(first, middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double NoiseOf(double step) { return kNoiseInSteps * step; }
+
+Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise) {
+  const size_t last = path.size() - 1, stride = last / kMostSamples + 1;
+  std::vector<std::pair<size_t, double>> samples;  // positions and radii
+  for (size_t n = 0; n < last; n += stride) samples.emplace_back(n, set.RadiusOf(path[n]));
+  samples.emplace_back(last, set.RadiusOf(path[last]));
+  Run best{.ratio = -std::numeric_limits<double>::infinity()};
+  for (size_t i = 0; i + 1 < samples.size(); ++i) {
+    const auto [from, depth] = samples[i];
+    Run run{.from = from, .elongation = -std::numeric_limits<double>::infinity()};
+    for (size_t j = i + 1; j < samples.size(); ++j) {
+      const auto [to, radius] = samples[j];
+      const double out = set.Between(path[from], path[to]) - kSteepness * (depth - radius);
+      if (out > run.elongation) run.to = to, run.elongation = out;
+    }
+    run.ratio = (run.elongation - noise) / depth;
+    if (run.ratio > best.ratio) best = run;
+  }
+  return best;
+}
+
+Significance::Significance(const Volume& object, double step)
+    : noise_(NoiseOf(step)), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+
+double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
+  const LatticePoint end = branch.points[0];
+  const Verdict* last = verdicts_.Find(end);
+  if (last == nullptr || last->junction != *branch.junction ||
+      last->points != branch.points.size()) {
+    verdicts_.Set(end, Look(set, branch));
+    last = verdicts_.Find(end);
+  }
+  if (last->value < kLeastRatio) return last->value;
+  return last->value * UncoveredShare(set, branch, last->run);
+}
+
+Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& branch) {
+  const std::vector<LatticePoint> path = PathOf(branch);
+  const Run run = LargestRun(set, path, noise_);
+  Verdict verdict{*branch.junction, branch.points.size(), run, run.ratio};
+  if (run.ratio < kLeastRatio) return verdict;
+  const double out = run.elongation - noise_, radius = set.RadiusOf(path[run.from]);
+  const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
+  const Widths wider = WidthsBeside(set, path, run, reach);
+  verdict.value = -std::numeric_limits<double>::infinity();
+  for (size_t place = 0; place < kRoots; ++place) {
+    const LatticePoint from = path[PlaceIn(run, place)], to = path[run.to];
+    const double depth = set.RadiusOf(from);
+    const double sticks_out =
+        set.Between(from, to) - kSteepness * (depth - set.RadiusOf(to)) - noise_;
+    const double width = depth + kWidthShare * MedianFrom(wider, place);
+    verdict.value = std::max(verdict.value, sticks_out / width);
+  }
+  return verdict;
+}
+
+// Points near the junction are not counted: there, other branches have to be near.
+double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run) {
+  if (!balls_.has_value()) balls_.emplace(set, scale_);
+  const PointSet own(branch.points.begin(), branch.points.end());
+  const size_t stride = (run.to - run.from) / kCoverSamples + 1;
+  size_t covered = 0, samples = 0;
+  for (size_t n = std::max<size_t>(run.from, 1); n <= run.to; n += stride, ++samples) {
+    const LatticePoint p = branch.points[branch.points.size() - n];
+    if (balls_->IsCovered(p, set.Between(p, *branch.junction), set, own)) ++covered;
+  }
+  return 1 - static_cast<double>(covered) / static_cast<double>(samples);
+}
+
+// How much farther the object goes on to the sides of the run than the radius, at each place.
+Significance::Widths Significance::WidthsBeside(const ThinSet& set,
+                                                std::span<const LatticePoint> path, const Run& run,
+                                                double reach) {
+  Widths wider;
+  for (size_t place = 0; place < kPlaces; ++place) {
+    const size_t n = PlaceIn(run, place);
+    const double radius = set.RadiusOf(path[n]);
+    wider[place] = HalfWidth(WayAt(path, n, scale_), path[n], radius, reach) - radius;
+  }
+  return wider;
+}
+
+// Of the widest line across, the mean of its two sides: what lies at a limb's end has one side.
+double Significance::HalfWidth(const Coordinates& way, LatticePoint p, double radius,
+                               double reach) {
+  const Coordinates middle = PlaceOf(p, scale_);
+  const auto [u, v] = Across(way);
+  const double start = std::floor(radius);
+  double widest = radius;
+  for (const auto& [cosine, sine] : kTurns) {
+    const Coordinates side = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
+    const double there = WayOut(middle, side, start, reach);
+    const double back = WayOut(middle, Sum({0, 0, 0}, -1, side), start, reach);
+    widest = std::max(widest, (there + back) / 2);
+  }
+  return widest;
+}
+
+// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`.
+// A single missing point is noise and passed over.
+double Significance::WayOut(const Coordinates& from, const Coordinates& way, double start,
+                            double reach) {
+  double out = start;
+  while (out < reach) {
+    if (InObject(Sum(from, out + 1, way))) {
+      out += 1;
+    } else if (InObject(Sum(from, out + 2, way))) {
+      out += 2;
+    } else {
+      break;
+    }
+  }
+  return out;
+}
+
+}  // namespace bccskel

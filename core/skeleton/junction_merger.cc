@@ -1,0 +1,241 @@
+#include "core/skeleton/junction_merger.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/distance/places.h"
+#include "core/exec/stop_poll.h"
+
+namespace bccskel {
+namespace {
+
+using Path = std::vector<SkeletonPoint>;
+
+// More junctions in one ball are no place where limbs meet but a sponge: noise that bored tunnels.
+// Joined, each of their edges would have to run on to the middle of the body.
+constexpr size_t kMostJoined = 16;
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+struct OpenEdge {
+  uint32_t source;
+  uint32_t target;
+  Path points;
+  double level;
+};
+
+// Joins two paths, the second from where the first ends. Where the second begins by going back
+// along the first, both are cut short.
+Path Joined(Path first, const Path& second) {
+  size_t back = 0;
+  while (first.size() > 1 && back + 2 < second.size() &&
+         first[first.size() - 2] == second[back + 1]) {
+    first.pop_back();
+    ++back;
+  }
+  first.insert(first.end(), second.begin() + static_cast<ptrdiff_t>(back) + 1, second.end());
+  return first;
+}
+
+Path Reversed(const Path& path) { return {path.rbegin(), path.rend()}; }
+
+class Merger {
+ public:
+  Merger(double reach, SkeletonGraph& graph, StopPoll& poll)
+      : reach_(reach),
+        graph_(graph),
+        poll_(poll),
+        scale_(AxisScaleOf(graph.placement)),
+        node_of_(graph.nodes.size(), kNone),
+        ways_(graph.nodes.size()),
+        edges_at_(graph.nodes.size()) {
+    for (uint32_t e = 0; e < graph.edges.size(); ++e) {
+      edges_at_[graph.edges[e].source].push_back(e);
+      edges_at_[graph.edges[e].target].push_back(e);
+    }
+    dissolved_.resize(graph.edges.size());
+  }
+
+  // Returns whether any were joined.
+  bool Join() {
+    std::vector<uint32_t> deepest_first(graph_.nodes.size());
+    std::iota(deepest_first.begin(), deepest_first.end(), 0u);
+    std::ranges::stable_sort(deepest_first, std::ranges::greater(),
+                             [&](uint32_t n) { return graph_.nodes[n].at.radius; });
+    bool any = false;
+    for (uint32_t n : deepest_first) {
+      if (poll_.Stopped()) return false;
+      if (node_of_[n] != kNone || !IsJunction(n)) continue;
+      any = TakeIn(n) || any;
+    }
+    return any;
+  }
+
+  void Rebuild();
+
+ private:
+  bool IsJunction(uint32_t n) const { return graph_.nodes[n].kind == NodeKind::kJunction; }
+
+  // Breadth first, so that ways inside the node have few edges.
+  bool TakeIn(uint32_t center) {
+    node_of_[center] = center;
+    ways_[center] = {graph_.nodes[center].at};
+    std::vector<uint32_t> reached = {center}, inside;
+    for (size_t n = 0; n < reached.size() && reached.size() <= kMostJoined + 1; ++n) {
+      const uint32_t from = reached[n];
+      for (uint32_t e : edges_at_[from]) {
+        const SkeletonEdge& edge = graph_.edges[e];
+        const uint32_t to = edge.source == from ? edge.target : edge.source;
+        if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(edge, center)) continue;
+        node_of_[to] = center;
+        dissolved_[e] = 1;
+        inside.push_back(e);
+        const Path path = PathOf(edge);
+        ways_[to] = Joined(ways_[from], edge.source == from ? path : Reversed(path));
+        reached.push_back(to);
+      }
+    }
+    if (reached.size() > kMostJoined + 1) LetGo(reached, inside);
+    return node_of_[center] == center && reached.size() > 1;
+  }
+
+  void LetGo(const std::vector<uint32_t>& junctions, const std::vector<uint32_t>& edges) {
+    for (uint32_t n : junctions) {
+      node_of_[n] = kNone;
+      ways_[n].clear();
+    }
+    for (uint32_t e : edges) dissolved_[e] = 0;
+  }
+
+  bool IsWithin(const SkeletonEdge& edge, uint32_t center) const {
+    const SkeletonPoint& at = graph_.nodes[center].at;
+    const double radius = reach_ * at.radius;
+    return std::ranges::all_of(graph_.PointsOf(edge), [&](const SkeletonPoint& p) {
+      const Coordinates way = Sum(PlaceOf(p.point, scale_), -1, PlaceOf(at.point, scale_));
+      return Dot(way, way) <= radius * radius;
+    });
+  }
+
+  Path PathOf(const SkeletonEdge& edge) const {
+    const auto points = graph_.PointsOf(edge);
+    return {points.begin(), points.end()};
+  }
+
+  std::vector<OpenEdge> RemainingEdges() const;
+  std::vector<uint32_t> KeepNodes();
+  void SetEdges(std::vector<OpenEdge> edges);
+  void AddLostPoints(const Path& before);
+
+  const double reach_;
+  SkeletonGraph& graph_;
+  StopPoll& poll_;
+  const AxisScale scale_;
+  std::vector<uint32_t> node_of_;  // by junction, the one that it is part of
+  std::vector<Path> ways_;         // by junction, from the one that it is part of to it
+  std::vector<std::vector<uint32_t>> edges_at_;
+  std::vector<uint8_t> dissolved_;  // by edge
+};
+
+std::vector<OpenEdge> Merger::RemainingEdges() const {
+  std::vector<OpenEdge> edges;
+  for (uint32_t e = 0; e < graph_.edges.size() && !poll_.Stopped(); ++e) {
+    if (dissolved_[e] != 0) continue;
+    const SkeletonEdge& edge = graph_.edges[e];
+    OpenEdge open{edge.source, edge.target, PathOf(edge), edge.pruning_level};
+    if (node_of_[edge.source] != kNone) {
+      open.source = node_of_[edge.source];
+      open.points = Joined(ways_[edge.source], open.points);
+    }
+    if (node_of_[edge.target] != kNone) {
+      open.target = node_of_[edge.target];
+      open.points = Reversed(Joined(ways_[edge.target], Reversed(open.points)));
+    }
+    edges.push_back(std::move(open));
+  }
+  return edges;
+}
+
+// Returns where the nodes that stay are now, by node.
+std::vector<uint32_t> Merger::KeepNodes() {
+  std::vector<uint32_t> place(graph_.nodes.size());
+  std::vector<SkeletonNode> kept;
+  for (uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+    place[n] = static_cast<uint32_t>(kept.size());
+    if (node_of_[n] == kNone || node_of_[n] == n) kept.push_back(graph_.nodes[n]);
+  }
+  graph_.nodes = std::move(kept);
+  return place;
+}
+
+// In canonical order.
+void Merger::SetEdges(std::vector<OpenEdge> edges) {
+  for (OpenEdge& edge : edges) {
+    Path back = Reversed(edge.points);
+    if (std::tie(edge.target, edge.source, back) <
+        std::tie(edge.source, edge.target, edge.points)) {
+      std::swap(edge.source, edge.target);
+      edge.points = std::move(back);
+    }
+  }
+  std::ranges::sort(edges, {}, [](const OpenEdge& edge) {
+    return std::tie(edge.source, edge.target, edge.points);
+  });
+  graph_.edges.clear();
+  graph_.points.clear();
+  for (const OpenEdge& edge : edges) {
+    graph_.edges.push_back(
+        {edge.source, edge.target, graph_.points.size(), edge.points.size(), edge.level});
+    graph_.points.insert(graph_.points.end(), edge.points.begin(), edge.points.end());
+  }
+}
+
+// Cutting paths short may leave points beside them, which are thick spots now.
+void Merger::AddLostPoints(const Path& before) {
+  Path now = graph_.points;
+  for (const SkeletonNode& node : graph_.nodes) now.push_back(node.at);
+  std::ranges::sort(now);
+  Path lost;
+  for (const SkeletonPoint& p : before) {
+    if (!std::ranges::binary_search(now, p)) lost.push_back(p);
+  }
+  if (lost.empty()) return;
+  graph_.sheets.insert(graph_.sheets.end(), lost.begin(), lost.end());
+  std::ranges::sort(graph_.sheets);
+  graph_.sheets.erase(std::unique(graph_.sheets.begin(), graph_.sheets.end()), graph_.sheets.end());
+}
+
+void Merger::Rebuild() {
+  std::vector<OpenEdge> edges = RemainingEdges();
+  const std::vector<uint32_t> place = KeepNodes();
+  for (OpenEdge& edge : edges) {
+    edge.source = place[edge.source];
+    edge.target = place[edge.target];
+  }
+  const Path before = graph_.points;
+  SetEdges(std::move(edges));
+  AddLostPoints(before);
+}
+
+}  // namespace
+
+absl::Status CheckJunctionReach(double reach) {
+  if (reach >= 0 && reach <= kMaxJunctionReach) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "reach of junctions %g: must be 0 (no junctions are merged) to %g radii of the junction's "
+      "ball",
+      reach, kMaxJunctionReach));
+}
+
+absl::Status MergeJunctions(double reach, const exec::Context& context, SkeletonGraph& graph) {
+  if (reach == 0) return absl::OkStatus();
+  StopPoll poll(context);
+  Merger merger(reach, graph, poll);
+  if (merger.Join()) merger.Rebuild();
+  return context.StopStatus();
+}
+
+}  // namespace bccskel

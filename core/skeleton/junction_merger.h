@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_CORE_SKELETON_JUNCTION_MERGER_H_
+#define BCCSKEL_CORE_SKELETON_JUNCTION_MERGER_H_
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel {
+
+// The reach of a junction in radii of its ball. Limbs with background between them are two radii
+// apart at least.
+inline constexpr double kDefaultJunctionReach = 1.75;
+inline constexpr double kMaxJunctionReach = 4;
+
+// Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::Status CheckJunctionReach(double reach);
+
+// Does:  makes one node of junctions that lie in one ball. The deepest junction first, each takes
+// in
+//        those that edges lead to whose points all lie within `reach` of its radii from it: those
+//        edges become part of the node. A junction that was taken in takes in none, so that a row
+//        of junctions along a limb does not become one. All other edges of what was taken in run
+//        on to the node, along the way that is now inside it. A ball with more than 17 junctions is
+//        left as it is: that is a sponge, and all its edges would run on to the middle.
+// Why it is right: only edges of a tree disappear, each with a node, so edges - nodes stays, and
+//        so do loops and components. A second edge between two that are joined becomes an edge
+//        from the node to itself.
+// Needs: a graph in canonical order, which the result has, too; shifts not set yet.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::Status MergeJunctions(double reach, const exec::Context& context, SkeletonGraph& graph);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_JUNCTION_MERGER_H_

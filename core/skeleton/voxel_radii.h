@@ -1,0 +1,29 @@
+#ifndef BCCSKEL_CORE_SKELETON_VOXEL_RADII_H_
+#define BCCSKEL_CORE_SKELETON_VOXEL_RADII_H_
+
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+#include "core/skeleton/skeleton_graph.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Does:  replaces the radii of the graph's points by those of the solid that a mask samples: half
+//        the chord through the point along the way to the nearest background.
+// Why:   the nearest background point is the center of a voxel that just is not in the solid, the
+//        best of many for round surfaces and half a voxel off for flat ones; and a lattice point
+//        lies up to half a voxel beside the middle. So half a voxel is taken off where the surface
+//        is flat, and the chord goes on to the face where it leaves the object on the other side.
+//        Where the other side is more than a voxel and a half farther, the point is near no middle
+//        and the near side alone counts.
+// Cost:  a search for the nearest background (see ExactRadius) and a dozen look-ups per point.
+// Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2 or 4).
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec::Context& context,
+                           SkeletonGraph& graph);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_SKELETON_VOXEL_RADII_H_

@@ -1,0 +1,137 @@
+#include "core/pruning/sheet_pruner.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/certificate/certificate.h"
+#include "core/pruning/simple_points.h"
+#include "core/shapes/figures.h"
+#include "core/topology/simple_point_table.h"
+#include "tests/core/pruning/raw_curves.h"
+#include "tests/core/pruning/simple_noise.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+using shapes::BallShell;
+using shapes::Block;
+using shapes::Solid;
+using shapes::Spheroid;
+using shapes::Vector;
+using test::RawCurves;
+
+RawCurves SheetsOf(const Solid& solid, double noise, uint64_t points = 60'000) {
+  const std::vector<Solid> figure = {solid};
+  Volume object = *shapes::GenerateFigure(figure, {.points = points});
+  if (noise > 0) object = test::WithSimpleNoise(object, noise, 1);
+  return RawCurves(std::move(object), SkeletonKind::kSurface);
+}
+
+Block TurnedBlock(Vector half_edges) {
+  const Vector first = shapes::Unit({1, 0.3, 0.2}), some = {-0.3, 1, 0.15};
+  return {half_edges, first, shapes::Unit(some - Dot(first, some) * first)};
+}
+
+PrunedSheets Pruned(const RawCurves& raw, double margin = kDefaultSheetMargin,
+                    const std::vector<LatticePoint>& keep = {}) {
+  return *PruneSheets({raw.thin, raw.radii, raw.births}, margin, keep, {});
+}
+
+struct Counts {
+  size_t ends = 0;
+  size_t rim = 0;  // simple points
+};
+
+Counts CountsOf(const Volume& thin) {
+  const ThinSet set({thin, std::vector<float>(thin.PointCount())});
+  Counts counts;
+  set.ForEachPoint([&](LatticePoint p) {
+    const NeighborMask mask = set.NeighborsOf(p);
+    counts.ends += IsEndPoint(mask) ? 1 : 0;
+    counts.rim += IsSimple(mask) ? 1 : 0;
+  });
+  return counts;
+}
+
+TEST(PruneSheets, LeavesNoRimOfAClosedShellWithNoise) {
+  const RawCurves raw = SheetsOf(BallShell{10, 8}, 0.05);
+  EXPECT_GT(CountsOf(raw.thin).ends, 200u);
+  const Counts counts = CountsOf(Pruned(raw).thin);
+  EXPECT_EQ(counts.ends, 0u);
+  EXPECT_EQ(counts.rim, 0u);
+}
+
+TEST(PruneSheets, LeavesNoHairAtTheRimOfADisk) {
+  const Spheroid disk = {{0, 0, 0}, shapes::Unit({1, 0.3, 0.2}), 1, 8};
+  for (const double noise : {0.0, 0.05}) {
+    const RawCurves raw = SheetsOf(disk, noise);
+    EXPECT_GT(CountsOf(raw.thin).ends, 10u);
+    EXPECT_LE(CountsOf(Pruned(raw).thin).ends, 1u) << "noise " << noise;
+  }
+}
+
+TEST(PruneSheets, LeavesAPlateItsCornersAtMost) {
+  const RawCurves raw = SheetsOf(TurnedBlock({10, 6, 1}), 0);
+  EXPECT_GT(CountsOf(raw.thin).ends, 90u);
+  EXPECT_LE(CountsOf(Pruned(raw).thin).ends, 8u);
+}
+
+// They are worth what is behind them.
+TEST(PruneSheets, LeavesTheBevelsOfABox) {
+  const RawCurves raw = SheetsOf(Block{{3, 2, 1}}, 0);
+  EXPECT_GT(10 * Pruned(raw).thin.PointCount(), 9 * raw.thin.PointCount());
+}
+
+TEST(PruneSheets, LeavesTheMiddleOfAPlateWithNoise) {
+  const RawCurves clean = SheetsOf(Block{{10, 6, 1}}, 0), noisy = SheetsOf(Block{{10, 6, 1}}, 0.05);
+  const auto clean_points = static_cast<double>(Pruned(clean).thin.PointCount());
+  const auto noisy_points = static_cast<double>(Pruned(noisy).thin.PointCount());
+  EXPECT_GT(static_cast<double>(noisy.thin.PointCount()), 1.6 * clean_points);
+  EXPECT_GT(noisy_points, 0.9 * clean_points);
+  EXPECT_LT(noisy_points, 1.4 * clean_points);
+}
+
+TEST(PruneSheets, TakesMoreByALargerMargin) {
+  const RawCurves raw = SheetsOf(TurnedBlock({3, 2, 1}), 0.02);
+  size_t before = raw.thin.PointCount();
+  for (const double margin : {1.0, 3.0, 8.0}) {
+    const size_t points = Pruned(raw, margin).thin.PointCount();
+    EXPECT_LT(points, before) << margin;
+    before = points;
+  }
+}
+
+TEST(PruneSheets, LeavesWhatIsKept) {
+  const RawCurves raw = SheetsOf(BallShell{10, 8}, 0.05);
+  const std::vector<LatticePoint> keep = {ThinSet({raw.thin, raw.radii}).Ends().front()};
+  EXPECT_TRUE(Pruned(raw, kDefaultSheetMargin, keep).thin.Contains(keep.front()));
+  EXPECT_FALSE(Pruned(raw).thin.Contains(keep.front()));
+}
+
+TEST(PruneSheetsLaw, KeepsTheTopologyAndGivesRadiiInOrder) {
+  for (uint64_t seed = 0; seed < 30 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    const auto blob =
+        test::WithNoisyBoundary(seed, test::RandomBlob(seed, {16, 16, 16}, 5, 9), 0.2);
+    const RawCurves raw(VolumeOfPoints(blob), SkeletonKind::kSurface);
+    for (const double margin : {1.0, kDefaultSheetMargin, 100.0}) {
+      const PrunedSheets pruned = Pruned(raw, margin);
+      EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(raw.thin, {}));
+      const ThinSet set({raw.thin, raw.radii});
+      size_t n = 0;
+      ASSERT_EQ(pruned.radii.size(), pruned.thin.PointCount());
+      pruned.thin.ForEachPoint([&](LatticePoint p) {
+        ASSERT_TRUE(set.Contains(p));
+        EXPECT_EQ(pruned.radii[n++], set.RadiusOf(p));
+      });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
