@@ -96,9 +96,9 @@ class Context {
 
   // OK, CANCELLED or DEADLINE_EXCEEDED.
   absl::Status StopStatus() const {
+    if (!ShouldStop()) return absl::OkStatus();
     if (stop.stop_requested()) return absl::CancelledError("the job was cancelled");
-    if (ShouldStop()) return absl::DeadlineExceededError("the job's deadline has passed");
-    return absl::OkStatus();
+    return absl::DeadlineExceededError("the job's deadline has passed");
   }
 
   void Report(const ShellProgress& progress) const {

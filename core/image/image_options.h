@@ -24,6 +24,9 @@ struct ImageOptions {
   std::optional<RawLayout> raw;
   // Replaces the spacing that the file tells, or does not tell.
   std::optional<std::array<double, 3>> spacing;
+  // Of a TIFF file with several; counted from 0.
+  std::optional<int64_t> channel;
+  std::optional<int64_t> time;
   ImageLimits limits;
 };
 

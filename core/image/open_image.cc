@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -15,9 +17,10 @@
 namespace bccskel {
 namespace {
 
-constexpr std::array<std::string_view, 14> kEndings = {
-    ".nii", ".nii.gz", ".nrrd", ".nhdr",   ".tif", ".tiff", ".mha",
-    ".mhd", ".inr",    ".npy",  ".inr.gz", ".vol", ".raw",  ".raw.gz"};
+// Each also with .gz behind it.
+constexpr std::array<std::string_view, 13> kEndings = {".nii", ".hdr",  ".img", ".nrrd", ".nhdr",
+                                                       ".tif", ".tiff", ".mha", ".mhd",  ".inr",
+                                                       ".npy", ".vol",  ".raw"};
 
 struct Format {
   bool (*is)(std::string_view front);
@@ -58,11 +61,38 @@ absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOpti
       "vol; raw voxels need their size and type");
 }
 
+// TIFF pages lie anywhere in their file, so a compressed one is expanded as a whole.
+absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
+                                                          Compression compression) {
+  if (compression == Compression::kNone) return file;
+  constexpr size_t kMaxBytes = size_t{1} << 30;
+  constexpr size_t kStep = size_t{1} << 20;
+  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(file, 0, compression));
+  std::string bytes;
+  for (size_t filled = 0;; filled = bytes.size()) {
+    bytes.resize(filled + kStep);
+    const auto into = std::as_writable_bytes(std::span(bytes)).subspan(filled);
+    BCCSKEL_ASSIGN_OR_RETURN(const size_t got, stream->Read(into));
+    bytes.resize(filled + got);
+    if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
+    if (bytes.size() >= kMaxBytes) {
+      return absl::ResourceExhaustedError(
+          absl::StrFormat("a TIFF file compressed by gzip as a whole may have %d bytes; expand it "
+                          "with gunzip first",
+                          kMaxBytes));
+    }
+  }
+}
+
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
   if (!options.raw.has_value() && IsTiff(front.bytes)) {
+    BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
     return OpenTiff(std::move(file), options);
+  }
+  if (options.channel.has_value() || options.time.has_value()) {
+    return absl::InvalidArgumentError("--channel and --time choose in TIFF files only");
   }
   BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseStored(front, options));
   if (options.spacing.has_value()) {
@@ -85,16 +115,37 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(std::shared_ptr<const Ima
   }
 }
 
+// The header of a pair that is named by its voxels: "brain.hdr" for "brain.img".
+std::optional<std::string> HeaderBeside(const std::string& path) {
+  const std::string name = LowerCase(path);
+  for (const std::string_view ending : {".img", ".img.gz"}) {
+    if (!name.ends_with(ending)) continue;
+    const std::string stem = path.substr(0, path.size() - ending.size());
+    return stem + ".hdr" + std::string(ending.substr(4));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool HasImageFileName(std::string_view path) {
-  const std::string name = LowerCase(path);
+  std::string name = LowerCase(path);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return std::ranges::any_of(kEndings,
                              [&name](std::string_view ending) { return name.ends_with(ending); });
 }
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options) {
+  const std::optional<std::string> header =
+      options.raw.has_value() ? std::nullopt : HeaderBeside(path);
+  if (header.has_value()) {
+    auto file = ImageFile::Open(*header);
+    if (!absl::IsNotFound(file.status())) {
+      BCCSKEL_RETURN_IF_ERROR(file.status());
+      return OpenNamed(*std::move(file), options);
+    }
+  }
   BCCSKEL_ASSIGN_OR_RETURN(auto file, ImageFile::Open(path));
   return OpenNamed(std::move(file), options);
 }

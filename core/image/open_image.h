@@ -11,8 +11,8 @@
 
 namespace bccskel {
 
-// True when the name ends like an image that is read: .nii, .nrrd, .nhdr, .tif, .tiff, .mha, .mhd,
-// .inr, .npy, .vol, .raw; also .nii.gz, .inr.gz and .raw.gz.
+// True when the name ends like an image that is read: .nii, .hdr, .img, .nrrd, .nhdr, .tif, .tiff,
+// .mha, .mhd, .inr, .npy, .vol, .raw, each also with .gz behind it.
 bool HasImageFileName(std::string_view path);
 
 // Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, MetaImage, Inrimage, npy, vol or, with

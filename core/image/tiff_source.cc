@@ -11,9 +11,9 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/image/byte_stream.h"
-#include "core/image/header_text.h"
 #include "core/image/slice_buffer.h"
 #include "core/image/tiff_client.h"
+#include "core/image/tiff_stack.h"
 
 namespace bccskel {
 namespace {
@@ -24,7 +24,6 @@ struct Page {
   uint32_t height = 0;
   VoxelType type = VoxelType::kUint8;
   int bits = 8;  // 1, or the bits of `type`
-  bool white_is_zero = false;
 
   friend bool operator==(const Page&, const Page&) = default;
 };
@@ -60,51 +59,29 @@ absl::StatusOr<Page> PageOf(TIFF* tiff) {
   page.bits = TagOr<uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1);
   const int format = TagOr<uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   BCCSKEL_ASSIGN_OR_RETURN(page.type, TypeOf(page.bits, format));
-  page.white_is_zero =
-      TagOr<uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_MINISWHITE;
-  if (page.white_is_zero && format != SAMPLEFORMAT_UINT) {
-    return absl::InvalidArgumentError("white is zero in a page of signed or float samples");
-  }
   return page;
 }
 
-// What ImageJ says of a stack, in the description of its first page.
-struct ImageJ {
-  int64_t images = 1;
-  double spacing = 1;
-  std::string unit;
-};
-
-absl::StatusOr<ImageJ> ImageJOf(TIFF* tiff) {
-  ImageJ stack;
+std::string_view DescriptionOf(TIFF* tiff) {
   const char* text = nullptr;
-  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) != 1 || text == nullptr) return stack;
-  const std::string_view description(text);
-  if (!description.starts_with("ImageJ=")) return stack;
-  for (const std::string_view line : Words(description)) {
-    const auto field = SplitAt(line, "=");
-    if (!field.has_value()) continue;
-    const auto& [key, value] = *field;
-    if ((key == "channels" || key == "frames") && value != "1") {
-      return BadField("an ImageJ stack of several", key, "is not read: choose one");
-    }
-    if (key == "images") stack.images = ParseNumber<int64_t>(value).value_or(1);
-    if (key == "spacing") stack.spacing = ParseNumber<double>(value).value_or(1);
-    if (key == "unit" && value != "inch") stack.unit = value.substr(0, 32);
-  }
-  return stack;
+  const bool there = TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr;
+  return there ? text : "";
 }
 
-// Without ImageJ's unit the resolution is that of a printer, mostly by accident; so it is with an
-// inch, by which ImageJ means dots per inch.
-absl::StatusOr<Placement> PlacementOf(TIFF* tiff, const ImageJ& stack) {
+// Without a unit the resolution is that of a printer, mostly by accident; so it is with an inch, by
+// which ImageJ means dots per inch.
+absl::StatusOr<Placement> PlacementOf(TIFF* tiff, const TiffStack& stack) {
   if (stack.unit.empty()) return Placement{};
   const auto per_unit = [tiff](uint32_t tag) {
     const float resolution = TagOr<float>(tiff, tag, 1.0F);
     return resolution > 0 ? 1 / static_cast<double>(resolution) : 1.0;
   };
+  const bool imagej = !stack.spacing[0].has_value();
   return PlacementOfSpacing(
-      {per_unit(TIFFTAG_XRESOLUTION), per_unit(TIFFTAG_YRESOLUTION), stack.spacing}, {0, 0, 0});
+      {imagej ? per_unit(TIFFTAG_XRESOLUTION) : *stack.spacing[0],
+       imagej ? per_unit(TIFFTAG_YRESOLUTION) : stack.spacing[1].value_or(*stack.spacing[0]),
+       stack.spacing[2].value_or(1)},
+      {0, 0, 0});
 }
 
 // Ratios that a stream of these compressions cannot exceed, so that a small file cannot ask for
@@ -147,8 +124,13 @@ void CopyBits(const std::byte* from, uint32_t pixels, std::byte* to) {
 
 class TiffSource : public ImageSource {
  public:
-  TiffSource(std::unique_ptr<TiffClient> client, const Page& page, ImageInfo info)
-      : client_(std::move(client)), page_(page), info_(std::move(info)) {}
+  // Needs: the client is at the stack's first page.
+  TiffSource(std::unique_ptr<TiffClient> client, const Page& page, const TiffStack& stack,
+             ImageInfo info)
+      : client_(std::move(client)),
+        page_(page),
+        page_step_(stack.page_step),
+        info_(std::move(info)) {}
 
   const ImageInfo& info() const override { return info_; }
 
@@ -160,7 +142,6 @@ class TiffSource : public ImageSource {
       BCCSKEL_RETURN_IF_ERROR(GoToPage());
       slice_.Resize(page_.type, info_.size.SliceVoxels());
       BCCSKEL_RETURN_IF_ERROR(TIFFIsTiled(tiff()) != 0 ? ReadTiles() : ReadStrips());
-      if (page_.white_is_zero) TurnOver();
       return ImageSlice{
           .nx = info_.size.nx, .ny = info_.size.ny, .z = z_++, .values = slice_.values()};
     } catch (const std::bad_alloc&) {
@@ -174,13 +155,15 @@ class TiffSource : public ImageSource {
 
   absl::Status GoToPage() {
     if (z_ == 0) return absl::OkStatus();
-    if (TIFFReadDirectory(tiff()) != 1) {
-      return client_->Error(absl::StrFormat("page %d cannot be read", z_));
+    for (int64_t n = 0; n < page_step_; ++n) {
+      if (TIFFReadDirectory(tiff()) == 1) continue;
+      return client_->Error(absl::StrFormat("the page of slice %d cannot be read", z_));
     }
     BCCSKEL_ASSIGN_OR_RETURN(const Page page, PageOf(tiff()));
     if (page == page_) return CheckLength(tiff(), page, client_->file().size());
     return absl::InvalidArgumentError(absl::StrFormat(
-        "page %d (counted from 0) has %d x %d pixels of %d bits, the first one %d x %d of %d; all "
+        "the page of slice %d (counted from 0) has %d x %d pixels of %d bits, the first one %d x "
+        "%d of %d; all "
         "must be alike",
         z_, page.width, page.height, page.bits, page_.width, page_.height, page_.bits));
   }
@@ -249,33 +232,18 @@ class TiffSource : public ImageSource {
     }
   }
 
-  void TurnOver() {
-    const std::byte ones = page_.bits == 1 ? std::byte{1} : std::byte{0xff};
-    for (std::byte& byte : slice_.bytes()) byte ^= ones;
-  }
-
   absl::Status Damaged(const char* what, uint32_t number) {
     return client_->Error(absl::StrFormat("page %d, %s %d is cut or damaged", z_, what, number));
   }
 
   std::unique_ptr<TiffClient> client_;
   Page page_;
+  int64_t page_step_;
   ImageInfo info_;
   SliceBuffer slice_;
   std::vector<std::byte> block_;
   int32_t z_ = 0;
 };
-
-absl::StatusOr<int64_t> CountPages(const TiffClient& client, const ImageJ& stack) {
-  const auto pages = static_cast<int64_t>(TIFFNumberOfDirectories(client.tiff()));
-  if (pages == 1 && stack.images > 1) {
-    return absl::UnimplementedError(absl::StrFormat(
-        "an ImageJ stack of %d images behind one page is not read: save it as BigTIFF or NRRD",
-        stack.images));
-  }
-  if (TIFFSetDirectory(client.tiff(), 0) != 1) return client.Error("the first page is damaged");
-  return pages;
-}
 
 }  // namespace
 
@@ -293,21 +261,28 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenTiff(std::shared_ptr<const Imag
   const ImageLimits& limits = options.limits;
   BCCSKEL_ASSIGN_OR_RETURN(auto client,
                            TiffClient::Open(std::move(file), 8 * limits.max_slice_voxels));
-  BCCSKEL_ASSIGN_OR_RETURN(const ImageJ stack, ImageJOf(client->tiff()));
-  BCCSKEL_ASSIGN_OR_RETURN(const int64_t pages, CountPages(*client, stack));
-  BCCSKEL_ASSIGN_OR_RETURN(const Page page, PageOf(client->tiff()));
+  TIFF* const tiff = client->tiff();
+  const auto pages = static_cast<int64_t>(TIFFNumberOfDirectories(tiff));
+  if (TIFFSetDirectory(tiff, 0) != 1) return client->Error("the first page is damaged");
+  BCCSKEL_RETURN_IF_ERROR(PageOf(tiff).status());  // colors are refused as such
+  BCCSKEL_ASSIGN_OR_RETURN(const TiffStack stack, TiffStackOf(DescriptionOf(tiff), pages, options));
+  BCCSKEL_ASSIGN_OR_RETURN(const Placement placement, PlacementOf(tiff, stack));
+  if (stack.first_page > 0 && TIFFSetDirectory(tiff, static_cast<tdir_t>(stack.first_page)) != 1) {
+    return client->Error(absl::StrFormat("page %d is damaged", stack.first_page));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const Page page, PageOf(tiff));
   ImageInfo info;
   info.format = "TIFF";
   info.type = page.type;
   info.unit = stack.unit;
-  const std::array<int64_t, 3> lengths = {page.width, page.height, pages};
+  const std::array<int64_t, 3> lengths = {page.width, page.height, stack.slices};
   BCCSKEL_ASSIGN_OR_RETURN(info.size, SizeOfAxes(lengths, limits));
-  BCCSKEL_RETURN_IF_ERROR(CheckLength(client->tiff(), page, client->file().size()));
-  BCCSKEL_ASSIGN_OR_RETURN(info.placement, PlacementOf(client->tiff(), stack));
+  BCCSKEL_RETURN_IF_ERROR(CheckLength(tiff, page, client->file().size()));
+  info.placement = placement;
   if (options.spacing.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(info.placement, WithSpacing(info.placement, *options.spacing));
   }
-  return std::make_unique<TiffSource>(std::move(client), page, std::move(info));
+  return std::make_unique<TiffSource>(std::move(client), page, stack, std::move(info));
 }
 
 }  // namespace bccskel

@@ -28,6 +28,7 @@ absl::StatusOr<std::unique_ptr<VolumeDecoder>> MaskDecoder::Create(const VolumeH
   BCCSKEL_ASSIGN_OR_RETURN(
       MaskConverter converter,
       MaskConverter::Create(header.mask->grid, {.adjacency = header.mask->adjacency,
+                                                .points = header.mask->points,
                                                 .max_bricks = header.max_bricks}));
   return std::unique_ptr<VolumeDecoder>(new MaskDecoder(header, std::move(converter)));
 }

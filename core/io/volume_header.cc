@@ -70,7 +70,7 @@ absl::Status CheckDecodedBytes(const VolumeHeader& header, const VolumeLimits& l
 
 // A slice as bits, and the slices that conversion and topology look back on.
 uint64_t MaskStripBytes(const MaskGrid& grid) {
-  constexpr uint64_t kSlices = 8;
+  constexpr uint64_t kSlices = 13;
   return SaturatingMultiply(kSlices * sizeof(uint64_t), grid.WordsPerSlice());
 }
 
@@ -229,8 +229,8 @@ absl::StatusOr<VolumeHeader> MakeMaskHeader(const MaskDeclaration& mask, const V
   BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(mask.grid));
   return CompleteVolumeHeader({.encoding = VolumeEncoding::kCubicMask,
                                .compression = compression,
-                               .extent = ExactExtent(mask.grid),
-                               .placement = ExactPlacement(mask.grid),
+                               .extent = ExactExtent(mask.grid, mask.points),
+                               .placement = ExactPlacement(mask.grid, mask.points),
                                .mask = mask,
                                .declared_bricks = declared_bricks},
                               limits);

@@ -44,6 +44,7 @@ inline constexpr size_t kMaxHeaderBytes = size_t{64} * 1024;
 struct MaskDeclaration {
   MaskGrid grid;
   MaskAdjacency adjacency = MaskAdjacency::k26;
+  VoxelPoints points = VoxelPoints::kTwo;
 
   friend bool operator==(const MaskDeclaration&, const MaskDeclaration&) = default;
 };

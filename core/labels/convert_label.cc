@@ -21,4 +21,11 @@ absl::StatusOr<ConvertedMask> ConvertLabel(const MaskGrid& grid, const LabeledOb
   return std::move(converter).FinishRows();
 }
 
+SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskOptions& mask) {
+  const bool two = mask.points == VoxelPoints::kTwo;
+  options.source = two ? ObjectSource::kVoxels : ObjectSource::kRefinedVoxels;
+  if (mask.sampling) options.source = ObjectSource::kSampledVoxels;
+  return options;
+}
+
 }  // namespace bccskel

@@ -5,6 +5,7 @@
 #include "core/exec/context.h"
 #include "core/labels/voxel_runs.h"
 #include "core/mask/mask_converter.h"
+#include "core/pipeline/skeletonize.h"
 
 namespace bccskel {
 
@@ -14,6 +15,10 @@ namespace bccskel {
 absl::StatusOr<ConvertedMask> ConvertLabel(const MaskGrid& grid, const LabeledObject& object,
                                            const MaskOptions& options,
                                            const exec::Context& context);
+
+// The options for an object that was made of voxels in this way: its source, and the default margin
+// of pruning in steps of voxels.
+SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskOptions& mask);
 
 }  // namespace bccskel
 

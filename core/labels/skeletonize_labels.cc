@@ -1,15 +1,17 @@
-#include "core/labels/skeletonize_labels.h"
-
 #include <algorithm>
 #include <atomic>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/labels/convert_label.h"
 #include "core/labels/ordered_delivery.h"
+#include "core/labels/skeletonize_labels_within.h"
+#include "core/pipeline/skeletonize_within.h"
 
 namespace bccskel {
 namespace {
@@ -23,14 +25,14 @@ absl::Status WithLabel(const absl::Status& status, uint64_t label) {
 }
 
 absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObject& object,
-                                         const LabelsOptions& options,
+                                         const LabelsOptions& options, exec::MemoryBudget& memory,
                                          const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const ConvertedMask converted,
                            ConvertLabel(grid, object, options.mask, context));
   LabelSkeleton skeleton{object.label, object.voxels, {}};
-  SkeletonizeOptions stepped = options.skeleton;
-  stepped.pruning = ForSteps(stepped.pruning, VoxelEdge(options.mask));
-  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result, Skeletonize(converted.volume, stepped, context));
+  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
+                           SkeletonizeWithin(memory, converted.volume,
+                                             ForMask(options.skeleton, options.mask), context));
   Certificate& certificate = skeleton.result.certificate;
   certificate.mask = converted.mask;
   const std::string changes = DescribeChanges(converted.mask, certificate.Given());
@@ -41,12 +43,19 @@ absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObje
 class LabelWork {
  public:
   LabelWork(const LabeledObjects& labels, const LabelsOptions& options,
-            const LabelConsumer& consume, const exec::Context& context)
+            const LabelConsumer& consume, exec::MemoryBudget& memory, const exec::Context& context)
       : labels_(labels),
         options_(options),
+        memory_(memory),
         context_(context),
         alone_(context),
-        delivery_(consume, kWaitingPerThread * static_cast<size_t>(context.threads())) {
+        shares_(labels.objects.size()),
+        consume_([this, &consume](LabelSkeleton&& skeleton) {
+          absl::Status status = consume(std::move(skeleton));
+          shares_[delivered_++].reset();
+          return status;
+        }),
+        delivery_(consume_, kWaitingPerThread * static_cast<size_t>(context.threads())) {
     // Shells of single labels are no progress of the whole.
     alone_.on_shell = nullptr;
     together_ = alone_;
@@ -91,17 +100,22 @@ class LabelWork {
 
   absl::Status ComputeOne(size_t n, const exec::Context& context) {
     if (!delivery_.WaitForTurn(n, context)) return delivery_.status();
-    BCCSKEL_ASSIGN_OR_RETURN(LabelSkeleton skeleton,
-                             SkeletonOf(labels_.grid, labels_.objects[n], options_, context));
+    shares_[n].emplace(memory_);
+    BCCSKEL_ASSIGN_OR_RETURN(LabelSkeleton skeleton, SkeletonOf(labels_.grid, labels_.objects[n],
+                                                                options_, *shares_[n], context));
     delivery_.Add(n, std::move(skeleton));
     return absl::OkStatus();
   }
 
   const LabeledObjects& labels_;
   const LabelsOptions& options_;
+  exec::MemoryBudget& memory_;
   const exec::Context& context_;
   exec::Context alone_;
   exec::Context together_;
+  std::vector<std::optional<exec::MemoryShare>> shares_;  // by object, until it is delivered
+  size_t delivered_ = 0;
+  LabelConsumer consume_;
   OrderedDelivery delivery_;
 };
 
@@ -109,7 +123,14 @@ class LabelWork {
 
 absl::Status SkeletonizeLabels(const LabeledObjects& labels, const LabelsOptions& options,
                                const LabelConsumer& consume, const exec::Context& context) {
-  return LabelWork(labels, options, consume, context).Run();
+  exec::UnlimitedMemory memory;
+  return SkeletonizeLabelsWithin(memory, labels, options, consume, context);
+}
+
+absl::Status SkeletonizeLabelsWithin(exec::MemoryBudget& memory, const LabeledObjects& labels,
+                                     const LabelsOptions& options, const LabelConsumer& consume,
+                                     const exec::Context& context) {
+  return LabelWork(labels, options, consume, memory, context).Run();
 }
 
 }  // namespace bccskel

@@ -9,7 +9,8 @@ namespace bccskel {
 
 double VoxelEdge(const MaskOptions& options) {
   constexpr double kUnitsPerPoint = 4;  // cubic ones
-  const double points = options.sampling ? options.sampling->points_per_voxel : 16;
+  if (!options.sampling) return options.points == VoxelPoints::kTwo ? 2 : 4;
+  const double points = options.sampling->points_per_voxel;
   // Newton's steps: the library's cube root differs between machines in the last bit.
   double edge = 4;
   for (int n = 0; n < 60; ++n) edge = (2 * edge + kUnitsPerPoint * points / (edge * edge)) / 3;
@@ -43,9 +44,19 @@ absl::Status MaskConverter::AddSlice(std::span<const uint64_t> words,
 absl::Status MaskConverter::AddRows(int32_t z, SliceRows& rows, const exec::Context& context) {
   topology_.AddSlice(z, rows);
   if (sampler_) sampler_->AddSlice(z, rows);
-  tubes_.AddSlice(z, rows, [this](const RowTube& tube) { AddTube(tube); });
+  CutTubes(z, rows);
   BCCSKEL_RETURN_IF_ERROR(CheckBricks());
   return context.StopStatus();
+}
+
+void MaskConverter::CutTubes(int32_t z, SliceRows& rows) {
+  const auto add = [this](const RowTube& tube) { AddTube(tube); };
+  if (options_.points == VoxelPoints::kTwo || sampler_) return tubes_.AddSlice(z, rows, add);
+  // Refined voxels leave no gap that the rule would act on: every corner stays.
+  for (int32_t half : {2 * z, 2 * z + 1}) {
+    refined_.SetRefined(rows);
+    tubes_.AddSlice(half, refined_, add);
+  }
 }
 
 void MaskConverter::AddTube(const RowTube& tube) {
@@ -77,7 +88,8 @@ absl::StatusOr<ConvertedMask> MaskConverter::FinishRows() && {
   if (sampler_) {
     BCCSKEL_ASSIGN_OR_RETURN(converted.volume, std::move(*sampler_).Finish());
   } else {
-    converted.volume = std::move(bricks_).Finish(ExactExtent(grid_), ExactPlacement(grid_));
+    converted.volume = std::move(bricks_).Finish(ExactExtent(grid_, options_.points),
+                                                 ExactPlacement(grid_, options_.points));
   }
   return converted;
 }

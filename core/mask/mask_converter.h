@@ -23,13 +23,14 @@ namespace bccskel {
 
 struct MaskOptions {
   MaskAdjacency adjacency = MaskAdjacency::k26;
-  // None: the exact conversion, 16 points a voxel, which keeps the mask's topology.
+  VoxelPoints points = VoxelPoints::kTwo;  // of the exact conversion
+  // None: the exact conversion, which keeps the mask's topology.
   std::optional<MaskSamplingOptions> sampling = std::nullopt;
   uint64_t max_bricks = uint64_t{1} << 28;
 };
 
 // The edge of a voxel in lattice units, which is the height of the steps in the object's surface:
-// 4 after the exact conversion.
+// 2 after the exact conversion, 4 with sixteen points a voxel.
 double VoxelEdge(const MaskOptions& options);
 
 struct ConvertedMask {
@@ -42,7 +43,7 @@ struct ConvertedMask {
 // The exact conversion keeps components, loops and cavities; whether a sampling did is seen by
 // comparing ConvertedMask::mask with CountBettiNumbers(volume), which is Certificate::input of the
 // skeleton.
-// Memory: five slices at most, and the object.
+// Memory: ten slices at most, and the object.
 class MaskConverter {
  public:
   // Errors: INVALID_ARGUMENT (grid, options), with the value and the limit.
@@ -64,6 +65,7 @@ class MaskConverter {
 
  private:
   MaskConverter(const MaskGrid& grid, const MaskOptions& options);
+  void CutTubes(int32_t z, SliceRows& rows);
   void AddTube(const RowTube& tube);
   absl::Status CheckBricks() const;
 
@@ -74,6 +76,7 @@ class MaskConverter {
   TubeBricks bricks_;
   std::optional<MaskSampler> sampler_;
   SliceRows rows_;
+  SliceRows refined_;
   int32_t next_z_ = 0;
 };
 

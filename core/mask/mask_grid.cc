@@ -41,7 +41,7 @@ absl::Status CheckMaskGrid(const MaskGrid& grid) {
                           grid.ny, grid.nz, kMaxMaskVoxels));
     }
   }
-  return CheckGrid(ExactExtent(grid), grid.placement);
+  return CheckGrid(ExactExtent(grid, VoxelPoints::kTwo), grid.placement);
 }
 
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words) {
@@ -53,14 +53,16 @@ absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const ui
   return CheckSliceSize(grid, z, labels.size(), grid.VoxelsPerSlice());
 }
 
-LatticeExtent ExactExtent(const MaskGrid& grid) {
-  return {2 * grid.nx + 1, 2 * grid.ny + 1, 2 * grid.nz + 1};
+LatticeExtent ExactExtent(const MaskGrid& grid, VoxelPoints points) {
+  const int32_t cells = points == VoxelPoints::kTwo ? 1 : 2;
+  return {cells * grid.nx + 1, cells * grid.ny + 1, cells * grid.nz + 1};
 }
 
-Placement ExactPlacement(const MaskGrid& grid) {
+Placement ExactPlacement(const MaskGrid& grid, VoxelPoints points) {
   Placement placement = grid.placement;
-  // Lattice point (0, 0, 0) is the outer corner of voxel (0, 0, 0), one voxel is four units.
+  // Lattice point (0, 0, 0) is the outer corner of voxel (0, 0, 0).
   placement.origin = grid.placement.ToWorld(-1, -1, -1);
+  if (points == VoxelPoints::kTwo) return placement;
   for (double& spacing : placement.spacing) spacing /= 2;
   return placement;
 }

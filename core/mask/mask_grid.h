@@ -17,7 +17,13 @@ enum class MaskAdjacency : uint8_t {
   k6,   // (6, 26): only those that share a face
 };
 
-// Largest number of voxels along an axis: the exact conversion makes 2 n + 1 cells of n voxels.
+// Lattice points that an exact conversion makes of a voxel of a solid object. Both keep topology.
+enum class VoxelPoints : uint8_t {
+  kTwo,      // the center of the voxel and a corner
+  kSixteen,  // the same of a mask refined 2 x 2 x 2, for finer curves
+};
+
+// Largest number of voxels along an axis: sixteen points a voxel make 2 n + 1 cells of n voxels.
 inline constexpr int32_t kMaxMaskVoxels = (kMaxExtentCells - 1) / 2;
 
 // A grid of voxels. Here `placement` places voxel centers: `spacing` is the size of a voxel,
@@ -47,10 +53,10 @@ absl::Status CheckMaskGrid(const MaskGrid& grid);
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
 absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
 
-// The lattice of the exact conversion: its even points are the corners of the refined voxels, its
-// odd points their centers. World positions are those of the voxels.
-LatticeExtent ExactExtent(const MaskGrid& grid);
-Placement ExactPlacement(const MaskGrid& grid);
+// The lattice of an exact conversion: its odd points are the centers of the voxels, or of the
+// refined voxels, its even points their corners. World positions are those of the voxels.
+LatticeExtent ExactExtent(const MaskGrid& grid, VoxelPoints points);
+Placement ExactPlacement(const MaskGrid& grid, VoxelPoints points);
 
 }  // namespace bccskel
 

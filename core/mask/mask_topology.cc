@@ -84,8 +84,8 @@ void MaskTopology::EndSlice() {
 }
 
 void MaskTopology::AddTube(const RowTube& tube) {
-  for (int slice = 1; slice < RowTube::kSlices; ++slice) {
-    for (int row = 1; row < RowTube::kRows; ++row) {
+  for (int slice = 1; slice <= kBrickZ; ++slice) {
+    for (int row = 1; row <= kBrickY; ++row) {
       euler_ += adjacency_ == MaskAdjacency::k26 ? EulerOfRow<Union>(tube, slice, row)
                                                  : EulerOfRow<Intersection>(tube, slice, row);
     }

@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "core/mask/slice_rows.h"
+#include "core/volume/brick.h"
 
 namespace bccskel {
 
-// All voxels that decide about one line of bricks along x. A brick of the exact conversion spans
-// 8 x 2 x 4 voxels, so line (by, bz) holds rows 2 by and 2 by + 1 of slices 4 bz to 4 bz + 3; the
-// row and the slice before them decide about the corners in between.
+// All voxels that decide about one line of bricks along x. Line (by, bz) holds rows 4 by to 4 by +
+// 3 of slices 8 bz to 8 bz + 7. Corners lie before their voxels, so they touch the row and the
+// slice before; and whether one stays depends on the row and the slice after, too.
 struct RowTube {
-  static constexpr int kSlices = 5;
-  static constexpr int kRows = 3;
+  static constexpr int kSlices = kBrickZ + 2;
+  static constexpr int kRows = kBrickY + 2;
 
   int32_t by = 0;
   int32_t bz = 0;
@@ -24,15 +25,15 @@ struct RowTube {
   const uint64_t* words = nullptr;  // of row (0, 0)
   size_t stride = 0;
 
-  // Row 2 by - 1 + row of slice 4 bz - 1 + slice. Word n is word first_word + n of the mask,
-  // -1 <= n <= word_count; the first and the last of these are zero.
+  // Row 4 by - 1 + row of slice 8 bz - 1 + slice. Word n is word first_word + n of the mask,
+  // -1 <= n <= word_count + 1; the first and the last two of these are zero.
   const uint64_t* Row(int slice, int row) const {
     return words + static_cast<size_t>(slice * kRows + row) * stride;
   }
 };
 
 // Cuts a mask, slice after slice, into its occupied tubes.
-// Memory: the occupied rows of five slices. Cost: each row is copied into at most four tubes.
+// Memory: the occupied rows of ten slices. Cost: each row is copied into at most four tubes.
 class RowTubes {
  public:
   // Takes the rows of slice z out of `rows` and calls visit(const RowTube&) for the tubes that are
@@ -40,8 +41,8 @@ class RowTubes {
   // Needs: z grows from call to call; slices that are left out are empty.
   template <typename Visit>
   void AddSlice(int32_t z, SliceRows& rows, Visit visit) {
-    while (bz_ < z / 4) VisitLayer(z / 4, visit);
-    std::swap(slices_[static_cast<size_t>(z % 4 + 1)], rows);
+    while (z > FirstSlice() + RowTube::kSlices - 1) VisitLayer(z / kBrickZ, visit);
+    std::swap(slices_[static_cast<size_t>(z - FirstSlice())], rows);
   }
 
   template <typename Visit>
@@ -51,6 +52,8 @@ class RowTubes {
   }
 
  private:
+  int32_t FirstSlice() const { return kBrickZ * bz_ - 1; }
+
   // Goes on to the next layer of bricks that may be occupied, at most `limit`.
   template <typename Visit>
   void VisitLayer(int32_t limit, Visit visit) {
@@ -59,12 +62,12 @@ class RowTubes {
     NextLayer(limit);
   }
 
-  // The first line of bricks from `by` on that has an occupied row, or -1.
+  // The first line of bricks from `by` on whose corners or centers may be occupied, or -1.
   int32_t NextTube(int32_t by);
   const RowTube& Fill(int32_t by);
   void NextLayer(int32_t limit);
 
-  std::array<SliceRows, RowTube::kSlices> slices_;  // 4 bz_ - 1 to 4 bz_ + 3
+  std::array<SliceRows, RowTube::kSlices> slices_;  // from FirstSlice() on
   std::array<size_t, RowTube::kSlices> cursors_ = {};
   int32_t bz_ = 0;
   RowTube tube_;

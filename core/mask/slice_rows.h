@@ -48,6 +48,8 @@ class SliceRows {
   void SetDense(const MaskGrid& grid, std::span<const uint64_t> words);
   // Adds the voxels [begin, end). Needs: called in order of y, then x; runs do not overlap.
   void AddRun(int32_t y, int32_t begin, int32_t end);
+  // Replaces the rows by either slice of those refined 2 x 2 x 2.
+  void SetRefined(const SliceRows& voxels);
 
   bool empty() const { return rows_.empty(); }
   size_t size() const { return rows_.size(); }

@@ -6,104 +6,123 @@
 namespace bccskel {
 namespace {
 
+// Words of 64 voxels, or of the 64 corners before them, by slice or layer and row.
+template <int kSlices, int kRows>
+using Words = std::array<std::array<uint64_t, kRows>, kSlices>;
+using TubeWords = Words<RowTube::kSlices, RowTube::kRows>;
+using BrickWords = Words<kBrickZ, kBrickY>;
+
+// The phase that the rule is applied to; everything outside the mask is background.
 template <MaskAdjacency kAdjacency>
-uint64_t Join(uint64_t a, uint64_t b) {
-  return kAdjacency == MaskAdjacency::k26 ? a | b : a & b;
+uint64_t Phase(uint64_t voxels) {
+  return kAdjacency == MaskAdjacency::k26 ? voxels : ~voxels;
 }
 
-// 64 voxels of x at a time: for each of the eight layers and four rows of a line of even bricks the
-// voxels that decide about its corners.
-using CornerRows = std::array<std::array<uint64_t, kBrickY>, kBrickZ>;
-
-// The words n of a tube's 15 rows.
-struct TubeWords {
-  std::array<std::array<uint64_t, RowTube::kRows>, RowTube::kSlices> at;
-  uint64_t any = 0;
-};
-
+template <MaskAdjacency kAdjacency>
 TubeWords WordsAt(const RowTube& tube, int32_t n) {
   TubeWords words;
   for (int s = 0; s < RowTube::kSlices; ++s) {
     for (int r = 0; r < RowTube::kRows; ++r) {
-      const uint64_t word = tube.Row(s, r)[n];
-      words.at[static_cast<size_t>(s)][static_cast<size_t>(r)] = word;
-      words.any |= word;
+      words[static_cast<size_t>(s)][static_cast<size_t>(r)] = Phase<kAdjacency>(tube.Row(s, r)[n]);
     }
   }
   return words;
 }
 
-template <MaskAdjacency kAdjacency>
-std::array<uint64_t, kBrickY> RowsOfLayer(const std::array<uint64_t, RowTube::kRows>& a,
-                                          const std::array<uint64_t, RowTube::kRows>& b) {
-  const auto join = [](uint64_t p, uint64_t q) { return Join<kAdjacency>(p, q); };
-  const uint64_t r0 = join(a[0], b[0]), r1 = join(a[1], b[1]), r2 = join(a[2], b[2]);
-  return {join(r0, r1), r1, join(r1, r2), r2};
+// Voxels of a brick's own rows and of those before, which its corners touch.
+uint64_t AnyVoxel(const RowTube& tube, int32_t n) {
+  uint64_t any = 0;
+  for (int s = 0; s + 1 < RowTube::kSlices; ++s) {
+    for (int r = 0; r + 1 < RowTube::kRows; ++r) any |= tube.Row(s, r)[n];
+  }
+  return any;
 }
 
-// Even layers of corners lie between two slices, odd ones inside a slice; rows likewise.
-template <MaskAdjacency kAdjacency>
-CornerRows CornersOf(const TubeWords& words) {
-  CornerRows rows;
-  for (size_t s = 0; s + 1 < words.at.size(); ++s) {
-    rows[2 * s] = RowsOfLayer<kAdjacency>(words.at[s], words.at[s + 1]);
-    rows[2 * s + 1] = RowsOfLayer<kAdjacency>(words.at[s + 1], words.at[s + 1]);
+// The slabs across x: bit i is set where one of the four voxels i of the rows around a corner is.
+BrickWords SlabsAcrossX(const TubeWords& v) {
+  BrickWords slabs;
+  for (size_t k = 0; k < kBrickZ; ++k) {
+    for (size_t j = 0; j < kBrickY; ++j) {
+      slabs[k][j] = v[k][j] | v[k][j + 1] | v[k + 1][j] | v[k + 1][j + 1];
+    }
   }
+  return slabs;
+}
+
+// Voxels i - 1 and i together.
+TubeWords Widened(const TubeWords& before, const TubeWords& v) {
+  TubeWords wide;
+  for (size_t s = 0; s < v.size(); ++s) {
+    for (size_t r = 0; r < v[s].size(); ++r) {
+      wide[s][r] = v[s][r] | v[s][r] << 1 | before[s][r] >> 63;
+    }
+  }
+  return wide;
+}
+
+// Three consecutive slabs along an axis.
+uint64_t Gap(uint64_t below, uint64_t above, uint64_t next) { return below & ~above & next; }
+
+// The even points of the phase. `x` holds the slabs across x of the word before, this one and the
+// next.
+BrickWords Corners(const TubeWords& wide, const std::array<BrickWords, 3>& x) {
+  Words<kBrickZ, RowTube::kRows> y;  // slabs across y
+  for (size_t k = 0; k < y.size(); ++k) {
+    for (size_t r = 0; r < y[k].size(); ++r) y[k][r] = wide[k][r] | wide[k + 1][r];
+  }
+  Words<RowTube::kSlices, kBrickY> z;  // slabs across z
+  for (size_t s = 0; s < z.size(); ++s) {
+    for (size_t j = 0; j < z[s].size(); ++j) z[s][j] = wide[s][j] | wide[s][j + 1];
+  }
+  BrickWords corners;
+  for (size_t k = 0; k < corners.size(); ++k) {
+    for (size_t j = 0; j < corners[k].size(); ++j) {
+      const uint64_t slab = x[1][k][j];
+      const uint64_t gaps = Gap(slab << 1 | x[0][k][j] >> 63, slab, slab >> 1 | x[2][k][j] << 63) |
+                            Gap(y[k][j], y[k][j + 1], y[k][j + 2]) |
+                            Gap(z[k][j], z[k + 1][j], z[k + 2][j]);
+      corners[k][j] = (y[k][j] | y[k][j + 1]) & ~gaps;
+    }
+  }
+  return corners;
+}
+
+// Exchanges the bits of `high` under the mask with those of `low` that lie `shift` higher.
+void Exchange(uint64_t& low, uint64_t& high, int shift, uint64_t mask) {
+  const uint64_t change = (low >> shift ^ high) & mask;
+  high ^= change;
+  low ^= change << shift;
+}
+
+// From four rows of four times 16 points to the layers of four bricks: words transposed.
+std::array<uint64_t, kBrickY> LayersOf(std::array<uint64_t, kBrickY> rows) {
+  constexpr uint64_t kLowHalf = 0x00000000ffffffff, kEvenLanes = 0x0000ffff0000ffff;
+  Exchange(rows[0], rows[2], 32, kLowHalf);
+  Exchange(rows[1], rows[3], 32, kLowHalf);
+  Exchange(rows[0], rows[1], 16, kEvenLanes);
+  Exchange(rows[2], rows[3], 16, kEvenLanes);
   return rows;
 }
 
-// Byte b of each of four words, in the low half of a 16-bit lane each.
-uint64_t BytesAt(const std::array<uint64_t, kBrickY>& rows, int b) {
-  const int shift = 8 * b;
-  return (rows[0] >> shift & 0xff) | (rows[1] >> shift & 0xff) << 16 |
-         (rows[2] >> shift & 0xff) << 32 | (rows[3] >> shift & 0xff) << 48;
-}
+constexpr int kBricksPerWord = 64 / kBrickX;
+using BrickLine = std::array<BrickBits, kBricksPerWord>;
 
-// Doubles each bit of the low half of each 16-bit lane.
-uint64_t Doubled(uint64_t lanes) {
-  lanes = (lanes | lanes << 4) & 0x0f0f0f0f0f0f0f0f;
-  lanes = (lanes | lanes << 2) & 0x3333333333333333;
-  lanes = (lanes | lanes << 1) & 0x5555555555555555;
-  return lanes | lanes << 1;
-}
-
-// Corner i of a row lies between the refined voxels i - 1 and i; the one before the lane's first
-// comes as a bit.
 template <MaskAdjacency kAdjacency>
-uint64_t CornerLanes(uint64_t voxels, uint64_t first_bits) {
-  constexpr uint64_t kFirst = 0x0001000100010001;
-  const uint64_t here = Doubled(voxels);
-  return Join<kAdjacency>(here, (here << 1 & ~kFirst) | (first_bits & kFirst));
+BrickLine BricksOf(const BrickWords& words) {
+  BrickLine bricks;
+  for (size_t k = 0; k < words.size(); ++k) {
+    const auto layers = LayersOf(words[k]);
+    for (size_t b = 0; b < bricks.size(); ++b) bricks[b].words[k] = Phase<kAdjacency>(layers[b]);
+  }
+  return bricks;
 }
 
-// `before` is `rows` moved up by one voxel, so bit 8 b is the voxel to the left of byte b.
-template <MaskAdjacency kAdjacency>
-BrickBits EvenBrick(const CornerRows& rows, const CornerRows& before, int b) {
-  BrickBits bits;
-  for (size_t k = 0; k < kBrickZ; ++k) {
-    bits.words[k] = CornerLanes<kAdjacency>(BytesAt(rows[k], b), BytesAt(before[k], b));
+BrickWords OwnVoxels(const TubeWords& v) {
+  BrickWords own;
+  for (size_t k = 0; k < own.size(); ++k) {
+    for (size_t j = 0; j < own[k].size(); ++j) own[k][j] = v[k + 1][j + 1];
   }
-  return bits;
-}
-
-BrickBits OddBrick(const TubeWords& words, int b) {
-  BrickBits bits;
-  for (size_t s = 1; s < words.at.size(); ++s) {
-    const auto& [ignored, first, second] = words.at[s];
-    const uint64_t layer = Doubled(BytesAt({first, first, second, second}, b));
-    bits.words[2 * s - 2] = bits.words[2 * s - 1] = layer;
-  }
-  return bits;
-}
-
-CornerRows MovedUp(const CornerRows& rows, const CornerRows& word_before) {
-  CornerRows moved;
-  for (size_t k = 0; k < rows.size(); ++k) {
-    for (size_t j = 0; j < rows[k].size(); ++j) {
-      moved[k][j] = rows[k][j] << 1 | word_before[k][j] >> 63;
-    }
-  }
-  return moved;
+  return own;
 }
 
 }  // namespace
@@ -116,25 +135,29 @@ void TubeBricks::Push(BrickCoordinates brick, const BrickBits& bits) {
 
 template <MaskAdjacency kAdjacency>
 void TubeBricks::AddTube(const RowTube& tube) {
-  CornerRows word_before = {};
+  TubeWords before = WordsAt<kAdjacency>(tube, -1), words = WordsAt<kAdjacency>(tube, 0);
+  std::array<BrickWords, 3> slabs = {{SlabsAcrossX(before), SlabsAcrossX(words), {}}};
   uint64_t any_before = 0;
   for (int32_t n = 0; n <= tube.word_count; ++n) {
-    const TubeWords words = WordsAt(tube, n);
-    const uint64_t reach = words.any | words.any << 1 | any_before >> 63;
-    any_before = words.any;
-    if (reach == 0) {
-      word_before = {};
-      continue;
+    const TubeWords next = WordsAt<kAdjacency>(tube, n + 1);
+    slabs[2] = SlabsAcrossX(next);
+    const uint64_t any = AnyVoxel(tube, n);
+    const uint64_t reach = any | any << 1 | any_before >> 63;
+    if (reach != 0) {
+      const BrickLine even = BricksOf<kAdjacency>(Corners(Widened(before, words), slabs));
+      const BrickLine odd = BricksOf<kAdjacency>(OwnVoxels(words));
+      for (size_t b = 0; b < kBricksPerWord; ++b) {
+        if ((reach >> (kBrickX * b) & 0xffff) == 0) continue;
+        const int32_t bx = kBricksPerWord * (tube.first_word + n) + static_cast<int32_t>(b);
+        Push({bx, tube.by, tube.bz, Sublattice::kEven}, even[b]);
+        Push({bx, tube.by, tube.bz, Sublattice::kOdd}, odd[b]);
+      }
     }
-    const CornerRows rows = CornersOf<kAdjacency>(words);
-    const CornerRows before = MovedUp(rows, word_before);
-    for (int b = 0; b < 8; ++b) {
-      if ((reach >> (8 * b) & 0xff) == 0) continue;
-      const int32_t bx = 8 * (tube.first_word + n) + b;
-      Push({bx, tube.by, tube.bz, Sublattice::kEven}, EvenBrick<kAdjacency>(rows, before, b));
-      Push({bx, tube.by, tube.bz, Sublattice::kOdd}, OddBrick(words, b));
-    }
-    word_before = rows;
+    any_before = any;
+    before = words;
+    words = next;
+    slabs[0] = slabs[1];
+    slabs[1] = slabs[2];
   }
 }
 

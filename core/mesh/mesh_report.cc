@@ -1,6 +1,7 @@
 #include "core/mesh/mesh_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -121,6 +122,47 @@ Reading ChooseReading(const TriangleMesh& mesh) {
   }
   if (best.closure() != SurfaceClosure::kOriented) improve(ReadWithoutFlatTriangles(welded));
   return best;
+}
+
+// The place of each triangle's reverse, where every triangle has one: a surface whose facets are
+// all there from both sides encloses nothing by any rule. Empty otherwise.
+std::vector<uint32_t> ReversesOf(const std::vector<Triangle>& triangles) {
+  using Corners = std::array<uint32_t, 4>;  // sorted, and whether the triangle turns as they do
+  std::vector<std::pair<Corners, uint32_t>> sorted;
+  if (triangles.size() % 2 != 0) return {};
+  for (const Triangle& t : triangles) {
+    const auto first = static_cast<size_t>(std::ranges::min_element(t) - t.begin());
+    const uint32_t second = t[(first + 1) % 3], third = t[(first + 2) % 3];
+    const Corners corners = {t[first], std::min(second, third), std::max(second, third),
+                             second < third ? 0U : 1U};
+    sorted.emplace_back(corners, static_cast<uint32_t>(sorted.size()));
+  }
+  std::ranges::sort(sorted);
+  std::vector<uint32_t> reverses(triangles.size());
+  for (size_t n = 0; n < sorted.size(); n += 2) {
+    const auto& [a, first] = sorted[n];
+    const auto& [b, second] = sorted[n + 1];
+    if (a[0] != b[0] || a[1] != b[1] || a[2] != b[2] || a[3] == b[3]) return {};
+    reverses[first] = second;
+    reverses[second] = first;
+  }
+  return reverses;
+}
+
+// One of each two facets that are each other's reverse, the first in the file, where that leaves a
+// closed surface: a sheet that folds back onto itself encloses nothing.
+Reading ReadOneSide(Reading reading, MeshReport& report) {
+  const std::vector<uint32_t> reverses = ReversesOf(reading.mesh.triangles);
+  if (reverses.empty()) return reading;
+  std::vector<Triangle> kept;
+  for (uint32_t t = 0; t < reverses.size(); ++t) {
+    if (t < reverses[t]) kept.push_back(reading.mesh.triangles[t]);
+  }
+  const uint64_t count = kept.size();
+  Reading one_side = Read({reading.mesh.vertices, std::move(kept)});
+  if (one_side.closure() == SurfaceClosure::kOpen) return reading;
+  report.two_sided_triangles = count;
+  return one_side;
 }
 
 // Numbers the components in the order of their first triangles.
@@ -275,9 +317,10 @@ Surface PrepareSurface(const TriangleMesh& mesh) {
   Surface surface;
   TriangleMesh unit = mesh;
   ScaleToUnit(unit, surface);
-  Reading reading = ChooseReading(unit);
+  Reading reading = ReadOneSide(ChooseReading(unit), surface.report);
   ReportEdges(reading, surface.report);
-  surface.report.dropped_triangles = mesh.triangles.size() - reading.mesh.triangles.size();
+  surface.report.dropped_triangles =
+      mesh.triangles.size() - reading.mesh.triangles.size() - surface.report.two_sided_triangles;
   uint32_t components = 0;
   surface.component_of = LabelComponents(reading, components);
   surface.report.components.resize(components);

@@ -44,9 +44,10 @@ struct SolidTopology {
 // as one vertex where only that closes the surface; triangles that name a vertex twice are dropped,
 // and so are those of no area where only that closes the surface.
 struct MeshReport {
-  uint64_t vertices = 0;           // that triangles use
-  uint64_t triangles = 0;          // kept
-  uint64_t dropped_triangles = 0;  // degenerate
+  uint64_t vertices = 0;             // that triangles use
+  uint64_t triangles = 0;            // kept
+  uint64_t dropped_triangles = 0;    // degenerate
+  uint64_t two_sided_triangles = 0;  // of which the reverse was there, too, and was dropped
   uint64_t edges = 0;
   uint64_t boundary_edges = 0;      // in one triangle
   uint64_t non_manifold_edges = 0;  // in more than two triangles

@@ -1,6 +1,7 @@
 #include "core/volume/volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -48,6 +49,29 @@ absl::Status CheckBrick(const LatticeExtent& extent, BrickKey key, const BrickBi
   return absl::OkStatus();
 }
 
+// Distances are those of the lattice only where the axes have length 1 and are perpendicular.
+// Numbers in headers are rounded, hence the margin.
+absl::Status CheckDirection(const std::array<double, 9>& direction) {
+  constexpr double kMargin = 1e-3;
+  for (size_t a = 0; a < 3; ++a) {
+    for (size_t b = a; b < 3; ++b) {
+      double product = 0;
+      for (size_t row = 0; row < 3; ++row)
+        product += direction[3 * row + a] * direction[3 * row + b];
+      const double wanted = a == b ? 1 : 0;
+      if (std::abs(product - wanted) <= 2 * kMargin) continue;
+      return absl::InvalidArgumentError(
+          a == b ? absl::StrFormat("direction: axis %d has the length %g, it must be 1 within %g; "
+                                   "put the scale into the spacing",
+                                   a, std::sqrt(product), kMargin)
+                 : absl::StrFormat("direction: axes %d and %d are not perpendicular, the cosine "
+                                   "between them is %g; resample without shear",
+                                   a, b, product));
+    }
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status CheckGrid(const LatticeExtent& extent, const Placement& placement) {
@@ -69,7 +93,7 @@ absl::Status CheckGrid(const LatticeExtent& extent, const Placement& placement) 
       !std::ranges::all_of(placement.direction, finite)) {
     return absl::InvalidArgumentError("origin and direction must be finite");
   }
-  return absl::OkStatus();
+  return CheckDirection(placement.direction);
 }
 
 absl::StatusOr<Volume> Volume::Create(LatticeExtent extent, const Placement& placement,

@@ -62,6 +62,11 @@ std::vector<std::string> DefectWarnings(const MeshReport& mesh, FillRule rule) {
         rule == FillRule::kWinding ? "filled (parity would make them cavities)"
                                    : "taken as cavities (winding would fill them)"));
   }
+  if (mesh.two_sided_triangles > 0) {
+    warnings.push_back(
+        absl::StrFormat("all %d triangles were there from both sides: one of each was kept",
+                        mesh.two_sided_triangles));
+  }
   if (mesh.dropped_triangles > 0) {
     warnings.push_back(
         absl::StrFormat("%d degenerate triangles were dropped", mesh.dropped_triangles));

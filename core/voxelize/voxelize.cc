@@ -119,14 +119,29 @@ class Voxelizer {
     return fill_->Fill(fit, context_);
   }
 
-  // Spacing for a first try: from the enclosed volume, or a coarse one from the box.
-  double FirstSpacing(uint64_t target) const {
-    if (surface_.report.closure == SurfaceClosure::kOriented && surface_.unit_volume > 0) {
-      return std::cbrt(2 * surface_.unit_volume / static_cast<double>(target));
-    }
-    constexpr double kCoarseBoxPoints = 30000;
+  // Spacing that gives about this many points in the box.
+  double BoxSpacing(double points) const {
     const auto& box = surface_.upper_unit;
-    return std::cbrt(2 * box[0] * box[1] * box[2] / kCoarseBoxPoints);
+    return std::cbrt(2 * box[0] * box[1] * box[2] / points);
+  }
+
+  // Spacing for a first try: from the enclosed volume, or a coarse one from the box. Where parts of
+  // a surface turn against each other their volumes cancel, and the spacing that follows from the
+  // sum may ask for any number of points; so a small sum is compared with a coarse grid first.
+  absl::StatusOr<double> FirstSpacing(uint64_t target) const {
+    constexpr double kCoarseBoxPoints = 30000;
+    constexpr double kLargeShare = 1.0 / 8;
+    const auto& box = surface_.upper_unit;
+    const double coarse = BoxSpacing(kCoarseBoxPoints);
+    const double share = surface_.unit_volume / (box[0] * box[1] * box[2]);
+    if (surface_.report.closure != SurfaceClosure::kOriented || !(share > 0)) return coarse;
+    const double spacing = std::cbrt(2 * surface_.unit_volume / static_cast<double>(target));
+    if (share >= kLargeShare) return spacing;
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume volume, Fill(coarse, GridShift::kCentered));
+    const double expected = kCoarseBoxPoints * share;
+    const bool plausible =
+        expected >= 1 && static_cast<double>(volume.PointCount()) <= 8 * std::max(expected, 4.0);
+    return plausible ? spacing : coarse;
   }
 
   // Points = 2 * volume / spacing^3, so each count tells a better spacing. The count jumps where
@@ -136,7 +151,8 @@ class Voxelizer {
     constexpr int kTries = 16;
     constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
     constexpr double kTolerance = 0.02;
-    SpacingSearch search(FirstSpacing(target));
+    BCCSKEL_ASSIGN_OR_RETURN(const double first, FirstSpacing(target));
+    SpacingSearch search(first);
     Volume best;
     double best_ratio = 0;
     for (int n = 0; n < kTries; ++n) {

@@ -1,5 +1,6 @@
 #include "tests/support/reference_mask.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <random>
@@ -133,23 +134,58 @@ BettiNumbers ReferenceMaskBetti(const ReferenceMask& mask, ObjectReach reach) {
   return betti;
 }
 
+namespace {
+
+// The corners of a phase of a mask: those that touch it, but for the lower ends of bad edges.
+class Corners {
+ public:
+  Corners(const ReferenceMask& mask, bool phase) : mask_(mask), phase_(phase) {}
+
+  bool Has(LatticePoint c) const {
+    if (!Touches(c)) return false;
+    return std::ranges::none_of(kSteps, [&](LatticePoint u) { return IsBadEdge(c, u); });
+  }
+
+  // Whether c and c + u touch the phase, and none of the four voxels around their edge is of it.
+  bool IsBadEdge(LatticePoint c, LatticePoint u) const {
+    const LatticePoint low = {c.x - 1 + u.x, c.y - 1 + u.y, c.z - 1 + u.z};
+    return Touches(c) && Touches(c + u) && !Any(low, c);
+  }
+
+ private:
+  static constexpr LatticePoint kSteps[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+  bool Touches(LatticePoint c) const { return Any({c.x - 1, c.y - 1, c.z - 1}, c); }
+  bool Any(LatticePoint low, LatticePoint high) const {
+    bool any = false;
+    ForEachVoxel(low, high,
+                 [&](LatticePoint v) { any |= mask_.Contains(v.x, v.y, v.z) == phase_; });
+    return any;
+  }
+
+  const ReferenceMask& mask_;
+  const bool phase_;
+};
+
+}  // namespace
+
 std::vector<LatticePoint> ReferenceExactPoints(const ReferenceMask& mask, ObjectReach reach) {
+  const bool corners_touch = reach == ObjectReach::kCorner26;
+  const Corners corners(mask, corners_touch);
   std::vector<LatticePoint> points;
-  // Refined voxel u lies in voxel u / 2; -1 and 2 n lie outside.
-  const auto refined = [&](int32_t x, int32_t y, int32_t z) {
-    return x >= 0 && y >= 0 && z >= 0 && mask.Contains(x / 2, y / 2, z / 2);
-  };
-  ForEachVoxel({0, 0, 0}, {2 * mask.nx, 2 * mask.ny, 2 * mask.nz}, [&](LatticePoint c) {
-    int set = 0;
-    ForEachVoxel({-1, -1, -1}, {0, 0, 0}, [&](LatticePoint step) {
-      set += refined(c.x + step.x, c.y + step.y, c.z + step.z) ? 1 : 0;
-    });
-    if (set >= (reach == ObjectReach::kCorner26 ? 1 : 8)) {
-      points.push_back({2 * c.x, 2 * c.y, 2 * c.z});
-    }
-    if (refined(c.x, c.y, c.z)) points.push_back({2 * c.x + 1, 2 * c.y + 1, 2 * c.z + 1});
+  ForEachVoxel({0, 0, 0}, {mask.nx, mask.ny, mask.nz}, [&](LatticePoint c) {
+    if (corners.Has(c) == corners_touch) points.push_back({2 * c.x, 2 * c.y, 2 * c.z});
+    if (mask.Contains(c.x, c.y, c.z)) points.push_back({2 * c.x + 1, 2 * c.y + 1, 2 * c.z + 1});
   });
   return points;
+}
+
+ReferenceMask Refined(const ReferenceMask& mask) {
+  ReferenceMask refined = EmptyMask(2 * mask.nx, 2 * mask.ny, 2 * mask.nz);
+  ForEachVoxel({0, 0, 0}, {refined.nx - 1, refined.ny - 1, refined.nz - 1}, [&](LatticePoint v) {
+    refined.voxels[refined.Index(v.x, v.y, v.z)] = mask.Contains(v.x / 2, v.y / 2, v.z / 2) ? 1 : 0;
+  });
+  return refined;
 }
 
 }  // namespace bccskel::test

@@ -43,8 +43,11 @@ enum class ObjectReach : uint8_t { kCorner26, kFace6 };
 // for (6, 26).
 BettiNumbers ReferenceMaskBetti(const ReferenceMask& mask, ObjectReach reach);
 
-// The points of the exact conversion, each decided by its eight refined voxels.
+// The points of the exact conversion, two a voxel, by the words of its definition.
 std::vector<LatticePoint> ReferenceExactPoints(const ReferenceMask& mask, ObjectReach reach);
+
+// Every voxel as 2 x 2 x 2.
+ReferenceMask Refined(const ReferenceMask& mask);
 
 }  // namespace bccskel::test
 

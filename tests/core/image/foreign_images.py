@@ -8,6 +8,7 @@ steps of the three axes and the origin, 0 0 0 0 where the format holds none. Exi
 program is missing.
 """
 
+import gzip
 import pathlib
 import subprocess
 import sys
@@ -85,6 +86,9 @@ def write_nibabel(folder):
         image.to_filename(folder.add(f"{kind}_qform.nii", "i2", tilted_steps))
     pair = nibabel.Nifti1Pair(voxels("u2").T, turned)
     pair.to_filename(folder.add("pair.hdr", "u2", steps))
+    folder.add("pair.img", "u2", steps)
+    pair.to_filename(folder.add("packed.hdr.gz", "u2", steps))
+    folder.add("packed.img.gz", "u2", steps)
 
 
 def write_tifffile(folder):
@@ -104,7 +108,16 @@ def write_tifffile(folder):
                      photometric="minisblack")
     tifffile.imwrite(folder.add("difference.tif", "u2"), voxels("u2"), compression="zlib",
                      predictor=True, photometric="minisblack")
+    tifffile.imwrite(folder.add("white.tif", "u2"), voxels("u2"), photometric="miniswhite")
+    tifffile.imwrite(folder.add("white_bilevel.tif", "b1"), voxels("b1"), photometric="miniswhite")
+    with open(folder.path / "strips.tif", "rb") as plain:
+        with gzip.open(folder.add("strips.tif.gz", "f4"), "wb") as packed:
+            packed.write(plain.read())
     spaced = ((0.5, 0, 0), (0, 0.25, 0), (0, 0, 2), (0, 0, 0))
+    tifffile.imwrite(folder.add("ome.tif", "u2", spaced), voxels("u2"), ome=True,
+                     metadata={"axes": "ZYX", "PhysicalSizeX": 0.5, "PhysicalSizeY": 0.25,
+                               "PhysicalSizeZ": 2, "PhysicalSizeXUnit": "\u00b5m",
+                               "PhysicalSizeYUnit": "\u00b5m", "PhysicalSizeZUnit": "\u00b5m"})
     tifffile.imwrite(folder.add("imagej.tif", "u2", spaced), voxels("u2"), imagej=True,
                      resolution=(2, 4), metadata={"axes": "ZYX", "spacing": 2, "unit": "um"})
 

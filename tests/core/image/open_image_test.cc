@@ -256,7 +256,8 @@ TEST(OpenImage, RefusesFoldersAndMissingFilesByName) {
 
 TEST(HasImageFileName, KnowsEndingsWhateverTheirCase) {
   for (const char* name :
-       {"a.nii", "b/c.NII.GZ", "x.nrrd", "x.tif", "x.mha", "x.inr.gz", "x.vol"}) {
+       {"a.nii", "b/c.NII.GZ", "x.nrrd", "x.nrrd.gz", "x.tif", "x.tif.gz", "x.mha", "x.mha.gz",
+        "x.inr.gz", "x.npy", "x.npy.gz", "x.vol", "x.vol.gz", "x.hdr", "x.img", "x.img.gz"}) {
     EXPECT_TRUE(HasImageFileName(name)) << name;
   }
   for (const char* name : {"a.off", "nii", "x.exr", "x.gz", "x.npz"}) {

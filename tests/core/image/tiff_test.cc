@@ -79,10 +79,86 @@ TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_EQ(std::vector<double>(image->values.begin() + 24, image->values.end()),
             (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1}));
-  const auto turned =
-      ReadBytes(Tiff({.count = 1, .width = 8, .bits = 1, .photometric = PHOTOMETRIC_MINISWHITE}));
-  ASSERT_TRUE(turned.ok()) << turned.status();
-  for (size_t n = 0; n < 32; ++n) EXPECT_EQ(turned->values[n], 1 - image->values[n]);
+}
+
+// As tifffile reads them: a mask of few voxels stays one, and the background of labels is 0.
+TEST(Tiff, KeepsStoredValuesWhereWhiteIsZero) {
+  for (const int bits : {1, 8, 16}) {
+    const auto black = ReadBytes(Tiff({.count = 1, .width = 8, .bits = bits}));
+    const auto white = ReadBytes(
+        Tiff({.count = 1, .width = 8, .bits = bits, .photometric = PHOTOMETRIC_MINISWHITE}));
+    ASSERT_TRUE(black.ok()) << black.status();
+    ASSERT_TRUE(white.ok()) << white.status();
+    EXPECT_EQ(white->values, black->values) << bits;
+  }
+}
+
+std::string Ome(const std::string& pixels) {
+  return "<?xml version=\"1.0\"?><OME xmlns=\"x\"><Image><Pixels ID=\"Pixels:0\" " + pixels +
+         "/></Image></OME>";
+}
+
+ImageOptions Channel(int64_t number) {
+  ImageOptions options;
+  options.channel = number;
+  return options;
+}
+
+ImageOptions Time(int64_t number) {
+  ImageOptions options;
+  options.time = number;
+  return options;
+}
+
+// The pages that the slices come from: each page's first value is 12 times its number.
+std::string PagesOf(const std::string& description, const ImageOptions& options, int count = 6) {
+  const auto image = ReadBytes(Tiff({.count = count, .description = description.c_str()}), options);
+  if (!image.ok()) return std::string(image.status().message());
+  std::string pages;
+  for (size_t n = 0; n < image->values.size(); n += 12) {
+    pages += std::to_string(static_cast<int>(image->values[n]) / 12);
+  }
+  return pages;
+}
+
+TEST(Tiff, ChoosesAChannelAndAPointOfTime) {
+  const std::string zct = Ome("DimensionOrder=\"XYZCT\" SizeZ=\"3\" SizeC=\"2\" SizeT=\"1\"");
+  const std::string czt = Ome("DimensionOrder=\"XYCZT\" SizeZ=\"3\" SizeC=\"2\" SizeT=\"1\"");
+  const std::string times = Ome("DimensionOrder=\"XYZTC\" SizeZ=\"2\" SizeC=\"1\" SizeT=\"3\"");
+  EXPECT_THAT(PagesOf(zct, {}), HasSubstr("2 channels; choose one with --channel 0 to 1"));
+  EXPECT_EQ(PagesOf(zct, Channel(0)), "012");
+  EXPECT_EQ(PagesOf(zct, Channel(1)), "345");
+  EXPECT_EQ(PagesOf(czt, Channel(1)), "135");
+  EXPECT_THAT(PagesOf(zct, Channel(2)), HasSubstr("channel 2 is not there"));
+  EXPECT_THAT(PagesOf(times, {}), HasSubstr("--time 0 to 2"));
+  EXPECT_EQ(PagesOf(times, Time(2)), "45");
+  EXPECT_EQ(PagesOf("ImageJ=1.53\nimages=6\nchannels=2\nslices=3\n", Channel(1)), "135");
+  EXPECT_EQ(PagesOf("{\"axes\": \"CZYX\", \"shape\": [2, 3, 4, 3]}", Channel(1)), "345");
+  EXPECT_EQ(PagesOf("{\"shape\": [2, 3, 4, 3]}", Channel(1)), "345");
+  EXPECT_EQ(PagesOf("{\"shape\": [6, 4, 3]}", {}), "012345");
+  EXPECT_THAT(PagesOf("{\"shape\": [2, 3, 4, 3]}", {}), HasSubstr("2 channels"));
+  EXPECT_THAT(PagesOf("{\"axes\": \"TYX\", \"shape\": [6, 4, 3]}", {}), HasSubstr("6 times"));
+  EXPECT_THAT(PagesOf("{\"axes\": \"QZYX\", \"shape\": [2, 3, 4, 3]}", {}), HasSubstr("axis Q"));
+}
+
+TEST(Tiff, RefusesDescriptionsThatContradictThePages) {
+  const std::string large =
+      Ome("DimensionOrder=\"XYZCT\" SizeZ=\"4611686018427387904\" SizeC=\"4\" SizeT=\"4\"");
+  EXPECT_THAT(PagesOf(large, {}), HasSubstr("more planes than the 6 pages"));
+  EXPECT_THAT(PagesOf(Ome("DimensionOrder=\"XYZCT\" SizeZ=\"4\""), {}), HasSubstr("6 pages"));
+  EXPECT_THAT(PagesOf(Ome("DimensionOrder=\"ZZZZZ\" SizeZ=\"6\""), {}), HasSubstr("ZZZZZ"));
+  EXPECT_THAT(PagesOf("{\"shape\": [6, 4, 3]}", {}, 1), HasSubstr("truncate"));
+  EXPECT_THAT(PagesOf("no description", Channel(1)), HasSubstr("names none"));
+}
+
+TEST(Tiff, TakesThePhysicalSizeOfOme) {
+  const std::string description =
+      Ome("DimensionOrder=\"XYZCT\" SizeZ=\"2\" SizeC=\"1\" SizeT=\"1\" PhysicalSizeX=\"0.2\" "
+          "PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"1.5\" PhysicalSizeZUnit=\"\xc2\xb5m\"");
+  const auto image = ReadBytes(Tiff({.description = description.c_str()}));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.2, 0.25, 1.5));
+  EXPECT_EQ(image->info.unit, "um");
 }
 
 TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
@@ -108,7 +184,7 @@ TEST(Tiff, RefusesWhatIsNoStackOfNumbers) {
   EXPECT_THAT(message(Tiff({.samples = 3, .photometric = PHOTOMETRIC_RGB})),
               HasSubstr("3 samples per pixel"));
   EXPECT_THAT(message(Tiff({.bits = 4})), HasSubstr("samples of 4 bits"));
-  EXPECT_THAT(message(Tiff({.count = 3}, 5)), HasSubstr("page 2"));
+  EXPECT_THAT(message(Tiff({.count = 3}, 5)), HasSubstr("slice 2"));
   EXPECT_THAT(message(Tiff({.description = "ImageJ=1.53\nimages=4\nchannels=2\n"})),
               HasSubstr("channels"));
   EXPECT_THAT(message(Tiff({.count = 1, .description = "ImageJ=1.53\nimages=4\n"})),

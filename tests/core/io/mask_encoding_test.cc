@@ -39,8 +39,9 @@ std::string Packed(const Voxels& voxels) {
   return bytes;
 }
 
-ConvertedMask Converted(const Voxels& voxels, MaskAdjacency adjacency) {
-  auto converter = MaskConverter::Create(voxels.grid, {.adjacency = adjacency});
+ConvertedMask Converted(const Voxels& voxels, MaskAdjacency adjacency,
+                        VoxelPoints points = VoxelPoints::kTwo) {
+  auto converter = MaskConverter::Create(voxels.grid, {.adjacency = adjacency, .points = points});
   const auto nx = static_cast<size_t>(voxels.grid.nx), ny = static_cast<size_t>(voxels.grid.ny);
   for (size_t z = 0, n = 0; z < static_cast<size_t>(voxels.grid.nz); ++z) {
     std::vector<uint64_t> words(voxels.grid.WordsPerSlice());
@@ -83,8 +84,9 @@ TEST(MaskEncoding, DecodesToTheConversionOfItsVoxels) {
   for (const MaskGrid& grid : kGrids) {
     for (MaskAdjacency adjacency : {MaskAdjacency::k26, MaskAdjacency::k6}) {
       const Voxels voxels = RandomVoxels(grid, 0.4);
-      const ConvertedMask expected = Converted(voxels, adjacency);
-      const auto header = MakeMaskHeader({grid, adjacency}, {});
+      const VoxelPoints points = grid.nx % 2 == 0 ? VoxelPoints::kSixteen : VoxelPoints::kTwo;
+      const ConvertedMask expected = Converted(voxels, adjacency, points);
+      const auto header = MakeMaskHeader({grid, adjacency, points}, {});
       ASSERT_TRUE(header.ok()) << header.status();
       for (const size_t chunk_bytes : {1U, 3U, 1000U}) {
         const auto decoded = Decode(*header, Packed(voxels), chunk_bytes);
@@ -100,10 +102,14 @@ TEST(MaskEncoding, PlacesTheLatticeWhereTheVoxelsAre) {
   MaskGrid grid = {.nx = 4, .ny = 4, .nz = 4};
   grid.placement = {.spacing = {2, 3, 5}, .origin = {10, 20, 30}};
   const auto header = MakeMaskHeader({grid, MaskAdjacency::k26}, {});
-  EXPECT_EQ(header->extent, (LatticeExtent{9, 9, 9}));
+  EXPECT_EQ(header->extent, (LatticeExtent{5, 5, 5}));
+  EXPECT_EQ(header->placement.ToWorld(1, 1, 1), (WorldPoint{10, 20, 30}));
+  EXPECT_EQ(header->placement.ToWorld(3, 3, 3), (WorldPoint{12, 23, 35}));
+  const auto fine = MakeMaskHeader({grid, MaskAdjacency::k26, VoxelPoints::kSixteen}, {});
+  EXPECT_EQ(fine->extent, (LatticeExtent{9, 9, 9}));
   // The center of voxel (0, 0, 0) is the middle of its eight refined voxels.
-  EXPECT_EQ(header->placement.ToWorld(2, 2, 2), (WorldPoint{10, 20, 30}));
-  EXPECT_EQ(header->placement.ToWorld(6, 6, 6), (WorldPoint{12, 23, 35}));
+  EXPECT_EQ(fine->placement.ToWorld(2, 2, 2), (WorldPoint{10, 20, 30}));
+  EXPECT_EQ(fine->placement.ToWorld(6, 6, 6), (WorldPoint{12, 23, 35}));
 }
 
 TEST(MaskEncoding, RefusesTooFewAndTooManyBytes) {
@@ -150,7 +156,7 @@ TEST(MaskHeader, ChecksGridAndLimits) {
   EXPECT_EQ(code(kMaxMaskVoxels + 1, {}), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(code(10, {.max_decoded_bytes = 125}), absl::StatusCode::kOk);
   EXPECT_EQ(code(10, {.max_decoded_bytes = 124}), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(code(10, {.max_extent_cells = 20}), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(code(10, {.max_extent_cells = 10}), absl::StatusCode::kResourceExhausted);
 }
 
 TEST(MaskHeader, IsNoHeaderForWriting) {

@@ -93,11 +93,14 @@ struct Feature {
   std::array<int32_t, 3> quarters;
   uint32_t value;
 };
+std::array<int32_t, 3> QuartersOf(LatticePoint p) {
+  return {2 * p.x - 2, 2 * p.y - 2, 2 * p.z - 2};
+}
 std::vector<Feature> FeaturesOf(const SkeletonGraph& graph) {
   std::vector<Feature> features;
   std::vector<bool> touched(graph.nodes.size());
   const auto add = [&](LatticePoint p, size_t value) {
-    features.push_back({{p.x - 2, p.y - 2, p.z - 2}, static_cast<uint32_t>(value)});
+    features.push_back({QuartersOf(p), static_cast<uint32_t>(value)});
   };
   for (size_t e = 0; e < graph.edges.size(); ++e) {
     touched[graph.edges[e].source] = touched[graph.edges[e].target] = true;
@@ -183,7 +186,7 @@ TEST(NearestEdges, AreNeverOfAnotherComponent) {
 
 SkeletonPoint CurvePointAt(int32_t x) {
   SkeletonPoint p;
-  p.point = {x, 6, 6};
+  p.point = {x, 3, 3};
   return p;
 }
 SkeletonNode NodeAt(int32_t x) {
@@ -200,9 +203,9 @@ TEST(NearestEdges, GiveNodesWithoutEdgesTheNumbersBehindTheEdges) {
   // An edge along the bar, a node alone in the single voxel.
   SkeletonGraph graph;
   graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(18), NodeAt(118), NodeAt(6)};
-  graph.edges = {{0, 1, 0, 51}};
-  for (int32_t x = 18; x <= 118; x += 2) graph.points.push_back(CurvePointAt(x));
+  graph.nodes = {NodeAt(9), NodeAt(59), NodeAt(3)};
+  graph.edges = {{0, 1, 0, 26}};
+  for (int32_t x = 9; x <= 59; x += 2) graph.points.push_back(CurvePointAt(x));
   for (const auto& image :
        {NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {}),
         DrawSkeleton(example.volume.grid, example.object(), graph)}) {
@@ -218,24 +221,24 @@ TEST(NearestEdges, LeaveOutComponentsWithoutCurve) {
   const Example example = ExampleOf(std::move(volume));
   SkeletonGraph graph;
   graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(6)};
+  graph.nodes = {NodeAt(3)};
   const auto image =
       NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
   ASSERT_TRUE(image.ok());
   EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
 }
 
-// Lattice point (x, 6, 6) lies at x / 4 - 1 / 2 voxels in the rows through voxel (1, 1, 1).
+// Lattice point (x, 3, 3) lies at (x - 1) / 2 voxels in the rows through voxel (1, 1, 1).
 TEST(DrawSkeleton, PutsAPointBesideTheObjectIntoItsNextVoxelIfThatIsOneAway) {
   LabelVolume volume = test::EmptyLabels(8, 3, 3);
   volume.At(1, 1, 1) = 1;
   const Example example = ExampleOf(std::move(volume));
   SkeletonGraph graph;
   graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(10)};
+  graph.nodes = {NodeAt(5)};
   EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph),
               ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
-  graph.nodes = {NodeAt(14)};
+  graph.nodes = {NodeAt(7)};
   EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph), ::testing::IsEmpty());
 }
 
@@ -246,7 +249,7 @@ TEST(NearestEdges, KeepRunsOfARowApart) {
   const Example example = ExampleOf(std::move(volume));
   SkeletonGraph graph;
   graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(10)};
+  graph.nodes = {NodeAt(5)};
   const auto image =
       NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
   ASSERT_TRUE(image.ok());
@@ -296,7 +299,7 @@ TEST(DrawSkeleton, SetsOneObjectVoxelForEachCurvePointAndKeepsEdgesConnected) {
   for (const SkeletonEdge& edge : example.graph.edges) {
     Voxel before = {};
     for (const SkeletonPoint& p : example.graph.PointsOf(edge)) {
-      const Feature f = {{p.point.x - 2, p.point.y - 2, p.point.z - 2}, 0};
+      const Feature f = {QuartersOf(p.point), 0};
       std::vector<Voxel> voxels = VoxelsAt(f, components);
       const Voxel v = *std::ranges::min_element(
           voxels, {}, [](const Voxel& w) { return std::tuple(w[2], w[1], w[0]); });

@@ -1,6 +1,7 @@
 // The exact conversion, held to its definition and to the topology of the mask.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <ostream>
 #include <vector>
@@ -27,8 +28,9 @@ using test::ReachOf;
 using test::ReferenceMask;
 
 // What every conversion must satisfy. Returns the object.
-Volume ExpectTopologyKept(const ReferenceMask& mask, MaskAdjacency adjacency) {
-  const ConvertedMask converted = Converted(mask, {.adjacency = adjacency});
+Volume ExpectTopologyKept(const ReferenceMask& mask, MaskAdjacency adjacency,
+                          VoxelPoints per_voxel = VoxelPoints::kTwo) {
+  const ConvertedMask converted = Converted(mask, {.adjacency = adjacency, .points = per_voxel});
   EXPECT_EQ(converted.mask, test::ReferenceMaskBetti(mask, ReachOf(adjacency)));
   const auto object = CountBettiNumbers(converted.volume, {});
   EXPECT_TRUE(object.ok()) << object.status();
@@ -56,40 +58,60 @@ TEST(ExactConversion, KeepsTheTopologyOfAllMasksOfTwoByTwoByTwoVoxelsToTheSkelet
   }
 }
 
-TEST(ExactConversion, KeepsTheTopologyOfAllMasksOfThreeByTwoByTwoVoxelsToTheSkeleton) {
+struct SmallMasks {
+  std::array<int32_t, 3> size;
+  uint64_t step;  // every one of so many; each was tried once
+};
+constexpr SmallMasks kSmallMasks[] = {
+    {{2, 2, 3}, 1}, {{3, 2, 2}, 1}, {{3, 3, 2}, 31}, {{2, 3, 3}, 31},
+    {{7, 2, 1}, 1}, {{5, 3, 1}, 3}, {{16, 1, 1}, 7},
+};
+
+TEST(ExactConversion, KeepsTheTopologyOfSmallMasks) {
+  for (const auto& [size, step] : kSmallMasks) {
+    const auto [nx, ny, nz] = size;
+    for (uint64_t bits = 0; bits < uint64_t{1} << (nx * ny * nz); bits += step) {
+      SCOPED_TRACE(testing::Message() << nx << " x " << ny << " x " << nz << ", " << bits);
+      for (MaskAdjacency adjacency : kBothAdjacencies) {
+        ExpectTopologyKept(MaskOfBits(nx, ny, nz, bits), adjacency);
+      }
+    }
+  }
+}
+
+// From dust to nearly full.
+TEST(ExactConversion, KeepsTheTopologyOfRandomMasks) {
+  constexpr std::array<int32_t, 3> kRandomSizes[] = {{4, 4, 4}, {3, 3, 3}, {5, 5, 1}, {9, 6, 5}};
+  for (uint64_t seed = 0; seed < 1600; ++seed) {
+    SCOPED_TRACE(seed);
+    const double density = 0.02 + 0.06 * static_cast<double>(seed % 16);
+    const auto& [nx, ny, nz] = kRandomSizes[seed / 16 % 4];
+    for (MaskAdjacency adjacency : kBothAdjacencies) {
+      ExpectTopologyKept(test::RandomMask(seed, nx, ny, nz, density), adjacency);
+    }
+  }
+}
+
+TEST(ExactConversion, KeepsTheTopologyWithSixteenPointsAVoxel) {
   for (uint64_t bits = 0; bits < 1 << 12; ++bits) {
     SCOPED_TRACE(bits);
     for (MaskAdjacency adjacency : kBothAdjacencies) {
-      ExpectTopologyKeptToTheSkeleton(MaskOfBits(3, 2, 2, bits), adjacency);
+      const ReferenceMask mask = MaskOfBits(3, 2, 2, bits);
+      ExpectTopologyKept(mask, adjacency, VoxelPoints::kSixteen);
     }
   }
 }
 
-// Every mask of 3 x 3 x 2 voxels was tried once; here every 31st, so that the test stays fast.
-TEST(ExactConversion, KeepsTheTopologyOfMasksOfThreeByThreeByTwoVoxels) {
-  for (uint64_t bits = 0; bits < 1 << 18; bits += 31) {
-    SCOPED_TRACE(bits);
-    for (MaskAdjacency adjacency : kBothAdjacencies) {
-      ExpectTopologyKept(MaskOfBits(3, 3, 2, bits), adjacency);
-    }
-  }
-}
-
-TEST(ExactConversion, KeepsTheTopologyOfRandomMasksOfFourCubedVoxels) {
-  for (uint64_t seed = 0; seed < 2000; ++seed) {
-    SCOPED_TRACE(seed);
-    const double density = 0.1 + 0.1 * static_cast<double>(seed % 9);
-    for (MaskAdjacency adjacency : kBothAdjacencies) {
-      ExpectTopologyKept(test::RandomMask(seed, 4, 4, 4, density), adjacency);
-    }
-  }
-}
-
-// On either side of the borders of words (64 voxels) and bricks (8 x 2 x 4 voxels).
+// On either side of the borders of words (64 voxels) and bricks (16 x 4 x 8 voxels).
 constexpr std::array<int32_t, 3> kSizes[] = {
-    {63, 3, 5}, {64, 4, 4},  {65, 5, 3},  {7, 6, 9},   {8, 7, 8},
-    {9, 2, 7},  {128, 2, 4}, {129, 3, 5}, {1, 1, 130}, {1, 70, 1},
+    {63, 3, 5}, {64, 4, 4},  {65, 5, 3},  {7, 6, 9},   {15, 7, 8}, {16, 8, 15}, {17, 9, 16},
+    {9, 2, 7},  {128, 2, 4}, {129, 3, 5}, {1, 1, 130}, {1, 70, 1}, {33, 4, 17}, {70, 13, 25},
 };
+
+void ExpectPoints(const ConvertedMask& converted, std::vector<LatticePoint> points) {
+  std::ranges::sort(points);
+  EXPECT_EQ(converted.volume.SortedPoints(), points);
+}
 
 TEST(ExactConversion, GivesTheObjectOfItsDefinitionAtEverySize) {
   for (const auto& [nx, ny, nz] : kSizes) {
@@ -98,13 +120,48 @@ TEST(ExactConversion, GivesTheObjectOfItsDefinitionAtEverySize) {
       const ReferenceMask mask = test::RandomMask(7, nx, ny, nz, density);
       for (MaskAdjacency adjacency : kBothAdjacencies) {
         const ConvertedMask converted = Converted(mask, {.adjacency = adjacency});
-        auto points = test::ReferenceExactPoints(mask, ReachOf(adjacency));
-        std::ranges::sort(points);
-        EXPECT_EQ(converted.volume.SortedPoints(), points);
+        ExpectPoints(converted, test::ReferenceExactPoints(mask, ReachOf(adjacency)));
         EXPECT_EQ(converted.mask, test::ReferenceMaskBetti(mask, ReachOf(adjacency)));
-        EXPECT_EQ(converted.volume.extent(), (LatticeExtent{2 * nx + 1, 2 * ny + 1, 2 * nz + 1}));
+        EXPECT_EQ(converted.volume.extent(), (LatticeExtent{nx + 1, ny + 1, nz + 1}));
       }
     }
+  }
+}
+
+TEST(ExactConversion, WithSixteenPointsAVoxelIsThatOfTheRefinedMask) {
+  for (const auto& [nx, ny, nz] : kSizes) {
+    SCOPED_TRACE(testing::Message() << nx << " x " << ny << " x " << nz);
+    const ReferenceMask mask = test::RandomMask(7, nx, ny, nz, 0.2);
+    for (MaskAdjacency adjacency : kBothAdjacencies) {
+      const MaskOptions options = {.adjacency = adjacency, .points = VoxelPoints::kSixteen};
+      const ConvertedMask converted = Converted(mask, options);
+      ExpectPoints(converted, test::ReferenceExactPoints(Refined(mask), ReachOf(adjacency)));
+      EXPECT_EQ(converted.mask, test::ReferenceMaskBetti(mask, ReachOf(adjacency)));
+      EXPECT_EQ(converted.volume.extent(), (LatticeExtent{2 * nx + 1, 2 * ny + 1, 2 * nz + 1}));
+    }
+  }
+}
+
+// Solid slabs are what two points a voxel are counted on.
+TEST(ExactConversion, MakesAboutTwoPointsOfAVoxel) {
+  const ReferenceMask mask = test::RandomMask(1, 50, 50, 50, 1);
+  EXPECT_EQ(Converted(mask, {}).volume.PointCount(), 50u * 50 * 50 + 51u * 51 * 51);
+}
+
+TEST(ExactConversion, OfSlicesThatAreLeftOutIsThatOfEmptyOnes) {
+  const MaskGrid grid = {.nx = 5, .ny = 9, .nz = 60};
+  for (int32_t gap = 1; gap < 40; ++gap) {
+    ReferenceMask mask = test::RandomMask(1, grid.nx, grid.ny, grid.nz, 0);
+    auto converter = *MaskConverter::Create(grid, {});
+    for (int32_t z : {3, 3 + gap}) {
+      SliceRows rows;
+      rows.AddRun(4, 1, 3);
+      mask.voxels[mask.Index(1, 4, z)] = mask.voxels[mask.Index(2, 4, z)] = 1;
+      ASSERT_TRUE(converter.AddRows(z, rows, {}).ok());
+    }
+    const auto converted = std::move(converter).FinishRows();
+    ASSERT_TRUE(converted.ok());
+    EXPECT_EQ(converted->volume, Converted(mask, {}).volume) << gap;
   }
 }
 
@@ -128,9 +185,8 @@ TEST(ExactConversion, WritesVolumesThatSatisfyTheInvariants) {
   EXPECT_EQ(*checked, volume);
 }
 
-// Voxels as odd points and their corners as even points, not refined: the corners of two voxels
-// that lie one apart are neighbors.
-TEST(ExactConversion, NeedsTheRefinement) {
+// All corners of two voxels that lie one apart: some are neighbors across the gap.
+TEST(ExactConversion, CannotKeepEveryCorner) {
   const ReferenceMask mask = MaskOfBits(3, 1, 1, 0b101);
   std::vector<LatticePoint> points;
   for (int32_t x : {0, 2}) {
@@ -139,9 +195,9 @@ TEST(ExactConversion, NeedsTheRefinement) {
       points.push_back({2 * (x + (corner & 1)), corner & 2, (corner & 4) / 2});
     }
   }
-  const auto unrefined = CountBettiNumbers(VolumeOfPoints(points), {});
-  ASSERT_TRUE(unrefined.ok());
-  EXPECT_EQ(unrefined->components, 1);
+  const auto all = CountBettiNumbers(VolumeOfPoints(points), {});
+  ASSERT_TRUE(all.ok());
+  EXPECT_EQ(all->components, 1);
   EXPECT_EQ(test::ReferenceMaskBetti(mask, test::ObjectReach::kCorner26).components, 2);
   ExpectTopologyKept(mask, MaskAdjacency::k26);
 }
@@ -150,11 +206,16 @@ TEST(ExactConversion, KeepsWorldCoordinates) {
   const Placement image = {{0.5, 2, 3}, {10, -20, 30}, {0, -1, 0, 1, 0, 0, 0, 0, -1}};
   const ReferenceMask mask = MaskOfBits(5, 4, 3, uint64_t{1} << (2 + 5 * (1 + 4 * 2)));
   const Volume volume = Converted(mask, {}, image).volume;
-  // The center of voxel (2, 1, 2) is the corner in the middle of its refined voxels.
-  const LatticePoint center = {4 * 2 + 2, 4 * 1 + 2, 4 * 2 + 2};
+  const LatticePoint center = {2 * 2 + 1, 2 * 1 + 1, 2 * 2 + 1};
   EXPECT_TRUE(volume.Contains(center));
   EXPECT_EQ(volume.placement().ToWorld(center), image.ToWorld(2 * 2, 2 * 1, 2 * 2));
-  EXPECT_EQ(volume.placement().spacing, (std::array<double, 3>{0.25, 1, 1.5}));
+  EXPECT_EQ(volume.placement().spacing, image.spacing);
+  const Volume fine = Converted(mask, {.points = VoxelPoints::kSixteen}, image).volume;
+  // The corner in the middle of the refined voxels.
+  const LatticePoint middle = {4 * 2 + 2, 4 * 1 + 2, 4 * 2 + 2};
+  EXPECT_TRUE(fine.Contains(middle));
+  EXPECT_EQ(fine.placement().ToWorld(middle), image.ToWorld(2 * 2, 2 * 1, 2 * 2));
+  EXPECT_EQ(fine.placement().spacing, (std::array<double, 3>{0.25, 1, 1.5}));
 }
 
 TEST(ExactConversion, OfAnEmptyMaskIsEmpty) {

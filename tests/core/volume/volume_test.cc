@@ -146,6 +146,18 @@ TEST(Volume, RefusesPlacementsThatAreNoFrame) {
   }
 }
 
+TEST(Volume, RefusesDirectionsThatScaleOrShear) {
+  const auto message = [](const std::array<double, 9>& direction) {
+    const absl::Status status = CreateStatus({1, 1, 1}, {.direction = direction});
+    return status.ok() ? std::string() : std::string(status.message());
+  };
+  EXPECT_THAT(message({2, 0, 0, 0, 1, 0, 0, 0, 1}), HasSubstr("axis 0 has the length 2"));
+  EXPECT_THAT(message({1, 0, 0, 0, 1, 0, 0, 0, 0}), HasSubstr("axis 2 has the length 0"));
+  EXPECT_THAT(message({1, 0.6, 0, 0, 0.8, 0, 0, 0, 1}), HasSubstr("axes 0 and 1"));
+  EXPECT_EQ(message({1.0004, 0, 0, 0.0004, 1, 0, 0, 0, 1}), "");  // rounded
+  EXPECT_EQ(message({0, -1, 0, 1, 0, 0, 0, 0, -1}), "");          // a mirror
+}
+
 TEST(Volume, SortsBricksGivenInAnyOrder) {
   const BrickKey low({0, 0, 0, Sublattice::kEven}), high({1, 0, 0, Sublattice::kOdd});
   const auto volume = Volume::Create({32, 4, 8}, {}, {high, low}, {OneBit(1), OneBit(2)});

@@ -43,6 +43,37 @@ TEST(VoxelizePoints, MeetsTheWantedNumberWithinTwoPercent) {
   }
 }
 
+// A box whose upper face is turned by half a turn: two lobes of opposite orientation.
+TriangleMesh BowTie() {
+  TriangleMesh mesh = Box({-1, -1, -1}, {1, 1, 1});
+  for (auto& v : mesh.vertices) {
+    if (v[2] > 0) v = {-v[0], -v[1], v[2]};
+  }
+  return mesh;
+}
+
+TEST(VoxelizePoints, AreMetWhereSignedVolumesCancel) {
+  for (const uint64_t wanted : {2000u, 20000u}) {
+    const VoxelizeResult result =
+        Voxelized(BowTie(), {.points = wanted, .topology = TopologyCheck::kSkip});
+    EXPECT_NEAR(static_cast<double>(result.volume.PointCount()) / static_cast<double>(wanted), 1,
+                0.02);
+  }
+}
+
+TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {
+  const TriangleMesh ball = Sphere({0, 0, 0}, 1);
+  const VoxelizeResult one = Voxelized(ball, {.points = 2000});
+  TriangleMesh twice = ball;
+  const TriangleMesh flipped = testing::Flipped(ball);
+  twice.triangles.insert(twice.triangles.end(), flipped.triangles.begin(), flipped.triangles.end());
+  for (const TriangleMesh& mesh : {twice, testing::Unshared(twice)}) {
+    const VoxelizeResult both = Voxelized(mesh, {.points = 2000});
+    EXPECT_EQ(both.volume, one.volume);
+    EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("from both sides")));
+  }
+}
+
 TEST(VoxelizePoints, SaysSoWhereWholeLayersOfACubeLeaveNoCountNearby) {
   const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.points = 40});
   const auto count = static_cast<double>(result.volume.PointCount());

@@ -1,0 +1,157 @@
+// Radii of masks against those of the solids that the masks are samples of.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/labels/convert_label.h"
+#include "core/mask/mask_converter.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector Minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+struct Solid {
+  enum class Kind : uint8_t { kBall, kCylinder, kPlate };
+  Kind kind = Kind::kBall;
+  Vector center = {};
+  Vector axis = {0, 0, 1};  // of the cylinder, or normal to the plate
+  double radius = 1;        // or half the thickness
+
+  double Depth(const Vector& at) const {
+    const Vector way = Minus(at, center);
+    const double along = Dot(way, axis);
+    const double whole = Dot(way, way);
+    if (kind == Kind::kBall) return radius - std::sqrt(whole);
+    if (kind == Kind::kPlate) return radius - std::abs(along);
+    return radius - std::sqrt(std::max(whole - along * along, 0.0));
+  }
+};
+
+constexpr int32_t kEdge = 56;
+
+SkeletonizeResult SkeletonOf(const Solid& solid, VoxelPoints points) {
+  const MaskGrid grid = {.nx = kEdge, .ny = kEdge, .nz = kEdge};
+  const MaskOptions options = {.points = points};
+  auto converter = *MaskConverter::Create(grid, options);
+  for (int32_t z = 0; z < kEdge; ++z) {
+    std::vector<uint64_t> words(grid.WordsPerSlice());
+    for (int32_t y = 0; y < kEdge; ++y) {
+      for (int32_t x = 0; x < kEdge; ++x) {
+        const Vector at = {1.0 * x, 1.0 * y, 1.0 * z};
+        if (solid.Depth(at) < 0) continue;
+        words[static_cast<size_t>(y)] |= uint64_t{1} << x;
+      }
+    }
+    EXPECT_TRUE(converter.AddSlice(words, {}).ok());
+  }
+  const ConvertedMask converted = *std::move(converter).Finish();
+  return *Skeletonize(converted.volume, ForMask({}, options), {});
+}
+
+class MeanError {
+ public:
+  void Add(const SkeletonizeResult& result, const Solid& solid) {
+    const SkeletonGraph& graph = result.graph;
+    if (solid.kind == Solid::Kind::kBall) {
+      const auto radius = [](const SkeletonNode& n) { return n.at.radius; };
+      Add(graph.RadiusOf(std::ranges::max_element(graph.nodes, {}, radius)->at) - solid.radius);
+      return;
+    }
+    // Where the border of the box is far away.
+    const double margin = 2 * solid.radius + 4;
+    for (const SkeletonPoint& p : graph.points) {
+      const WorldPoint at = graph.PositionOf(p);
+      const auto [low, high] = std::ranges::minmax(at);
+      if (low < margin || high > kEdge - 1 - margin) continue;
+      Add(graph.RadiusOf(p) - solid.radius);
+    }
+  }
+  double Get() const { return sum_ / count_; }
+
+ private:
+  void Add(double error) {
+    sum_ += error;
+    ++count_;
+  }
+  double sum_ = 0;
+  int count_ = 0;
+};
+
+Vector RandomAxis(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  Vector axis = {normal(random), normal(random), normal(random)};
+  const double length = std::sqrt(Dot(axis, axis));
+  for (double& c : axis) c /= length;
+  return axis;
+}
+
+enum class Axis : uint8_t { kOfTheGrid, kRandom };
+
+// Of solids whose radii and places fill the ranges of a voxel evenly.
+double MeanErrorOf(Solid::Kind kind, Axis axis, double radius, VoxelPoints points) {
+  constexpr int kSolids = 16;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  MeanError error;
+  for (int n = 0; n < kSolids; ++n) {
+    Solid solid = {.kind = kind, .radius = radius + (n + 0.5) / kSolids - 0.5};
+    for (double& c : solid.center) c = kEdge / 2 + part(random);
+    solid.center[2] = kEdge / 2 + (5 * n % kSolids + 0.5) / kSolids;
+    if (axis == Axis::kRandom) solid.axis = RandomAxis(random);
+    error.Add(SkeletonOf(solid, points), solid);
+  }
+  return error.Get();
+}
+
+TEST(MaskRadius, IsThatOfTheSolidWithinATenthOfAVoxelInTheMean) {
+  using Kind = Solid::Kind;
+  for (VoxelPoints points : {VoxelPoints::kTwo, VoxelPoints::kSixteen}) {
+    for (double radius : {1.5, 3.0, 6.0}) {
+      if (points == VoxelPoints::kSixteen && radius > 3) continue;  // takes long
+      SCOPED_TRACE(testing::Message() << static_cast<int>(points) << ", radius " << radius);
+      const bool small_and_fine = points == VoxelPoints::kSixteen && radius < 2;
+      const double most = small_and_fine ? 0.2 : 0.1;
+      EXPECT_NEAR(MeanErrorOf(Kind::kBall, Axis::kRandom, radius, points), 0, most);
+      EXPECT_NEAR(MeanErrorOf(Kind::kCylinder, Axis::kOfTheGrid, radius, points), 0, 0.1);
+      EXPECT_NEAR(MeanErrorOf(Kind::kCylinder, Axis::kRandom, radius, points), 0, 0.1);
+      EXPECT_NEAR(MeanErrorOf(Kind::kPlate, Axis::kOfTheGrid, radius, points), 0, 0.1);
+      // Flat surfaces across the grid: the nearest of few voxels lies farther outside.
+      EXPECT_NEAR(MeanErrorOf(Kind::kPlate, Axis::kRandom, radius, points), 0.1, 0.15);
+    }
+  }
+}
+
+// A slab as many voxels thick as it is: hardly an error, also where voxels are no cubes.
+TEST(MaskRadius, OfASlabIsHalfItsThickness) {
+  for (int32_t thickness : {5, 6, 9, 10}) {
+    MaskGrid grid = {.nx = 128, .ny = 64, .nz = 20};
+    grid.placement.spacing = {1, 1, 2.5};
+    auto converter = *MaskConverter::Create(grid, {});
+    const std::vector<uint64_t> empty(grid.WordsPerSlice()), full(grid.WordsPerSlice(), ~0ULL);
+    for (int32_t z = 0; z < grid.nz; ++z) {
+      ASSERT_TRUE(converter.AddSlice(z >= 3 && z < 3 + thickness ? full : empty, {}).ok());
+    }
+    const ConvertedMask converted = *std::move(converter).Finish();
+    const SkeletonizeResult result = *Skeletonize(converted.volume, ForMask({}, {}), {});
+    int count = 0;
+    for (const SkeletonPoint& p : result.graph.points) {
+      const WorldPoint at = result.graph.PositionOf(p);
+      if (std::min({at[0], at[1], 127 - at[0], 63 - at[1]}) < 1.3 * thickness + 8) continue;
+      EXPECT_NEAR(result.graph.RadiusOf(p), 2.5 * thickness / 2, 0.1) << at[2];
+      ++count;
+    }
+    EXPECT_GT(count, 0) << thickness;
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
