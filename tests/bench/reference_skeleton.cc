@@ -5,7 +5,9 @@
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
+#include "core/pipeline/skeletonize.h"
 #include "core/pruning/prune.h"
+#include "core/skeleton/junction_merger.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "tests/support/reference_thinner.h"
 
@@ -22,7 +24,8 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
                            ExactRadii(thin, ExactRadius(object, distance), {}));
   BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
                            Prune({thin, radii}, object, ExactRadius(object, distance), {}, {}, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
+  BCCSKEL_RETURN_IF_ERROR(MergeJunctions(SkeletonizeOptions().junction_reach, {}, graph));
   return SkeletonDigest(graph);
 }
 

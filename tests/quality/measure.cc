@@ -89,36 +89,17 @@ std::vector<Vector> EndsOf(const SkeletonGraph& graph) {
   return ends;
 }
 
-struct Pair {
-  double gap;
-  size_t tip;
-  size_t end;
-};
-
-// The nearest pair first. An end farther than two radii and eight units from a tip is not its.
+// An end farther than two radii and eight units from a tip is not its.
 TipMatch MatchTips(const PlacedFigure& placed, std::span<const Vector> ends) {
   const std::vector<RoundCone>& tips = placed.figure.tips;
-  std::vector<Pair> pairs;
+  std::vector<TipPair> pairs;
   for (size_t t = 0; t < tips.size(); ++t) {
     for (size_t e = 0; e < ends.size(); ++e) {
       const double gap = Length(ends[e] - placed.ToLattice(tips[t].to));
       if (gap <= 2 * placed.scale * tips[t].to_radius + 8) pairs.push_back({gap, t, e});
     }
   }
-  std::ranges::sort(pairs, {}, &Pair::gap);
-  std::vector<bool> tip_taken(tips.size()), end_taken(ends.size());
-  TipMatch match;
-  for (const Pair& pair : pairs) {
-    if (tip_taken[pair.tip] || end_taken[pair.end]) continue;
-    tip_taken[pair.tip] = end_taken[pair.end] = true;
-    ++match.found;
-    match.mean_gap += pair.gap;
-    match.largest_gap = std::max(match.largest_gap, pair.gap);
-  }
-  if (match.found > 0) match.mean_gap /= match.found;
-  match.lost = static_cast<int>(tips.size()) - match.found;
-  match.spurious = static_cast<int>(ends.size()) - match.found;
-  return match;
+  return MatchNearest(std::move(pairs), tips.size(), ends.size());
 }
 
 void JudgeRadii(const SkeletonGraph& graph, const CenterLine& line, Judgment& judgment) {
@@ -159,6 +140,23 @@ double SumOfNearest(std::span<const Vector> from, std::span<const Vector> to, do
 }
 
 }  // namespace
+
+TipMatch MatchNearest(std::vector<TipPair> pairs, size_t tips, size_t ends) {
+  std::ranges::sort(pairs, {}, &TipPair::gap);
+  std::vector<bool> tip_taken(tips), end_taken(ends);
+  TipMatch match;
+  for (const TipPair& pair : pairs) {
+    if (tip_taken[pair.tip] || end_taken[pair.end]) continue;
+    tip_taken[pair.tip] = end_taken[pair.end] = true;
+    ++match.found;
+    match.mean_gap += pair.gap;
+    match.largest_gap = std::max(match.largest_gap, pair.gap);
+  }
+  if (match.found > 0) match.mean_gap /= match.found;
+  match.lost = static_cast<int>(tips) - match.found;
+  match.spurious = static_cast<int>(ends) - match.found;
+  return match;
+}
 
 std::vector<Vector> RawPoints(const SkeletonGraph& graph) {
   std::vector<Vector> points;

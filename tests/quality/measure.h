@@ -29,6 +29,14 @@ struct TipMatch {
   double largest_gap = 0;
 };
 
+struct TipPair {
+  double gap;
+  size_t tip;
+  size_t end;
+};
+// One to one, the nearest pair first.
+TipMatch MatchNearest(std::vector<TipPair> pairs, size_t tips, size_t ends);
+
 struct Judgment {
   Offsets raw;     // of the skeleton's points
   Offsets smooth;  // of the curves through them

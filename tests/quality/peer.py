@@ -118,17 +118,60 @@ def judge(truth, voxels, noise):
     return row
 
 
-def measure(program, arguments):
-    command = [program, "voxels", str(arguments.points), str(arguments.turns)]
-    rows = []
+def voxels_of(command):
+    """What a study prints of each object, and its voxels."""
     with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
         while line := process.stdout.readline():
             truth = json.loads(line)
             count = int(np.prod(truth["shape"]))
             data = process.stdout.read((count + 7) // 8)
             bits = np.unpackbits(np.frombuffer(data, np.uint8), bitorder="little")
-            voxels = bits[:count].reshape(truth["shape"]).astype(bool)
-            for noise in tables.NOISES:
-                rows.append(judge(truth, flipped(voxels, noise, truth["turn"]), noise))
-            print(f"peer: {truth['figure']}", file=sys.stderr)
+            yield truth, bits[:count].reshape(truth["shape"]).astype(bool)
+
+
+def measure(program, arguments):
+    command = [program, "voxels", "--points", str(arguments.points), "--turns",
+               str(arguments.turns)]
+    rows = []
+    for truth, voxels in voxels_of(command):
+        for noise in tables.NOISES:
+            rows.append(judge(truth, flipped(voxels, noise, truth["turn"]), noise))
+        print(f"peer: {truth['figure']}", file=sys.stderr)
+    return rows
+
+
+def missed_parts(voxels, points, radii, spacing):
+    """As CountMissedParts() of hair.cc."""
+    from scipy import ndimage
+    left = voxels.copy()
+    edge = float(np.prod(spacing)) ** (1 / 3)
+    for point, radius in zip(points, radii + 4 * edge):
+        low = np.maximum(np.ceil(point - radius / spacing).astype(int), 0)
+        high = np.minimum(np.floor(point + radius / spacing).astype(int) + 1, voxels.shape)
+        box = tuple(slice(a, b) for a, b in zip(low, high))
+        ways = np.ogrid[box]
+        square = sum(((way - p) * s / radius) ** 2 for way, p, s in zip(ways, point, spacing))
+        left[box] &= square > 1
+    groups, _ = ndimage.label(left, np.ones((3, 3, 3)))
+    return int((np.bincount(groups.ravel())[1:] > 20).sum())
+
+
+def measure_masks(program, folder):
+    """Ends and missed parts of the real masks; radii are distances to the nearest background."""
+    from scipy import ndimage
+    from skimage.morphology import skeletonize_3d
+    rows = []
+    for truth, voxels in voxels_of([program, "real-voxels", "--data", folder]):
+        some = np.argwhere(voxels)
+        low, high = some.min(axis=0), some.max(axis=0) + 1
+        voxels = np.pad(voxels[tuple(slice(a, b) for a, b in zip(low, high))], 1)
+        spacing = np.array(truth["spacing"])
+        started = time.thread_time()
+        points = np.argwhere(skeletonize_3d(voxels))
+        seconds = time.thread_time() - started
+        radii = ndimage.distance_transform_edt(voxels, sampling=spacing)[tuple(points.T)]
+        ends = sum(1 for near in neighbors_of(points) if len(near) == 1)
+        rows.append({"mask": truth["mask"], "ends": ends, "seconds": seconds,
+                     "missed": missed_parts(voxels, points, radii, spacing)})
+        print(f"peer: {truth['mask']}", file=sys.stderr)
     return rows

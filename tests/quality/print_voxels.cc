@@ -42,7 +42,7 @@ absl::Status PrintOne(const PlacedFigure& placed, int turn) {
 
 }  // namespace
 
-absl::Status PrintVoxels(const StudySize& size) {
+absl::Status PrintVoxels(const StudyOptions& size) {
   for (KnownFigure figure : KnownFigures()) {
     // Twice the lattice points, so as many voxels; a bar of its own scale has cells of 1.6 units.
     figure.scale *= std::cbrt(2.0);
@@ -50,7 +50,7 @@ absl::Status PrintVoxels(const StudySize& size) {
     for (int turn = 0; turn < turns; ++turn) {
       const Frame frame = figure.turns ? RandomFrame(static_cast<uint64_t>(turn)) : Frame();
       BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed,
-                               Place(Turned(figure, frame), 2 * size.points));
+                               Place(Turned(figure, frame), 2 * size.points.front()));
       BCCSKEL_RETURN_IF_ERROR(PrintOne(placed, turn));
     }
   }

@@ -1,36 +1,49 @@
 #include <cstdio>
-#include <cstdlib>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "tests/quality/studies.h"
 
-// Usage: bccskel_quality figures|masks|rotations|reconstruction|voxels POINTS TURNS
-//        bccskel_quality mesh POINTS TURNS FILE
+// Usage: bccskel_quality STUDY [--points N,...] [--turns N] [--half tune|judge|all]
+//        [--as bcc,mask] [--noise PERCENT,...] [--only NAME,...] [--data PLACE] [--dump FOLDER]
+//        [--rule RULE] [--threshold X] [--kind KIND] [--json]
 
 namespace {
 
-absl::Status Run(const std::string& study, const bccskel::quality::StudySize& size,
-                 const std::string& file) {
+absl::Status Run(const std::string& name, const std::vector<std::string>& arguments) {
   using namespace bccskel::quality;
-  if (study == "figures") return StudyFigures(size);
-  if (study == "masks") return StudyMasks(size);
-  if (study == "rotations") return StudyRotations(size);
-  if (study == "reconstruction") return StudyReconstruction(size);
-  if (study == "voxels") return PrintVoxels(size);
-  if (study == "mesh") return StudyMesh(size, file);
-  return absl::InvalidArgumentError("no study is named \"" + study + "\"");
+  const std::map<std::string, absl::Status (*)(const StudyOptions&)> studies = {
+      {"figures", StudyFigures},
+      {"rotations", StudyRotations},
+      {"reconstruction", StudyReconstruction},
+      {"mesh", StudyMesh},
+      {"meshes", StudyClosedMeshes},
+      {"real-masks", StudyRealMasks},
+      {"spine-lengths", StudySpineLengths},
+      {"wild", StudyWild},
+      {"voxels", PrintVoxels},
+      {"real-voxels", PrintRealVoxels},
+  };
+  const auto study = studies.find(name);
+  if (study == studies.end()) {
+    std::string message = "no study is named \"" + name + "\"; there are";
+    for (const auto& [known, run] : studies) message += " " + known;
+    return absl::InvalidArgumentError(message);
+  }
+  const absl::StatusOr<StudyOptions> options = ParseStudyOptions(arguments);
+  if (!options.ok()) return options.status();
+  return study->second(*options);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "usage: %s STUDY POINTS TURNS [FILE]\n", argv[0]);
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s STUDY [--points N] [--turns N] ...\n", argv[0]);
     return 2;
   }
-  const bccskel::quality::StudySize size = {.points = std::strtoull(argv[2], nullptr, 10),
-                                            .turns = std::atoi(argv[3])};
-  const absl::Status status = Run(argv[1], size, argc > 4 ? argv[4] : "");
+  const absl::Status status = Run(argv[1], {argv + 2, argv + argc});
   if (status.ok()) return 0;
   std::fprintf(stderr, "%s\n", status.ToString().c_str());
   return 1;

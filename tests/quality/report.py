@@ -16,6 +16,7 @@ import time
 
 import peer
 import tables
+import wild_tables
 
 MESHES = ["aorta-surface.stl", "armadillo_86k.ply", "bunny_hr.obj.gz", "cactus.off", "elephant.off",
           "fertility.off", "hand.off", "horse.ply", "knot2.off", "scorpion.ply", "spot.obj"]
@@ -24,7 +25,8 @@ MESHES = ["aorta-surface.stl", "armadillo_86k.ply", "bunny_hr.obj.gz", "cactus.o
 def rows_of(program, study, arguments, *more):
     """What a study prints, a dictionary a line."""
     started = time.monotonic()
-    command = [program, study, str(arguments.points), str(arguments.turns), *more]
+    command = [program, study, "--points", str(arguments.points), "--turns", str(arguments.turns),
+               "--json", *more]
     text = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
     print(f"{study} {' '.join(more)}: {time.monotonic() - started:.0f} s", file=sys.stderr)
     return [json.loads(line) for line in text.splitlines()]
@@ -34,8 +36,25 @@ def mesh_rows(program, arguments):
     rows = []
     for name in MESHES:
         for path in pathlib.Path(arguments.data or os.devnull).rglob(name):
-            rows += rows_of(program, "mesh", arguments, str(path))
+            rows += rows_of(program, "mesh", arguments, "--data", str(path))
     return rows
+
+
+def wild_report(program, arguments):
+    wild = []
+    for points, turns in ((arguments.points, arguments.turns), (8.5 * arguments.points, 1)):
+        size = argparse.Namespace(points=int(points), turns=turns)
+        wild += rows_of(program, "wild", size, "--half", "judge", "--as", "bcc,mask", "--noise",
+                        "0,2,5,10")
+    lengths = rows_of(program, "spine-lengths", arguments)
+    if not arguments.data:
+        return wild_tables.report(wild, lengths, [], [], [])
+    place = ("--data", arguments.data)
+    sizes = ",".join(str(int(n * arguments.points)) for n in (1, 8.5, 40))
+    meshes = rows_of(program, "meshes", argparse.Namespace(points=sizes, turns=6), *place)
+    masks = rows_of(program, "real-masks", arguments, *place)
+    others = [] if arguments.without_peer else peer.measure_masks(program, arguments.data)
+    return wild_tables.report(wild, lengths, meshes, masks, others)
 
 
 def machine():
@@ -74,10 +93,10 @@ def main():
     others = [] if arguments.without_peer else peer.measure(program, arguments)
     rotations = rows_of(program, "rotations", arguments)
     reconstruction = rows_of(program, "reconstruction", arguments)
-    masks = rows_of(program, "masks", argparse.Namespace(points=arguments.points // 4, turns=1))
     meshes = mesh_rows(program, arguments)
     lines = heading(arguments, "none" if arguments.without_peer else peer.name())
-    lines += tables.report(figures, others, rotations, reconstruction, masks, meshes)
+    lines += tables.report(figures, others, rotations, reconstruction, meshes,
+                           wild_report(program, arguments))
     pathlib.Path(arguments.output).write_text("\n".join(lines) + "\n", encoding="utf-8")
     if arguments.plot:
         tables.plot(figures, others, arguments.plot)

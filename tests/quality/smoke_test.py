@@ -9,25 +9,36 @@ import sys
 import unittest
 
 import tables
+import wild_tables
 
-STUDIES = ("figures", "masks", "rotations", "reconstruction")
+STUDIES = {"figures": [], "rotations": [], "reconstruction": [],
+           "spine-lengths": [],
+           "wild": ["--as", "bcc,mask", "--noise", "0,5", "--half", "judge", "--json"]}
 
 
 class SmokeTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.rows = {}
-        for study in STUDIES:
-            text = subprocess.run([PROGRAM, study, "3000", "1"], check=True,
-                                  stdout=subprocess.PIPE).stdout
+        for study, more in STUDIES.items():
+            text = subprocess.run([PROGRAM, study, "--points", "3000", "--turns", "1", *more],
+                                  check=True, stdout=subprocess.PIPE).stdout
             cls.rows[study] = [json.loads(line) for line in text.splitlines()]
 
     def test_every_study_has_rows_of_every_figure(self):
         names = {row["figure"] for row in self.rows["figures"]}
         self.assertGreaterEqual(len(names), 16)
         self.assertEqual({row["figure"] for row in self.rows["reconstruction"]}, names)
-        for study in ("masks", "rotations"):
-            self.assertLessEqual({row["figure"] for row in self.rows[study]}, names)
+        self.assertLessEqual({row["figure"] for row in self.rows["rotations"]}, names)
+
+    def test_wild_figures_come_as_both_kinds_of_objects_in_every_class(self):
+        classes = [{row["class"] for row in self.rows["wild"] if row["as"] == kind}
+                   for kind in ("bcc", "mask")]
+        self.assertEqual(classes[0], classes[1])
+        self.assertGreaterEqual(len(classes[0]), 19)
+        for row in self.rows["wild"]:
+            self.assertLess(abs(row["tips"] - row["lost"] + row["spurious"] - row["ends"]),
+                            1 if row["known"] else 1000, row)
 
     def test_skeletons_are_thin_and_keep_the_loops_of_their_figures(self):
         for row in self.rows["figures"]:
@@ -38,17 +49,25 @@ class SmokeTest(unittest.TestCase):
 
     def test_the_report_has_all_its_tables(self):
         text = "\n".join(tables.report(self.rows["figures"], [], self.rows["rotations"],
-                                       self.rows["reconstruction"], self.rows["masks"], []))
+                                       self.rows["reconstruction"], [],
+                                       wild_tables.report(self.rows["wild"],
+                                                          self.rows["spine-lengths"], [], [], [])))
         for title in ("Targets", "Against known center lines", "Figure by figure", "Turning",
-                      "Thinness", "Reconstruction", "Voxels"):
+                      "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild"):
             self.assertIn(f"## {title}", text)
         self.assertNotIn("nan", text)
 
     def test_a_study_that_does_not_exist_is_refused(self):
-        ended = subprocess.run([PROGRAM, "astrology", "3000", "1"], stderr=subprocess.PIPE,
+        ended = subprocess.run([PROGRAM, "astrology"], stderr=subprocess.PIPE,
                                check=False)
         self.assertEqual(ended.returncode, 1)
         self.assertIn(b"astrology", ended.stderr)
+
+    def test_an_option_that_does_not_exist_is_refused(self):
+        ended = subprocess.run([PROGRAM, "wild", "--moon", "3"], stderr=subprocess.PIPE,
+                               check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn(b"--moon", ended.stderr)
 
 
 if __name__ == "__main__":

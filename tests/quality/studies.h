@@ -1,34 +1,36 @@
 #ifndef BCCSKEL_TESTS_QUALITY_STUDIES_H_
 #define BCCSKEL_TESTS_QUALITY_STUDIES_H_
 
-#include <cstdint>
-#include <string>
-
 #include "absl/status/status.h"
+#include "tests/quality/study_options.h"
 
-// What the report is made of. Each study prints one JSON object a line.
+// What the report is made of. Each study prints one JSON object a line; those with a --json without
+// it a table.
 
 namespace bccskel::quality {
 
-struct StudySize {
-  uint64_t points = 100'000;  // of an object
-  int turns = 3;              // random rotations of each figure
-};
-
 // Every figure, noise and method against the truth.
-absl::Status StudyFigures(const StudySize& size);
-// The figures as voxels, converted exactly: with the margin of the slope rule for voxels, and with
-// that for surfaces sampled point by point.
-absl::Status StudyMasks(const StudySize& size);
+absl::Status StudyFigures(const StudyOptions& options);
 // How much skeletons change when the grid, or the figure on it, is turned.
-absl::Status StudyRotations(const StudySize& size);
+absl::Status StudyRotations(const StudyOptions& options);
 // The union of the balls against the object, for curve and surface skeletons.
-absl::Status StudyReconstruction(const StudySize& size);
+absl::Status StudyReconstruction(const StudyOptions& options);
 // A real mesh, clean and with noise.
-absl::Status StudyMesh(const StudySize& size, const std::string& path);
+absl::Status StudyMesh(const StudyOptions& options);
+// Figures as people have them: spines, flat parts, networks, cuts, as bcc objects or as masks.
+absl::Status StudyWild(const StudyOptions& options);
+// The mask of a ball of a radius of 20 voxels with six spines along the axes, of a radius of 2 and
+// of growing length: how many ends there are.
+absl::Status StudySpineLengths(const StudyOptions& options);
+// The real masks of the reference data: ends, twigs, redundant length, missed parts.
+absl::Status StudyRealMasks(const StudyOptions& options);
+// The closed meshes of the reference data at several sizes, and turned.
+absl::Status StudyClosedMeshes(const StudyOptions& options);
 // The figures on the cubic grid with as many voxels, for other tools: a line of JSON that tells the
 // truth in voxels, then a bit per voxel, x fastest, lowest bit first.
-absl::Status PrintVoxels(const StudySize& size);
+absl::Status PrintVoxels(const StudyOptions& options);
+// The real masks in the same way, with the spacing of their voxels.
+absl::Status PrintRealVoxels(const StudyOptions& options);
 
 }  // namespace bccskel::quality
 

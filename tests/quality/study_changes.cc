@@ -69,15 +69,15 @@ std::vector<Vector> InFigure(std::vector<Vector> points, const PlacedFigure& pla
   return points;
 }
 
-absl::Status StudyFreeRotations(const KnownFigure& figure, const StudySize& size,
+absl::Status StudyFreeRotations(const KnownFigure& figure, const StudyOptions& size,
                                 const Method& method) {
-  BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure still, Place(figure, size.points));
+  BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure still, Place(figure, size.points.front()));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult first, SkeletonizeBy(method, still.object));
   for (int turn = 0; turn < size.turns; ++turn) {
     const Frame frame = RandomFrame(static_cast<uint64_t>(turn));
     KnownFigure turned = Turned(figure, frame);
     turned.scale = still.scale;
-    BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed, Place(turned, size.points));
+    BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed, Place(turned, size.points.front()));
     BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult other, SkeletonizeBy(method, placed.object));
     const auto change = [&](auto points_of) {
       return DistanceBetween(InFigure(points_of(first.graph), still, Frame()),
@@ -124,11 +124,11 @@ absl::StatusOr<SkeletonizeResult> PrintMesh(const std::string& name, double nois
 
 }  // namespace
 
-absl::Status StudyRotations(const StudySize& size) {
+absl::Status StudyRotations(const StudyOptions& size) {
   for (const KnownFigure& figure : KnownFigures()) {
     if (!figure.turns) continue;
     BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed,
-                             Place(Turned(figure, RandomFrame(0)), size.points));
+                             Place(Turned(figure, RandomFrame(0)), size.points.front()));
     for (const Method& method : kMethods) {
       if (!IsMain(method)) continue;
       BCCSKEL_RETURN_IF_ERROR(StudyGridRotations(placed, method));
@@ -138,10 +138,11 @@ absl::Status StudyRotations(const StudySize& size) {
   return absl::OkStatus();
 }
 
-absl::Status StudyReconstruction(const StudySize& size) {
+absl::Status StudyReconstruction(const StudyOptions& size) {
   for (const KnownFigure& figure : KnownFigures()) {
     const Frame frame = figure.turns ? RandomFrame(0) : Frame();
-    BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed, Place(Turned(figure, frame), size.points));
+    BCCSKEL_ASSIGN_OR_RETURN(const PlacedFigure placed,
+                             Place(Turned(figure, frame), size.points.front()));
     SkeletonizeOptions options;
     BCCSKEL_RETURN_IF_ERROR(StudyBalls(placed, "curve", options));
     options.thinning.stubble = StubblePolicy::kNone;
@@ -154,11 +155,12 @@ absl::Status StudyReconstruction(const StudySize& size) {
   return absl::OkStatus();
 }
 
-absl::Status StudyMesh(const StudySize& size, const std::string& path) {
+absl::Status StudyMesh(const StudyOptions& size) {
+  const std::string& path = size.data;
   const std::string name = path.substr(path.rfind('/') + 1);
   BCCSKEL_ASSIGN_OR_RETURN(const TriangleMesh mesh, ReadMeshFile(path));
   BCCSKEL_ASSIGN_OR_RETURN(const VoxelizeResult solid,
-                           Voxelize(mesh, {.points = size.points}, exec::Context()));
+                           Voxelize(mesh, {.points = size.points.front()}, exec::Context()));
   for (const Method& method : kMethods) {
     if (!IsMain(method)) continue;
     BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult clean,

@@ -94,12 +94,12 @@ absl::Status StudyFigure(const KnownFigure& figure, uint64_t points, int turn) {
 
 }  // namespace
 
-absl::Status StudyFigures(const StudySize& size) {
+absl::Status StudyFigures(const StudyOptions& size) {
   for (const KnownFigure& figure : KnownFigures()) {
     const int turns = figure.turns ? size.turns : 1;
     for (int turn = 0; turn < turns; ++turn) {
       const Frame frame = figure.turns ? RandomFrame(static_cast<uint64_t>(turn)) : Frame();
-      BCCSKEL_RETURN_IF_ERROR(StudyFigure(Turned(figure, frame), size.points, turn));
+      BCCSKEL_RETURN_IF_ERROR(StudyFigure(Turned(figure, frame), size.points.front(), turn));
     }
   }
   return absl::OkStatus();

@@ -1,0 +1,128 @@
+// Twice the object takes at most 2.6 times the work, in every stage behind thinning and in every
+// text format. Work is counted, not timed: the compiler calls the function below in each block of
+// the sources under test.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "client/export/graphml.h"
+#include "client/export/json.h"
+#include "client/export/obj.h"
+#include "client/export/swc.h"
+#include "client/export/vtp.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace {
+uint64_t blocks = 0;
+}
+
+extern "C" void __sanitizer_cov_trace_pc() { ++blocks; }
+
+namespace bccskel {
+namespace {
+
+constexpr double kMostGrowth = 2.6;
+
+struct Box {
+  int32_t edge = 24;  // cells along x and y
+  int32_t height = 12;
+};
+
+uint64_t WorkOf(const std::function<void()>& task) {
+  const uint64_t before = blocks;
+  task();
+  return blocks - before;
+}
+
+using IsIn = std::function<bool(int32_t i, int32_t j, int32_t k, int sublattice)>;
+
+// The points of both sublattices in a box of cells.
+Volume VolumeOf(const Box& box, const IsIn& is_in) {
+  VolumeBuilder builder({box.edge, box.edge, box.height});
+  for (int32_t k = 0; k < box.height; ++k) {
+    for (int32_t j = 0; j < box.edge; ++j) {
+      for (int32_t i = 0; i < box.edge; ++i) {
+        for (const int s : {0, 1}) {
+          if (is_in(i, j, k, s)) builder.Add({2 * i + s, 2 * j + s, 2 * k + s});
+        }
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+bool IsDust(int32_t i, int32_t j, int32_t k, int sublattice) {
+  return sublattice == 0 && (i + j + k) % 2 == 0;
+}
+
+// Lines along all axes, `step` cells apart.
+IsIn Net(int32_t step) {
+  return [step](int32_t i, int32_t j, int32_t k, int sublattice) {
+    return sublattice == 0 && (i % step == 0) + (j % step == 0) + (k % step == 0) >= 2;
+  };
+}
+
+// A single curve through the whole box, back and forth.
+bool IsOneCurve(int32_t i, int32_t j, int32_t k, int sublattice) {
+  if (sublattice != 0 || k % 4 > 2) return false;
+  const bool row = j % 2 == 0 && k % 4 == 0, first = i == 0, last = i == Box().edge - 1;
+  const bool turn = j % 2 == 1 && k % 4 == 0 && (j % 4 == 1 ? last : first);
+  return row || turn;
+}
+
+struct Formats {
+  uint64_t graph = 0, json = 0, graphml = 0, vtp = 0, swc = 0, obj = 0;
+};
+
+Formats WorkFor(const Box& box, const IsIn& is_in, const SkeletonizeOptions& options) {
+  const Volume object = VolumeOf(box, is_in);
+  absl::StatusOr<SkeletonizeResult> result;
+  Formats work;
+  work.graph = WorkOf([&] { result = Skeletonize(object, options, {}); });
+  EXPECT_TRUE(result.ok()) << result.status();
+  if (!result.ok()) return {};
+  const SkeletonGraph& graph = result->graph;
+  const TreeOrder order = OrderTrees(graph, {});
+  work.json = WorkOf([&] { exporting::JsonText(*result, order); });
+  work.graphml = WorkOf([&] { exporting::GraphMlText(graph, {.order = order}); });
+  work.vtp = WorkOf([&] { exporting::VtpText(graph, {.order = order}); });
+  work.swc = WorkOf([&] { exporting::WriteSwc(graph, order); });
+  work.obj = WorkOf([&] { exporting::ObjText(graph); });
+  return work;
+}
+
+void ExpectLinear(const char* what, uint64_t once, uint64_t twice) {
+  ASSERT_GT(once, 0u) << what;
+  EXPECT_LT(static_cast<double>(twice) / static_cast<double>(once), kMostGrowth)
+      << what << ": " << once << " and " << twice << " blocks";
+}
+
+void ExpectLinear(const IsIn& is_in, const SkeletonizeOptions& options = {}) {
+  Box box;
+  const Formats once = WorkFor(box, is_in, options);
+  box.height *= 2;
+  const Formats twice = WorkFor(box, is_in, options);
+  ExpectLinear("graph", once.graph, twice.graph);
+  ExpectLinear("JSON", once.json, twice.json);
+  ExpectLinear("GraphML", once.graphml, twice.graphml);
+  ExpectLinear("VTP", once.vtp, twice.vtp);
+  ExpectLinear("SWC", once.swc, twice.swc);
+  ExpectLinear("OBJ", once.obj, twice.obj);
+}
+
+TEST(LinearGrowth, Dust) { ExpectLinear(&IsDust); }
+TEST(LinearGrowth, DenseNet) { ExpectLinear(Net(2)); }
+TEST(LinearGrowth, Net) { ExpectLinear(Net(4)); }
+TEST(LinearGrowth, OneCurve) { ExpectLinear(&IsOneCurve); }
+
+// Their graphs have births, which are looked for in all points.
+TEST(LinearGrowth, Isthmuses) {
+  SkeletonizeOptions options;
+  options.thinning.kind = SkeletonKind::kIsthmusCurve;
+  ExpectLinear(Net(2), options);
+}
+
+}  // namespace
+}  // namespace bccskel

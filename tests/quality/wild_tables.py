@@ -1,0 +1,188 @@
+"""The tables of figures in the wild, and of real masks and meshes."""
+
+from tables import mean, percent, select, table, target, worst
+
+SPINY = ("spines", "brush", "soma")
+FLAT = ("flat limbs", "flat alone")
+LIMBS = ("palm", *FLAT, "cone", "flat cut", "blunt")
+
+
+def groups(wild):
+    """The objects of a grid and a size: what they are called, the rows, the unit of lengths."""
+    for kind in dict.fromkeys(r["as"] for r in wild):
+        for points in dict.fromkeys(r["points"] for r in wild):
+            rows = select(wild, points=points, **{"as": kind})
+            if rows:
+                yield ((f"masks of {points:,} voxels", rows, "voxels") if kind == "mask"
+                       else (f"objects of {points:,} points", rows, "units"))
+
+
+def of_classes(rows, classes):
+    return [r for r in rows if r["class"] in classes]
+
+
+def spiny_targets(name, rows, unit):
+    spiny = of_classes(rows, SPINY)
+    wrong = [(r["lost"] + r["spurious"]) / r["tips"] for r in spiny]
+    exact, most = wrong.count(0), max(wrong)
+    yield target(f"spiny {name}: all ends right, all noises", "9 of 10, at most 1 in 20 ends wrong",
+                 f"{exact} of {len(wrong)}, at most {100 * most:.0f} % wrong",
+                 exact >= 0.9 * len(wrong) and most <= 0.05)
+    limit = 5 if unit == "units" else 2
+    gap = worst(spiny, "largest_gap")
+    yield target(f"spiny {name}: farthest tip", f"<= {limit} {unit}", f"{gap:.1f}", gap <= limit)
+
+
+def limb_targets(name, rows, unit):
+    limbs = of_classes(rows, LIMBS)
+    lost = sum(r["lost"] for r in limbs)
+    yield target(f"palms, flat limbs, cones, cuts, {name}: lost", "0", f"{lost}", lost == 0)
+    for noise, limit in ((0, 0.3), (0.05, 1)):
+        chosen = select(limbs, noise=noise)
+        if chosen:
+            spurious = max(mean(r["spurious"] for r in select(chosen, **{"class": c}))
+                           for c in dict.fromkeys(r["class"] for r in chosen))
+            yield target(f"the same, {percent(noise)}: spurious ends an object, worst class",
+                         f"<= {limit}", f"{spurious:.2f}", spurious <= limit)
+    off = worst(of_classes(rows, FLAT), "line_mean")
+    yield target(f"flat limbs, {name}: off their line, worst object", f"<= 1 {unit}",
+                 f"{off:.2f}", off <= 1)
+
+
+def network_target(name, rows, _):
+    networks = of_classes(rows, ("network",))
+    found, true = (sum(r[key] for r in networks) for key in ("junctions", "true_junctions"))
+    yield target(f"networks, {name}: junctions", "within 5 %", f"{found} of {true}",
+                 abs(found - true) <= 0.05 * true)
+
+
+def cost_target(name, rows, _):
+    if rows[0]["points"] >= 850_000 and rows[0]["as"] == "bcc":
+        chosen = select(rows, noise=0)
+        share = sum(r["pruning_ms"] for r in chosen) / sum(r["total_ms"] for r in chosen)
+        yield target(f"pruning and tips, share of a run, {name}", "<= 20 %",
+                     f"{100 * share:.0f} %", share <= 0.2)
+
+
+def apart(counts):
+    return max(counts) - min(counts)
+
+
+def mesh_targets(meshes):
+    for what, key, most in (("at several sizes", "ends", 2), ("in several poses", "pose_ends", 1)):
+        ways = [apart(r[key]) for r in meshes]
+        yield target(f"ends of a mesh {what}", f"equal in 8 of 10, never more than {most} apart",
+                     f"equal in {ways.count(0)} of {len(ways)}, up to {max(ways)} apart",
+                     ways.count(0) >= 0.8 * len(ways) and max(ways) <= most)
+    far = max(r["p95"] for r in meshes)
+    yield target("distance between poses over the radius, 95th percentile, worst mesh", "<= 0.5",
+                 f"{far:.2f}", far <= 0.5)
+
+
+def mask_targets(masks):
+    for kinds, limit in ((("neuron",), 1), (("vessels", "airway"), 2)):
+        share = 100 * max((r["redundant_length"] for r in masks if r["kind"] in kinds), default=0)
+        yield target(f"redundant length, {' and '.join(kinds)}, worst", f"<= {limit} %",
+                     f"{share:.1f} %", share <= limit)
+    twigs = sum(r["twigs"] for r in masks)
+    yield target("twigs on real masks", "0", f"{twigs}", twigs == 0)
+    missed = max((r["missed"] for r in masks if r["kind"] == "airway"), default=0)
+    yield target("missed parts of the airway", "<= 5", f"{missed}", missed <= 5)
+
+
+def open_target(lengths):
+    chosen = [r for r in lengths if 8 <= r["length"] <= 24]
+    ends = ", ".join(str(r["ends"]) for r in chosen)
+    yield target("mask of a ball of radius 20 with six spines of radius 2 and "
+                 + ", ".join(f"{r['length']:g}" for r in chosen) + " voxels: ends", "6 each", ends,
+                 all(r["ends"] == 6 for r in chosen))
+
+
+def target_rows(wild, lengths, meshes, masks):
+    for name, rows, unit in groups(wild):
+        for rule in (spiny_targets, limb_targets, network_target, cost_target):
+            yield from rule(name, rows, unit)
+    yield from open_target(lengths)
+    if meshes:
+        yield from mesh_targets(meshes)
+    if masks:
+        yield from mask_targets(masks)
+
+
+def class_rows(chosen, noises):
+    for name in dict.fromkeys(r["class"] for r in chosen):
+        rows = select(chosen, **{"class": name})
+        known, ends = rows[0]["known"], []
+        for noise in noises:
+            noisy = select(rows, noise=noise)
+            ends.append(f"{sum(r['lost'] for r in noisy)} / {sum(r['spurious'] for r in noisy)}"
+                        if known else f"{mean(r['ends'] for r in noisy):.3g} ends")
+        exact = sum(1 for r in rows if not r["lost"] and not r["spurious"])
+        off, true = worst(rows, "line_mean"), sum(r["true_junctions"] for r in rows)
+        pruning, total = (sum(r[key] for r in rows) for key in ("pruning_ms", "total_ms"))
+        yield [name, len(rows), sum(r["tips"] for r in rows) if known else "-", *ends,
+               exact if known else "-", f"{worst(rows, 'largest_gap'):.1f}" if known else "-",
+               f"{off:.2f}" if off else "-",
+               f"{sum(r['junctions'] for r in rows)} / {true}" if true > 0 else "-",
+               f"{100 * pruning / total:.0f} %"]
+
+
+def figures_section(wild):
+    lines = ["## Figures in the wild", "",
+             "What people have: spines, flat parts, networks, cuts, rough surfaces, each turned at "
+             "random, as bcc objects and as masks of as many voxels; the half of seeds and figures "
+             "that no rule was chosen on. By noise, which keeps the topology of points or voxels: "
+             "true tips without an end / ends without a true tip. An end may lie half a limb away "
+             "from its tip: that is what the gap tells, in lattice units or edges of voxels. "
+             "Plates, disks and castings have no true tips.", ""]
+    noises = sorted({r["noise"] for r in wild})
+    head = ["class", "objects", "tips", *map(percent, noises), "all ends right", "largest gap",
+            "off the middle, worst", "junctions found / true", "pruning's share"]
+    for name, rows, _ in groups(wild):
+        lines += [f"### {name.capitalize()}", "", *table(head, list(class_rows(rows, noises)))]
+    return lines
+
+
+def meshes_section(meshes):
+    if not meshes:
+        return []
+    points = meshes[0]["points"]
+    rows = [[r["mesh"], *r["ends"], apart(r["ends"]),
+             f"{min(r['pose_ends'])} to {max(r['pose_ends'])}", f"{r['p95']:.2f}",
+             f"{r['largest']:.1f}"] for r in meshes]
+    return ["## Meshes at several sizes and in several poses", "",
+            f"Ends by number of points, and at {points[0]:,} points of "
+            f"{len(meshes[0]['pose_ends'])} random rotations. Distance: from a skeleton's points "
+            "to the nearest of that in the first pose, turned back, and the other way, over the "
+            "radius there; the worst pose.", "",
+            *table(["mesh", *(f"{n:,}" for n in points), "apart", "ends in poses",
+                    "distance, 95th percentile", "largest"], rows)]
+
+
+def masks_section(masks, others):
+    if not masks:
+        return []
+    rows = []
+    for r in masks:
+        other = next((o for o in others if o["mask"] == r["mask"]), None)
+        rows.append([r["mask"], r["kind"], f"{r['voxels']:,}", r["loops"], r["ends"], r["branches"],
+                     r["twigs"], f"{100 * r['redundant_length']:.2f} %", r["missed"],
+                     f"{r['seconds']:.1f}", *([other["ends"], other["missed"],
+                                               f"{other['seconds']:.1f}"] if other else "---")])
+    return ["## Real masks", "",
+            "Default settings. Twigs are end branches shorter, from where they leave the ball of "
+            "their junction, than their radius there. Redundant length is the share that lies "
+            "inside 0.9 of the largest ball of a point of another edge, more than two of its radii "
+            "away along the graph: strands, ribs, doubled curves; edges that no cut of ends can "
+            "take do not count. Missed parts are connected groups of more than 20 voxels that lie "
+            "more than 4 voxels outside all balls. Conversion is not in the time.", "",
+            *table(["mask", "kind", "voxels", "loops", "free ends", "branches", "twigs",
+                    "redundant length", "missed parts", "seconds", "peer's free ends",
+                    "missed parts", "seconds"], rows)]
+
+
+def report(wild, lengths, meshes, masks, others):
+    return ["## Targets in the wild", "",
+            *table(["what", "target", "measured", "met"],
+                   list(target_rows(wild, lengths, meshes, masks))),
+            *figures_section(wild), *meshes_section(meshes), *masks_section(masks, others)]
