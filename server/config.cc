@@ -79,6 +79,8 @@ std::vector<Setting> DurableSettings(DurableOptions& durable) {
       HoursSetting("keep-volumes", durable.keep_volumes, "Volumes go so long after their last use"),
       HoursSetting("keep-results", durable.keep_results,
                    "Jobs and their results go so long after their end"),
+      ChoiceSetting("unknown-data", durable.unknown_data, {"refuse", "adopt"},
+                    "Files in it that its jobs.db does not know: do not start, or go on without"),
   };
 }
 

@@ -125,6 +125,10 @@ void Listener::SetServing(Serving serving) {
   for (const std::string& name : healthy_) health.SetServingStatus(name, yes);
 }
 
+void Listener::SetServing(const std::string& service, Serving serving) {
+  server_->GetHealthCheckService()->SetServingStatus(service, serving == Serving::kYes);
+}
+
 void Listener::Shutdown(std::chrono::milliseconds grace) {
   for (const auto& acceptor : acceptors_) acceptor->Stop();
   server_->Shutdown(std::chrono::system_clock::now() + grace);

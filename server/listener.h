@@ -42,6 +42,7 @@ class Listener {
 
   enum class Serving { kYes, kNo };
   void SetServing(Serving serving);
+  void SetServing(const std::string& service, Serving serving);
 
   // New calls are refused at once; running ones have so long to end, and are cut off then.
   void Shutdown(std::chrono::milliseconds grace);

@@ -14,8 +14,8 @@
 #include "core/exec/large_blocks.h"
 #include "server/config.h"
 #include "server/decoding/decoding_child.h"
-#include "server/logging/grpc_log.h"
 #include "server/logging/json_log.h"
+#include "server/logging/library_log.h"
 #include "server/server.h"
 
 namespace bccskel::server {
@@ -67,6 +67,7 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
       exec::ProcessLargeBlocks().ReleaseUnused();
       malloc_trim(0);  // what is free between blocks in use
     }
+    server.LookAfterData();
     const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {
@@ -102,7 +103,7 @@ int Serve(const ServerConfig& config) {
   AllowManyConnections();
   OutliveFullFiles();
   const Logging logging(config.log_level);
-  LogWhatGrpcSays();
+  LogWhatLibrariesSay();
   const auto server = Server::Start(config);
   if (!server.ok()) {
     std::fprintf(stderr, "bccskel-server: %s\n", std::string(server.status().message()).c_str());

@@ -27,6 +27,7 @@
 #include "server/service/upload_writers.h"
 #include "server/service/volume_service.h"
 #include "server/settings/values.h"
+#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -49,7 +50,8 @@ std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
 std::optional<ServerGauges::Stored> StoredGauges(const Ledger* ledger) {
   if (ledger == nullptr) return std::nullopt;
   const Ledger::Usage usage = ledger->usage();
-  return ServerGauges::Stored{.disk_bytes = usage.disk_bytes,
+  return ServerGauges::Stored{.healthy = ledger->Health().ok(),
+                              .disk_bytes = usage.disk_bytes,
                               .available_bytes = usage.disk_available_bytes,
                               .uploads = usage.uploads,
                               .queued_jobs = usage.queued,
@@ -150,7 +152,17 @@ absl::Status Server::OpenData() {
     options.max_job_bytes = config_.limits.max_bytes;
     options.max_runs = config_.limits.max_jobs;
     options.algorithm_version = std::string(kAlgorithmVersion);
-    options.on_job_state = LogJobState;
+    metrics_.ExpectDurableJobs();
+    options.on_job_state = [this](const JobRow& job) {
+      LogJobState(job);
+      if (!IsTerminal(job.state)) return;
+      const bool cancelled = job.state == JobState::kCancelled;
+      const absl::Status end = cancelled ? absl::CancelledError() : WithJobReason(job.error);
+      metrics_.CountDurable(absl::StatusCodeToString(end.code()), ReasonOf(end));
+    };
+    options.on_warning = [](const std::string& warning) {
+      Log(LogLevel::kWarning, "data", {{"message", warning}});
+    };
     BCCSKEL_RETURN_IF_ERROR(work_->OpenLedger(options));
   }
   services_ = std::make_unique<Services>(config_, *callers_, *work_, metrics_);
@@ -163,6 +175,7 @@ absl::Status Server::Listen() {
   plan.tls = config_.tls;
   services_->AddPublic(plan);
   if (AdminsShareThePublicListener(config_)) services_->AddAdmin(plan);
+  for (const std::string& service : plan.healthy) ExpectCallsOf(service, metrics_);
   plan.interceptors.push_back(std::make_unique<CallMeter>(metrics_));
   BCCSKEL_ASSIGN_OR_RETURN(public_listener_, Listener::Start(std::move(plan)));
   for (const std::string& address : addresses()) {
@@ -203,6 +216,7 @@ ServerGauges Server::Gauges() const {
   now.admitted_bytes = admitted.bytes;
   now.max_admitted_bytes = config_.limits.max_bytes;
   now.draining = draining_ ? 1 : 0;
+  now.dropped_log_lines = DroppedLogLines();
   now.certificate_end = CertificateEndSeconds(config_.tls);
   now.stored = StoredGauges(work_->ledger());
   return now;
@@ -225,6 +239,22 @@ void Server::ReloadIfChanged() {
 
 void Server::ReloadNow() {
   if (!config_.tokens.empty()) TakeReload(callers_->ReloadNow());
+}
+
+void Server::LookAfterData() {
+  const Ledger* const ledger = work_->ledger();
+  if (ledger == nullptr) return;
+  const absl::Status health = ledger->Health();
+  if (health.ok() == data_is_well_) return;
+  data_is_well_ = health.ok();
+  for (const char* service :
+       {v1::JobService::service_full_name(), v1::VolumeService::service_full_name()}) {
+    public_listener_->SetServing(service,
+                                 data_is_well_ ? Listener::Serving::kYes : Listener::Serving::kNo);
+  }
+  Log(data_is_well_ ? LogLevel::kInfo : LogLevel::kError,
+      data_is_well_ ? "data is well again" : "data is damaged",
+      {{"message", std::string(health.message())}});
 }
 
 void Server::SetTenants() { jobs_.SetTenants({.each = {}, .named = callers_->tenants()}); }

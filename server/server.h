@@ -39,6 +39,8 @@ class Server {
   // without it.
   void ReloadIfChanged();
   void ReloadNow();
+  // Health of the services that need the data directory follows its own. Called once a second.
+  void LookAfterData();
 
   // Stops in good order: health says NOT_SERVING and new jobs are refused as UNAVAILABLE; after the
   // lame-duck time the jobs that were let in have the drain time to finish and to be read; then the
@@ -65,6 +67,7 @@ class Server {
   const ServerConfig config_;
   const std::unique_ptr<Callers> callers_;
   std::atomic<bool> draining_ = false;
+  bool data_is_well_ = true;  // as LookAfterData() saw it
   ServerMetrics metrics_;
   JobPool jobs_;
   // After jobs_: calls end before the ledger, and the ledger before the jobs' threads.

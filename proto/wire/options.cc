@@ -132,8 +132,8 @@ absl::StatusOr<SkeletonKind> FromMessage(v1::SkeletonKind kind, const std::strin
 
 v1::PruningRule ToMessage(PruningRule rule) {
   switch (rule) {
-    case PruningRule::kSlope:
-      return v1::PRUNING_RULE_SLOPE;
+    case PruningRule::kSignificance:
+      return v1::PRUNING_RULE_SIGNIFICANCE;
     case PruningRule::kLength:
       return v1::PRUNING_RULE_LENGTH;
     case PruningRule::kRelativeLength:
@@ -150,7 +150,8 @@ absl::StatusOr<PruningRule> FromMessage(v1::PruningRule rule, const std::string&
   switch (rule) {
     case v1::PRUNING_RULE_UNSPECIFIED:
     case v1::PRUNING_RULE_SLOPE:
-      return PruningRule::kSlope;
+    case v1::PRUNING_RULE_SIGNIFICANCE:
+      return PruningRule::kSignificance;
     case v1::PRUNING_RULE_LENGTH:
       return PruningRule::kLength;
     case v1::PRUNING_RULE_RELATIVE_LENGTH:
@@ -161,6 +162,36 @@ absl::StatusOr<PruningRule> FromMessage(v1::PruningRule rule, const std::string&
       return PruningRule::kNone;
     default:
       return InvalidField(field, absl::StrCat("unknown pruning rule ", int{rule}));
+  }
+}
+
+v1::ObjectSource ToMessage(ObjectSource source) {
+  switch (source) {
+    case ObjectSource::kPoints:
+      break;  // left out, so that such options have the bytes, and results the key, of old
+    case ObjectSource::kVoxels:
+      return v1::OBJECT_SOURCE_VOXELS;
+    case ObjectSource::kRefinedVoxels:
+      return v1::OBJECT_SOURCE_REFINED_VOXELS;
+    case ObjectSource::kSampledVoxels:
+      return v1::OBJECT_SOURCE_SAMPLED_VOXELS;
+  }
+  return v1::OBJECT_SOURCE_UNSPECIFIED;
+}
+
+absl::StatusOr<ObjectSource> FromMessage(v1::ObjectSource source, const std::string& field) {
+  switch (source) {
+    case v1::OBJECT_SOURCE_UNSPECIFIED:
+    case v1::OBJECT_SOURCE_POINTS:
+      return ObjectSource::kPoints;
+    case v1::OBJECT_SOURCE_VOXELS:
+      return ObjectSource::kVoxels;
+    case v1::OBJECT_SOURCE_REFINED_VOXELS:
+      return ObjectSource::kRefinedVoxels;
+    case v1::OBJECT_SOURCE_SAMPLED_VOXELS:
+      return ObjectSource::kSampledVoxels;
+    default:
+      return InvalidField(field, absl::StrCat("unknown source ", int{source}));
   }
 }
 
@@ -237,6 +268,12 @@ absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
   BCCSKEL_ASSIGN_OR_RETURN(pruning.tips,
                            FromMessage(message.tip_placement(), field + ".tip_placement"));
   pruning.threshold = message.pruning_threshold();
+  if (message.pruning_rule() == v1::PRUNING_RULE_SLOPE && pruning.threshold != 0) {
+    return InvalidField(field + ".pruning_threshold",
+                        absl::StrCat("margin ", pruning.threshold,
+                                     " of the slope rule, which is no more: give the rule "
+                                     "SIGNIFICANCE and a threshold in half-widths (default 0.4)"));
+  }
   if (absl::Status checked = CheckPruningOptions(pruning); !checked.ok()) {
     return InvalidField(field + ".pruning_threshold", std::string(checked.message()));
   }
@@ -276,7 +313,9 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
   message.set_tip_placement(options.pruning.tips == TipPlacement::kRidge
                                 ? v1::TIP_PLACEMENT_RIDGE
                                 : v1::TIP_PLACEMENT_AS_THINNED);
+  message.set_junction_reach(options.junction_reach);
   *message.mutable_preparing() = ToMessage(options.preparing);
+  message.set_object_source(ToMessage(options.source));
   for (LatticePoint p : thinning.keep) {
     message.mutable_keep()->add_x(p.x);
     message.mutable_keep()->add_y(p.y);
@@ -301,6 +340,9 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
   BCCSKEL_ASSIGN_OR_RETURN(options.pruning, PruningOf(message, field));
   BCCSKEL_ASSIGN_OR_RETURN(options.preparing,
                            FromMessage(message.preparing(), field + ".preparing"));
+  BCCSKEL_ASSIGN_OR_RETURN(options.source,
+                           FromMessage(message.object_source(), field + ".object_source"));
+  if (message.has_junction_reach()) options.junction_reach = message.junction_reach();
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();
   if (absl::Status checked = CheckSkeletonizeOptions(options); !checked.ok()) {

@@ -192,6 +192,7 @@ absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message
   result.method = message.method();
   result.algorithm_version = message.algorithm_version();
   BCCSKEL_ASSIGN_OR_RETURN(result.options, OptionsOf(message));
+  result.certificate.sampled = result.options.source == ObjectSource::kSampledVoxels;
   for (const v1::PreparingStep& step : message.preparing()) {
     BCCSKEL_ASSIGN_OR_RETURN(result.preparing.emplace_back(), FromMessage(step));
   }

@@ -9,13 +9,19 @@
 namespace bccskel::server {
 namespace {
 
-absl::Status CheckFits(const char* whose, uint64_t bytes, uint64_t limit) {
+constexpr char kWhereDeclared[] =
+    "declare max_bricks (max_label_voxels and max_runs of labels) if it is sparse";
+// Of a job that knows what it has received.
+constexpr char kWhereCounted[] =
+    "send an object with fewer parts, such as a denoised or coarser one, or raise the server's "
+    "max-memory-bytes";
+
+absl::Status CheckFits(const char* whose, uint64_t bytes, uint64_t limit, const char* remedy) {
   if (bytes <= limit) return absl::OkStatus();
   return Refuse(Refusal::kTooMuchMemory,
                 absl::StrFormat("the volume needs up to %d bytes of memory, the limit for %s is "
-                                "%d; declare max_bricks (max_label_voxels and max_runs of labels) "
-                                "if it is sparse",
-                                bytes, whose, limit));
+                                "%d; %s",
+                                bytes, whose, limit, remedy));
 }
 
 }  // namespace
@@ -77,7 +83,7 @@ std::array<Admission::Part, 2> Admission::PartsOf(const std::string& tenant) con
 
 absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
   for (const Part& part : PartsOf(tenant)) {
-    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes));
+    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes, kWhereDeclared));
     if (part.usage.places + wanted.places > part.limit.places) {
       return Refuse(Refusal::kQueueFull,
                     absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d",
@@ -101,7 +107,7 @@ absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
 absl::Status Admission::Grow(const Ticket& ticket, uint64_t bytes) {
   std::lock_guard lock(mutex_);
   for (const Part& part : PartsOf(ticket.tenant_)) {
-    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, bytes, part.limit.bytes));
+    BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, bytes, part.limit.bytes, kWhereCounted));
   }
   return Take(ticket.tenant_, {.bytes = bytes - ticket.bytes(), .places = 0});
 }

@@ -20,8 +20,10 @@ constexpr uint64_t kBytesPerLabel = sizeof(LabeledObject) + 128;
 // Stacks, small tables and the allocator's slack of one label at work.
 constexpr uint64_t kFixedBytesPerLabel = 64 * 1024;
 
-// Tubes of four voxels across have a brick for every four voxels, solid blobs for every thirty.
-constexpr uint64_t kVoxelsPerBrick = 4;
+// Tubes of four voxels across have a brick for every 25 voxels, solid blobs for 200. Refined voxels
+// fill eight times as many.
+constexpr uint64_t kVoxelsPerBrick = 25;
+constexpr uint64_t kRefinedVoxelsPerBrick = 4;
 // For each thread: dozens of small labels, so that a turn is worth its beginning and its end.
 constexpr uint64_t kLeastBricks = 4096;
 
@@ -34,21 +36,32 @@ uint64_t LabelsOfType(int bytes) {
   return bytes == 8 ? ~uint64_t{0} : (uint64_t{1} << (8 * bytes)) - 1;
 }
 
-// The columns of blocks of 8 x 2 voxels, over one layer of 4 slices, that an object touches. Blocks
-// are those of RowTube: a voxel belongs to its own block and touches the next one with its far
-// corner.
+// The voxels that a brick spans.
+struct BlockSize {
+  int32_t x = kBrickX;
+  int32_t y = kBrickY;
+  int32_t z = kBrickZ;
+};
+BlockSize BlockSizeOf(VoxelPoints points) {
+  if (points == VoxelPoints::kTwo) return {};
+  return {kBrickX / 2, kBrickY / 2, kBrickZ / 2};
+}
+
+// The columns of blocks, over one layer of them, that an object touches: a voxel belongs to its own
+// block and touches the next one with its far corner.
 class BlockLayer {
  public:
-  BlockLayer(const VoxelBox& box, CavityFilling cavities)
-      : cavities_(cavities),
-        first_x_(box.low[0] / 8),
-        first_y_(box.low[1] / 2),
-        words_per_row_(static_cast<size_t>(box.high[0] / 8 - first_x_) / 64 + 1),
-        bits_(words_per_row_ * static_cast<size_t>(box.high[1] / 2 - first_y_ + 1)) {}
+  BlockLayer(const VoxelBox& box, const BlockSize& size, CavityFilling cavities)
+      : size_(size),
+        cavities_(cavities),
+        first_x_(box.low[0] / size.x),
+        first_y_(box.low[1] / size.y),
+        words_per_row_(static_cast<size_t>(box.high[0] / size.x - first_x_) / 64 + 1),
+        bits_(words_per_row_ * static_cast<size_t>(box.high[1] / size.y - first_y_ + 1)) {}
 
   void Add(const VoxelRun& run) {
-    AddRow(run.y / 2, run);
-    if (run.y % 2 == 1) AddRow(run.y / 2 + 1, run);
+    AddRow(run.y / size_.y, run);
+    if ((run.y + 1) % size_.y == 0) AddRow(run.y / size_.y + 1, run);
   }
 
   uint64_t TakeCount() {
@@ -63,7 +76,7 @@ class BlockLayer {
  private:
   void AddRow(int32_t by, const VoxelRun& run) {
     uint64_t* const row = &bits_[static_cast<size_t>(by - first_y_) * words_per_row_];
-    for (int32_t bx = run.begin / 8; bx <= run.end / 8; ++bx) {
+    for (int32_t bx = run.begin / size_.x; bx <= run.end / size_.x; ++bx) {
       const auto bit = static_cast<size_t>(bx - first_x_);
       row[bit / 64] |= uint64_t{1} << bit % 64;
     }
@@ -80,6 +93,7 @@ class BlockLayer {
     return cavities_ == CavityFilling::kOn && blocks > 0 ? last - first + 1 : blocks;
   }
 
+  BlockSize size_;
   CavityFilling cavities_;
   int32_t first_x_, first_y_;
   size_t words_per_row_;
@@ -110,9 +124,11 @@ uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads) {
   const uint64_t at_work =
       std::min(SaturatingMultiply(declared.max_label_voxels, static_cast<uint64_t>(threads)),
                declared.max_voxels);
+  const uint64_t voxels_per_brick =
+      declared.points == VoxelPoints::kTwo ? kVoxelsPerBrick : kRefinedVoxelsPerBrick;
   const uint64_t bricks =
-      SaturatingAdd(at_work / kVoxelsPerBrick, kLeastBricks * static_cast<uint64_t>(threads));
-  const uint64_t box = BoxBrickCount(ExactExtent(declared.grid));
+      SaturatingAdd(at_work / voxels_per_brick, kLeastBricks * static_cast<uint64_t>(threads));
+  const uint64_t box = BoxBrickCount(ExactExtent(declared.grid, declared.points));
   return BytesToComputeLabel(std::min(bricks, std::max(box, kLeastBricks)));
 }
 
@@ -131,19 +147,20 @@ uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads
   return SaturatingAdd(bytes, BytesToComputeLabels(declared, threads));
 }
 
-uint64_t MostBricksOf(const LabeledObject& object, CavityFilling cavities) {
+uint64_t MostBricksOf(const LabeledObject& object, VoxelPoints points, CavityFilling cavities) {
   if (object.runs.empty()) return 0;
-  BlockLayer here(object.box, cavities), above(object.box, cavities);
+  const BlockSize size = BlockSizeOf(points);
+  BlockLayer here(object.box, size, cavities), above(object.box, size, cavities);
   uint64_t blocks = 0;
-  int32_t bz = object.runs.front().z / 4;
+  int32_t bz = object.runs.front().z / size.z;
   for (const VoxelRun& run : object.runs) {
-    while (bz < run.z / 4) {
+    while (bz < run.z / size.z) {
       blocks += here.TakeCount();
       std::swap(here, above);
       ++bz;
     }
     here.Add(run);
-    if (run.z % 4 == 3) above.Add(run);
+    if ((run.z + 1) % size.z == 0) above.Add(run);
   }
   return 2 * (blocks + here.TakeCount() + above.TakeCount());
 }

@@ -14,6 +14,7 @@ namespace bccskel::server {
 struct LabelVolumeHeader {
   MaskGrid grid;
   MaskAdjacency adjacency = MaskAdjacency::k26;
+  VoxelPoints points = VoxelPoints::kTwo;
   int label_bytes = 1;  // of one voxel: 1, 2, 4 or 8
   VolumeCompression compression = VolumeCompression::kNone;
 
@@ -39,7 +40,8 @@ uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads
 // No exact conversion of the object has more bricks; most have as many. Where cavities are to be
 // filled, all bricks between others of a row count.
 // Cost: a few operations for each run.
-uint64_t MostBricksOf(const LabeledObject& object, CavityFilling cavities = CavityFilling::kOff);
+uint64_t MostBricksOf(const LabeledObject& object, VoxelPoints points,
+                      CavityFilling cavities = CavityFilling::kOff);
 // Peak memory for converting and thinning an object of so many bricks, its graph included.
 uint64_t BytesToComputeLabel(uint64_t bricks);
 // Memory that the runs of an object keep.

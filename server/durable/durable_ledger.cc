@@ -17,23 +17,51 @@ namespace {
 constexpr int kFileThreads = 2;
 constexpr std::chrono::milliseconds kTick(100);
 
+absl::Status UnknownData(const std::string& folder, size_t files) {
+  return absl::FailedPreconditionError(absl::StrCat(
+      folder, " holds ", files, " files of uploads, volumes and results that its jobs.db does not ",
+      "know: that is missing, empty or from elsewhere. Nothing was changed. Bring back the "
+      "jobs.db ",
+      "that belongs to them, or start once with --unknown-data adopt to go on without it: files ",
+      "that no table names are then removed at the first start after a day"));
+}
+
+// Before an empty one would be made.
+absl::Status CheckTables(const std::string& tables, const DurableOptions& options) {
+  const auto facts = FactsOf(tables);
+  if ((facts.ok() && facts->size_bytes > 0) || options.unknown_data == "adopt") {
+    return absl::OkStatus();
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const auto files, BlobStore(options.data_directory).Files());
+  return files.empty() ? absl::OkStatus() : UnknownData(options.data_directory, files.size());
+}
+
+// When the server before this one was there last.
+std::optional<Time> LastSeen(const std::string& folder) {
+  const auto facts = FactsOf(folder + "/lock");
+  if (!facts.ok()) return std::nullopt;
+  return facts->written;
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Ledger>> Ledger::Open(const DurableOptions& options,
                                                      JobRunner& runner, const JobCodec& codec) {
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(options.data_directory));
   BCCSKEL_ASSIGN_OR_RETURN(FolderLock lock, FolderLock::Take(options.data_directory));
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store,
-                           OpenSqliteJobStore(options.data_directory + "/jobs.db"));
-  auto ledger =
-      std::make_unique<DurableLedger>(options, runner, codec, std::move(lock), std::move(store));
+  const std::string tables = options.data_directory + "/jobs.db";
+  BCCSKEL_RETURN_IF_ERROR(CheckTables(tables, options));
+  auto reserve = std::make_unique<DiskReserve>(options.data_directory + "/reserve");
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store, OpenSqliteJobStore(tables));
+  auto ledger = std::make_unique<DurableLedger>(options, runner, codec, std::move(lock),
+                                                std::move(store), std::move(reserve));
   BCCSKEL_RETURN_IF_ERROR(ledger->Recover());
   return ledger;
 }
 
 DurableLedger::DurableLedger(const DurableOptions& options, JobRunner& runner,
                              const JobCodec& codec, FolderLock lock,
-                             std::unique_ptr<JobStore> store)
+                             std::unique_ptr<JobStore> store, std::unique_ptr<DiskReserve> reserve)
     : options_(options),
       runner_(runner),
       codec_(codec),
@@ -41,7 +69,9 @@ DurableLedger::DurableLedger(const DurableOptions& options, JobRunner& runner,
       blobs_(options.data_directory),
       quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
       journal_(RandomId(), [this] { return Now(); }),
-      loop_(std::move(store)),
+      clock_(options.believable_leap, LastSeen(options.data_directory),
+             std::chrono::steady_clock::now()),
+      loop_(std::move(store), std::move(reserve)),
       files_(kFileThreads) {}
 
 DurableLedger::~DurableLedger() {
@@ -73,46 +103,94 @@ absl::Status DurableLedger::Recover() {
                if (status.ok()) CleanUp();
                if (status.ok()) Schedule();
                recovered.set_value(std::move(status));
-             });
+             },
+             GroupCommit::Room::kReserve);
   absl::Status status = recovered.get_future().get();
   if (status.ok()) ticker_ = std::jthread([this](std::stop_token stop) { Tick(stop); });
   return status;
 }
 
 absl::Status DurableLedger::RecoverStore(JobStore& store) {
-  std::set<std::string> keep;
-  BCCSKEL_RETURN_IF_ERROR(RecoverUploads(store, keep));
-  BCCSKEL_RETURN_IF_ERROR(RecoverFiles(store, keep));
-  BCCSKEL_RETURN_IF_ERROR(blobs_.Sweep(keep).status());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, KnownFiles(store));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> files, blobs_.Files());
+  BCCSKEL_RETURN_IF_ERROR(TakeOver(store, files, known));
+  BCCSKEL_RETURN_IF_ERROR(RemoveFiles(store));
+  BCCSKEL_RETURN_IF_ERROR(RecoverUploads(store));
   return RecoverJobs(store);
 }
 
-absl::Status DurableLedger::RecoverUploads(JobStore& store, std::set<std::string>& keep) {
+absl::StatusOr<std::set<std::string>> DurableLedger::KnownFiles(JobStore& store) {
+  std::set<std::string> known;
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
   for (const UploadRow& row : uploads) {
     if (!row.volume.empty()) continue;
-    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
-                             blobs_.OpenUpload(row.tenant, row.name));
+    known.merge(blobs_.PathsOfUpload(row.tenant, row.name));
     quota_.Count(row.tenant, row.size_bytes);
-    keep.merge(blobs_.PathsOfUpload(row.tenant, row.name));
-    // Nobody could send while there was no server.
-    AddSession(std::make_shared<UploadSession>(row, std::move(file), Now()));
   }
-  return absl::OkStatus();
-}
-
-absl::Status DurableLedger::RecoverFiles(JobStore& store, std::set<std::string>& keep) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
   for (const VolumeRow& row : volumes) {
     // Several volumes may have the same bytes.
-    if (keep.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest)).second) {
+    if (known.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest)).second) {
       quota_.Count(row.tenant, row.size_bytes);
     }
   }
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.AllResults());
   for (const ResultRow& row : results) {
-    keep.insert(blobs_.PathOfResult(row.tenant, row.file));
+    if (row.file.empty()) continue;
+    // A crash may have come in between; what is lost shows when it is missed.
+    blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();
+    known.insert(blobs_.PathOfResult(row.tenant, row.file));
     quota_.Count(row.tenant, row.bytes);
+  }
+  return known;
+}
+
+// Files that another job store has named are not this one's to sweep. Folders of older servers do
+// not say whose they are: then one file that is known is enough.
+absl::Status DurableLedger::TakeOver(JobStore& store, const std::set<std::string>& files,
+                                     const std::set<std::string>& known) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string id, store.Id());
+  if (lock_.store_id() == id) {
+    Sweep(store, files, known);
+    return absl::OkStatus();
+  }
+  const auto is_known = [&known](const std::string& file) { return known.count(file) > 0; };
+  const bool strange =
+      !files.empty() && (!lock_.store_id().empty() || std::ranges::none_of(files, is_known));
+  if (strange && options_.unknown_data != "adopt") {
+    return UnknownData(options_.data_directory, files.size());
+  }
+  return lock_.SetStoreId(id);
+}
+
+// Only what is old and certainly not missed by anybody: while a file that is named is not there, or
+// a row cannot be read, an unknown file may be that one.
+void DurableLedger::Sweep(JobStore& store, const std::set<std::string>& files,
+                          const std::set<std::string>& known) {
+  const bool certain = store.damaged_rows() == 0 && std::ranges::includes(files, known);
+  int kept = 0;
+  for (const std::string& file : files) {
+    if (known.count(file) > 0) continue;
+    const auto facts = FactsOf(file);
+    const bool old = file.ends_with(kUnconfirmed) ||
+                     (facts.ok() && facts->written < Now() - options_.keep_unknown);
+    if (!certain || !old || !RemoveFile(file).ok()) ++kept;
+  }
+  if (kept == 0) return;
+  options_.on_warning(absl::StrCat(
+      kept, " files below ", options_.data_directory, " are named by no table and were kept",
+      certain ? "; they go when they are a day old"
+              : ": files that are named are missing, or rows are damaged"));
+}
+
+absl::Status DurableLedger::RecoverUploads(JobStore& store) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+  for (const UploadRow& row : uploads) {
+    if (!row.volume.empty()) continue;
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
+                             blobs_.OpenUpload(row.tenant, row.name));
+    // Nobody could send while there was no server.
+    AddSession(std::make_shared<UploadSession>(row, std::move(file), Now()));
   }
   return absl::OkStatus();
 }
@@ -204,7 +282,9 @@ void DurableLedger::Apply(const Erased& erased) {
     DropSession(row);
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
-  for (const ResultRow& row : erased.results) RemoveResult(row, blobs_, quota_);
+  for (const ResultRow& row : erased.results) {
+    if (!row.file.empty()) RemoveResult(row, blobs_, quota_);
+  }
   for (const VolumeRow& row : erased.blobs) {
     // The same bytes may have come again in the meantime.
     const auto others = loop_.store().FindVolumesOf(row.tenant, row.blob_digest);
@@ -216,7 +296,39 @@ void DurableLedger::Apply(const Erased& erased) {
     blobs_.RemoveBlob(row.tenant, row.blob_digest).IgnoreError();
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
-  if (erased.traces == Erased::Traces::kErase) loop_.store().Forget().IgnoreError();
+  if (erased.traces == Erased::Traces::kMayStay) return;
+  // Also of what was to be removed: names tell something. Where it fails CleanUp() does it.
+  JobStore& store = loop_.store();
+  if (store.Begin().ok() && (!RemoveFiles(store).ok() || !store.Commit().ok())) store.Rollback();
+  store.Forget().IgnoreError();
+}
+
+void DurableLedger::Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
+                          DoneStatus done) {
+  const auto erased = std::make_shared<Erased>();
+  loop_.Post(
+      [change = std::move(change), erased](JobStore& store) -> absl::Status {
+        *erased = {};
+        BCCSKEL_RETURN_IF_ERROR(change(store, *erased));
+        using Kind = RemovalRow::Kind;
+        for (const UploadRow& row : erased->uploads) {
+          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kUpload, row.tenant, row.name}));
+        }
+        for (const VolumeRow& row : erased->blobs) {
+          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kBlob, row.tenant, row.blob_digest}));
+        }
+        for (const ResultRow& row : erased->results) {
+          if (row.file.empty()) continue;
+          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kResult, row.tenant, row.file}));
+        }
+        return absl::OkStatus();
+      },
+      [this, erased, done = std::move(done)](absl::Status status) {
+        if (status.ok()) Apply(*erased);
+        done(std::move(status));
+        Schedule();
+      },
+      GroupCommit::Room::kReserve);
 }
 
 Ledger::Usage DurableLedger::usage() const {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/durable/clock_guard.h"
 #include "server/durable/job_journal.h"
 #include "server/durable/ledger.h"
 #include "server/durable/operations.h"
@@ -45,7 +46,8 @@ namespace bccskel::server {
 class DurableLedger final : public Ledger, public RunObserver {
  public:
   DurableLedger(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,
-                FolderLock lock, std::unique_ptr<JobStore> store);
+                FolderLock lock, std::unique_ptr<JobStore> store,
+                std::unique_ptr<DiskReserve> reserve);
   ~DurableLedger() override;
 
   // Finishes what a crash has left, and goes on. Needs: called once, before all else.
@@ -80,6 +82,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   void OpenResult(const std::string& tenant, const std::string& job, uint64_t first_record,
                   Done<std::shared_ptr<ResultReader>> done) override;
   Usage usage() const override;
+  absl::Status Health() const override { return loop_.Health(); }
 
  private:
   using UploadKey = std::pair<std::string, std::string>;  // tenant, name
@@ -113,7 +116,7 @@ class DurableLedger final : public Ledger, public RunObserver {
     std::vector<Step> steps;
     std::vector<UploadRow> uploads;  // unfinished ones
     std::vector<ResultRow> results;
-    std::vector<VolumeRow> blobs;  // whose bytes no volume has any more
+    std::vector<VolumeRow> blobs;  // whose bytes no volume may have any more
     enum class Traces { kMayStay, kErase } traces = Traces::kMayStay;  // in the store's files
   };
   struct Opening;
@@ -123,8 +126,13 @@ class DurableLedger final : public Ledger, public RunObserver {
 
   // ---- Opening and closing
   absl::Status RecoverStore(JobStore& store);
-  absl::Status RecoverUploads(JobStore& store, std::set<std::string>& keep);
-  absl::Status RecoverFiles(JobStore& store, std::set<std::string>& keep);
+  // The paths of all files that the tables name; counts their sizes.
+  absl::StatusOr<std::set<std::string>> KnownFiles(JobStore& store);
+  absl::Status TakeOver(JobStore& store, const std::set<std::string>& files,
+                        const std::set<std::string>& known);
+  void Sweep(JobStore& store, const std::set<std::string>& files,
+             const std::set<std::string>& known);
+  absl::Status RecoverUploads(JobStore& store);
   absl::Status RecoverJobs(JobStore& store);
   absl::StatusOr<std::optional<EventRow>> RecoverJob(JobStore& store, JobRow& job);
   void Tick(std::stop_token stop);
@@ -204,6 +212,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   // ---- Jobs
   absl::StatusOr<JobInfo> InfoOf(JobStore& store, const JobRow& row) const;
   JobInfo PlainInfoOf(const JobRow& row) const;
+  void PostJob(const std::shared_ptr<Creating>& creating);
   absl::Status StoreJob(JobStore& store, Creating& creating);
   absl::Status InsertJob(JobStore& store, JobRow job, Creating& creating);
   absl::Status CheckJob(JobStore& store, Creating& creating);
@@ -215,6 +224,8 @@ class DurableLedger final : public Ledger, public RunObserver {
   // ---- What follows a change; on the loop
   void Apply(const Step& step);
   void Apply(const Erased& erased);
+  // A change that erases, and what follows.
+  void Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change, DoneStatus done);
 
   // ---- Runs; on the loop
   std::string ResultKey(const std::string& volume_digest, const std::string& options) const;
@@ -245,6 +256,10 @@ class DurableLedger final : public Ledger, public RunObserver {
   void ForgetRun(Run* run);
   void VolumeKnown(Run* run, const std::string& digest);
   void JoinEqual(Run* run);
+  // The stored result, read to its end: a damaged one is dropped, and there is none.
+  void WithWholeResult(const std::string& tenant, const std::string& key,
+                       std::function<void(const std::optional<ResultRow>& result)> then);
+  void DropResult(const ResultRow& row, std::function<void()> then);
   void GiveStoredResult(Run* run, int64_t result);
   std::map<int64_t, JobEvent> TakeProgress(Run& run);
   void RetryLater(std::function<void()> task);
@@ -258,11 +273,14 @@ class DurableLedger final : public Ledger, public RunObserver {
   void ExpireUploads();
   void ExpireJobs();
   void ExpireVolumes();
+  // What a crash, or the file system, has left of deleted files.
+  absl::Status RemoveFiles(JobStore& store);
+  bool ClockIsBelieved();
 
   const DurableOptions options_;
   JobRunner& runner_;
   const JobCodec& codec_;
-  const FolderLock lock_;
+  FolderLock lock_;
   const BlobStore blobs_;
   DiskQuota quota_;
   std::atomic<bool> admitting_ = true;
@@ -281,6 +299,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   std::vector<std::function<void()>> retries_;
   bool stopping_ = false;
   Time next_clean_up_{};
+  ClockGuard clock_;
 
   Operations operations_;
   GroupCommit loop_;

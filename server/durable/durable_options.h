@@ -22,6 +22,13 @@ struct DurableOptions {
   std::chrono::seconds keep_uploads = std::chrono::hours(24);  // unfinished, since the last byte
   std::chrono::seconds keep_results = std::chrono::hours(24 * 7);  // and their jobs, since the end
   std::chrono::seconds keep_volumes = std::chrono::hours(24);      // since the last use
+  // What no table names may be what a lost table named, so it stays for a while.
+  std::chrono::seconds keep_unknown = std::chrono::hours(24);
+  // Files that belong to another job store: "refuse" to start, or "adopt", go on without it.
+  std::string unknown_data = "refuse";
+  // A clock that leaps ahead further than this, while the server runs or since it last did, is not
+  // believed for an hour: nothing expires.
+  std::chrono::seconds believable_leap = std::chrono::hours(24);
   std::chrono::milliseconds clean_up_interval = std::chrono::minutes(1);
 
   int max_unfinished_jobs = 10'000;  // all tenants together
@@ -32,6 +39,8 @@ struct DurableOptions {
   // Told of every state that a job comes into, once that is on disk. Called on the ledger's thread;
   // must not block.
   std::function<void(const JobRow& job)> on_job_state = [](const JobRow&) {};
+  // Told of what somebody should look at. As on_job_state.
+  std::function<void(const std::string& warning)> on_warning = [](const std::string&) {};
   std::function<Time()> now = [] { return std::chrono::system_clock::now(); };
 };
 

@@ -61,7 +61,8 @@ class Ledger {
   // Needs: `runner` and `codec` outlive the ledger. Blocks; may take as long as reading all
   //        unfinished uploads.
   // Errors: ALREADY_EXISTS when another process owns the directory; FAILED_PRECONDITION for a
-  //         directory of a newer version; RESOURCE_EXHAUSTED; DATA_LOSS for a damaged job store.
+  //         directory of a newer version, and for files that are not those of its job store;
+  //         RESOURCE_EXHAUSTED; DATA_LOSS for a damaged job store.
   static absl::StatusOr<std::unique_ptr<Ledger>> Open(const DurableOptions& options,
                                                       JobRunner& runner, const JobCodec& codec);
   // Stops: running jobs go back to the queue, without an attempt lost; watches end. Waits for what
@@ -136,7 +137,7 @@ class Ledger {
     std::string request_id;  // the same again yields the same job; empty: never the same
     std::string volume;
     std::string options;
-    int priority = 0;        // larger ones first, within the tenant
+    int priority = 0;        // a level is worth half a minute of waiting, within the tenant
     int threads = 0;         // wanted; 0 leaves it to the server
     std::string trace = {};  // for the log; a repeat may have another
     Mode mode = Mode::kCreate;
@@ -180,6 +181,9 @@ class Ledger {
     uint64_t cached = 0;                // jobs since the start that were given a stored result
   };
   virtual Usage usage() const = 0;
+  // Why what is confirmed now could be lost, or what is read be wrong: the tables are damaged or
+  // gone. OK else, and on a full disk.
+  virtual absl::Status Health() const = 0;
 };
 
 // What a caller whose offset was wrong should go on from.

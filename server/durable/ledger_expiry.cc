@@ -7,9 +7,23 @@ namespace bccskel::server {
 
 void DurableLedger::CleanUp() {
   next_clean_up_ = Now() + options_.clean_up_interval;
+  loop_.Post([this](JobStore& store) { return RemoveFiles(store); },
+             [this](const absl::Status&) { loop_.store().Forget().IgnoreError(); },
+             GroupCommit::Room::kReserve);
+  if (!ClockIsBelieved()) return;
   ExpireUploads();
   ExpireJobs();
   ExpireVolumes();
+}
+
+bool DurableLedger::ClockIsBelieved() {
+  const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
+  lock_.Touch(Now());
+  if (!believed) {
+    options_.on_warning(
+        "the clock has leapt ahead by more than a day: nothing expires for an hour");
+  }
+  return believed;
 }
 
 void DurableLedger::ExpireUploads() {
@@ -35,41 +49,59 @@ void DurableLedger::ExpireUploads() {
         }
         return absl::OkStatus();
       },
-      nullptr);
+      nullptr, GroupCommit::Room::kReserve);
 }
 
+// A few at a time: what a full disk keeps in reserve must be enough for that.
 void DurableLedger::ExpireJobs() {
+  constexpr int kMostAtATime = 100;
   const Time oldest = Now() - options_.keep_results;
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [this, oldest, erased](JobStore& store) -> absl::Status {
-        *erased = {};
-        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs, store.JobsEndedBefore(oldest));
-        for (const JobRow& job : jobs) BCCSKEL_RETURN_IF_ERROR(EraseJob(store, job, *erased));
+  const auto more = std::make_shared<bool>(false);
+  Erase(
+      [this, oldest, more](JobStore& store, Erased& erased) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs,
+                                 store.JobsEndedBefore(oldest, kMostAtATime));
+        for (const JobRow& job : jobs) BCCSKEL_RETURN_IF_ERROR(EraseJob(store, job, erased));
+        *more = jobs.size() == kMostAtATime;
         return absl::OkStatus();
       },
-      [this, erased](const absl::Status& status) {
-        if (status.ok()) Apply(*erased);
+      [this, more, token = operations_.Begin()](const absl::Status& status) {
+        if (status.ok() && *more && !stopping_) ExpireJobs();
       });
 }
 
 void DurableLedger::ExpireVolumes() {
   const Time oldest = Now() - options_.keep_volumes;
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [this, oldest, erased](JobStore& store) -> absl::Status {
-        *erased = {};
+  Erase(
+      [this, oldest](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
         for (const VolumeRow& row : volumes) {
           if (row.used >= oldest) continue;
           BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(row.tenant, row.name));
-          if (!user.has_value()) BCCSKEL_RETURN_IF_ERROR(EraseVolume(store, row, *erased));
+          if (!user.has_value()) BCCSKEL_RETURN_IF_ERROR(EraseVolume(store, row, erased));
         }
         return absl::OkStatus();
       },
-      [this, erased](const absl::Status& status) {
-        if (status.ok()) Apply(*erased);
-      });
+      [token = operations_.Begin()](const absl::Status&) {});
+}
+
+absl::Status DurableLedger::RemoveFiles(JobStore& store) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<RemovalRow> removals, store.AllRemovals());
+  for (const RemovalRow& row : removals) {
+    absl::Status removed;
+    if (row.kind == RemovalRow::Kind::kUpload) {
+      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindUpload(row.tenant, row.name));
+      const bool wanted = again.has_value() && again->volume.empty();
+      if (!wanted) removed = blobs_.RemoveUpload(row.tenant, row.name);
+    } else if (row.kind == RemovalRow::Kind::kBlob) {
+      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
+      if (again.empty()) removed = blobs_.RemoveBlob(row.tenant, row.name);
+    } else {
+      removed = blobs_.RemoveResult(row.tenant, row.name);
+    }
+    if (removed.ok()) BCCSKEL_RETURN_IF_ERROR(store.DeleteRemoval(row));
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace bccskel::server

@@ -94,6 +94,8 @@ absl::Status DurableLedger::StoreVolume(JobStore& store, Finishing& finishing) {
   upload.volume = volume.name;
   upload.used = volume.used;
   BCCSKEL_RETURN_IF_ERROR(store.UpdateUpload(upload));
+  BCCSKEL_RETURN_IF_ERROR(
+      store.InsertRemoval({RemovalRow::Kind::kUpload, upload.tenant, upload.name}));
   return upload.job.empty() ? absl::OkStatus() : StoreVolumeOfJob(store, finishing);
 }
 

@@ -77,9 +77,13 @@ struct DurableLedger::Creating {
   std::string tenant;
   NewJob wanted;
   VolumeRow volume;
-  std::string options;       // as they take effect on the volume
-  std::optional<Step> step;  // of a job that is new
+  std::string options;             // as they take effect on the volume
+  std::string unread_key;          // of a stored result that has to be read before it is given
+  bool looked = false;             // for that
+  std::optional<ResultRow> whole;  // that was read
+  std::optional<Step> step;        // of a job that is new
   std::optional<JobInfo> info;
+  Done<JobInfo> done;
 };
 
 JobInfo DurableLedger::PlainInfoOf(const JobRow& row) const {
@@ -129,14 +133,27 @@ void DurableLedger::CreateJob(const std::string& tenant, const NewJob& job, Done
   const auto creating = std::make_shared<Creating>();
   creating->tenant = tenant;
   creating->wanted = job;
+  creating->done = std::move(done);
+  PostJob(creating);
+}
+
+void DurableLedger::PostJob(const std::shared_ptr<Creating>& creating) {
   loop_.Post([this, creating](JobStore& store) { return StoreJob(store, *creating); },
-             [this, creating, done = std::move(done)](absl::Status status) {
-               if (!status.ok()) return done(std::move(status));
+             [this, creating](absl::Status status) {
+               if (!status.ok()) return creating->done(std::move(status));
+               if (!creating->unread_key.empty()) {
+                 return WithWholeResult(creating->tenant, creating->unread_key,
+                                        [this, creating](const std::optional<ResultRow>& result) {
+                                          creating->looked = true;
+                                          creating->whole = result;
+                                          PostJob(creating);
+                                        });
+               }
                if (creating->step.has_value()) {
                  Apply(*creating->step);
                  if (IsTerminal(creating->step->job.state)) ++cached_;
                }
-               done(*std::move(creating->info));
+               creating->done(*std::move(creating->info));
                Schedule();
              });
 }
@@ -144,6 +161,7 @@ void DurableLedger::CreateJob(const std::string& tenant, const NewJob& job, Done
 absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
   const NewJob& wanted = creating.wanted;
   creating.step.reset();
+  creating.unread_key.clear();
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
@@ -181,6 +199,11 @@ absl::Status DurableLedger::CheckJob(JobStore& store, Creating& creating) {
     return WithReason(absl::FailedPreconditionError(volume.status().message()), "VOLUME_MISSING");
   }
   BCCSKEL_RETURN_IF_ERROR(volume.status());
+  if (!blobs_.HasBlob(volume->tenant, volume->blob_digest, volume->size_bytes)) {
+    return WithReason(absl::FailedPreconditionError(absl::StrCat("the bytes of ", volume->name,
+                                                                 " are lost: send them again")),
+                      "VOLUME_MISSING");
+  }
   creating.volume = *volume;
   BCCSKEL_ASSIGN_OR_RETURN(const JobRequest request,
                            codec_.RequestOf(volume->declaration, creating.wanted.options));
@@ -194,12 +217,16 @@ absl::Status DurableLedger::InsertJob(JobStore& store, JobRow job, Creating& cre
   volume.used = Now();
   BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
   if (!volume.volume_digest.empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const std::optional<ResultRow> result,
-        store.FindResultOf(job.tenant, ResultKey(volume.volume_digest, job.options)));
+    const std::string key = ResultKey(volume.volume_digest, job.options);
+    BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResultOf(job.tenant, key));
     if (result.has_value()) {
-      job.state = JobState::kSucceeded;
-      job.result = result->number;
+      const bool whole = creating.whole.has_value() && creating.whole->file == result->file;
+      if (!whole && !creating.looked) {
+        creating.unread_key = key;
+        return absl::OkStatus();
+      }
+      if (whole) job.state = JobState::kSucceeded;
+      if (whole) job.result = result->number;
     }
   }
   BCCSKEL_ASSIGN_OR_RETURN(EventRow event, journal_.Insert(store, job));
@@ -242,22 +269,18 @@ void DurableLedger::ListJobs(const std::string& tenant, const JobQuery& query, D
 
 void DurableLedger::CancelJob(const std::string& tenant, const std::string& job,
                               Done<JobInfo> done) {
-  const auto erased = std::make_shared<Erased>();
   const auto info = std::make_shared<JobInfo>();
-  loop_.Post(
-      [this, tenant, job, erased, info](JobStore& store) -> absl::Status {
-        *erased = {};
+  Erase(
+      [this, tenant, job, info](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
-        BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, *erased));
+        BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, erased));
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, FindJobRow(store, tenant, job));
         BCCSKEL_ASSIGN_OR_RETURN(*info, InfoOf(store, now));
         return absl::OkStatus();
       },
-      [this, erased, info, done = Track(std::move(done))](absl::Status status) {
+      [info, done = Track(std::move(done))](absl::Status status) {
         if (!status.ok()) return done(std::move(status));
-        Apply(*erased);
         done(std::move(*info));
-        Schedule();
       });
 }
 
@@ -276,18 +299,14 @@ absl::Status DurableLedger::CancelIfUnfinished(JobStore& store, const JobRow& jo
 }
 
 void DurableLedger::DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) {
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [this, tenant, job, erased](JobStore& store) -> absl::Status {
-        *erased = {};
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
-        return EraseJob(store, row, *erased);
+  Erase(
+      [this, tenant, job](JobStore& store, Erased& erased) -> absl::Status {
+        const absl::StatusOr<JobRow> row = FindJobRow(store, tenant, job);
+        if (absl::IsDataLoss(row.status())) return store.DeleteDamagedJob(tenant, job);
+        BCCSKEL_RETURN_IF_ERROR(row.status());
+        return EraseJob(store, *row, erased);
       },
-      [this, erased, done = Track(std::move(done))](absl::Status status) {
-        if (status.ok()) Apply(*erased);
-        done(std::move(status));
-        Schedule();
-      });
+      Track(std::move(done)));
 }
 
 absl::Status DurableLedger::EraseJob(JobStore& store, const JobRow& job, Erased& erased) {
@@ -341,13 +360,20 @@ void DurableLedger::OpenResult(const std::string& tenant, const std::string& job
           return WithReason(absl::FailedPreconditionError(absl::StrCat(job, " has no result")),
                             "JOB_NOT_SUCCEEDED");
         }
+        if (result->file.empty()) {
+          return absl::DataLossError(absl::StrCat(
+              "the result of ", job, " was damaged: the same job, created again, heals it"));
+        }
         *found = *result;
         return absl::OkStatus();
       },
       [this, found, first_record, done](absl::Status status) {
         if (!status.ok()) return done(std::move(status));
         files_.Post({.tenant = found->tenant}, [this, found, first_record, done] {
-          done(OpenStoredResult(*found, first_record, blobs_, files_));
+          auto reader = OpenStoredResult(*found, first_record, blobs_, files_);
+          if (!absl::IsDataLoss(reader.status())) return done(std::move(reader));
+          // The next job that wants the same makes it anew, also for this one.
+          DropResult(*found, [done, status = reader.status()]() mutable { done(std::move(status)); });
         });
       });
 }

@@ -26,26 +26,58 @@ void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
   if (found == runs_.end() || found->second.ending) return;
   ActiveRun& active = found->second;
   active.volume_digest = digest;
-  const auto result = std::make_shared<int64_t>(0);
+  const std::string key = ResultKey(digest, active.options);
   loop_.Post(
-      [this, tenant = active.tenant, volume = active.volume, options = active.options, digest,
-       result](JobStore& store) -> absl::Status {
-        *result = 0;
+      [tenant = active.tenant, volume = active.volume, digest](JobStore& store) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.FindVolume(tenant, volume));
         if (row.has_value() && row->volume_digest != digest) {
           row->volume_digest = digest;
           BCCSKEL_RETURN_IF_ERROR(store.PutVolume(*row));
         }
-        BCCSKEL_ASSIGN_OR_RETURN(const auto stored,
-                                 store.FindResultOf(tenant, ResultKey(digest, options)));
-        if (stored.has_value()) *result = stored->number;
         return absl::OkStatus();
       },
-      [this, run, result](const absl::Status& status) {
-        // Without the answer the run just goes on.
-        if (status.ok() && *result != 0) return GiveStoredResult(run, *result);
-        JoinEqual(run);
+      [this, run, tenant = active.tenant, key](const absl::Status&) {
+        WithWholeResult(tenant, key, [this, run](const std::optional<ResultRow>& result) {
+          if (result.has_value()) return GiveStoredResult(run, result->number);
+          JoinEqual(run);
+        });
       });
+}
+
+void DurableLedger::WithWholeResult(
+    const std::string& tenant, const std::string& key,
+    std::function<void(const std::optional<ResultRow>& result)> then) {
+  const auto stored = loop_.store().FindResultOf(tenant, key);
+  if (!stored.ok() || !stored->has_value()) return then(std::nullopt);
+  files_.Post({.tenant = tenant}, [this, row = **stored, then = std::move(then),
+                                   token = operations_.Begin()]() mutable {
+    const absl::Status whole = blobs_.OpenResult(row.tenant, row.file, row.file_digest).status();
+    if (whole.ok()) return loop_.Post([row, then = std::move(then), token] { then(row); });
+    if (absl::IsUnavailable(whole)) {  // it cannot be read just now
+      return loop_.Post([then = std::move(then), token] { then(std::nullopt); });
+    }
+    DropResult(row, [then = std::move(then), token] { then(std::nullopt); });
+  });
+}
+
+void DurableLedger::DropResult(const ResultRow& row, std::function<void()> then) {
+  const auto dropped = std::make_shared<bool>(false);
+  loop_.Post(
+      [row, dropped](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const auto now, store.FindResult(row.number));
+        *dropped = now.has_value() && now->file == row.file;
+        if (!*dropped) return absl::OkStatus();  // somebody else was here first
+        BCCSKEL_RETURN_IF_ERROR(store.DropResult(row));
+        return store.InsertRemoval({RemovalRow::Kind::kResult, row.tenant, row.file});
+      },
+      [this, row, dropped, then = std::move(then)](const absl::Status& status) {
+        if (status.ok() && *dropped) {
+          options_.on_warning("a stored result is damaged: equal jobs make it anew");
+          RemoveResult(row, blobs_, quota_);
+        }
+        then();
+      },
+      GroupCommit::Room::kReserve);
 }
 
 void DurableLedger::GiveStoredResult(Run* run, int64_t result) {
@@ -137,16 +169,22 @@ void DurableLedger::StoreResult(Run* run, const ResultRow& row) {
   const auto storing = std::make_shared<Storing>();
   storing->run = run;
   storing->row = row;
-  loop_.Post([this, storing](JobStore& store) { return StoreResultOf(store, *storing); },
-             [this, storing, row](const absl::Status& status) {
-               if (!status.ok()) {
-                 return RetryLater([this, run = storing->run, row] { StoreResult(run, row); });
-               }
-               if (storing->needless) RemoveResult(row, blobs_, quota_);
-               for (const Step& step : storing->steps) Apply(step);
-               ForgetRun(storing->run);
-               Schedule();
-             });
+  loop_.Post(
+      [this, storing](JobStore& store) { return StoreResultOf(store, *storing); },
+      [this, storing, row](const absl::Status& status) {
+        if (!status.ok()) {
+          return RetryLater([this, run = storing->run, row] { StoreResult(run, row); });
+        }
+        if (storing->needless) {
+          RemoveResult(row, blobs_, quota_);
+        } else {
+          blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();  // else at the next start
+        }
+        for (const Step& step : storing->steps) Apply(step);
+        ForgetRun(storing->run);
+        Schedule();
+      },
+      GroupCommit::Room::kReserve);
 }
 
 absl::Status DurableLedger::StoreResultOf(JobStore& store, Storing& storing) {

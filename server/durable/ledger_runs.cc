@@ -57,11 +57,20 @@ DurableLedger::Begun DurableLedger::BeginJob(const JobRow& job) {
     return Begun::kYes;
   }
   if (!(*volume)->volume_digest.empty()) {
-    const auto result =
-        store.FindResultOf(job.tenant, ResultKey((*volume)->volume_digest, job.options));
-    if (result.ok() && result->has_value()) {
-      ++cached_;
-      EnterState({job.number}, JobState::kSucceeded, absl::OkStatus(), (*result)->number, nullptr);
+    const std::string key = ResultKey((*volume)->volume_digest, job.options);
+    const auto stored = store.FindResultOf(job.tenant, key);
+    if (stored.ok() && stored->has_value()) {
+      WithWholeResult(job.tenant, key, [this, job](const std::optional<ResultRow>& result) {
+        const auto active = active_.find(job.number);
+        if (active == active_.end()) return;
+        if (!result.has_value()) {
+          queue_.Add(active->second.row);
+          retry_wanted_ = true;
+          return;
+        }
+        ++cached_;
+        EnterState({job.number}, JobState::kSucceeded, absl::OkStatus(), result->number, nullptr);
+      });
       return Begun::kYes;
     }
   }
@@ -187,7 +196,8 @@ void DurableLedger::EnterState(std::set<int64_t> jobs, JobState state, const abs
         for (const Step& step : *steps) Apply(step);
         if (then) then();
         Schedule();
-      });
+      },
+      GroupCommit::Room::kReserve);
 }
 
 void DurableLedger::RetryLater(std::function<void()> task) {

@@ -222,17 +222,12 @@ void DurableLedger::DeleteUpload(const std::string& tenant, const std::string& u
 
 void DurableLedger::EndUpload(const std::string& tenant, const std::string& upload, JobState state,
                               const absl::Status& error, std::function<void(absl::Status)> then) {
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [this, tenant, upload, state, error, erased](JobStore& store) -> absl::Status {
-        *erased = {};
+  Erase(
+      [this, tenant, upload, state, error](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
-        return EraseUpload(store, row, state, error, *erased);
+        return EraseUpload(store, row, state, error, erased);
       },
-      [this, erased, then = std::move(then)](absl::Status status) {
-        if (status.ok()) Apply(*erased);
-        then(std::move(status));
-      });
+      std::move(then));
 }
 
 absl::Status DurableLedger::EraseUpload(JobStore& store, const UploadRow& row, JobState state,

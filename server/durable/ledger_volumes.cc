@@ -35,6 +35,7 @@ void DurableLedger::FindVolumes(const std::string& tenant, const std::vector<std
           BCCSKEL_ASSIGN_OR_RETURN(std::vector<VolumeRow> rows,
                                    store.FindVolumesOf(tenant, digest));
           for (VolumeRow& row : rows) {
+            if (!blobs_.HasBlob(row.tenant, row.blob_digest, row.size_bytes)) continue;
             row.used = Now();
             BCCSKEL_RETURN_IF_ERROR(store.PutVolume(row));
             found.push_back(InfoOf(row));
@@ -57,21 +58,16 @@ void DurableLedger::GetVolume(const std::string& tenant, const std::string& volu
 
 void DurableLedger::DeleteVolume(const std::string& tenant, const std::string& volume,
                                  DoneStatus done) {
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [this, tenant, volume, erased](JobStore& store) -> absl::Status {
-        *erased = {};
+  Erase(
+      [this, tenant, volume](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, FindVolumeRow(store, tenant, volume));
         BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(tenant, volume));
-        if (!user.has_value()) return EraseVolume(store, row, *erased);
+        if (!user.has_value()) return EraseVolume(store, row, erased);
         return WithFault(absl::FailedPreconditionError(
                              absl::StrCat(*user, " still needs ", volume, ": cancel it first")),
                          {.reason = "VOLUME_IN_USE", .key = "job", .value = *user});
       },
-      [this, erased, done = Track(std::move(done))](absl::Status status) {
-        if (status.ok()) Apply(*erased);
-        done(std::move(status));
-      });
+      Track(std::move(done)));
 }
 
 absl::Status DurableLedger::EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased) {

@@ -1,22 +1,28 @@
 #include "server/durable/run_queue.h"
 
+#include <chrono>
 #include <limits>
 #include <utility>
 
 namespace bccskel::server {
 namespace {
 
-constexpr int64_t kPlacesBackPerCrash = 1000;
+using std::chrono::minutes, std::chrono::seconds;
+
+// As in jobs/fair_queue.h.
+constexpr seconds kWorthOfPriority(30);
+constexpr minutes kCostOfCrash(10);
 
 }  // namespace
 
 RunQueue::Place RunQueue::PlaceOf(const JobRow& job) {
-  return {-job.priority, job.number + kPlacesBackPerCrash * job.crashes, job.number,
-          job.crashes > 0};
+  const bool suspect = job.crashes > 0;
+  const Time came = suspect ? job.started.value_or(job.created) : job.created;
+  return {came - job.priority * kWorthOfPriority + job.crashes * kCostOfCrash, job.number, suspect};
 }
 
 std::optional<int64_t> RunQueue::FirstOf(const Tenant& tenant, Suspects suspects) {
-  for (const auto& [priority, rank, number, suspect] : tenant.places) {
+  for (const auto& [rank, number, suspect] : tenant.places) {
     if (!suspect || suspects == Suspects::kWelcome) return number;
   }
   return std::nullopt;

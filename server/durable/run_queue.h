@@ -13,9 +13,9 @@
 namespace bccskel::server {
 
 // Jobs that wait to be run. The turn is the tenant's with the fewest jobs at work; among those the
-// one's that had no turn for the longest time. Within a tenant higher priorities come first, then
-// older jobs, but a job that ran while the server crashed stands back behind a thousand others: it
-// may be the reason, and is a suspect.
+// one's that had no turn for the longest time. Within a tenant older jobs come first, where a level
+// of priority is worth half a minute of waiting. A job that ran while the server crashed may be the
+// reason: it is a suspect, and stands back as if it had come ten minutes after it began to run.
 // Threads: one at a time.
 class RunQueue {
  public:
@@ -31,7 +31,7 @@ class RunQueue {
   int size() const { return size_; }
 
  private:
-  using Place = std::tuple<int, int64_t, int64_t, bool>;  // less is earlier
+  using Place = std::tuple<Time, int64_t, bool>;  // less is earlier
   struct Tenant {
     std::set<Place> places;
     uint64_t last_turn = 0;

@@ -27,7 +27,7 @@ void GiveWayToOtherThreads() {
 
 ComputeQueue::ComputeQueue(int threads, int max_running, TenantTable tenants,
                            std::function<Clock::time_point()> now)
-    : threads_(threads), now_(std::move(now)), queue_(std::move(tenants)), free_threads_(threads) {
+    : threads_(threads), now_(std::move(now)), queue_(std::move(tenants)) {
   for (int n = 0; n < std::min(threads, max_running); ++n) {
     runners_.emplace_back([this](std::stop_token stop) { Serve(stop); });
   }
@@ -43,6 +43,7 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
     std::lock_guard lock(mutex_);
     entry = queue_.Push(claim.origin, now_(),
                         {claim.origin.tenant, claim.most_threads, claim.bricks, std::move(work)});
+    CountCrowd();
     if (claim.most_threads == 1) least_waiting_ = std::min<uint64_t>(least_waiting_, claim.bricks);
   }
   wake_.notify_one();
@@ -66,25 +67,40 @@ ComputeQueue::Usage ComputeQueue::usage() const {
   std::lock_guard lock(mutex_);
   return {.waiting = static_cast<int>(queue_.size()),
           .running = running_,
-          .busy_threads = threads_ - free_threads_};
+          .busy_threads = std::min(given_threads_, threads_)};
 }
 
 void ComputeQueue::Serve(std::stop_token stop) {
   GiveWayToOtherThreads();
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [this] { return free_threads_ > 0 && queue_.Has(); })) {
+  while (wake_.wait(lock, stop, [this] { return queue_.Has(); })) {
     if (stop.stop_requested()) return;
     Taken next = *queue_.Take();
-    const int threads = std::min(next.item.most_threads, free_threads_);
-    free_threads_ -= threads;
+    const int threads = ThreadsFor(next.item);
+    given_threads_ += threads;
     ++running_;
     lock.unlock();
     Run(std::move(next), threads);
     lock.lock();
     --running_;
-    free_threads_ += threads;
+    given_threads_ -= threads;
     if (!queue_.empty()) wake_.notify_all();
   }
+}
+
+void ComputeQueue::CountCrowd() {
+  const int together = running_ + static_cast<int>(queue_.size());
+  const Clock::time_point now = now_();
+  if (together < crowd_ && now < crowd_until_) return;
+  crowd_ = together;
+  crowd_until_ = now + kLately;
+}
+
+// Of a job that has just been taken from the queue.
+int ComputeQueue::ThreadsFor(const Waiting& job) const {
+  const int crowd = now_() < crowd_until_ ? crowd_ : 0;
+  const int sharing = std::max(1 + static_cast<int>(queue_.size()), crowd - running_);
+  return std::max(1, std::min(job.most_threads, (threads_ - given_threads_) / sharing));
 }
 
 void ComputeQueue::Run(Taken taken, int threads) {

@@ -18,9 +18,11 @@
 
 namespace bccskel::server {
 
-// Hands out a fixed number of threads to jobs, in the order of a FairQueue. A job gets as many of
-// those that are free as it can use, at least one: a large job alone has the whole machine, and
-// small jobs run side by side. Results do not depend on the number of threads.
+// Hands out a fixed number of threads to jobs, in the order of a FairQueue. A job alone gets as
+// many as it can use. Where several came lately, large or small, they share those that are free:
+// one thread each does more for all than all threads for one after the other. A job that comes
+// while one has all threads starts beside it on one thread; the team of the other shrinks when it
+// is kept waiting (exec::Context::patience). Results do not depend on the number of threads.
 //
 // A job at work gives way to small ones that wait: to those that take one thread and have at most
 // half of its bricks. They run on its thread while it rests; afterwards it gives way to their
@@ -76,11 +78,16 @@ class ComputeQueue {
   using Taken = FairQueue<Waiting>::Taken;
 
   static constexpr uint64_t kNoBricks = UINT64_MAX;
+  // Callers that call again and again are between two calls for less.
+  static constexpr std::chrono::milliseconds kLately{100};
 
   void Serve(std::stop_token stop);
   void Run(Taken taken, int threads);
   std::optional<Taken> TakeSmaller(const Turn& turn);
-  void FindLeastWaiting();  // needs: mutex_ held
+  // Needs of these: mutex_ held.
+  void FindLeastWaiting();
+  void CountCrowd();
+  int ThreadsFor(const Waiting& job) const;
 
   const int threads_;
   const std::function<Clock::time_point()> now_;
@@ -89,8 +96,10 @@ class ComputeQueue {
   FairQueue<Waiting> queue_;  // guarded by mutex_
   // No job in queue_ that takes one thread has fewer bricks. Changed with mutex_ held.
   std::atomic<uint64_t> least_waiting_ = kNoBricks;
-  int running_ = 0;                    // guarded by mutex_
-  int free_threads_;                   // guarded by mutex_
+  int running_ = 0;        // guarded by mutex_, as are all below
+  int given_threads_ = 0;  // to running jobs; may be more than there are
+  int crowd_ = 0;          // most jobs that waited or ran together lately
+  Clock::time_point crowd_until_;
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
 };
 

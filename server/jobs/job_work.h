@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
+#include "core/exec/memory_budget.h"
 #include "server/admission/admission.h"
 #include "server/jobs/job_runner.h"
 
@@ -38,9 +40,12 @@ class JobWork {
   virtual bool MayRun() const { return true; }
   enum class Turn { kDone, kMore };
   // One turn at computing, on the context's threads. Between turns other jobs have theirs.
-  // Needs: MayRun(). `wake` may be called from any thread at any time, even after the end.
-  // Errors: as the core's.
-  virtual absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) = 0;
+  // Needs: MayRun(). `wake` may be called from any thread at any time, even after the end. What is
+  // taken of `memory` beside BytesToRun() may be kept until End().
+  // Errors: as the core's; the budget's.
+  virtual absl::StatusOr<Turn> Run(exec::Context context,
+                                   const std::shared_ptr<exec::MemoryBudget>& memory,
+                                   const std::function<void()>& wake) = 0;
 
   // Called once, last: gives back the memory that is no longer needed and tells the listener.
   virtual void End(const absl::Status& status, const JobTimes& times, Ticket ticket) = 0;

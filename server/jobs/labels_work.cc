@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
+#include "core/labels/skeletonize_labels_within.h"
 #include "server/admission/demand.h"
 #include "server/admission/saturating.h"
 
@@ -45,7 +46,8 @@ absl::Status LabelsWork::Finish(const std::optional<Sha256Digest>& expected,
 void LabelsWork::Plan() {
   uint64_t all = 0, largest = 0;
   for (const LabeledObject& object : labels_.objects) {
-    const uint64_t bricks = MostBricksOf(object, request_.options.preparing.cavities);
+    const uint64_t bricks =
+        MostBricksOf(object, request_.header.points, request_.options.preparing.cavities);
     const uint64_t demand = BytesToComputeLabel(bricks);
     demands_.push_back(demand);
     bricks_ += bricks;
@@ -84,6 +86,7 @@ LabeledObjects LabelsWork::TakeTurn() {
 }
 
 absl::StatusOr<JobWork::Turn> LabelsWork::Run(exec::Context context,
+                                              const std::shared_ptr<exec::MemoryBudget>& memory,
                                               const std::function<void()>& wake) {
   if (next_ == 0) started_ = Clock::now();
   result_.threads = std::max(result_.threads, context.threads());
@@ -92,31 +95,39 @@ absl::StatusOr<JobWork::Turn> LabelsWork::Run(exec::Context context,
   const LabeledObjects turn = TakeTurn();
   uint64_t turn_bytes = 0;
   for (const LabeledObject& object : turn.objects) turn_bytes += BytesOf(object);
-  const LabelsOptions options = {
-      .mask = {.adjacency = request_.header.adjacency, .max_bricks = limits_.max_bricks},
-      .skeleton = request_.options};
-  BCCSKEL_RETURN_IF_ERROR(SkeletonizeLabels(
-      turn, options,
-      [&](LabelSkeleton&& skeleton) {
-        Deliver(std::move(skeleton), wake);
-        return absl::OkStatus();
-      },
+  const LabelsOptions options = {.mask = {.adjacency = request_.header.adjacency,
+                                          .points = request_.header.points,
+                                          .max_bricks = limits_.max_bricks},
+                                 .skeleton = request_.options};
+  BCCSKEL_RETURN_IF_ERROR(SkeletonizeLabelsWithin(
+      *memory, turn, options,
+      [&](LabelSkeleton&& skeleton) { return Deliver(std::move(skeleton), memory, wake); },
       context));
   runs_bytes_ -= turn_bytes;
   return next_ == demands_.size() ? Turn::kDone : Turn::kMore;
 }
 
-void LabelsWork::Deliver(LabelSkeleton skeleton, const std::function<void()>& wake) {
+// A graph that takes more than was reserved for its label takes the rest of the budget, until it is
+// let go of.
+absl::Status LabelsWork::Deliver(LabelSkeleton skeleton,
+                                 const std::shared_ptr<exec::MemoryBudget>& memory,
+                                 const std::function<void()>& wake) {
   skeleton.result.thin = Volume();
+  const uint64_t bytes = kResultBytes + GraphBytes(skeleton.result.graph);
+  const uint64_t excess = bytes - std::min(bytes, demands_[result_.labels]);
+  BCCSKEL_RETURN_IF_ERROR(memory->Take(excess, "results that are not read yet"));
   ++result_.labels;
   result_.voxels += skeleton.voxels;
   result_.object_points += skeleton.result.object_points;
   result_.skeleton_points += skeleton.result.skeleton_points;
-  const uint64_t bytes = kResultBytes + GraphBytes(skeleton.result.graph);
   listener_->OnLabel({.skeleton = std::move(skeleton),
                       .threads = result_.threads,
-                      .memory = unread_->Hold(bytes, wake)});
+                      .memory = unread_->Hold(bytes, [memory, excess, wake] {
+                        memory->GiveBack(excess);
+                        wake();
+                      })});
   Report();
+  return absl::OkStatus();
 }
 
 void LabelsWork::Report() const {

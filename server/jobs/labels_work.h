@@ -27,7 +27,8 @@ class LabelsWork final : public JobWork {
   int MostThreads(int threads) const override;
   uint64_t Bricks() const override { return bricks_; }
   bool MayRun() const override;
-  absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
+  absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
+                           const std::function<void()>& wake) override;
   void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
 
  private:
@@ -37,7 +38,8 @@ class LabelsWork final : public JobWork {
   // Memory for computing that no result occupies.
   uint64_t Room() const;
   LabeledObjects TakeTurn();
-  void Deliver(LabelSkeleton skeleton, const std::function<void()>& wake);
+  absl::Status Deliver(LabelSkeleton skeleton, const std::shared_ptr<exec::MemoryBudget>& memory,
+                       const std::function<void()>& wake);
   void Report() const;
 
   const LabelsRequest request_;

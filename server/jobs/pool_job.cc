@@ -1,5 +1,7 @@
 #include "server/jobs/pool_job.h"
 
+#include <malloc.h>
+
 #include <utility>
 
 #include "core/exec/status_macros.h"
@@ -7,13 +9,20 @@
 #include "server/jobs/out_of_memory.h"
 
 namespace bccskel::server {
+namespace {
+
+// What stages take beside the bricks are many small blocks. The allocator keeps them for its
+// thread; the next job may run on another one. Giving back 100 MiB takes some 10 ms.
+constexpr uint64_t kWorthTrimming = uint64_t{32} << 20;
+
+}  // namespace
 
 PoolJob::PoolJob(Facts facts, std::unique_ptr<JobWork> work, Ticket ticket,
                  std::shared_ptr<UploadListener> listener, const Threads& threads)
     : facts_(std::move(facts)),
       threads_(threads),
       work_(std::move(work)),
-      ticket_(std::move(ticket)),
+      memory_(std::make_shared<JobMemory>(std::move(ticket))),
       listener_(std::move(listener)) {}
 
 void PoolJob::Append(std::string bytes) {
@@ -81,7 +90,7 @@ void PoolJob::Decode(const std::string& bytes) {
 void PoolJob::DecodeRest(const std::optional<Sha256Digest>& expected) {
   absl::Status status = OnDecoderClock(
       [&](const exec::Context& context) { return work_->Finish(expected, context); });
-  if (status.ok()) status = ticket_.ResizeTo(work_->BytesToRun());
+  if (status.ok()) status = memory_->SetBase(work_->BytesToRun());
   if (!status.ok()) return End(std::move(status));
   WaitForTurn();
 }
@@ -126,7 +135,8 @@ void PoolJob::Run(ComputeQueue::Turn& at_work) {
       OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(at_work); });
   times_.computed += Clock::now() - start;
   if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(turn.status());
-  ticket_.ShrinkTo(work_->BytesToRun());
+  const absl::Status base = memory_->SetBase(work_->BytesToRun());  // not more than before
+  if (!base.ok()) return End(base);
   WaitForTurn();
 }
 
@@ -135,7 +145,7 @@ absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(ComputeQueue::Turn& turn) {
   exec::Context context = StopContext();
   context.team = &team;
   context.interlude = [&turn] { turn.GiveWay(); };
-  return work_->Run(std::move(context), [job = weak_from_this()] {
+  return work_->Run(std::move(context), memory_, [job = weak_from_this()] {
     if (const auto self = job.lock()) self->Wake();
   });
 }
@@ -148,7 +158,9 @@ void PoolJob::End(absl::Status status) {
     // The last stage may not have seen it in time.
     if (stop_.stop_requested() && status.ok()) status = StopContext().StopStatus();
   }
-  work_->End(status, times_, std::move(ticket_));
+  const bool was_large = memory_->taken() > kWorthTrimming;
+  work_->End(status, times_, memory_->Close());
+  if (was_large) malloc_trim(0);
 }
 
 }  // namespace bccskel::server

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/jobs/compute_queue.h"
+#include "server/jobs/job_memory.h"
 #include "server/jobs/job_runner.h"
 #include "server/jobs/job_work.h"
 #include "server/jobs/task_threads.h"
@@ -74,7 +75,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
 
   // Owned by the one task that exists.
   const std::unique_ptr<JobWork> work_;
-  Ticket ticket_;
+  const std::shared_ptr<JobMemory> memory_;
   JobTimes times_;
 
   std::mutex mutex_;

@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_encoder.h"
+#include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/fill_cavities.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
@@ -70,8 +71,9 @@ OnShellPoints SkeletonizeWork::ShellPointsTeller() {
   };
 }
 
-absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
-                                                   const std::function<void()>&) {
+absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(
+    exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
+    const std::function<void()>&) {
   const auto start = exec::Context::Clock::now();
   context.on_shell = [this, start](const exec::ShellProgress& progress) {
     listener_->OnShell(progress, exec::Context::Clock::now() - start);
@@ -79,8 +81,8 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(exec::Context context,
   SkeletonizeOptions options = request_.options;
   // Denoising may close a cavity that was open when the memory was reserved.
   options.preparing.max_bricks = 2 * bricks_;
-  BCCSKEL_ASSIGN_OR_RETURN(result_.skeleton,
-                           Skeletonize(*volume_, options, context, ShellPointsTeller()));
+  BCCSKEL_ASSIGN_OR_RETURN(result_.skeleton, SkeletonizeWithin(*memory, *volume_, options, context,
+                                                               ShellPointsTeller()));
   BCCSKEL_RETURN_IF_ERROR(CheckShellPoints());
   result_.skeleton.certificate.mask = mask_topology_;
   if (request_.thin_volume.has_value()) {

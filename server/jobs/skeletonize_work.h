@@ -23,7 +23,8 @@ class SkeletonizeWork final : public JobWork {
   uint64_t BytesToRun() const override;
   int MostThreads(int threads) const override;
   uint64_t Bricks() const override { return volume_->brick_count(); }
-  absl::StatusOr<Turn> Run(exec::Context context, const std::function<void()>& wake) override;
+  absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
+                           const std::function<void()>& wake) override;
   void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
 
  private:

@@ -1,16 +1,26 @@
 #include "server/logging/json_log.h"
 
+#include <poll.h>
 #include <spdlog/async.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <climits>
 #include <cmath>
 
 namespace bccskel::server {
 namespace {
 
 constexpr size_t kQueuedLines = 8192;
+constexpr size_t kMostTextBytes = 4096;  // of one field: the rest is cut off
+
+// Lines that were dropped since the process began.
+std::atomic<uint64_t> dropped_lines = 0;
 
 // Of the Logging that lives now.
 std::atomic<spdlog::logger*> current_logger = nullptr;
@@ -45,11 +55,68 @@ size_t SequenceLength(std::string_view text) {
 }
 
 std::string JsonValue(const LogField& field) {
-  if (const auto* text = std::get_if<std::string>(&field.value)) return JsonString(*text);
+  if (const auto* text = std::get_if<std::string>(&field.value)) {
+    return JsonString(std::string_view(*text).substr(0, kMostTextBytes));
+  }
   if (const auto* whole = std::get_if<int64_t>(&field.value)) return fmt::format("{}", *whole);
   const double real = std::get<double>(field.value);
   return std::isfinite(real) ? fmt::format("{}", real) : "null";
 }
+
+// Standard error, written by one thread. A pipe that nobody reads holds that thread up, until it is
+// to stop: then a second later what is left is dropped.
+class StandardError final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+ public:
+  void StopSoon() { end_ = Clock::now() + std::chrono::seconds(1); }
+  // The queue of the thread that writes here, which knows what it has dropped.
+  void Watch(spdlog::details::thread_pool& queue) { queue_ = &queue; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    Count();
+    if (dropped_lines > told_) {
+      const std::string text = fmt::format("\"event\":\"log lines dropped\",\"lines\":{}",
+                                           dropped_lines - std::exchange(told_, dropped_lines));
+      formatter_->format({message.time, {}, {}, spdlog::level::warn, text}, line);
+    }
+    formatter_->format(message, line);
+    Write({line.data(), line.size()});
+  }
+  void flush_() override {}
+
+  void Count() { dropped_lines = lost_ + queue_->overrun_counter(); }
+
+  void Write(std::string_view text) {
+    constexpr int kLookMs = 50;
+    while (!text.empty()) {
+      pollfd ready = {.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+      const bool over = Clock::now() >= end_.load();
+      const int found = poll(&ready, 1, over ? 0 : kLookMs);
+      if (found <= 0 && !over) {
+        Count();
+        continue;
+      }
+      // A pipe that says that it is ready takes so much at once.
+      const ssize_t put =
+          found <= 0 ? -1
+                     : write(STDERR_FILENO, text.data(), std::min<size_t>(text.size(), PIPE_BUF));
+      if (put < 0 && found > 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      if (put < 0) {
+        ++lost_;
+        return Count();
+      }
+      text.remove_prefix(static_cast<size_t>(put));
+    }
+  }
+
+  spdlog::details::thread_pool* queue_ = nullptr;  // lives while its thread writes here
+  uint64_t lost_ = 0;                              // lines that could not be written
+  uint64_t told_ = 0;                              // of all that were dropped
+  std::atomic<Clock::time_point> end_ = Clock::time_point::max();
+};
 
 }  // namespace
 
@@ -58,16 +125,19 @@ class Logging::Writer {
   explicit Writer(const std::string& level)
       : thread_(std::make_shared<spdlog::details::thread_pool>(kQueuedLines, 1)),
         logger_(std::make_shared<spdlog::async_logger>(
-            "bccskel-server", std::make_shared<spdlog::sinks::stderr_sink_mt>(), thread_,
-            spdlog::async_overflow_policy::overrun_oldest)) {
+            "bccskel-server", stderr_, thread_, spdlog::async_overflow_policy::overrun_oldest)) {
+    stderr_->Watch(*thread_);
     logger_->set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l",%v})",
                          spdlog::pattern_time_type::utc);
     logger_->set_level(spdlog::level::from_str(level));
+    logger_->set_error_handler([](const std::string&) {});
   }
+  ~Writer() { stderr_->StopSoon(); }
 
   spdlog::logger& logger() { return *logger_; }
 
  private:
+  const std::shared_ptr<StandardError> stderr_ = std::make_shared<StandardError>();
   std::shared_ptr<spdlog::details::thread_pool> thread_;  // its end writes what is queued
   std::shared_ptr<spdlog::async_logger> logger_;
 };
@@ -88,6 +158,8 @@ void Log(LogLevel level, std::string_view event, std::initializer_list<LogField>
   }
   logger->log(spdlog_level, "{}", line);
 }
+
+uint64_t DroppedLogLines() { return dropped_lines; }
 
 std::string JsonString(std::string_view text) {
   std::string json = "\"";

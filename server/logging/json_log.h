@@ -21,8 +21,9 @@ struct LogField {
 };
 
 // While it lives, lines are written, by a thread of its own: nobody who logs ever waits for a slow
-// reader of standard error. Of lines that come faster than they are read, the oldest are dropped.
-// There is one at a time; without it nothing is logged. Its end writes what is left.
+// reader of standard error. Of lines that come faster than they are read, the oldest are dropped;
+// an event "log lines dropped" says how many. There is one at a time; without it nothing is logged.
+// Its end writes what is left, for a second where nobody reads it.
 class Logging {
  public:
   // `level` as on the command line: trace, debug, info, warning, error, off.
@@ -37,6 +38,9 @@ class Logging {
 };
 
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
+
+// Since the process began.
+uint64_t DroppedLogLines();
 
 // A JSON string with its quotes. Bytes that are not UTF-8 are replaced.
 std::string JsonString(std::string_view text);

@@ -1,5 +1,7 @@
 #include "server/metrics/call_meter.h"
 
+#include <google/protobuf/descriptor.h>
+
 #include <chrono>
 
 #include "absl/status/status.h"
@@ -39,6 +41,14 @@ class Meter : public grpc::experimental::Interceptor {
 grpc::experimental::Interceptor* CallMeter::CreateServerInterceptor(
     grpc::experimental::ServerRpcInfo* info) {
   return new Meter(metrics_, info->method());
+}
+
+void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {
+  const auto* const found =
+      google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(service);
+  for (int n = 0; found != nullptr && n < found->method_count(); ++n) {
+    metrics.ExpectCalls("/" + service + "/" + found->method(n)->name());
+  }
 }
 
 std::string CodeName(const grpc::Status& status) {

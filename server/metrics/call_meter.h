@@ -22,6 +22,9 @@ class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
   ServerMetrics& metrics_;
 };
 
+// Counts begin at 0 for each method of the service.
+void ExpectCallsOf(const std::string& service, ServerMetrics& metrics);
+
 // "OK", "NOT_FOUND", ...
 std::string CodeName(const grpc::Status& status);
 // Of the ErrorInfo in the status's details; empty where there is none.

@@ -29,6 +29,18 @@ const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.0025, 0.005, 0.01
                                               0.05,   0.1,   0.25,   0.5,   1,    2.5,
                                               5,      10,    30,     60,    300,  1800};
 
+// Series that there are before anything was counted: an alert on the increase of a counter does not
+// see that it was born with 1.
+struct Outcome {
+  const char* code;
+  const char* reason;
+};
+constexpr Outcome kSeenFromTheStart[] = {{"OK", ""},
+                                         {"INTERNAL", "SERVER_DEFECT"},
+                                         {"INTERNAL", "POISONED"},
+                                         {"INTERNAL", ""},
+                                         {"DATA_LOSS", "STORED_DATA_DAMAGED"}};
+
 Family<Counter>& AddCounter(Registry& registry, const char* name, const char* help) {
   return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
 }
@@ -62,6 +74,9 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
       GaugeNow("bccskel_memory_limit_bytes", "Working memory that jobs may reserve together",
                static_cast<double>(now.max_admitted_bytes)),
       GaugeNow("bccskel_draining", "1 from the stop signal on", now.draining),
+      Sample(MetricType::Counter, "bccskel_log_lines_dropped_total",
+             "Lines of the log that nobody read in time",
+             static_cast<double>(now.dropped_log_lines)),
   };
 }
 
@@ -72,6 +87,8 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges::Stored& stored) {
       GaugeNow("bccskel_disk_available_bytes",
                "What can still be written: up to the limit, or to the end of the file system",
                static_cast<double>(stored.available_bytes)),
+      GaugeNow("bccskel_data_healthy", "0 when the data directory is damaged or gone",
+               stored.healthy ? 1 : 0),
       GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
       GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued_jobs),
       GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running_jobs),
@@ -150,6 +167,8 @@ class ServerMetrics::Families {
   Family<Histogram>& call_seconds =
       AddHistogram(*registry, "bccskel_call_seconds", "From a call's first message to its status");
   Family<Counter>& jobs = AddCounter(*registry, "bccskel_jobs_total", "Jobs that have ended");
+  Family<Counter>& durable_jobs =
+      AddCounter(*registry, "bccskel_durable_jobs_ended_total", "Stored jobs that have ended");
   Counter& points = AddCounter(*registry, "bccskel_points_thinned_total",
                                "Points of the objects that were thinned")
                         .Add({});
@@ -171,6 +190,22 @@ ServerMetrics::ServerMetrics(GaugeSource gauges)
     : gauges_(gauges), families_(std::make_unique<Families>(std::move(gauges))) {}
 
 ServerMetrics::~ServerMetrics() = default;
+
+void ServerMetrics::ExpectCalls(const std::string& method) {
+  for (const Outcome& outcome : kSeenFromTheStart) {
+    families_->calls.Add({{"method", method}, {"code", outcome.code}, {"reason", outcome.reason}});
+  }
+}
+
+void ServerMetrics::ExpectDurableJobs() {
+  for (const Outcome& outcome : kSeenFromTheStart) {
+    families_->durable_jobs.Add({{"code", outcome.code}, {"reason", outcome.reason}});
+  }
+}
+
+void ServerMetrics::CountDurable(const std::string& code, const std::string& reason) {
+  families_->durable_jobs.Add({{"code", code}, {"reason", reason}}).Increment();
+}
 
 void ServerMetrics::Count(const EndedCall& call) {
   families_->calls.Add({{"method", call.method}, {"code", call.code}, {"reason", call.reason}})

@@ -27,11 +27,13 @@ struct ServerGauges {
   uint64_t admitted_bytes = 0;
   uint64_t max_admitted_bytes = 0;
   int draining = 0;  // 1 from the stop signal on
+  uint64_t dropped_log_lines = 0;
   // Of the certificate that is served, in seconds since 1970; 0 where it cannot be read; nothing
   // without TLS.
   std::optional<double> certificate_end;
   // What the data directory holds; nothing without one.
   struct Stored {
+    bool healthy = true;
     uint64_t disk_bytes = 0;
     uint64_t available_bytes = 0;  // that can still be written
     int uploads = 0;               // unfinished
@@ -81,7 +83,11 @@ class ServerMetrics {
   explicit ServerMetrics(GaugeSource gauges);
   ~ServerMetrics();
 
+  // From now on the page has the counters of what must not happen, at 0.
+  void ExpectCalls(const std::string& method);
+  void ExpectDurableJobs();
   void Count(const EndedCall& call);
+  void CountDurable(const std::string& code, const std::string& reason);
   void Count(const EndedJob& job);
   void CountAdmitted(uint64_t volume_bytes);
 

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "core/mask/mask_converter.h"
+#include "core/labels/convert_label.h"
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
@@ -96,8 +96,10 @@ absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string&
   BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement(), field));
   BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency,
                            AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
-  header.extent = ExactExtent(mask.grid);
-  header.placement = ExactPlacement(mask.grid);
+  BCCSKEL_ASSIGN_OR_RETURN(mask.points,
+                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
+  header.extent = ExactExtent(mask.grid, mask.points);
+  header.placement = ExactPlacement(mask.grid, mask.points);
   header.mask = mask;
   return absl::OkStatus();
 }
@@ -143,7 +145,7 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   request.size_bytes = config.volume().size_bytes();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
   if (request.header.mask.has_value()) {
-    request.options.pruning = ForSteps(request.options.pruning, VoxelEdge({}));
+    request.options = ForMask(request.options, {.points = request.header.mask->points});
   }
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));

@@ -55,9 +55,10 @@ v1::SkeletonizeLabelsResponse LabelsOutbox::NextOfLabel() {
 
 v1::SkeletonizeLabelsResponse LabelsOutbox::TakeSummary() {
   const LabelResult& label = labels_.front();
-  const wire::JobFacts facts = {.threads = label.threads,
-                                .algorithm_version = kAlgorithmVersion,
-                                .method = label.skeleton.result.method};
+  const wire::JobFacts facts = {
+      .threads = label.threads,
+      .algorithm_version = AlgorithmVersionOf(label.skeleton.result.options.source),
+      .method = label.skeleton.result.method};
   v1::SkeletonizeLabelsResponse response;
   v1::LabelSummary& summary = *response.mutable_label_summary();
   summary.set_label(label.skeleton.label);

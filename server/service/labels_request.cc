@@ -66,6 +66,8 @@ absl::StatusOr<LabelVolumeHeader> HeaderOf(const v1::LabelVolumeDeclaration& vol
   BCCSKEL_ASSIGN_OR_RETURN(header.grid, GridOf(volume.extent(), volume.placement(), field));
   BCCSKEL_ASSIGN_OR_RETURN(header.adjacency,
                            AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.points,
+                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
   BCCSKEL_RETURN_IF_ERROR(CheckPromises(volume, header));
   header.max_voxels = volume.max_voxels();
   header.max_label_voxels = volume.max_label_voxels();

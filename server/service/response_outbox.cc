@@ -76,12 +76,13 @@ v1::SkeletonizeResponse ResponseOutbox::NextThinVolumeChunk() {
 }
 
 v1::SkeletonizeResponse ResponseOutbox::Summary() const {
-  const wire::JobFacts facts = {.queued = result_.queued,
-                                .decoded = result_.decoded,
-                                .threads = result_.threads,
-                                .thin_volume_size_bytes = result_.thin_volume.size(),
-                                .algorithm_version = kAlgorithmVersion,
-                                .method = result_.skeleton.method};
+  const wire::JobFacts facts = {
+      .queued = result_.queued,
+      .decoded = result_.decoded,
+      .threads = result_.threads,
+      .thin_volume_size_bytes = result_.thin_volume.size(),
+      .algorithm_version = AlgorithmVersionOf(result_.skeleton.options.source),
+      .method = result_.skeleton.method};
   v1::SkeletonizeResponse response;
   *response.mutable_summary() = wire::SummaryOf(result_.skeleton, facts);
   return response;

@@ -34,6 +34,18 @@ absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std
   }
 }
 
+absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field) {
+  switch (points) {
+    case v1::VOXEL_POINTS_UNSPECIFIED:
+    case v1::VOXEL_POINTS_TWO:
+      return VoxelPoints::kTwo;
+    case v1::VOXEL_POINTS_SIXTEEN:
+      return VoxelPoints::kSixteen;
+    default:
+      return InvalidField(field, absl::StrCat("unknown number of points ", int{points}));
+  }
+}
+
 absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
                                 const std::string& field) {
   BCCSKEL_ASSIGN_OR_RETURN(const LatticeExtent voxels,

@@ -19,6 +19,7 @@ namespace bccskel::server {
 absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
                                                 const std::string& field);
 absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field);
+absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field);
 absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
                                 const std::string& field);
 absl::Status CheckThreads(int32_t threads, const std::string& field);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 
 #include "absl/strings/str_cat.h"
 #include "core/digest/sha256.h"
@@ -55,7 +56,7 @@ absl::Status BlobStore::PublishBlob(const std::string& tenant, const std::string
   const std::string blob = PathOfBlob(tenant, digest);
   const std::string bytes = UploadFile::BytesPath(UploadPath(tenant, upload));
   // A file of this name may be there and damaged: it is replaced.
-  const std::string fresh = blob + ".new";
+  const std::string fresh = blob + kUnconfirmed;
   BCCSKEL_RETURN_IF_ERROR(RemoveFile(fresh));
   if (link(bytes.c_str(), fresh.c_str()) != 0) {
     return SystemError(absl::StrCat("cannot link ", bytes), errno);
@@ -77,7 +78,15 @@ absl::Status BlobStore::RemoveBlob(const std::string& tenant, const std::string&
 absl::StatusOr<ResultWriter> BlobStore::NewResult(const std::string& tenant,
                                                   const std::string& name) const {
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "results")));
-  return ResultWriter::Create(PathOfResult(tenant, name));
+  return ResultWriter::Create(PathOfResult(tenant, name) + kUnconfirmed);
+}
+
+absl::Status BlobStore::ConfirmResult(const std::string& tenant, const std::string& name) const {
+  const std::string path = PathOfResult(tenant, name);
+  const std::string fresh = path + kUnconfirmed;
+  if (FactsOf(path).ok()) return absl::OkStatus();
+  if (std::rename(fresh.c_str(), path.c_str()) == 0) return absl::OkStatus();
+  return SystemError(absl::StrCat("cannot rename ", fresh), errno);
 }
 
 absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant, const std::string& name,
@@ -86,19 +95,19 @@ absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant, cons
 }
 
 absl::Status BlobStore::RemoveResult(const std::string& tenant, const std::string& name) const {
+  BCCSKEL_RETURN_IF_ERROR(RemoveFile(PathOfResult(tenant, name) + kUnconfirmed));
   return RemoveFile(PathOfResult(tenant, name));
 }
 
-absl::StatusOr<int> BlobStore::Sweep(const std::set<std::string>& keep) const {
-  BCCSKEL_RETURN_IF_ERROR(MakeFolder(folder_ + "/tenants"));
+bool BlobStore::HasBlob(const std::string& tenant, const std::string& digest,
+                        uint64_t size_bytes) const {
+  const auto facts = FactsOf(PathOfBlob(tenant, digest));
+  return facts.ok() && facts->size_bytes == size_bytes;
+}
+
+absl::StatusOr<std::set<std::string>> BlobStore::Files() const {
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<std::string> files, FilesBelow(folder_ + "/tenants"));
-  int removed = 0;
-  for (const std::string& file : files) {
-    if (keep.count(file) > 0) continue;
-    BCCSKEL_RETURN_IF_ERROR(RemoveFile(file));
-    ++removed;
-  }
-  return removed;
+  return std::set<std::string>(files.begin(), files.end());
 }
 
 }  // namespace bccskel::server

@@ -14,6 +14,9 @@
 
 namespace bccskel::server {
 
+// The end of the names of files that nothing has been confirmed of: a crash may leave such.
+inline constexpr char kUnconfirmed[] = ".new";
+
 // The files of all tenants, each in a folder of its own:
 //
 //   tenants/<SHA-256 of the tenant's name>/uploads/<SHA-256 of the upload's name>.part, .chunks
@@ -36,18 +39,23 @@ class BlobStore {
   absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) const;
   absl::Status RemoveBlob(const std::string& tenant, const std::string& digest) const;
 
+  // Its name ends in kUnconfirmed until ConfirmResult(), which comes when the tables have it.
   absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
   // Errors: DATA_LOSS for a file that is missing or has another digest.
   absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& name,
                                         const std::string& digest) const;
+  // OK also where it was done. Not flushed: the next start does it again.
+  absl::Status ConfirmResult(const std::string& tenant, const std::string& name) const;
   absl::Status RemoveResult(const std::string& tenant, const std::string& name) const;
 
-  // The paths of what is to stay, for Sweep().
+  // Whether it is there with this size. Cheap: the bytes are not looked at.
+  bool HasBlob(const std::string& tenant, const std::string& digest, uint64_t size_bytes) const;
+
+  // The paths of what there should be, and of what there is.
   std::set<std::string> PathsOfUpload(const std::string& tenant, const std::string& upload) const;
   std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
   std::string PathOfResult(const std::string& tenant, const std::string& name) const;
-  // Removes all files but these. Yields how many it removed.
-  absl::StatusOr<int> Sweep(const std::set<std::string>& keep) const;
+  absl::StatusOr<std::set<std::string>> Files() const;
 
  private:
   std::string FolderOf(const std::string& tenant, const char* kind) const;

@@ -142,10 +142,19 @@ absl::Status RemoveFile(const std::string& path) {
   return unlink(path.c_str()) == 0 || errno == ENOENT ? absl::OkStatus() : Failed("remove", path);
 }
 
+absl::StatusOr<FileFacts> FactsOf(const std::string& path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0) return Failed("look at", path);
+  return FileFacts{.identity = {facts.st_dev, facts.st_ino},
+                   .size_bytes = static_cast<uint64_t>(facts.st_size),
+                   .written = std::chrono::system_clock::from_time_t(facts.st_mtime)};
+}
+
 absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
   std::error_code error;
+  if (!fs::exists(path, error)) return files;
   for (auto entry = fs::recursive_directory_iterator(path, error);
        !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (entry->is_regular_file()) files.push_back(entry->path().string());

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_STORE_FILE_IO_H_
 #define BCCSKEL_SERVER_STORE_FILE_IO_H_
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -63,7 +64,13 @@ absl::Status RenameDurably(const std::string& from, const std::string& to);
 absl::Status RemoveFile(const std::string& path);
 // Bytes that can still be written there; 0 where the system does not tell.
 uint64_t SpaceOf(const std::string& path);
-// All files below, with their paths.
+struct FileFacts {
+  std::pair<uint64_t, uint64_t> identity;  // which file it is, whatever its name
+  uint64_t size_bytes = 0;
+  std::chrono::system_clock::time_point written;  // last
+};
+absl::StatusOr<FileFacts> FactsOf(const std::string& path);
+// All files below, with their paths; none where there is no such folder.
 absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path);
 
 }  // namespace bccskel::server

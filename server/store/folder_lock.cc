@@ -1,6 +1,7 @@
 #include "server/store/folder_lock.h"
 
 #include <sys/file.h>
+#include <sys/stat.h>
 
 #include <utility>
 
@@ -8,12 +9,34 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::server {
+namespace {
+
+constexpr size_t kMostBytes = 256;
+
+}  // namespace
 
 absl::StatusOr<FolderLock> FolderLock::Take(const std::string& folder) {
   BCCSKEL_ASSIGN_OR_RETURN(File file, File::OpenToWrite(folder + "/lock"));
-  if (flock(file.fd(), LOCK_EX | LOCK_NB) == 0) return FolderLock(std::move(file));
-  return absl::AlreadyExistsError(absl::StrCat("another server owns the data directory ", folder,
-                                               " (it holds ", file.path(), ")"));
+  if (flock(file.fd(), LOCK_EX | LOCK_NB) != 0) {
+    return absl::AlreadyExistsError(absl::StrCat("another server owns the data directory ", folder,
+                                                 " (it holds ", file.path(), ")"));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(std::string store_id, file.ReadAt(0, kMostBytes));
+  return FolderLock(std::move(file), std::move(store_id));
+}
+
+absl::Status FolderLock::SetStoreId(const std::string& id) {
+  BCCSKEL_RETURN_IF_ERROR(file_.WriteAt(0, id));
+  BCCSKEL_RETURN_IF_ERROR(file_.Truncate(id.size()));
+  BCCSKEL_RETURN_IF_ERROR(file_.Sync());
+  store_id_ = id;
+  return absl::OkStatus();
+}
+
+void FolderLock::Touch(std::chrono::system_clock::time_point now) {
+  const timespec time = {.tv_sec = std::chrono::system_clock::to_time_t(now), .tv_nsec = 0};
+  const timespec both[] = {time, time};
+  futimens(file_.fd(), both);  // best effort: without it the next start believes its clock less
 }
 
 }  // namespace bccskel::server

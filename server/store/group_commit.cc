@@ -7,15 +7,17 @@
 
 namespace bccskel::server {
 
-GroupCommit::GroupCommit(std::unique_ptr<JobStore> store)
-    : store_(std::move(store)), thread_([this](std::stop_token stop) { Serve(stop); }) {}
+GroupCommit::GroupCommit(std::unique_ptr<JobStore> store, std::unique_ptr<DiskReserve> reserve)
+    : store_(std::move(store)),
+      reserve_(std::move(reserve)),
+      thread_([this](std::stop_token stop) { Serve(stop); }) {}
 
 GroupCommit::~GroupCommit() { thread_.request_stop(); }
 
-void GroupCommit::Post(Change change, Done done) {
+void GroupCommit::Post(Change change, Done done, Room room) {
   {
     std::lock_guard lock(mutex_);
-    waiting_.push_back({std::move(change), std::move(done)});
+    waiting_.push_back({std::move(change), std::move(done), room});
   }
   wake_.notify_one();
 }
@@ -26,6 +28,7 @@ void GroupCommit::Post(std::function<void()> task) {
 
 void GroupCommit::Serve(std::stop_token stop) {
   while (true) {
+    if (reserve_ != nullptr) reserve_->Hold();
     std::vector<Entry> batch;
     {
       std::unique_lock lock(mutex_);
@@ -52,23 +55,52 @@ void GroupCommit::Write(std::span<Entry> batch) {
     Write(batch.first(batch.size() / 2));
     return Write(batch.subspan(batch.size() / 2));
   }
+  if (absl::IsResourceExhausted(written)) written = WriteWithReserve(batch);
   for (Entry& entry : batch) {
     if (entry.IsToWrite()) entry.status = written;
   }
 }
 
+absl::Status GroupCommit::WriteWithReserve(std::span<Entry> batch) {
+  const bool may = std::ranges::all_of(
+      batch, [](const Entry& entry) { return !entry.IsToWrite() || entry.room == Room::kReserve; });
+  if (!may || reserve_ == nullptr || !reserve_->held()) {
+    return absl::ResourceExhaustedError("the disk is full");
+  }
+  reserve_->Release();
+  store_->Forget().IgnoreError();
+  absl::Status written = WriteAll(batch);
+  store_->Forget().IgnoreError();
+  reserve_->Hold();
+  return written;
+}
+
 // One transaction. Errors: of the store; then nothing has happened.
 absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
   ++commits_;
-  BCCSKEL_RETURN_IF_ERROR(store_->Begin());
   const absl::Status written = [&]() -> absl::Status {
+    BCCSKEL_RETURN_IF_ERROR(store_->Begin());
     for (Entry& entry : batch) {
       if (entry.IsToWrite()) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
     }
     return store_->Commit();
   }();
   if (!written.ok()) store_->Rollback();
+  NoteHealth(written);
   return written;
+}
+
+void GroupCommit::NoteHealth(const absl::Status& written) {
+  std::lock_guard lock(mutex_);
+  failure_ = absl::IsResourceExhausted(written) ? absl::OkStatus() : written;
+}
+
+absl::Status GroupCommit::Health() const {
+  {
+    std::lock_guard lock(mutex_);
+    if (!failure_.ok()) return failure_;
+  }
+  return store_->Health();
 }
 
 // Errors: of the store, not of the change.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "server/store/disk_reserve.h"
 #include "server/store/job_store.h"
 
 namespace bccskel::server {
@@ -29,17 +30,27 @@ class GroupCommit {
   // Runs after the transaction is on disk, with the change's error, or that of the transaction.
   using Done = std::function<void(absl::Status)>;
 
-  explicit GroupCommit(std::unique_ptr<JobStore> store);
+  // What a change may write to when the disk is full.
+  enum class Room { kFree, kReserve };
+
+  // The reserve, if any, is held from now on.
+  explicit GroupCommit(std::unique_ptr<JobStore> store,
+                       std::unique_ptr<DiskReserve> reserve = nullptr);
   ~GroupCommit();  // does what was posted, also by what it does, then joins
   GroupCommit(const GroupCommit&) = delete;
   GroupCommit& operator=(const GroupCommit&) = delete;
 
   // Changes and their ends come in the order of posting. Neither may throw or block for long.
-  void Post(Change change, Done done);
+  // kReserve is for what makes room, or ends a job.
+  void Post(Change change, Done done, Room room = Room::kFree);
   // Without a change.
   void Post(std::function<void()> task);
   // Needs: called from within a change or its end.
   JobStore& store() { return *store_; }
+
+  // Why what is posted cannot be stored, or may have been read wrongly; OK else. A full disk is no
+  // illness.
+  absl::Status Health() const;
 
   uint64_t commits() const { return commits_; }
 
@@ -47,6 +58,7 @@ class GroupCommit {
   struct Entry {
     Change change;  // null: none
     Done done;
+    Room room = Room::kFree;
     absl::Status status = absl::OkStatus();
 
     bool IsToWrite() const { return change != nullptr && status.ok(); }
@@ -54,13 +66,17 @@ class GroupCommit {
 
   void Serve(std::stop_token stop);
   void Write(std::span<Entry> batch);
+  absl::Status WriteWithReserve(std::span<Entry> batch);
+  void NoteHealth(const absl::Status& written);
   absl::Status WriteAll(std::span<Entry> batch);
   absl::Status RunStep(Entry& entry);
 
   const std::unique_ptr<JobStore> store_;
   std::atomic<uint64_t> commits_ = 0;
-  std::mutex mutex_;
+  const std::unique_ptr<DiskReserve> reserve_;  // may be null
+  mutable std::mutex mutex_;
   std::condition_variable_any wake_;
+  absl::Status failure_;        // guarded by mutex_: of the last transaction
   std::vector<Entry> waiting_;  // guarded by mutex_
   std::jthread thread_;         // last: joined before the rest is destroyed
 };

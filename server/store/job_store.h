@@ -14,13 +14,23 @@ namespace bccskel::server {
 
 // Tables of uploads, volumes, jobs, their events and results. Changes are made within Begin() and
 // Commit(); what Commit() has confirmed survives the process and the machine.
-// Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file; INTERNAL.
-// Looking for what is not there is no error.
+// Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file or row;
+// INTERNAL. Looking for what is not there is no error.
+// Every row has a checksum. What yields a list of rows leaves damaged ones out and counts them, but
+// for ListJobs() and EventsAfter(), whose callers would take the rest for everything.
 // Threads: one at a time.
 class JobStore {
  public:
   virtual ~JobStore() = default;
 
+  // A store has one of its own from its first opening on.
+  virtual absl::StatusOr<std::string> Id() = 0;
+  // DATA_LOSS when a row was found damaged since the store was opened, and when its file is gone or
+  // another one has its name: what is written then is lost. Threads: safe.
+  virtual absl::Status Health() const = 0;
+  virtual int damaged_rows() const = 0;  // found since it was opened. Threads: safe.
+
+  // Errors: a file that is gone, as Health() says.
   virtual absl::Status Begin() = 0;
   // After an error nothing since Begin() has happened.
   virtual absl::Status Commit() = 0;
@@ -54,6 +64,7 @@ class JobStore {
   virtual absl::StatusOr<bool> UpdateJob(const JobRow& row) = 0;
   // With its events.
   virtual absl::Status DeleteJob(int64_t number) = 0;
+  virtual absl::Status DeleteDamagedJob(const std::string& tenant, const std::string& name) = 0;
   virtual absl::StatusOr<std::optional<JobRow>> FindJob(const std::string& tenant,
                                                         const std::string& name) = 0;
   virtual absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
@@ -64,7 +75,7 @@ class JobStore {
                                                        const std::optional<JobPosition>& after,
                                                        uint32_t states, int most) = 0;
   virtual absl::StatusOr<std::vector<JobRow>> UnfinishedJobs() = 0;  // oldest first
-  virtual absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time) = 0;
+  virtual absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time, int most) = 0;
   // The name of an unfinished job that needs the volume.
   virtual absl::StatusOr<std::optional<std::string>> UserOfVolume(const std::string& tenant,
                                                                   const std::string& volume) = 0;
@@ -73,13 +84,20 @@ class JobStore {
   virtual absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence) = 0;
 
   // Yields its number, or that of the result which already has this key: then `row` is not stored.
+  // Takes the place and the number of a damaged one, so that it heals the jobs that have that.
   virtual absl::StatusOr<int64_t> InsertResult(const ResultRow& row) = 0;
+  // Its file is damaged: it is not found by its key any more, but by its number.
+  virtual absl::Status DropResult(const ResultRow& row) = 0;
   virtual absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number) = 0;
   virtual absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
                                                                 const std::string& key) = 0;
   // Deletes the result when no job has it any more, and then yields it.
   virtual absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number) = 0;
   virtual absl::StatusOr<std::vector<ResultRow>> AllResults() = 0;
+
+  virtual absl::Status InsertRemoval(const RemovalRow& row) = 0;
+  virtual absl::Status DeleteRemoval(const RemovalRow& row) = 0;
+  virtual absl::StatusOr<std::vector<RemovalRow>> AllRemovals() = 0;
 
   // What was deleted is then nowhere in the store's files any more.
   virtual absl::Status Forget() = 0;

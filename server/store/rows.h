@@ -51,7 +51,7 @@ struct ResultRow {
   int64_t number = 0;  // given by the store
   std::string tenant;
   std::string key;          // what it is the result of; unique within the tenant
-  std::string file;         // its name
+  std::string file;         // its name; empty once it was found damaged
   std::string file_digest;  // SHA-256 of the file's bytes
   uint64_t bytes = 0;
   uint64_t records = 0;
@@ -97,6 +97,15 @@ struct EventRow {
   JobState state = JobState::kQueued;
   int attempt = 0;
   absl::Status error;
+};
+
+// A file that nobody wants any more: it goes, and then the row. So a crash between the two leaves
+// nothing behind, and no file has to go because nobody knows it.
+struct RemovalRow {
+  enum class Kind { kUpload = 0, kBlob = 1, kResult = 2 };  // the numbers are stored
+  Kind kind = Kind::kUpload;
+  std::string tenant;
+  std::string name;  // of the upload; the blob's digest; of the result's file
 };
 
 }  // namespace bccskel::server

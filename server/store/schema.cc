@@ -58,7 +58,36 @@ CREATE INDEX jobs_by_creation ON jobs(tenant, created, name);
     R"(
 ALTER TABLE jobs ADD COLUMN trace TEXT NOT NULL DEFAULT '';
 )",
+    // 5: a checksum of every row, the store's own name, and files that are to go.
+    R"(
+ALTER TABLE uploads ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
+UPDATE uploads SET row_check = checksum('uploads', tenant, name, declaration, size_bytes, job,
+  volume, used);
+ALTER TABLE volumes ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
+UPDATE volumes SET row_check = checksum('volumes', tenant, name, declaration, blob_digest,
+  volume_digest, size_bytes, created, used);
+ALTER TABLE results ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
+UPDATE results SET row_check = checksum('results', number, tenant, key, file, file_digest, bytes,
+  records, summary);
+ALTER TABLE jobs ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
+UPDATE jobs SET row_check = checksum('jobs', number, tenant, name, request_id, body, upload,
+  options, priority, threads, trace, created, volume, state, attempts, crashes, sequence, owner,
+  error, result, started, ended);
+ALTER TABLE events ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
+UPDATE events SET row_check = checksum('events', job, sequence, time, state, attempt, error);
+CREATE TABLE removals(
+  kind INTEGER NOT NULL, tenant TEXT NOT NULL, name TEXT NOT NULL,
+  row_check INTEGER NOT NULL DEFAULT 0, PRIMARY KEY(kind, tenant, name)) WITHOUT ROWID;
+CREATE TABLE store(id TEXT NOT NULL, schema_check INTEGER NOT NULL);
+INSERT INTO store VALUES(lower(hex(randomblob(16))), 0);
+)",
 };
+
+// The definitions of all tables and indexes.
+#define BCCSKEL_SCHEMA_CHECK                                                        \
+  "(SELECT sum(checksum(type, name, tbl_name, ifnull(sql, ''))) FROM sqlite_master" \
+  " WHERE name NOT LIKE 'sqlite_%')"
+constexpr char kSealSchema[] = "UPDATE store SET schema_check = " BCCSKEL_SCHEMA_CHECK ";";
 
 absl::StatusOr<int> VersionOf(SqliteDatabase& database) {
   SqliteQuery query(database, "PRAGMA user_version");
@@ -66,12 +95,24 @@ absl::StatusOr<int> VersionOf(SqliteDatabase& database) {
   return static_cast<int>(query.Number());
 }
 
+absl::Status Damaged(const std::string& how) {
+  return absl::DataLossError(absl::StrCat(
+      "the job store is damaged: ", how, "; nothing was changed: bring back a copy of the folder"));
+}
+
+// The pages, and that indexes and tables say the same: what an index does not have is not found.
 absl::Status CheckIntegrity(SqliteDatabase& database) {
-  SqliteQuery query(database, "PRAGMA quick_check(1)");
+  SqliteQuery query(database, "PRAGMA integrity_check(1)");
   BCCSKEL_RETURN_IF_ERROR(query.Next().status());
   const std::string answer = query.Text();
-  if (answer == "ok") return absl::OkStatus();
-  return absl::DataLossError(absl::StrCat("the job store is damaged: ", answer));
+  return answer == "ok" ? absl::OkStatus() : Damaged(answer);
+}
+
+absl::Status CheckSchema(SqliteDatabase& database) {
+  SqliteQuery query(database, "SELECT schema_check = " BCCSKEL_SCHEMA_CHECK " FROM store");
+  BCCSKEL_ASSIGN_OR_RETURN(const bool found, query.Next());
+  return found && query.Number() == 1 ? absl::OkStatus()
+                                      : Damaged("its tables are defined wrongly");
 }
 
 }  // namespace
@@ -87,14 +128,16 @@ absl::Status Migrate(SqliteDatabase& database) {
   }
   BCCSKEL_RETURN_IF_ERROR(CheckIntegrity(database));
   for (; version < SchemaVersion(); ++version) {
-    const std::string sql = absl::StrCat("BEGIN IMMEDIATE;", kMigrations[version],
-                                         "PRAGMA user_version = ", version + 1, "; COMMIT;");
+    const bool last = version + 1 == SchemaVersion();
+    const std::string sql =
+        absl::StrCat("BEGIN IMMEDIATE;", kMigrations[version], last ? kSealSchema : "",
+                     "PRAGMA user_version = ", version + 1, "; COMMIT;");
     const absl::Status migrated = database.Execute(sql.c_str());
     if (migrated.ok()) continue;
     if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
     return migrated;
   }
-  return absl::OkStatus();
+  return CheckSchema(database);
 }
 
 }  // namespace bccskel::server

@@ -5,7 +5,10 @@
 #include <cerrno>
 
 #include "absl/strings/str_cat.h"
+#include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
+#include "server/store/file_io.h"
+#include "server/store/little_endian.h"
 
 namespace bccskel::server {
 namespace {
@@ -39,6 +42,24 @@ absl::StatusCode CodeOf(int sqlite_code, int system_error) {
   }
 }
 
+void AddValue(sqlite3_value* value, std::string& bytes) {
+  const int type = sqlite3_value_type(value);
+  bytes.push_back(static_cast<char>(type));
+  if (type == SQLITE_INTEGER) {
+    return AppendNumber(static_cast<uint64_t>(sqlite3_value_int64(value)), bytes);
+  }
+  const void* const content = sqlite3_value_blob(value);
+  const auto size = static_cast<size_t>(sqlite3_value_bytes(value));
+  AppendNumber(uint64_t{size}, bytes);
+  if (size > 0) bytes.append(static_cast<const char*>(content), size);
+}
+
+void Checksum(sqlite3_context* context, int count, sqlite3_value** values) {
+  std::string bytes;
+  for (int n = 0; n < count; ++n) AddValue(values[n], bytes);
+  sqlite3_result_int64(context, Crc32c(bytes));
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<SqliteDatabase>> SqliteDatabase::Open(const std::string& path) {
@@ -50,7 +71,12 @@ absl::StatusOr<std::unique_ptr<SqliteDatabase>> SqliteDatabase::Open(const std::
   if (code != SQLITE_OK) return database->ErrorOf(code, "open");
   sqlite3_extended_result_codes(database->database_, 1);
   sqlite3_busy_timeout(database->database_, kBusyMs);
+  sqlite3_create_function_v2(database->database_, "checksum", -1,
+                             SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS, nullptr,
+                             Checksum, nullptr, nullptr, nullptr);
   BCCSKEL_RETURN_IF_ERROR(database->Execute(kPragmas));
+  BCCSKEL_ASSIGN_OR_RETURN(const FileFacts facts, FactsOf(path));
+  database->identity_ = facts.identity;
   return database;
 }
 
@@ -66,6 +92,13 @@ absl::Status SqliteDatabase::Execute(const char* sql) {
 }
 
 bool SqliteDatabase::InTransaction() const { return sqlite3_get_autocommit(database_) == 0; }
+absl::Status SqliteDatabase::CheckFile() const {
+  const absl::StatusOr<FileFacts> now = FactsOf(path_);
+  if (now.ok() && now->identity == identity_) return absl::OkStatus();
+  return absl::DataLossError(
+      "the file of the tables is gone, or another one has its name: what is written now is lost");
+}
+
 int64_t SqliteDatabase::LastRow() const { return sqlite3_last_insert_rowid(database_); }
 int SqliteDatabase::Changes() const { return sqlite3_changes(database_); }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -14,7 +15,8 @@ struct sqlite3_stmt;
 
 namespace bccskel::server {
 
-// A database file in WAL mode with full synchronization, and its prepared statements.
+// A database file in WAL mode with full synchronization, and its prepared statements. SQL has a
+// function checksum(...) more: CRC-32C of its arguments, their types included.
 // Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file;
 // UNAVAILABLE
 //         when a program of others keeps it locked; INTERNAL.
@@ -30,6 +32,8 @@ class SqliteDatabase {
   // Any number of statements without values and rows.
   absl::Status Execute(const char* sql);
   bool InTransaction() const;
+  // DATA_LOSS when the file that was opened is no longer at its path.
+  absl::Status CheckFile() const;
   int64_t LastRow() const;
   int Changes() const;
 
@@ -41,6 +45,7 @@ class SqliteDatabase {
   absl::StatusOr<sqlite3_stmt*> Prepared(const char* sql);
 
   std::string path_;
+  std::pair<uint64_t, uint64_t> identity_;  // of the file
   sqlite3* database_ = nullptr;
   std::map<const char*, sqlite3_stmt*> statements_;  // by the address of their text
 };

@@ -70,8 +70,8 @@ TEST(Options, RefusesAKindThatTheMethodDoesNotGive) {
 }
 
 TEST(OptionsRoundTrip, KeepsPruning) {
-  for (PruningRule rule : {PruningRule::kSlope, PruningRule::kLength, PruningRule::kRelativeLength,
-                           PruningRule::kNone}) {
+  for (PruningRule rule : {PruningRule::kSignificance, PruningRule::kLength,
+                           PruningRule::kRelativeLength, PruningRule::kNone}) {
     for (TipPlacement tips : {TipPlacement::kRidge, TipPlacement::kAsThinned}) {
       const PruningOptions pruning = {rule, 2.5, tips};
       const auto back = FromMessage(ToMessage(SkeletonizeOptions{.pruning = pruning}), "options");
@@ -79,6 +79,17 @@ TEST(OptionsRoundTrip, KeepsPruning) {
       EXPECT_EQ(back->pruning, pruning);
     }
   }
+}
+
+TEST(OptionsRoundTrip, KeepsTheReachOfJunctions) {
+  for (double reach : {0.0, 1.0, kDefaultJunctionReach}) {
+    const auto back =
+        FromMessage(ToMessage(SkeletonizeOptions{.junction_reach = reach}), "options");
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(back->junction_reach, reach);
+  }
+  EXPECT_EQ(FromMessage(v1::SkeletonizeOptions(), "options")->junction_reach,
+            kDefaultJunctionReach);
 }
 
 TEST(OptionsRoundTrip, KeepsPreparing) {
@@ -109,6 +120,14 @@ TEST(Options, RefusePreparingOutOfRange) {
 TEST(Options, RefusePruningByNoLength) {
   v1::SkeletonizeOptions message;
   message.set_pruning_rule(v1::PRUNING_RULE_LENGTH);
+  EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.pruning_threshold");
+}
+
+TEST(Options, TakeTheSlopeRuleOfOldForTheDefaultButNotItsMargin) {
+  v1::SkeletonizeOptions message;
+  message.set_pruning_rule(v1::PRUNING_RULE_SLOPE);
+  EXPECT_EQ(FromMessage(message, "options")->pruning, PruningOptions());
+  message.set_pruning_threshold(4);
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.pruning_threshold");
 }
 

@@ -33,9 +33,12 @@ LabeledObject ObjectOf(Inside inside) {
   return std::move(objects.objects[0]);
 }
 
-uint64_t BricksConverted(const LabeledObject& object, MaskAdjacency adjacency) {
-  return ConvertLabel(kGrid, object, {.adjacency = adjacency}, exec::Context())
-      ->volume.brick_count();
+constexpr VoxelPoints kBothPoints[] = {VoxelPoints::kTwo, VoxelPoints::kSixteen};
+
+uint64_t BricksConverted(const LabeledObject& object, VoxelPoints points,
+                         MaskAdjacency adjacency = MaskAdjacency::k26) {
+  const MaskOptions options = {.adjacency = adjacency, .points = points};
+  return ConvertLabel(kGrid, object, options, exec::Context())->volume.brick_count();
 }
 
 TEST(MostBricks, IsTheNumberOfBricksOfASolid) {
@@ -43,9 +46,11 @@ TEST(MostBricks, IsTheNumberOfBricksOfASolid) {
     const LabeledObject box = ObjectOf([low](int32_t x, int32_t y, int32_t z) {
       return std::min({x, y, z}) >= low && x < 70 && y < 17 && z < 20;
     });
-    const uint64_t bricks = BricksConverted(box, MaskAdjacency::k26);
-    EXPECT_GE(MostBricksOf(box), bricks) << low;
-    EXPECT_LE(MostBricksOf(box), bricks + bricks / 2) << low;
+    for (VoxelPoints points : kBothPoints) {
+      const uint64_t bricks = BricksConverted(box, points);
+      EXPECT_GE(MostBricksOf(box, points), bricks) << low;
+      EXPECT_LE(MostBricksOf(box, points), bricks + bricks / 2) << low;
+    }
   }
 }
 
@@ -58,7 +63,9 @@ TEST(MostBricks, IsNeverTooFew) {
         return (x == 40 && y == 9 && z == 7) || here(random);
       });
       for (const MaskAdjacency adjacency : {MaskAdjacency::k26, MaskAdjacency::k6}) {
-        EXPECT_GE(MostBricksOf(dust), BricksConverted(dust, adjacency));
+        for (VoxelPoints points : kBothPoints) {
+          EXPECT_GE(MostBricksOf(dust, points), BricksConverted(dust, points, adjacency));
+        }
       }
     }
   }
@@ -70,8 +77,10 @@ TEST(MostBricks, OfAnyVoxelCoverIt) {
       for (int32_t z = 0; z < 9; ++z) {
         const LabeledObject voxel = ObjectOf(
             [=](int32_t vx, int32_t vy, int32_t vz) { return vx == x && vy == y && vz == z; });
-        EXPECT_GE(MostBricksOf(voxel), BricksConverted(voxel, MaskAdjacency::k26));
-        EXPECT_LE(MostBricksOf(voxel), 16u);
+        for (VoxelPoints points : kBothPoints) {
+          EXPECT_GE(MostBricksOf(voxel, points), BricksConverted(voxel, points));
+          EXPECT_LE(MostBricksOf(voxel, points), 16u);
+        }
       }
     }
   }

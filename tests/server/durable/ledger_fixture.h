@@ -76,6 +76,7 @@ class LedgerTest : public testing::Test {
   LedgerTest() {
     options_.data_directory = folder_ / "data";
     options_.algorithm_version = "1";
+    options_.believable_leap = std::chrono::hours(10'000);  // of Wait()
     options_.now = [this] { return std::chrono::system_clock::now() + later_.load(); };
   }
 

@@ -303,6 +303,59 @@ TEST_F(LedgerJobsTest, TellsADamagedResult) {
   EXPECT_EQ(ReadResult("clinic", job).status().code(), absl::StatusCode::kDataLoss);
 }
 
+TEST_F(LedgerJobsTest, MakesADamagedResultAnewAndHealsAllWhoShareIt) {
+  const std::string volume = Upload("clinic", "volume");
+  const std::string first = CreateName("clinic", JobOf(volume));
+  WaitForEnd("clinic", first);
+  const std::string second = CreateName("clinic", JobOf(volume));
+  EXPECT_EQ(ledger_->usage().cached, 1u);
+  FlipABit(FilesIn("results").at(0));
+  ASSERT_TRUE(Delete("clinic", first).ok());
+  const std::string third = CreateName("clinic", JobOf(volume));
+  EXPECT_EQ(WaitForEnd("clinic", third).state, JobState::kSucceeded);
+  EXPECT_EQ(runner_->computed(), 2) << "a damaged result is given to nobody";
+  for (const std::string& job : {second, third}) {
+    EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4)) << job;
+  }
+  EXPECT_THAT(FilesIn("results"), SizeIs(1));
+  const uint64_t used = ledger_->usage().disk_bytes;
+  Close();
+  Open();
+  EXPECT_EQ(ledger_->usage().disk_bytes, used);
+}
+
+TEST_F(LedgerJobsTest, KnowsNoVolumeWhoseFileIsGone) {
+  const std::string volume = Upload("clinic", "volume");
+  const std::string digest = Sha256Of("volume").Hex();
+  const auto find = [&] {
+    return Get<std::vector<VolumeInfo>>(
+        [&](auto done) { ledger_->FindVolumes("clinic", {digest}, done); });
+  };
+  EXPECT_THAT(*find(), SizeIs(1));
+  std::filesystem::remove(FilesIn("blobs").at(0));
+  EXPECT_THAT(*find(), IsEmpty());
+  EXPECT_EQ(FaultOf(Create("clinic", JobOf(volume)).status())->reason, "VOLUME_MISSING");
+  EXPECT_EQ(Upload("clinic", "volume"), volume);
+  EXPECT_THAT(*find(), SizeIs(1));
+}
+
+TEST_F(LedgerJobsTest, LetsNothingExpireByAClockThatHasLeapt) {
+  Close();
+  options_.believable_leap = std::chrono::hours(24);
+  Open();
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  WaitForEnd("clinic", job);
+  Close();
+  Wait(std::chrono::hours(24 * 365));
+  Open();
+  EXPECT_TRUE(GetJob("clinic", job).ok()) << "the clock was wrong when the server started";
+  Wait(-std::chrono::hours(24 * 365));
+  Close();
+  Open();
+  EXPECT_EQ(GetJob("clinic", job)->state, JobState::kSucceeded);
+  EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
+}
+
 TEST_F(LedgerJobsTest, FailsAJobWhoseResultDoesNotFitOnTheDisk) {
   Close();
   options_.max_disk_bytes = 20;

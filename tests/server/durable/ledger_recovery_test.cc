@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -19,7 +20,7 @@
 namespace bccskel::server {
 namespace {
 
-using testing::IsEmpty, testing::SizeIs;
+using testing::HasSubstr, testing::SizeIs;
 
 class LedgerRecoveryTest : public LedgerTest {
  protected:
@@ -106,17 +107,129 @@ TEST_F(LedgerRecoveryTest, CountsNoCrashWhenTheServerStopsInGoodOrder) {
   EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
 }
 
-TEST_F(LedgerRecoveryTest, SweepsFilesThatNobodyKnows) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
-  Close();
+class LedgerFilesTest : public LedgerRecoveryTest {
+ protected:
+  void SetUp() override {
+    LedgerRecoveryTest::SetUp();
+    job_ = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+    WaitForEnd("clinic", job_);
+    Close();
+  }
+  std::string Path(const std::string& name) const { return options_.data_directory + "/" + name; }
+  void MakeOld(const std::string& file) const {
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
+  }
+  void ExpectRefusal() {
+    const absl::Status refused = TryOpen();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kFailedPrecondition) << refused;
+    EXPECT_THAT(std::string(refused.message()), HasSubstr("--unknown-data adopt"));
+    EXPECT_THAT(FilesIn("results"), SizeIs(1));
+    EXPECT_THAT(FilesIn("blobs"), SizeIs(1));
+  }
+
+  std::string job_;
+};
+
+TEST_F(LedgerFilesTest, SweepsOldFilesThatNobodyKnows) {
   for (const std::string& known : {FilesIn("results")[0], FilesIn("blobs")[0]}) {
-    std::filesystem::copy(known, known + "0");
+    for (const char* suffix : {"0", "1"}) std::filesystem::copy(known, known + suffix);
+    MakeOld(known + "0");
   }
   Open();
+  EXPECT_THAT(FilesIn("results"), SizeIs(2)) << "what is young may be missed yet";
+  EXPECT_THAT(FilesIn("blobs"), SizeIs(2));
+  EXPECT_THAT(*ReadResult("clinic", job_), SizeIs(4));
+}
+
+TEST_F(LedgerFilesTest, TakesAResultThatACrashHasLeftBeforeItsNameOrBeforeItsRow) {
+  const std::string file = FilesIn("results")[0];
+  std::filesystem::rename(file, file + ".new");
+  std::filesystem::copy(file + ".new", file + "0.new");
+  Open();
+  EXPECT_EQ(FilesIn("results"), std::vector<std::string>{file});
+  EXPECT_THAT(*ReadResult("clinic", job_), SizeIs(4));
+}
+
+TEST_F(LedgerFilesTest, SweepsNothingWhileAFileIsMissedUnderItsName) {
+  const std::string file = FilesIn("results")[0];
+  std::string other = file;
+  other.back() = other.back() == 'a' ? 'c' : 'a';  // a bit of the file's name
+  std::filesystem::rename(file, other);
+  MakeOld(other);
+  Open();
+  EXPECT_TRUE(std::filesystem::exists(other));
+  EXPECT_EQ(ReadResult("clinic", job_).status().code(), absl::StatusCode::kDataLoss);
+}
+
+TEST_F(LedgerFilesTest, DoesNotStartWithoutTheTablesOfItsFiles) {
+  for (const char* file : {"jobs.db", "lock"}) {
+    std::filesystem::remove(Path(file));
+    ExpectRefusal();
+    std::ofstream(Path("jobs.db")).close();
+    ExpectRefusal();
+  }
+}
+
+TEST_F(LedgerFilesTest, DoesNotStartWithTheTablesOfAnotherFolder) {
+  const std::string own = options_.data_directory;
+  options_.data_directory = folder_ / "other";
+  Open();
+  WaitForEnd("clinic", CreateName("clinic", JobOf(Upload("clinic", "another"))));
+  Close();
+  options_.data_directory = own;
+  const auto over = std::filesystem::copy_options::overwrite_existing;
+  std::filesystem::copy(Path("jobs.db"), Path("saved"));
+  std::filesystem::copy(folder_ / "other/jobs.db", Path("jobs.db"), over);
+  ExpectRefusal();
+  std::filesystem::remove(Path("lock"));  // as a folder of an older server
+  ExpectRefusal();
+  std::filesystem::copy(Path("saved"), Path("jobs.db"), over);
+  Open();
+  EXPECT_THAT(*ReadResult("clinic", job_), SizeIs(4));
+}
+
+TEST_F(LedgerFilesTest, GoesOnWithoutTheTablesWhereItIsTold) {
+  std::filesystem::remove(Path("jobs.db"));
+  MakeOld(FilesIn("results")[0]);
+  options_.unknown_data = "adopt";
+  Open();
   EXPECT_THAT(FilesIn("results"), SizeIs(1));
-  EXPECT_THAT(FilesIn("blobs"), SizeIs(1));
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
+  Close();
+  options_.unknown_data = "refuse";
+  Open();
+  EXPECT_THAT(FilesIn("results"), SizeIs(1)) << "the old one is swept at the next start";
   EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
+}
+
+TEST_F(LedgerFilesTest, TellsWhenItsTablesAreGone) {
+  Open();
+  EXPECT_TRUE(ledger_->Health().ok());
+  std::filesystem::rename(Path("jobs.db"), Path("moved"));
+  EXPECT_EQ(ledger_->Health().code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(GetJob("clinic", job_).status().code(), absl::StatusCode::kDataLoss);
+  std::filesystem::rename(Path("moved"), Path("jobs.db"));
+  EXPECT_TRUE(GetJob("clinic", job_).ok());
+  EXPECT_TRUE(ledger_->Health().ok());
+}
+
+TEST(RunQueueTest, PutsALowPriorityBackByHalfAMinuteAndNoMore) {
+  RunQueue queue;
+  JobRow low, high;
+  low.number = 1;
+  low.priority = -1;
+  high.number = 2;
+  high.priority = 1;
+  high.created = low.created + std::chrono::seconds(59);
+  queue.Add(low);
+  queue.Add(high);
+  EXPECT_EQ(queue.First({}), 2);
+  queue.Remove(high);
+  high.created += std::chrono::seconds(2);
+  queue.Add(high);
+  EXPECT_EQ(queue.First({}), 1) << "nothing starves";
 }
 
 TEST(RunQueueTest, LetsTenantsTakeTurnsAndPutsSuspectsBack) {

@@ -123,6 +123,45 @@ TEST(ComputeQueue, WaitingWorkCanBeRemovedAndRunningWorkCannot) {
   EXPECT_FALSE(second_ran);
 }
 
+TEST(ComputeQueue, ALargeJobStartsBesideOneThatHasAllThreads) {
+  ComputeQueue queue(2, 2);
+  std::latch together(2);
+  std::atomic<int> first = 0, second = 0;
+  queue.Post(Claim(2), [&](ComputeQueue::Turn& turn) {
+    first = turn.threads();
+    together.arrive_and_wait();  // hangs unless both run at the same time
+  });
+  WaitForUsage(queue, {.waiting = 0, .running = 1, .busy_threads = 2});
+  queue.Post(Claim(2), [&](ComputeQueue::Turn& turn) {
+    second = turn.threads();
+    together.arrive_and_wait();
+  });
+  WaitForUsage(queue, Usage());
+  EXPECT_EQ(first, 2);
+  EXPECT_EQ(second, 1);
+}
+
+TEST(ComputeQueue, LargeJobsThatCameTogetherLatelyTakeOneThreadEach) {
+  std::atomic<int> now_ms = 0;
+  ComputeQueue queue(
+      2, 2, {}, [&] { return ComputeQueue::Clock::time_point(std::chrono::milliseconds(now_ms)); });
+  std::atomic<int> given = 0;
+  const auto run_alone = [&] {
+    queue.Post(Claim(2), [&](ComputeQueue::Turn& turn) { given = turn.threads(); });
+    WaitForUsage(queue, Usage());
+    return given.load();
+  };
+  EXPECT_EQ(run_alone(), 2);
+  std::latch together(2);
+  for (int n = 0; n < 2; ++n) {
+    queue.Post(Claim(2), [&](ComputeQueue::Turn&) { together.arrive_and_wait(); });
+  }
+  WaitForUsage(queue, Usage());
+  EXPECT_EQ(run_alone(), 1);  // the other caller may be back at once
+  now_ms += 1000;
+  EXPECT_EQ(run_alone(), 2);
+}
+
 // A queue of one thread whose clock is moved by hand, and a large job that is at work.
 class GivingWay : public testing::Test {
  protected:

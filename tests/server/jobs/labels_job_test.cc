@@ -113,8 +113,8 @@ Volume8 Nets(int32_t count) {
 
 // Voxels that touch nothing, each with 16 bricks: no declaration of voxels lets expect it.
 Volume8 Dust() {
-  return VolumeOf(160, 40, 48, [](int32_t x, int32_t y, int32_t z) {
-    return x % 16 == 7 && y % 4 == 1 && z % 8 == 3 ? 1 : 0;
+  return VolumeOf(256, 80, 96, [](int32_t x, int32_t y, int32_t z) {
+    return x % 32 == 15 && y % 8 == 3 && z % 16 == 7 ? 1 : 0;
   });
 }
 

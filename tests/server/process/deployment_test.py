@@ -11,16 +11,22 @@ from server_process import SOURCE, run_to_end
 DOCKER = SOURCE / "docker"
 
 
+def entry_point():
+    """The flags that the image gives in any case."""
+    line = re.search(r"^ENTRYPOINT (\[.*\])$", (DOCKER / "Dockerfile").read_text(), re.MULTILINE)
+    return json.loads(line[1])[1:]
+
+
 def server_arguments():
     """The server's flags, by the file that gives them."""
+    image = entry_point()
+    yield "Dockerfile", image
     compose = yaml.safe_load((DOCKER / "compose.yaml").read_text())
-    yield "compose.yaml", compose["services"]["server"]["command"]
+    yield "compose.yaml", image + compose["services"]["server"]["command"]
     for name in ("base/deployment.yaml", "durable/keep-jobs.yaml"):
         deployment = yaml.safe_load((DOCKER / "kubernetes" / name).read_text())
         containers = deployment["spec"]["template"]["spec"]["containers"]
-        yield name, next(c["args"] for c in containers if c["name"] == "server")
-    command = re.search(r"^CMD (\[.*\])$", (DOCKER / "Dockerfile").read_text(), re.MULTILINE)
-    yield "Dockerfile", json.loads(command[1])
+        yield name, image + next(c["args"] for c in containers if c["name"] == "server")
     unit = (DOCKER / "bccskel-server.service").read_text()
     yield "bccskel-server.service", re.search(r"^ExecStart=\S+ (.*)$", unit, re.MULTILINE)[1].split()
 
@@ -39,6 +45,19 @@ class DeploymentTest(unittest.TestCase):
             with self.subTest(name):
                 ended = run_to_end("--check-config", *arguments)
                 self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_the_image_is_asked_for_its_health_where_it_always_listens(self):
+        text = (DOCKER / "Dockerfile").read_text()
+        probe = json.loads(re.search(r"^HEALTHCHECK .*\n +CMD (\[.*\])$", text, re.MULTILINE)[1])
+        self.assertEqual(probe[:3], ["bccskel", "probe", "--server"])
+        self.assertEqual(entry_point(), ["--listen", probe[3]])
+        for name, arguments in server_arguments():
+            listened = [a for a in arguments if probe[3] in a]
+            self.assertEqual(len(listened), 0 if name == "bccskel-server.service" else 1, name)
+
+    def test_nginx_has_a_fixed_number_of_workers(self):
+        text = (DOCKER / "nginx/nginx.conf").read_text()
+        self.assertRegex(text, r"(?m)^worker_processes [1-4];$")
 
     def test_alerts_dashboard_and_autoscaler_read_metrics_that_there_are(self):
         sources = "".join(path.read_text() for path in (SOURCE / "server/metrics").glob("*.cc"))

@@ -1,5 +1,6 @@
 """A server whose disk is full: who asks for more is told so, and nothing that was confirmed is lost."""
 
+import contextlib
 import os
 import resource
 import signal
@@ -105,6 +106,52 @@ class SmallDiskTest(DurableTest):
             options={"shell_width": 2}).options).name
         self.assertEqual(self.finish(again)[-1], jobs.JOB_STATE_SUCCEEDED)
         self.assertTrue(durable.read_skeleton(self.channel, first).summary.sha256)
+
+
+    def fill_the_disk(self):
+        """To the last byte, by somebody else."""
+        filler = self.data.parent / "filler"
+        self.addCleanup(filler.unlink, missing_ok=True)
+        with filler.open("wb", buffering=0) as file:
+            for size in (1 << 16, 1 << 12, 1):
+                with contextlib.suppress(OSError):
+                    while True:
+                        file.write(bytes(size))
+        return filler
+
+    def test_on_a_disk_without_a_byte_left_jobs_end_and_everything_can_be_deleted(self):
+        self.start()
+        name = durable.send_volume(self.channel, *volume())
+        made = [self.create(name, f"job-{n}", options=service.SkeletonizeConfig(
+            options={"shell_width": 1 + n / 10}).options).name for n in range(10)]
+        for job in made:
+            self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
+        self.fill_the_disk()
+        for _ in range(2):  # also after a start
+            for job in made[:5]:
+                self.jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
+            del made[:5]
+            self.fill_the_disk()
+            self.kill(self.server)
+            self.start()
+        self.volumes.DeleteVolume(volumes.DeleteVolumeRequest(volume=name))
+        self.assertFalse(list(self.data.rglob("results/*")) + list(self.data.rglob("blobs/*")))
+        self.assertFalse(self.jobs.ListJobs(jobs.ListJobsRequest()).jobs)
+
+    def test_a_job_that_runs_while_the_disk_fills_ends(self):
+        self.start()
+        name = durable.send_volume(self.channel, *large_volume())
+        made = [self.create(name, options=service.SkeletonizeConfig(
+            options={"shell_width": 1 + n / 10}).options).name for n in range(3)]
+        self.fill_the_disk()
+        for job in made:
+            self.assertIn(self.finish(job)[-1], (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED))
+            self.assertIn(self.get(job).error.message, ("", "the server's disk is full"))
+            self.jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
+
+    def start(self, *flags):
+        self.server = super().start(*flags)
+        return self.server
 
 
 if __name__ == "__main__":

@@ -2,13 +2,14 @@
 
 import contextlib
 import json
+import subprocess
 import time
 import unittest
 
 import grpc
 
 import server_process
-from durable_case import (Code, DurableTest, durable, jobs, large_requests, large_volume,
+from durable_case import (Code, DurableTest, durable, example, jobs, large_requests, large_volume,
                           service_grpc, volume, volumes)
 
 TRACE = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"
@@ -120,6 +121,31 @@ class JobLogTest(DurableTest):
             time.sleep(0.02)
         self.assertEqual(lines_of(server, "call ended")[-1]["code"], "CANCELLED")
         server.stop()
+
+
+class UnreadLogTest(unittest.TestCase):
+    def test_a_server_whose_log_nobody_reads_serves_and_ends(self):
+        process = subprocess.Popen(
+            [server_process.BINARY, "--listen", "127.0.0.1:0", "--log-level", "debug",
+             "--metrics-listen", "127.0.0.1:0"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        address = process.stdout.readline().removeprefix("listening on ").strip()
+        page = process.stdout.readline().removeprefix("metrics at ").strip()
+        with grpc.insecure_channel(address) as channel:
+            get = channel.unary_unary("/bccskel.v1.JobService/GetJob")
+            for _ in range(10_000):  # more lines than the queue and the pipe hold
+                with self.assertRaises(grpc.RpcError) as raised:
+                    get(b"\x0a\x01\xff", timeout=server_process.TIMEOUT_S)  # a name that is not UTF-8
+                self.assertNotEqual(raised.exception.code(), Code.DEADLINE_EXCEEDED)
+            self.assertEqual(example.skeletonize(channel, example.torus())
+                             .summary.certificate.skeleton.loops, 1)
+        self.assertGreater(float(server_process.metrics(page)["bccskel_log_lines_dropped_total"]), 0)
+        process.terminate()
+        self.assertEqual(process.wait(server_process.TIMEOUT_S), 0)
 
 
 def first_request(server):

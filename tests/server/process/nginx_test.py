@@ -81,11 +81,31 @@ class NginxTest(unittest.TestCase):
     def test_other_services_stay_inside(self):
         front = self.front()
         with ServerProcess(listen=f"unix:{self.socket}"):
-            call = self.channel(front).unary_unary(
-                "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")
-            with self.assertRaises(grpc.RpcError) as caught:
-                call(b"", timeout=60)
-        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED)
+            channel = self.channel(front)
+            for method in ("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
+                           "/bccskel.v1.AdminService/GetServerStatus"):
+                with self.assertRaises(grpc.RpcError) as caught:
+                    channel.unary_unary(method)(b"", timeout=60)
+                self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED, method)
+            for service in server_process.services():
+                if service.name == "AdminService":
+                    continue
+                unknown = channel.unary_unary(f"/{service.full_name}/NoSuchMethod")
+                with self.assertRaises(grpc.RpcError) as caught:
+                    unknown(b"", timeout=60)
+                self.assertEqual(caught.exception.details(), "", "the server itself says so")
+
+    def test_who_calls_too_often_is_told_so(self):
+        front = self.front()
+        with ServerProcess(listen=f"unix:{self.socket}"):
+            ask = self.channel(front).unary_unary("/bccskel.v1.ServerService/GetCapabilities")
+            calls = [ask.future(b"", timeout=60) for _ in range(1500)]
+            errors = [call.exception() for call in calls]
+        refused = [error for error in errors if error is not None]
+        self.assertGreater(len(refused), 0)
+        for error in refused:
+            self.assertEqual(error.code(), grpc.StatusCode.UNAVAILABLE)
+            self.assertIn("slow down", error.details())
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/pipeline/algorithm_version.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
@@ -76,6 +77,26 @@ TEST(CubicMask, IsReadInTheAdjacencyAskedFor) {
   }
 }
 
+// A rod of three voxels, on lattices of either density.
+TEST(CubicMask, HasAsManyPointsAVoxelAsAskedFor) {
+  const auto server = test::StartServer();
+  DeclaredVolume mask =
+      MaskOf([](uint32_t x, uint32_t y, uint32_t z) { return x > 2 && x < 6 && y == 4 && z == 4; });
+  for (const auto& [points, count] :
+       {std::pair(v1::VOXEL_POINTS_UNSPECIFIED, 3U + 16), std::pair(v1::VOXEL_POINTS_TWO, 3U + 16),
+        std::pair(v1::VOXEL_POINTS_SIXTEEN, 24U + 63)}) {
+    mask.declaration.set_voxel_points(points);
+    const auto skeleton =
+        SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+    ASSERT_TRUE(skeleton.ok()) << skeleton.status();
+    EXPECT_EQ(skeleton->object_points, count);
+    const bool two = points != v1::VOXEL_POINTS_SIXTEEN;
+    EXPECT_EQ(skeleton->options.source, two ? ObjectSource::kVoxels : ObjectSource::kRefinedVoxels);
+    EXPECT_EQ(skeleton->algorithm_version, kMaskAlgorithmVersion);
+    EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{1, 0, 0}));
+  }
+}
+
 struct Fault {
   const char* what;
   void (*damage)(DeclaredVolume&);
@@ -89,6 +110,9 @@ TEST(CubicMask, IsRefusedWhereItIsNotWhatItDeclares) {
        [](DeclaredVolume& m) {
          m.declaration.set_mask_adjacency(static_cast<v1::MaskAdjacency>(9));
        },
+       absl::StatusCode::kInvalidArgument},
+      {"points a voxel",
+       [](DeclaredVolume& m) { m.declaration.set_voxel_points(static_cast<v1::VoxelPoints>(9)); },
        absl::StatusCode::kInvalidArgument},
       {"too few bytes",
        [](DeclaredVolume& m) {

@@ -37,8 +37,8 @@ constexpr auto kMask = v1::VOLUME_ENCODING_CUBIC_MASK;
 SkeletonizeOptions WithThreshold(double threshold) { return {.pruning = {.threshold = threshold}}; }
 
 TEST(OptionsForAVolume, AreTheSameForADefaultAndItsValue) {
-  EXPECT_EQ(OptionsFor(kPlanes, {}), OptionsFor(kPlanes, WithThreshold(4)));
-  EXPECT_EQ(OptionsFor(kMask, {}), OptionsFor(kMask, WithThreshold(16)));
+  EXPECT_EQ(OptionsFor(kPlanes, {}), OptionsFor(kPlanes, WithThreshold(0.4)));
+  EXPECT_EQ(OptionsFor(kMask, {}), OptionsFor(kMask, WithThreshold(0.4)));
 }
 
 TEST(OptionsForAVolume, TellAMaskFromALatticeVolumeOfTheSamePoints) {
@@ -46,10 +46,10 @@ TEST(OptionsForAVolume, TellAMaskFromALatticeVolumeOfTheSamePoints) {
 }
 
 TEST(OptionsForAVolume, AreTheSameWhereNothingIsPruned) {
-  SkeletonizeOptions surface, pruned;
-  surface.thinning.kind = pruned.thinning.kind = SkeletonKind::kSurface;
+  SkeletonizeOptions kernel, pruned;
+  kernel.thinning.kind = pruned.thinning.kind = SkeletonKind::kKernel;
   pruned.pruning = {.rule = PruningRule::kLength, .threshold = 3};
-  EXPECT_EQ(OptionsFor(kPlanes, surface), OptionsFor(kPlanes, pruned));
+  EXPECT_EQ(OptionsFor(kPlanes, kernel), OptionsFor(kPlanes, pruned));
 }
 
 }  // namespace

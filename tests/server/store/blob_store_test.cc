@@ -155,6 +155,9 @@ TEST_F(BlobStoreTest, ReadsAResultFromAnyRecordOn) {
     ASSERT_TRUE(writer.Add(static_cast<uint8_t>(n), std::string(static_cast<size_t>(n), 'r')).ok());
   }
   const std::string digest = writer.Finish()->Hex();
+  EXPECT_FALSE(blobs_.OpenResult("clinic", "result", digest).ok()) << "it is not confirmed yet";
+  ASSERT_TRUE(blobs_.ConfirmResult("clinic", "result").ok());
+  ASSERT_TRUE(blobs_.ConfirmResult("clinic", "result").ok());
   const auto result = blobs_.OpenResult("clinic", "result", digest);
   ASSERT_TRUE(result.ok()) << result.status();
   EXPECT_EQ(result->records(), 5u);
@@ -167,6 +170,7 @@ TEST_F(BlobStoreTest, TellsAFlippedBitOfAResultWhereverItIs) {
   auto writer = *blobs_.NewResult("clinic", "result");
   ASSERT_TRUE(writer.Add(1, "record").ok());
   const std::string digest = writer.Finish()->Hex();
+  ASSERT_TRUE(blobs_.ConfirmResult("clinic", "result").ok());
   const std::string path = blobs_.PathOfResult("clinic", "result");
   const uint64_t size = *File::OpenToRead(path)->Size();
   for (uint64_t offset = 0; offset < size; ++offset) {
@@ -179,12 +183,13 @@ TEST_F(BlobStoreTest, TellsAFlippedBitOfAResultWhereverItIs) {
   EXPECT_TRUE(blobs_.OpenResult("clinic", "result", digest).ok());
 }
 
-TEST_F(BlobStoreTest, SweepsWhatNobodyKnows) {
+TEST_F(BlobStoreTest, KnowsWhichBlobsThereAreAndHowLargeTheyShouldBe) {
+  EXPECT_TRUE(blobs_.Files()->empty());
   const std::string digest = StoreBlob("clinic", "volume");
-  StoreBlob("clinic", "orphan");
-  EXPECT_EQ(*blobs_.Sweep({blobs_.PathOfBlob("clinic", digest)}), 1);
-  EXPECT_TRUE(blobs_.OpenBlob("clinic", digest).ok());
-  EXPECT_EQ(FilesBelow(folder_.path())->size(), 1u);
+  EXPECT_EQ(*blobs_.Files(), std::set<std::string>{blobs_.PathOfBlob("clinic", digest)});
+  EXPECT_TRUE(blobs_.HasBlob("clinic", digest, 6));
+  EXPECT_FALSE(blobs_.HasBlob("clinic", digest, 7));
+  EXPECT_FALSE(blobs_.HasBlob("other", digest, 6));
 }
 
 // In a child, for the limit holds for the whole process.

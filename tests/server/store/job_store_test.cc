@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 
 #include "server/store/file_io.h"
@@ -180,6 +181,46 @@ TEST_F(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
               ElementsAre(Field(&EventRow::sequence, 2), Field(&EventRow::sequence, 3)));
   ASSERT_TRUE(store_->DeleteJob(job).ok());
   EXPECT_THAT(*store_->EventsAfter(job, 0), IsEmpty());
+}
+
+// Every single bit would be 300,000 openings: a few hundred, the same ones at every run.
+TEST_F(JobStoreTest, GivesTheRightAnswerOrAnErrorWhateverBitIsFlipped) {
+  constexpr int kJobs = 8, kFlips = 300;
+  for (int n = 0; n < kJobs; ++n) {
+    JobRow job = Job("clinic", "jobs/" + std::to_string(n));
+    job.options = "options of " + std::to_string(n);
+    job.volume = "volumes/" + std::to_string(n);
+    job.attempts = n;
+    Insert(job);
+  }
+  store_.reset();
+  auto file = *File::OpenToWrite(folder_ / "jobs.db");
+  const uint64_t size = *file.Size();
+  std::mt19937_64 random(17);
+  int told = 0;
+  for (int flip = 0; flip < kFlips; ++flip) {
+    const uint64_t bit = random() % (8 * size);
+    const std::string byte = *file.ReadAt(bit / 8, 1);
+    const auto damaged = static_cast<char>(byte[0] ^ (1 << (bit % 8)));
+    ASSERT_TRUE(file.WriteAt(bit / 8, std::string(1, damaged)).ok());
+    {
+      const auto store = OpenSqliteJobStore(folder_ / "jobs.db");
+      if (!store.ok()) ++told;
+      for (int n = 0; store.ok() && n < kJobs; ++n) {
+        const auto job = (*store)->FindJob("clinic", "jobs/" + std::to_string(n));
+        if (!job.ok() && ++told > 0) continue;
+        ASSERT_TRUE(job->has_value()) << bit;
+        EXPECT_EQ((*job)->options, "options of " + std::to_string(n)) << bit;
+        EXPECT_EQ((*job)->volume, "volumes/" + std::to_string(n)) << bit;
+        EXPECT_EQ((*job)->attempts, n) << bit;
+        EXPECT_EQ((*job)->state, JobState::kQueued) << bit;
+      }
+    }
+    for (const char* log : {"jobs.db-wal", "jobs.db-shm"}) (void)RemoveFile(folder_ / log);
+    ASSERT_TRUE(file.WriteAt(bit / 8, byte).ok());
+  }
+  EXPECT_GT(told, 0);
+  Reopen();
 }
 
 TEST(SchemaTest, RefusesAFileOfANewerServer) {
