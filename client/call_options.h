@@ -50,6 +50,7 @@ struct CallOptions {
 struct LabelsCallOptions {
   SkeletonizeOptions skeletonize = {};
   MaskAdjacency adjacency = MaskAdjacency::k26;
+  VoxelPoints points = VoxelPoints::kTwo;
   std::vector<uint64_t> labels = {};  // none: all but 0, the background
   uint64_t min_voxels = 0;            // smaller labels are left out
   // As in CallOptions.

@@ -37,6 +37,8 @@ v1::SkeletonizeLabelsRequest ConfigRequest(const EncodedLabels& volume,
   config.mutable_volume()->set_mask_adjacency(options.adjacency == MaskAdjacency::k26
                                                   ? v1::MASK_ADJACENCY_OBJECT_26
                                                   : v1::MASK_ADJACENCY_OBJECT_6);
+  config.mutable_volume()->set_voxel_points(
+      options.points == VoxelPoints::kTwo ? v1::VOXEL_POINTS_TWO : v1::VOXEL_POINTS_SIXTEEN);
   config.mutable_labels()->Add(options.labels.begin(), options.labels.end());
   config.set_min_voxels(options.min_voxels);
   *config.mutable_options() = wire::ToMessage(options.skeletonize);

@@ -124,6 +124,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
+  AddJunctions(command, arguments.skeletonize.junction_reach);
   AddThinning(command, arguments.skeletonize.thinning);
   AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
@@ -149,6 +150,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
+  AddJunctions(command, arguments.skeletonize.junction_reach);
   AddThinning(command, arguments.skeletonize.thinning);
   AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);

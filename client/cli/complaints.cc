@@ -75,6 +75,10 @@ Complaint PruningComplaint(const SkeletonizeOptions& options) {
   }
   const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
   if (!asked || HasCurves(options.thinning)) return std::nullopt;
+  if (HasSheets(options.thinning)) {
+    if (pruning.tips == TipPlacement::kRidge) return std::nullopt;
+    return "--tips is for curves, and --kind surface has none";
+  }
   const std::string why =
       options.thinning.last_shell > 0
           ? "--last-shell stops before there are curves"
@@ -82,8 +86,15 @@ Complaint PruningComplaint(const SkeletonizeOptions& options) {
   return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
 }
 
+Complaint JunctionComplaint(const SkeletonizeOptions& options) {
+  const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
+  if (!asked || HasGraphOfCurves(options.thinning)) return std::nullopt;
+  return "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell";
+}
+
 Complaint ThinningComplaint(const SkeletonizeOptions& options) {
   if (Complaint c = IfError(CheckSkeletonizeOptions(options)); c.has_value()) return c;
+  if (Complaint c = JunctionComplaint(options); c.has_value()) return c;
   return PruningComplaint(options);
 }
 

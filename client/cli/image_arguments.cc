@@ -74,6 +74,11 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
   AddChoice<MaskAdjacency>(command, "--adjacency", arguments.mask.adjacency,
                            "Which voxels touch: object, background (default 26,6)",
                            {{"26,6", MaskAdjacency::k26}, {"6,26", MaskAdjacency::k6}});
+  CLI::Option* points =
+      AddChoice<VoxelPoints>(command, "--voxel-points", arguments.mask.points,
+                             "Lattice points that exact makes of a voxel of a solid object "
+                             "(default 2); 16 refine voxels first, for finer curves",
+                             {{"2", VoxelPoints::kTwo}, {"16", VoxelPoints::kSixteen}});
   using Weights = std::optional<MaskWeights>;  // none: exact
   CLI::Option* sampling = AddChoice<Weights>(
       command, "--sampling",
@@ -84,6 +89,7 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
       {{"exact", std::nullopt},
        {"nearest", MaskWeights::kNearest},
        {"trilinear", MaskWeights::kTrilinear}});
+  points->excludes(sampling);
   command
       .add_option_function<double>(
           "--density",
@@ -134,6 +140,13 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
 void AddLayout(CLI::App& command, ImageArguments& arguments) {
   AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
                     [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+  const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
+                                 const char* description) {
+    AddCount<uint32_t>(
+        command, name, [&chosen](uint32_t number) { chosen = number; }, description);
+  };
+  choose("--channel", arguments.open.channel, "Of a TIFF file with several, counted from 0");
+  choose("--time", arguments.open.time, "Point of time of a TIFF file with several, from 0");
   AddRaw(command, arguments);
 }
 

@@ -28,6 +28,7 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);
+  AddJunctions(command, arguments.skeletonize.junction_reach);
   AddThinning(command, arguments.skeletonize.thinning);
   AddRoot(command, arguments.root);
   command.add_flag_callback(

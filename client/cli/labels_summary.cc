@@ -87,14 +87,18 @@ std::string SummaryText(const LabelsSummary& summary) {
              Counted(summary.arguments.min_voxels, "voxel", "voxels"), " left out");
   }
   AddPreparing(text, totals);
-  const char* from = totals.preparing.empty() ? "voxels" : "prepared object";
+  const bool sampled = summary.arguments.image.mask.sampling.has_value();
+  const char* from = !totals.preparing.empty() ? "prepared object"
+                     : sampled                 ? "sampled object"
+                                               : "voxels";
   text.Add("\nobjects:   ", Counted(totals.object_points, "point", "points"), ", ",
            exporting::BettiPhrase(totals.topology),
            "\nskeletons: ", Counted(totals.skeleton_points, "point", "points"), ", ",
            Counted(totals.nodes, "node", "nodes"), ", ", Counted(totals.edges, "edge", "edges"),
            "\ncheck:     topology kept from every label's ", from, " on, ",
-           Counted(totals.simple_points_left, "simple point", "simple points"),
-           " left\ntime:      ", seconds, " s\n");
+           Counted(totals.simple_points_left, "simple point", "simple points"), " left",
+           sampled ? "; sampling may have changed the voxels'" : "", "\ntime:      ", seconds,
+           " s\n");
   for (const WrittenFile& file : summary.files) {
     text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
   }
@@ -111,11 +115,12 @@ void AddLabelJson(Text& text, const LabelFigures& label) {
   if (certificate.unprepared.has_value()) {
     text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
   }
+  if (certificate.sampled) text.Add("\"sampled\":true,");
   text.Add("\"input\":", BettiJson(certificate.input),
            ",\"skeleton\":", BettiJson(certificate.skeleton),
-           ",\"simple_points_left\":", certificate.simple_points_left,
-           "},\"topology_kept\":", certificate.TopologyKept() ? "true" : "false", ",\"sha256\":\"",
-           label.sha256, "\"}");
+           ",\"simple_points_left\":", certificate.simple_points_left, "},\"topology_kept\":",
+           certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false",
+           ",\"sha256\":\"", label.sha256, "\"}");
 }
 
 std::string SummaryJson(const LabelsSummary& summary) {

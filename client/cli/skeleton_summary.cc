@@ -13,6 +13,7 @@
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
+#include "core/certificate/describe_changes.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
 
@@ -35,9 +36,14 @@ std::string Decimals(double seconds) {
 }
 
 std::string CheckPhrase(const Certificate& certificate) {
-  if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
-  return "topology kept, " +
-         Counted(certificate.simple_points_left, "simple point", "simple points") + " left";
+  const std::string verdict = VerdictInWords(certificate);
+  if (!certificate.TopologyKept()) return verdict;
+  return verdict + ", " + Counted(certificate.simple_points_left, "simple point", "simple points") +
+         " left";
+}
+
+const char* KeptJson(const Certificate& certificate) {
+  return certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false";
 }
 
 void AddOrder(Text& text, const SkeletonSummary& summary) {
@@ -159,11 +165,12 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
   if (certificate.unprepared.has_value()) {
     text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
   }
+  if (certificate.sampled) text.Add("\"sampled\":true,");
   text.Add("\"input\":", BettiJson(certificate.input),
            ",\"skeleton\":", BettiJson(certificate.skeleton),
            ",\"simple_points_left\":", certificate.simple_points_left,
-           "},\"topology_kept\":", certificate.TopologyKept() ? "true" : "false", ",\"sha256\":\"",
-           result.sha256, "\",\"preparing\":", exporting::PreparingJson(result.preparing),
+           "},\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", result.sha256,
+           "\",\"preparing\":", exporting::PreparingJson(result.preparing),
            ",\"notes\":", NotesJson(NotesOn(result)), ",\"timings\":");
   AddTimingsJson(text, result.timings);
   text.Add(",\"seconds\":", summary.seconds);

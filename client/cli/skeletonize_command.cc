@@ -17,6 +17,7 @@
 #include "client/skeletonize_client.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
+#include "core/labels/convert_label.h"
 #include "core/labels/edge_image.h"
 #include "core/labels/nrrd_writer.h"
 #include "core/pipeline/notes.h"
@@ -221,8 +222,7 @@ ExitCode PrintSummary(const SkeletonSummary& summary) {
 // The surface of an image's object goes in steps of a voxel.
 SkeletonizeArguments ForInput(SkeletonizeArguments arguments, const Object& object) {
   if (object.image.has_value()) {
-    PruningOptions& pruning = arguments.skeletonize.pruning;
-    pruning = ForSteps(pruning, VoxelEdge(arguments.image.mask));
+    arguments.skeletonize = ForMask(arguments.skeletonize, arguments.image.mask);
   }
   return arguments;
 }

@@ -34,18 +34,27 @@ void AddDistance(CLI::App& command, DistanceKind& distance) {
 
 void AddPruning(CLI::App& command, PruningOptions& pruning) {
   AddChoice<PruningRule>(command, "--pruning", pruning.rule,
-                         "Which branches with a free end to remove (default slope)",
+                         "Which branches with a free end to remove (default significance)",
                          Choices(kPruningWords));
   command
       .add_option("--pruning-threshold", pruning.threshold,
-                  "Margin in lattice units for slope (default 4, for images four voxels), world "
-                  "units for length, radii of the junction for relative-length (default 1), passes "
+                  "How far a branch must stick out: half-widths of the object beside it for "
+                  "significance (default 0.4), world units for length, radii of the junction for "
+                  "relative-length (default 1), passes "
                   "of thinning for persistence (default 6)")
       ->option_text("X");
   AddChoice<TipPlacement>(command, "--tips", pruning.tips,
                           "Where branches end: where the ridge of the distances does (default), or "
                           "as thinned",
                           Choices(kTipsWords));
+}
+
+void AddJunctions(CLI::App& command, double& reach) {
+  command
+      .add_option("--merge-junctions", reach,
+                  "Make one node of junctions that lie within so many radii of the deepest of "
+                  "them, up to 4; 0 leaves all (default 1.75)")
+      ->option_text("X");
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {

@@ -16,6 +16,7 @@ namespace bccskel::cli {
 void AddPreparing(CLI::App& command, PreparingOptions& preparing);
 void AddDistance(CLI::App& command, DistanceKind& distance);
 void AddPruning(CLI::App& command, PruningOptions& pruning);
+void AddJunctions(CLI::App& command, double& reach);
 void AddThinning(CLI::App& command, ThinningOptions& thinning);
 
 }  // namespace bccskel::cli

@@ -108,13 +108,13 @@ def raw_planes(cells):
 
 
 def mask_bricks(mask):
-    """Blocks of 8 x 2 x 4 voxels that hold a voxel, or touch one from above, on two sublattices."""
+    """Blocks of 16 x 4 x 8 voxels that hold a voxel or a corner of one, on two sublattices."""
     nz, ny, nx = mask.shape
-    padded = np.zeros((nz // 4 * 4 + 8, ny // 2 * 2 + 4, nx // 8 * 8 + 16), dtype=bool)
+    padded = np.zeros((nz // 8 * 8 + 16, ny // 4 * 4 + 8, nx // 16 * 16 + 32), dtype=bool)
     for z, y, x in np.ndindex(2, 2, 2):  # the upper corners of the voxels count, too
         padded[z:z + nz, y:y + ny, x:x + nx] |= mask
     z, y, x = padded.shape
-    blocks = padded.reshape(z // 4, 4, y // 2, 2, x // 8, 8).any(axis=(1, 3, 5))
+    blocks = padded.reshape(z // 8, 8, y // 4, 4, x // 16, 16).any(axis=(1, 3, 5))
     return 2 * int(blocks.sum())
 
 

@@ -103,10 +103,8 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t componen
   if (node.at.birth > 0) AddData(text, "birth", node.at.birth);
   AddLabel(text, context.labels.of_nodes, n);
   if (context.order.has_value()) AddNodeOrder(text, context.order->nodes[n]);
-  if (node.kind == NodeKind::kClosedSurface) {
-    AddData(text, "loops", node.loops);
-    AddData(text, "cavities", node.cavities);
-  }
+  if (node.kind == NodeKind::kClosedSurface || node.loops > 0) AddData(text, "loops", node.loops);
+  if (node.kind == NodeKind::kClosedSurface) AddData(text, "cavities", node.cavities);
   text.Add("</node>\n");
 }
 
@@ -131,7 +129,8 @@ void AddBirths(Text& text, std::span<const SkeletonPoint> points) {
   text.Add("</data>");
 }
 
-void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context) {
+void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context,
+             bool has_births) {
   const SkeletonEdge& edge = graph.edges[n];
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   text.Add("<edge id=\"e", n, "\" source=\"n", edge.source, "\" target=\"n", edge.target, "\">");
@@ -145,7 +144,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
   if (figures.tortuosity.has_value()) AddData(text, "tortuosity", *figures.tortuosity);
   if (std::isfinite(edge.pruning_level)) AddData(text, "pruning_level", edge.pruning_level);
   AddPathPoints(text, graph, points);
-  if (graph.HasBirths()) AddBirths(text, points);
+  if (has_births) AddBirths(text, points);
   text.Add("</edge>\n");
 }
 
@@ -154,13 +153,14 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
 std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context) {
   Text text;
   text.Add(kHead);
-  if (graph.HasBirths()) text.Add(kBirthKeys);
+  const bool has_births = graph.HasBirths();
+  if (has_births) text.Add(kBirthKeys);
   AddContext(text, context);
   const GraphComponents components = ComponentsOf(graph);
   for (size_t n = 0; n < graph.nodes.size(); ++n) {
     AddNode(text, graph, n, components.of_node[n], context);
   }
-  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, context);
+  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, context, has_births);
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();
 }

@@ -53,8 +53,9 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
   AddPosition(text, graph.PositionOf(node.at));
   text.Add(",\"radius\":", graph.RadiusOf(node.at), ",\"component\":", component);
   if (node.at.birth > 0) text.Add(",\"birth\":", node.at.birth);
-  if (node.kind == NodeKind::kClosedSurface) {
-    text.Add(",\"cavities\":", node.cavities, ",\"loops\":", node.loops);
+  if (node.kind == NodeKind::kClosedSurface) text.Add(",\"cavities\":", node.cavities);
+  if (node.kind == NodeKind::kClosedSurface || node.loops > 0) {
+    text.Add(",\"loops\":", node.loops);
   }
   if (order.has_value()) {
     AddNodeOrder(text, order->nodes[static_cast<size_t>(&node - graph.nodes.data())]);
@@ -62,27 +63,34 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
   text.Add('}');
 }
 
+// What is found out once for all edges.
+struct EdgeContext {
+  const std::optional<TreeOrder>& order;
+  bool has_births;
+};
+
 void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
-             const std::optional<TreeOrder>& order) {
+             const EdgeContext& context) {
   const auto points = graph.PointsOf(edge);
   text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
   AddList(text, ",", points,
           [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
   AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
-  if (graph.HasBirths()) {
+  if (context.has_births) {
     text.Add(",\"births\":");
     AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(p.birth); });
   }
   text.Add(",\"curve\":");
-  AddList(text, ",", SmoothCurve(graph, edge), [&](const WorldPoint& p) { AddPosition(text, p); });
-  const EdgeFigures figures = FiguresOf(graph, edge);
+  const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+  AddList(text, ",", curve, [&](const WorldPoint& p) { AddPosition(text, p); });
+  const EdgeFigures figures = FiguresOf(graph, edge, curve);
   text.Add(",\"length\":", figures.length, ",\"mean_radius\":", figures.mean_radius,
            ",\"min_radius\":", figures.min_radius, ",\"max_radius\":", figures.max_radius);
   if (figures.tortuosity.has_value()) text.Add(",\"tortuosity\":", *figures.tortuosity);
   if (std::isfinite(edge.pruning_level)) text.Add(",\"pruning_level\":", edge.pruning_level);
-  if (order.has_value()) {
-    AddEdgeOrder(text, order->edges[static_cast<size_t>(&edge - graph.edges.data())]);
+  if (context.order.has_value()) {
+    AddEdgeOrder(text, context.order->edges[static_cast<size_t>(&edge - graph.edges.data())]);
   }
   text.Add('}');
 }
@@ -146,6 +154,7 @@ void AddCertificate(Text& text, const Certificate& certificate) {
   AddBettiNumbers(text, certificate.input);
   text.Add(",\"skeleton\":");
   AddBettiNumbers(text, certificate.skeleton);
+  if (certificate.sampled) text.Add(",\"sampled\":true");
   text.Add(",\"simple_points_left\":", certificate.simple_points_left, '}');
 }
 
@@ -172,8 +181,9 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
     AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
             order);
   });
+  const EdgeContext edges = {order, graph.HasBirths()};
   text.Add(",\n\"edges\":");
-  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, order); });
+  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, edges); });
   text.Add(",\n\"sheets\":");
   AddSheets(text, graph);
   text.Add(",\n\"components\":");

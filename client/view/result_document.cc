@@ -99,6 +99,7 @@ class Reader {
     ReadMember(from, place, "input", to.input);
     ReadMember(from, place, "skeleton", to.skeleton);
     ReadMember(from, place, "simple_points_left", to.simple_points_left);
+    to.sampled = from.is_object() && from.value("sampled", Json()) == true;
   }
   template <typename T>
   void ReadMember(const Json& from, const std::string& place, const char* name, T& to) {

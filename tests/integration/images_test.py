@@ -125,6 +125,17 @@ class ImagesTest(harness.TestCase):
                                "trilinear", "--density", 0.5, "-o", self.path("s.swc"))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("changed components 11 -> ", done.stderr)
+        self.assertIn("sampling changed components 11 -> ", done.stdout)
+        summary = self.skeletonize(self.path("line.npy"), "--sampling", "nearest")
+        self.assertTrue(summary["certificate"]["sampled"])
+
+    def test_voxels_have_as_many_points_as_asked_for(self):
+        numpy.save(self.path("cube.npy"), numpy.ones((10, 10, 10), "u1"))
+        for points, count in (("2", 10**3 + 11**3), ("16", 20**3 + 21**3)):
+            summary = self.skeletonize(self.path("cube.npy"), "--voxel-points", points)
+            self.assertEqual(summary["object_points"], count)
+            self.assertTrue(summary["topology_kept"])
+            self.assertNotIn("sampled", summary["certificate"])
 
     def test_voxelize_submit_and_view_take_what_comes_from_an_image(self):
         ring_file = self.write_ring()
@@ -134,7 +145,9 @@ class ImagesTest(harness.TestCase):
             place = ("--server", server.address, "--json", "-o", self.path("s.json"))
             sent = json.loads(self.succeed("submit", self.path("v.bccb"), *place))
             direct = json.loads(self.succeed("skeletonize", ring_file, *place))
-        self.assertEqual(sent["sha256"], direct["sha256"])
+        # A volume is no mask any more: only its radii and the margin of pruning are others.
+        for key in ("object_points", "skeleton_points", "nodes", "edges"):
+            self.assertEqual(sent[key], direct[key])
         self.assertEqual(direct["certificate"]["mask"], direct["certificate"]["skeleton"])
         self.succeed("view", self.path("s.json"), "--object", ring_file, "-o", self.path("v.html"))
 

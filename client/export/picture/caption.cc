@@ -1,5 +1,7 @@
 #include "client/export/picture/caption.h"
 
+#include "core/certificate/describe_changes.h"
+
 namespace bccskel::exporting {
 
 std::string EscapeMarkup(const std::string& text) {
@@ -51,8 +53,7 @@ std::string ObjectPhrase(const SkeletonizeResult& result) {
 
 std::string SkeletonPhrase(const SkeletonizeResult& result) {
   return "skeleton: " + Counted(result.skeleton_points, "point", "points") + ", " +
-         BettiPhrase(result.certificate.skeleton) +
-         (result.certificate.TopologyKept() ? " (topology kept)" : " (TOPOLOGY NOT KEPT)");
+         BettiPhrase(result.certificate.skeleton) + " (" + VerdictInWords(result.certificate) + ")";
 }
 
 }  // namespace bccskel::exporting

@@ -155,7 +155,7 @@ function onPointer(event) {
 
 const kTopology = ["components", "loops", "cavities"];
 function showCertificate() {
-  const { mask, input, skeleton } = result.certificate;
+  const { mask, sampled, input, skeleton } = result.certificate;
   const columns = [["image", mask], ["object", input], ["skeleton", skeleton]]
     .filter(([, topology]) => topology);
   element("certified").innerHTML = `<tr><th></th>${columns.map(([name]) =>
@@ -164,7 +164,9 @@ function showCertificate() {
     ([, topology]) => `<td>${digits(topology[name])}</td>`).join("")}</tr>`).join("");
   const kept = kTopology.every((name) => input[name] === skeleton[name]);
   element("verdict").className = kept ? "" : "bad";
-  element("verdict").textContent = kept ? "\u2713 topology kept" : "\u2717 TOPOLOGY NOT KEPT";
+  element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
+    : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
+      : "\u2713 topology kept";
   element("digest").textContent = `sha256 ${result.sha256.slice(0, 12)}\u2026`;
   element("digest").title = result.sha256;
 }

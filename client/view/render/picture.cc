@@ -15,6 +15,7 @@
 #include "client/view/render/beads.h"
 #include "client/view/render/glass_color.h"
 #include "client/view/sheet_surface.h"
+#include "core/certificate/describe_changes.h"
 #include "core/surface/smooth_surface.h"
 
 namespace bccskel::view {
@@ -161,11 +162,10 @@ class Words {
   void AddTitle(const ResultDocument& result, const std::string& title) {
     constexpr LinearColor kInk = {0.06f, 0.09f, 0.16f};
     Write(title, kMargin * size_, 2.4 * size_, 1.5, kInk, CAIRO_FONT_WEIGHT_BOLD);
-    const bool kept = result.certificate.TopologyKept();
     Write(exporting::GroupedDigits(result.object_points) + " points, " +
               exporting::BettiPhrase(result.certificate.input) +
               "; skeleton: " + exporting::Counted(result.edges.size(), "branch", "branches") +
-              (kept ? ", topology kept" : ", TOPOLOGY NOT KEPT"),
+              ", " + VerdictInWords(result.certificate),
           kMargin * size_, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
   }
 

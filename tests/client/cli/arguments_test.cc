@@ -122,6 +122,15 @@ TEST(ArgumentsTest, SkeletonizeTakesPruning) {
   EXPECT_THAT(no_length.err, HasSubstr("needs a threshold"));
 }
 
+TEST(ArgumentsTest, SkeletonizeTakesTheReachOfJunctions) {
+  const auto parsed = [](const char* kind, const char* reach) {
+    return Parse({"skeletonize", "a", "-o", "a.vtp", "--kind", kind, "--merge-junctions", reach});
+  };
+  EXPECT_EQ(parsed("curve", "0").as<SkeletonizeArguments>().skeletonize.junction_reach, 0);
+  EXPECT_THAT(parsed("curve", "5").err, HasSubstr("reach of junctions 5: must be 0"));
+  EXPECT_THAT(parsed("surface", "1").err, HasSubstr("--merge-junctions is for graphs of curves"));
+}
+
 TEST(ArgumentsTest, SkeletonizeTakesPersistenceWithIsthmusesAlone) {
   const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc", "--kind", "isthmus-curve",
                                "--pruning", "persistence"});
@@ -298,8 +307,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"pruning_of_a_surface",
               {"skeletonize", "a.off", "-o", "a.swc", "--kind", "surface", "--pruning", "length",
                "--pruning-threshold", "3"},
-              "--pruning, --pruning-threshold and --tips are for curves, and --kind surface has "
-              "none"},
+              "pruning by length, relative length or persistence: is for curves"},
         Wrong{"pruning_of_shells",
               {"skeletonize", "a.off", "-o", "a.swc", "--last-shell", "5", "--pruning-threshold",
                "3"},
