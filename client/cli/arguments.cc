@@ -121,11 +121,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   command.add_flag_callback(
       "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
       "With --detach: keep the thinned volume, too, which fetch can write then");
-  AddPreparing(command, arguments.skeletonize.preparing);
-  AddDistance(command, arguments.skeletonize.distance);
-  AddPruning(command, arguments.skeletonize.pruning);
-  AddJunctions(command, arguments.skeletonize.junction_reach);
-  AddThinning(command, arguments.skeletonize.thinning);
+  AddSkeletonizeOptions(command, arguments.skeletonize);
   AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
@@ -147,11 +143,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
           "--local", [&arguments] { arguments.place = Place::kLocal; },
           "Compute on this machine, without a server")
       ->excludes(server);
-  AddPreparing(command, arguments.skeletonize.preparing);
-  AddDistance(command, arguments.skeletonize.distance);
-  AddPruning(command, arguments.skeletonize.pruning);
-  AddJunctions(command, arguments.skeletonize.junction_reach);
-  AddThinning(command, arguments.skeletonize.thinning);
+  AddSkeletonizeOptions(command, arguments.skeletonize);
   AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);

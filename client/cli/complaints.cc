@@ -59,7 +59,7 @@ Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
   }
   if (arguments.skeletonize.preparing.Wanted()) {
     return "--branch-image and --curve-image show the voxels as they are, so not with --denoise, "
-           "--fill-cavities, --min-component, --min-component-volume or --keep-largest";
+           "--fill-cavities, --cut-loops, --min-component, --min-component-volume or --keep-largest";
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return std::nullopt;

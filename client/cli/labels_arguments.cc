@@ -25,11 +25,7 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   AddLabelImage(command, arguments.image);
   AddCount(command, "--min-voxels", arguments.min_voxels,
            "Leave out labels with fewer voxels (default 1)");
-  AddPreparing(command, arguments.skeletonize.preparing);
-  AddDistance(command, arguments.skeletonize.distance);
-  AddPruning(command, arguments.skeletonize.pruning);
-  AddJunctions(command, arguments.skeletonize.junction_reach);
-  AddThinning(command, arguments.skeletonize.thinning);
+  AddSkeletonizeOptions(command, arguments.skeletonize);
   AddRoot(command, arguments.root);
   command.add_flag_callback(
       "--local", [] {}, "Allowed, and does nothing: labels are always computed here");

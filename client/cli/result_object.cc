@@ -63,7 +63,9 @@ absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
                          ? FillOnGridOf(result, arguments, context)
                          : LoadObject(arguments.object, arguments.grid, arguments.image, context));
   if (!result.preparing.Wanted()) return object;
-  BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared, Prepare(object, result.preparing, context));
+  exec::UnlimitedMemory memory;
+  BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared,
+                           Prepare(object, result.preparing, memory, context));
   return std::move(prepared.object);
 }
 

@@ -3,8 +3,30 @@
 #include "client/cli/choice_option.h"
 #include "client/cli/count_option.h"
 #include "core/pipeline/option_words.h"
+#include "core/pipeline/presets.h"
 
 namespace bccskel::cli {
+namespace {
+
+// CLI11 takes the options in the order in which they were added: what is given by itself comes
+// later and stays.
+void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
+  std::vector<std::string> names;
+  std::string text = "Options for a kind of data, which those given by themselves overrule:";
+  for (const Preset& preset : Presets()) {
+    names.push_back(preset.name);
+    text += std::string("\n") + preset.name + " = " + OptionsOf(preset) + ": " + preset.data;
+  }
+  command
+      .add_option_function<std::string>(
+          "--preset",
+          [&options](const std::string& name) {
+            const absl::Status known = ApplyPreset(name, options);
+            if (!known.ok()) throw CLI::ValidationError("--" + std::string(known.message()));
+          },
+          text)
+      ->option_text(CLI::detail::join(names, "|"));
+}
 
 void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command
@@ -15,6 +37,11 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
       "Fill the cavities of the object, which leave closed surfaces in a skeleton");
+  command
+      .add_option("--cut-loops", preparing.tunnel_width,
+                  "Fill tunnels that are narrower, in world units, each of which makes a loop "
+                  "(default 0: none)")
+      ->option_text("X");
   AddCount(command, "--min-component", preparing.min_component_points,
            "Drop components of fewer points (default 0)");
   command
@@ -78,6 +105,17 @@ void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   command.add_flag_callback(
       "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
       "Leave the simple points that parallel thinning leaves");
+}
+
+}  // namespace
+
+void AddSkeletonizeOptions(CLI::App& command, SkeletonizeOptions& options) {
+  AddPreset(command, options);
+  AddPreparing(command, options.preparing);
+  AddDistance(command, options.distance);
+  AddPruning(command, options.pruning);
+  AddJunctions(command, options.junction_reach);
+  AddThinning(command, options.thinning);
 }
 
 }  // namespace bccskel::cli

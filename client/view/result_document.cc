@@ -84,6 +84,8 @@ class Reader {
     std::string cavities, components;
     ReadIfThere(from, "denoise_passes", to.denoise_passes);
     ReadIfThere(from, "cavities", cavities);
+    ReadIfThere(from, "tunnel_width", to.tunnel_width);
+    ReadIfThere(from, "tunnel_cells", to.tunnel_cells);
     ReadIfThere(from, "min_component_points", to.min_component_points);
     ReadIfThere(from, "min_component_volume", to.min_component_volume);
     ReadIfThere(from, "components", components);

@@ -67,6 +67,8 @@ std::string WordsFor(const PreparingStep& step) {
       return "denoised in " + Counted(count, "pass", "passes");
     case PreparingStepKind::kFillCavities:
       return Counted(count, "cavity", "cavities") + " filled";
+    case PreparingStepKind::kFillTunnels:
+      return Counted(count, "tunnel", "tunnels") + " filled";
     case PreparingStepKind::kDropSmallComponents:
       return Counted(count, "small component", "small components") + " dropped";
     case PreparingStepKind::kKeepLargestComponent:

@@ -22,6 +22,8 @@ std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options) {
   const bool one = preparing.components == KeptComponents::kLargest;
   return {NumberFact("denoise_passes", preparing.denoise_passes),
           {"cavities", fills ? "filled" : "kept"},
+          NumberFact("tunnel_width", preparing.tunnel_width),
+          NumberFact("tunnel_cells", preparing.tunnel_cells),
           NumberFact("min_component_points", preparing.min_component_points),
           NumberFact("min_component_volume", preparing.min_component_volume),
           {"components", one ? "largest" : "all"},

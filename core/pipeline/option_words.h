@@ -43,9 +43,10 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
      {"voxels", ObjectSource::kVoxels},
      {"refined-voxels", ObjectSource::kRefinedVoxels},
      {"sampled-voxels", ObjectSource::kSampledVoxels}}};
-inline constexpr Words<PreparingStepKind, 4> kPreparingWords = {
+inline constexpr Words<PreparingStepKind, 5> kPreparingWords = {
     {{"denoise", PreparingStepKind::kDenoise},
      {"fill-cavities", PreparingStepKind::kFillCavities},
+     {"fill-tunnels", PreparingStepKind::kFillTunnels},
      {"drop-small-components", PreparingStepKind::kDropSmallComponents},
      {"keep-largest-component", PreparingStepKind::kKeepLargestComponent}}};
 

@@ -132,7 +132,8 @@ class Pipeline {
 
  private:
   absl::StatusOr<Volume> PrepareObject(const Volume& given) {
-    BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared, Prepare(given, options_.preparing, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared,
+                             Prepare(given, options_.preparing, memory_, context_));
     result_.certificate.unprepared = prepared.before;
     result_.preparing = std::move(prepared.steps);
     result_.timings.preparing = clock_.Lap();

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "absl/strings/str_format.h"
+#include "core/distance/chamfer_weights.h"
 #include "core/exec/status_macros.h"
 #include "core/prepare/denoise.h"
 #include "core/prepare/fill_cavities.h"
+#include "core/prepare/fill_tunnels.h"
 #include "core/prepare/keep_components.h"
 
 namespace bccskel {
@@ -21,8 +23,9 @@ uint64_t PointsIn(double volume, const Placement& placement) {
 
 class Preparation {
  public:
-  Preparation(const Volume& object, const PreparingOptions& options, const exec::Context& context)
-      : options_(options), context_(context) {
+  Preparation(const Volume& object, const PreparingOptions& options, exec::MemoryBudget& memory,
+              const exec::Context& context)
+      : options_(options), memory_(memory), context_(context) {
     prepared_.object = object;
   }
 
@@ -33,6 +36,8 @@ class Preparation {
       BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kFillCavities,
                                    FillCavities(prepared_.object, options_.max_bricks, context_)));
     }
+    if (options_.tunnel_width > 0 || options_.tunnel_cells > 0)
+      BCCSKEL_RETURN_IF_ERROR(RunFillTunnels());
     const uint64_t least =
         std::max(options_.min_component_points,
                  PointsIn(options_.min_component_volume, prepared_.object.placement()));
@@ -62,6 +67,18 @@ class Preparation {
     return absl::OkStatus();
   }
 
+  absl::Status RunFillTunnels() {
+    const double unit = WorldUnitsPerLatticeUnit(prepared_.object.placement());
+    const double width = std::max(options_.tunnel_width / unit, 2 * options_.tunnel_cells);
+    if (width > kMaxTunnelWidth) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "width of tunnels to fill %g: must be at most %g, that is %g edges of the cubic cell",
+          width * unit, kMaxTunnelWidth * unit, kMaxTunnelWidth / 2));
+    }
+    return Take(PreparingStepKind::kFillTunnels,
+                FillTunnels(prepared_.object, width, memory_, context_));
+  }
+
   absl::Status Take(PreparingStepKind kind, absl::StatusOr<ChangedVolume> changed) {
     if (!changed.ok()) return changed.status();
     prepared_.object = std::move(changed->object);
@@ -71,6 +88,7 @@ class Preparation {
   }
 
   const PreparingOptions& options_;
+  exec::MemoryBudget& memory_;
   const exec::Context& context_;
   PreparedObject prepared_;
 };
@@ -82,6 +100,11 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options) {
     return absl::InvalidArgumentError(absl::StrFormat("%d denoising passes: must be 0 to %d",
                                                       options.denoise_passes, kMaxDenoisePasses));
   }
+  for (const double width : {options.tunnel_width, options.tunnel_cells}) {
+    if (width >= 0 && std::isfinite(width)) continue;
+    return absl::InvalidArgumentError(
+        absl::StrFormat("width of tunnels to fill %g: must be 0 or more, and finite", width));
+  }
   if (!(options.min_component_volume >= 0 && std::isfinite(options.min_component_volume))) {
     return absl::InvalidArgumentError(
         absl::StrFormat("least volume of a component %g: must be 0 or more, and finite",
@@ -91,9 +114,9 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options) {
 }
 
 absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
-                                       const exec::Context& context) {
+                                       exec::MemoryBudget& memory, const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options));
-  return Preparation(object, options, context).Run();
+  return Preparation(object, options, memory, context).Run();
 }
 
 }  // namespace bccskel

@@ -9,6 +9,7 @@
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
 #include "core/exec/context.h"
+#include "core/exec/memory_budget.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -23,6 +24,11 @@ struct PreparingOptions {
   int32_t denoise_passes = 0;
   // Makes object of all background that does not reach the outside.
   CavityFilling cavities = CavityFilling::kOff;
+  // Fills tunnels that are narrower, in world units, up to 256 half edges of the cubic cell; 0
+  // fills none. Components and cavities stay as they are.
+  double tunnel_width = 0;
+  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points.
+  double tunnel_cells = 0;
   // Components of fewer points are dropped.
   uint64_t min_component_points = 0;
   // The same by volume, in cubic world units; 0 drops none.
@@ -35,8 +41,9 @@ struct PreparingOptions {
 
   // Whether anything is to be done.
   bool Wanted() const {
-    return denoise_passes > 0 || cavities == CavityFilling::kOn || min_component_points > 0 ||
-           min_component_volume > 0 || components == KeptComponents::kLargest;
+    return denoise_passes > 0 || cavities == CavityFilling::kOn || tunnel_width > 0 ||
+           tunnel_cells > 0 || min_component_points > 0 || min_component_volume > 0 ||
+           components == KeptComponents::kLargest;
   }
   friend bool operator==(const PreparingOptions&, const PreparingOptions&) = default;
 };
@@ -48,6 +55,7 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options);
 enum class PreparingStepKind : uint8_t {
   kDenoise,
   kFillCavities,
+  kFillTunnels,
   kDropSmallComponents,
   kKeepLargestComponent,
 };
@@ -55,7 +63,7 @@ enum class PreparingStepKind : uint8_t {
 // What a step did.
 struct PreparingStep {
   PreparingStepKind kind = PreparingStepKind::kDenoise;
-  // Passes that changed something, cavities filled, or components dropped.
+  // Passes that changed something, cavities or tunnels filled, or components dropped.
   uint64_t count = 0;
   uint64_t points_added = 0;
   uint64_t points_removed = 0;
@@ -69,11 +77,12 @@ struct PreparedObject {
   std::vector<PreparingStep> steps;  // those that were wanted, in their order
 };
 
-// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), CANCELLED,
-//         DEADLINE_EXCEEDED.
+// What tunnels need is taken from the budget.
+// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), those of the
+//         budget, CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
 absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
-                                       const exec::Context& context);
+                                       exec::MemoryBudget& memory, const exec::Context& context);
 
 }  // namespace bccskel
 

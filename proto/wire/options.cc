@@ -236,6 +236,8 @@ v1::PreparingOptions ToMessage(const PreparingOptions& preparing) {
   message.set_denoise_passes(preparing.denoise_passes);
   message.set_cavity_filling(preparing.cavities == CavityFilling::kOn ? v1::CAVITY_FILLING_ON
                                                                       : v1::CAVITY_FILLING_OFF);
+  message.set_tunnel_width(preparing.tunnel_width);
+  message.set_tunnel_cells(preparing.tunnel_cells);
   message.set_min_component_points(preparing.min_component_points);
   message.set_min_component_volume(preparing.min_component_volume);
   message.set_kept_components(preparing.components == KeptComponents::kLargest
@@ -248,6 +250,8 @@ absl::StatusOr<PreparingOptions> FromMessage(const v1::PreparingOptions& message
                                              const std::string& field) {
   PreparingOptions preparing;
   preparing.denoise_passes = message.denoise_passes();
+  preparing.tunnel_width = message.tunnel_width();
+  preparing.tunnel_cells = message.tunnel_cells();
   preparing.min_component_points = message.min_component_points();
   preparing.min_component_volume = message.min_component_volume();
   BCCSKEL_ASSIGN_OR_RETURN(preparing.cavities,

@@ -56,6 +56,8 @@ v1::PreparingStepKind ToMessage(PreparingStepKind kind) {
       return v1::PREPARING_STEP_KIND_DENOISE;
     case PreparingStepKind::kFillCavities:
       return v1::PREPARING_STEP_KIND_FILL_CAVITIES;
+    case PreparingStepKind::kFillTunnels:
+      return v1::PREPARING_STEP_KIND_FILL_TUNNELS;
     case PreparingStepKind::kDropSmallComponents:
       return v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS;
     case PreparingStepKind::kKeepLargestComponent:
@@ -70,6 +72,8 @@ absl::StatusOr<PreparingStepKind> FromMessage(v1::PreparingStepKind kind) {
       return PreparingStepKind::kDenoise;
     case v1::PREPARING_STEP_KIND_FILL_CAVITIES:
       return PreparingStepKind::kFillCavities;
+    case v1::PREPARING_STEP_KIND_FILL_TUNNELS:
+      return PreparingStepKind::kFillTunnels;
     case v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS:
       return PreparingStepKind::kDropSmallComponents;
     case v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT:

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <ostream>
 
+#include "core/pipeline/presets.h"
+
 namespace bccskel::cli {
 namespace {
 
@@ -75,17 +77,13 @@ TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
 TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
   const PreparingOptions expected = {.denoise_passes = 2,
                                      .cavities = CavityFilling::kOn,
+                                     .tunnel_width = 2.5,
                                      .min_component_points = 30,
                                      .min_component_volume = 1.5,
                                      .components = KeptComponents::kLargest};
-  const std::vector<const char*> options = {"--denoise",
-                                            "2",
-                                            "--fill-cavities",
-                                            "--min-component",
-                                            "30",
-                                            "--min-component-volume",
-                                            "1.5",
-                                            "--keep-largest"};
+  const std::vector<const char*> options = {
+      "--denoise",       "2",  "--fill-cavities",        "--cut-loops", "2.5",
+      "--min-component", "30", "--min-component-volume", "1.5",         "--keep-largest"};
   const auto with = [&](std::vector<const char*> words) {
     words.insert(words.end(), options.begin(), options.end());
     return Parse(words);
@@ -96,6 +94,25 @@ TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
             expected);
   EXPECT_EQ(with({"labels", "a.tif", "-o", "a.vtp"}).as<LabelsArguments>().skeletonize.preparing,
             expected);
+}
+
+TEST(ArgumentsTest, OptionsOverruleTheirPresetWhereverTheyStand) {
+  const auto skeletonize = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"skeletonize", "a.off", "-o", "a.swc"});
+    return Parse(words).as<SkeletonizeArguments>().skeletonize;
+  };
+  SkeletonizeOptions neuron;
+  ASSERT_TRUE(ApplyPreset("neuron", neuron).ok());
+  EXPECT_EQ(skeletonize({"--preset", "neuron"}).preparing, neuron.preparing);
+  neuron.preparing.min_component_points = 7;
+  EXPECT_EQ(skeletonize({"--preset", "neuron", "--min-component", "7"}).preparing,
+            neuron.preparing);
+  EXPECT_EQ(skeletonize({"--min-component", "7", "--preset", "neuron"}).preparing,
+            neuron.preparing);
+  EXPECT_EQ(skeletonize({"--preset", "cad", "--pruning-threshold", "3"}).pruning.threshold, 3);
+  const Parsed unknown = Parse({"skeletonize", "a.off", "-o", "a.swc", "--preset", "cat"});
+  EXPECT_EQ(unknown.code(), ExitCode::kUsage);
+  EXPECT_THAT(unknown.err, HasSubstr("--preset cat: must be one of neuron, vessels"));
 }
 
 TEST(ArgumentsTest, TakesARoot) {

@@ -47,7 +47,8 @@ TEST(SkeletonizePrepared, CertifiesTheObjectAsGivenAndAsPrepared) {
   for (uint64_t seed = 0; seed < 4; ++seed) {
     const auto blob = test::RandomBlob(seed, {30, 30, 30}, 8, 10);
     const Volume object = VolumeOfPoints(test::WithNoisyBoundary(seed, blob, 0.1));
-    const Volume prepared = Prepare(object, kAll, {})->object;
+    exec::UnlimitedMemory memory;
+    const Volume prepared = Prepare(object, kAll, memory, {})->object;
     const SkeletonizeResult result = SkeletonOf(object, {.preparing = kAll});
     EXPECT_EQ(result.certificate.unprepared, BettiOf(object));
     EXPECT_EQ(result.certificate.Given(), BettiOf(object));
@@ -138,7 +139,7 @@ TEST(OptionFacts, NameEveryOptionOnce) {
   }
   EXPECT_EQ(facts.front().value, "1");
   EXPECT_EQ(facts[1].value, "filled");
-  EXPECT_EQ(facts[5].value, "symmetric");
+  EXPECT_EQ(facts[7].value, "symmetric");
 }
 
 }  // namespace

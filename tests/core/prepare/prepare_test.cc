@@ -30,7 +30,8 @@ PreparedObject Prepared(const Volume& object, const PreparingOptions& options, i
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto prepared = Prepare(object, options, context);
+  exec::UnlimitedMemory memory;
+  auto prepared = Prepare(object, options, memory, context);
   EXPECT_TRUE(prepared.ok()) << prepared.status();
   return *std::move(prepared);
 }
@@ -278,7 +279,8 @@ TEST(Prepare, StopsWhenTheJobIsCancelled) {
   cancel.request_stop();
   const Volume object = VolumeOfPoints(RandomCloud(3, {20, 20, 20}, 0.5));
   for (const PreparingOptions& options : {kFill, kLargest, PreparingOptions{1}}) {
-    EXPECT_EQ(Prepare(object, options, context).status().code(), absl::StatusCode::kCancelled);
+    exec::UnlimitedMemory memory;
+    EXPECT_EQ(Prepare(object, options, memory, context).status().code(), absl::StatusCode::kCancelled);
   }
 }
 

@@ -97,6 +97,8 @@ TEST(OptionsRoundTrip, KeepsPreparing) {
     for (KeptComponents components : {KeptComponents::kAll, KeptComponents::kLargest}) {
       const PreparingOptions preparing = {.denoise_passes = 3,
                                           .cavities = cavities,
+                                          .tunnel_width = 0.5,
+                                          .tunnel_cells = 3,
                                           .min_component_points = uint64_t{1} << 40,
                                           .min_component_volume = 2.5,
                                           .components = components};

@@ -1,0 +1,69 @@
+#include "core/pipeline/presets.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+
+namespace bccskel {
+namespace {
+
+// Sizes are in voxels, since a scan's flaws have its resolution. tests/quality/report.md has what
+// each does to real masks.
+constexpr std::array kPresets = {
+    Preset{"neuron",
+           "traced or segmented neurons: hollow spots and small tunnels go, and specks",
+           {.cavities = CavityFilling::kOn, .tunnel_cells = 4, .min_component_points = 200}},
+    Preset{"vessels",
+           "blood vessels: hollow spots and pinholes go, and specks; rings of vessels stay",
+           {.cavities = CavityFilling::kOn, .tunnel_cells = 2, .min_component_points = 200}},
+    Preset{"airway",
+           "one tree of airways or ducts: hollow spots and small tunnels go, and all but the tree",
+           {.cavities = CavityFilling::kOn,
+            .tunnel_cells = 4,
+            .components = KeptComponents::kLargest}},
+    Preset{"materials",
+           "fibers, foams and pores: hollow spots and specks go; all tunnels stay",
+           {.cavities = CavityFilling::kOn, .min_component_points = 200}},
+    Preset{"cad", "machine parts: chamfers, fillets and corners get no branch", {}, 0.8},
+};
+
+}  // namespace
+
+std::span<const Preset> Presets() { return kPresets; }
+
+absl::Status ApplyPreset(std::string_view name, SkeletonizeOptions& options) {
+  const auto preset = std::ranges::find(kPresets, name, &Preset::name);
+  if (preset == kPresets.end()) {
+    const auto add_name = [](std::string* out, const Preset& p) { out->append(p.name); };
+    return absl::InvalidArgumentError(absl::StrCat("preset ", std::string(name),
+                                                   ": must be one of ",
+                                                   absl::StrJoin(kPresets, ", ", add_name)));
+  }
+  const uint64_t max_bricks = options.preparing.max_bricks;
+  options.preparing = preset->preparing;
+  options.preparing.max_bricks = max_bricks;
+  if (preset->pruning_threshold > 0) options.pruning.threshold = preset->pruning_threshold;
+  return absl::OkStatus();
+}
+
+std::string OptionsOf(const Preset& preset) {
+  const PreparingOptions& preparing = preset.preparing;
+  std::vector<std::string> words;
+  if (preparing.cavities == CavityFilling::kOn) words.push_back("--fill-cavities");
+  if (preparing.tunnel_cells > 0) {
+    words.push_back(absl::StrCat("--cut-loops for ", preparing.tunnel_cells, " voxels"));
+  }
+  if (preparing.min_component_points > 0) {
+    words.push_back(absl::StrCat("--min-component ", preparing.min_component_points));
+  }
+  if (preparing.components == KeptComponents::kLargest) words.push_back("--keep-largest");
+  if (preset.pruning_threshold > 0) {
+    words.push_back(absl::StrCat("--pruning-threshold ", preset.pruning_threshold));
+  }
+  return absl::StrJoin(words, " ");
+}
+
+}  // namespace bccskel

@@ -1,0 +1,31 @@
+#ifndef BCCSKEL_CORE_PIPELINE_PRESETS_H_
+#define BCCSKEL_CORE_PIPELINE_PRESETS_H_
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel {
+
+// Options for a kind of data. What it does not name stays as it is.
+struct Preset {
+  const char* name;
+  const char* data;  // what it is for
+  PreparingOptions preparing;
+  double pruning_threshold = 0;  // 0: the default
+};
+
+std::span<const Preset> Presets();
+
+// Errors: INVALID_ARGUMENT for an unknown name, with those there are.
+absl::Status ApplyPreset(std::string_view name, SkeletonizeOptions& options);
+
+// What it sets, in the words of the command line: "--fill-cavities --min-component 100".
+std::string OptionsOf(const Preset& preset);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_PRESETS_H_

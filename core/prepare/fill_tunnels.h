@@ -1,0 +1,30 @@
+#ifndef BCCSKEL_CORE_PREPARE_FILL_TUNNELS_H_
+#define BCCSKEL_CORE_PREPARE_FILL_TUNNELS_H_
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/exec/memory_budget.h"
+#include "core/prepare/changed_volume.h"
+
+namespace bccskel {
+
+// In lattice units; a wider tunnel is no flaw of a scan.
+inline constexpr double kMaxTunnelWidth = 256;
+
+// Does:  fills tunnels through which a ball of diameter `width` (lattice units) does not fit, with
+//        the crevices beside them that it does not enter either; counts the loops that go.
+// How:   a closing by that ball, that is all points that it cannot reach from outside, falls into
+//        connected pieces. A piece is filled if that raises the Euler characteristic, it touches
+//        one component of the object and no cavity and, together with the other filled pieces,
+//        encloses none. So components and cavities stay, and each unit that the characteristic
+//        rises is a loop less. Narrow balls come first, each twice as wide as the last: the pieces
+//        of a wide one join a tunnel to the crevices around it.
+// Cost:  for each ball two Euclidean distance fields over the bricks around the object, and a
+//        labeling of the background for each round in which pieces are refused.
+// Errors: of the budget; CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
+                                          exec::MemoryBudget& memory, const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PREPARE_FILL_TUNNELS_H_
