@@ -15,6 +15,7 @@
 #include "client/cli/operations_arguments.h"
 #include "client/cli/result_arguments.h"
 #include "client/cli/root_argument.h"
+#include "client/cli/swc_argument.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
 #include "core/version/version.h"
@@ -113,6 +114,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   arguments.accepted = AcceptedInput::kVolumeOnly;
   AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
+  AddSwcStep(command, arguments.swc);
   command.get_option("--output")->required(false)->option_text("FILE (required unless detached)");
   AddServer(command, arguments.server);
   command.add_flag_callback(
@@ -138,6 +140,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
       *app.add_subcommand("skeletonize", "Make the skeleton of an object in one go");
   AddInput(command, "INPUT", arguments.input, "Mesh, volume or image file");
   AddOutputs(command, arguments.outputs);
+  AddSwcStep(command, arguments.swc);
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);

@@ -35,11 +35,12 @@ absl::Status CheckLabelOutput(const std::string& path) {
   if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
   return absl::InvalidArgumentError(
       path + ": this format holds one label; write " + kLabelPlace +
-      " where its number shall stand, or put all labels into a .vtp, .graphml or .json file");
+      " where its number shall stand, or put all labels into a .vtp, .graphml, .json or .csv file");
 }
 
-LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root)
-    : root_(root), all_(root) {
+LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+                       exporting::World world, exporting::CurveSampling swc)
+    : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
   for (const std::string& path : paths) {
     (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
   }
@@ -48,7 +49,8 @@ LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optiona
 absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   const std::string title = "label " + std::to_string(skeleton.label);
   const exporting::Subject subject = {
-      .result = skeleton.result, .object = skeleton.result.thin, .title = title, .root = root_};
+      .result = skeleton.result, .object = skeleton.result.thin, .title = title, .root = root_,
+      .world = world_, .swc = swc_};
   for (const std::string& path : paths_of_each_) {
     BCCSKEL_RETURN_IF_ERROR(
         exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());

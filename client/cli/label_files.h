@@ -25,7 +25,8 @@ absl::Status CheckLabelOutput(const std::string& path);
 class LabelFiles {
  public:
   // Needs: CheckLabelOutput() is OK for all.
-  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root);
+  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+             exporting::World world, exporting::CurveSampling swc);
 
   // Writes the label's own files, and keeps what goes into the files of all labels.
   // Errors: as WriteSkeletonFile().
@@ -38,6 +39,8 @@ class LabelFiles {
   std::vector<std::string> paths_of_each_;
   std::vector<std::string> paths_of_all_;
   const std::optional<RootChoice> root_;
+  const exporting::World world_;
+  const exporting::CurveSampling swc_;
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
 };

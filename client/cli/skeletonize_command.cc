@@ -167,7 +167,10 @@ absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments
                                       std::string(FileName(arguments.input)),
                                       context,
                                       computed.shells.has_value() ? &*computed.shells : nullptr,
-                                      arguments.root};
+                                      arguments.root,
+                                      object.image.has_value() ? WorldOf(object.image->info)
+                                                               : exporting::World(),
+                                      arguments.swc};
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
     BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/branch_table.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
 #include "client/export/vtp.h"
@@ -22,7 +23,7 @@ std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,
 void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
   const SkeletonGraph& graph = result.graph;
   if (facts_.empty()) {
-    facts_ = MethodFactsOf(result);
+    facts_ = MethodFactsOf(result, world_);
     // What preparing did differs from label to label.
     std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
   }
@@ -43,7 +44,7 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   labels_.of_edges.resize(graph_.edges.size(), label);
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
-           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_)) + "}";
+           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_), world_) + "}";
 }
 
 GraphContext LabeledSkeletons::Context() const {
@@ -52,7 +53,7 @@ GraphContext LabeledSkeletons::Context() const {
 
 bool HoldsManyLabels(SkeletonFormat format) {
   return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
-         format == SkeletonFormat::kJson;
+         format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv;
 }
 
 absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons) {
@@ -64,6 +65,8 @@ absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& s
       return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()));
     case SkeletonFormat::kJson:
       return WriteFileAtomically(path, skeletons.Json());
+    case SkeletonFormat::kCsv:
+      return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()));
     default:
       return absl::InvalidArgumentError(path + ": this format holds one label");
   }

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "client/export/graph_context.h"
 #include "client/export/skeleton_file.h"
+#include "client/export/world.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::exporting {
@@ -15,7 +17,8 @@ namespace bccskel::exporting {
 // The skeletons of many labels of one image, on their way into one file.
 class LabeledSkeletons {
  public:
-  explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt) : root_(root) {}
+  explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt, World world = {})
+      : root_(root), world_(std::move(world)) {}
 
   // Needs: all have one placement.
   void Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result);
@@ -30,12 +33,13 @@ class LabeledSkeletons {
  private:
   SkeletonGraph graph_;
   const std::optional<RootChoice> root_;
+  const World world_;
   GraphLabels labels_;
   MethodFacts facts_;
   std::string json_;
 };
 
-// .vtp, .graphml and .json.
+// .vtp, .graphml, .json and .csv.
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/branch_table.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
 #include "client/export/obj.h"
@@ -26,11 +27,12 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 9> kEndings = {{{".swc", SkeletonFormat::kSwc},
+constexpr std::array<Ending, 10> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                              {".vtp", SkeletonFormat::kVtp},
                                              {".graphml", SkeletonFormat::kGraphMl},
                                              {".obj", SkeletonFormat::kObj},
                                              {".json", SkeletonFormat::kJson},
+                                             {".csv", SkeletonFormat::kCsv},
                                              {".exr", SkeletonFormat::kVolume},
                                              {".bccb", SkeletonFormat::kVolume},
                                              {".svg", SkeletonFormat::kSvg},
@@ -80,7 +82,7 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
 
 absl::StatusOr<std::string> PageText(const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
-                           view::ParseResultDocument(JsonText(subject.result, OrderOf(subject))));
+                           view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world)));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling});
 }
@@ -89,11 +91,12 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
 absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
   const SkeletonGraph& graph = subject.result.graph;
   const auto context = [&] {
-    return GraphContext{.facts = MethodFactsOf(subject.result), .order = OrderOf(subject)};
+    return GraphContext{.facts = MethodFactsOf(subject.result, subject.world),
+                        .order = OrderOf(subject)};
   };
   switch (format) {
     case SkeletonFormat::kSwc: {
-      SwcDocument swc = WriteSwc(graph, OrderOf(subject));
+      SwcDocument swc = WriteSwc(graph, OrderOf(subject), {subject.swc, subject.world});
       return Document{std::move(swc.text), std::move(swc.note)};
     }
     case SkeletonFormat::kVtp:
@@ -103,7 +106,9 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
     case SkeletonFormat::kObj:
       return WithoutNote(ObjText(graph));
     case SkeletonFormat::kJson:
-      return WithoutNote(JsonText(subject.result, OrderOf(subject)));
+      return WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world));
+    case SkeletonFormat::kCsv:
+      return WithoutNote(BranchTableText(graph, context()));
     case SkeletonFormat::kSvg:
       return WithoutNote(SvgText(subject));
     case SkeletonFormat::kHtml:
