@@ -144,12 +144,17 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option* server = AddServer(command, arguments.server);
+  CLI::Option_group& server = *command.add_option_group("", "");
+  CLI::Option* address = AddServer(server, arguments.server);
+  arguments.place = Place::kHere;
+  server.callback([&server, &arguments] {
+    if (server.count_all() > 0) arguments.place = Place::kServer;
+  });
   command
       .add_flag_callback(
           "--local", [&arguments] { arguments.place = Place::kLocal; },
-          "Compute on this machine, without a server")
-      ->excludes(server);
+          "Compute on this machine, without a server (default, unless a server is named)")
+      ->excludes(address);
   AddPreparing(command, arguments.skeletonize.preparing);
   AddDistance(command, arguments.skeletonize.distance);
   AddPruning(command, arguments.skeletonize.pruning);

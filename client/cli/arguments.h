@@ -43,7 +43,8 @@ struct VoxelizeArguments {
   ImageArguments image;
 };
 
-enum class Place { kServer, kLocal };
+// kHere: on this machine, since no place was named.
+enum class Place { kServer, kLocal, kHere };
 
 // Whether `submit` waits for the result, or names the job and ends.
 enum class Waiting { kForResult, kDetach };

@@ -33,9 +33,9 @@ absl::Status CheckLabelOutput(const std::string& path) {
         path + ": pictures show one object; use skeletonize --label for one label");
   }
   if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      path + ": this format holds one label; write " + kLabelPlace +
-      " where its number shall stand, or put all labels into a .vtp, .graphml, .json or .csv file");
+  return absl::InvalidArgumentError(path + ": this format holds one label; write " + kLabelPlace +
+                                    " where its number shall stand, or put all labels into a .vtp, "
+                                    ".graphml, .json, .csv, .glb or .mrk.json file");
 }
 
 LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
@@ -48,9 +48,12 @@ LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optiona
 
 absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   const std::string title = "label " + std::to_string(skeleton.label);
-  const exporting::Subject subject = {
-      .result = skeleton.result, .object = skeleton.result.thin, .title = title, .root = root_,
-      .world = world_, .swc = swc_};
+  const exporting::Subject subject = {.result = skeleton.result,
+                                      .object = skeleton.result.thin,
+                                      .title = title,
+                                      .root = root_,
+                                      .world = world_,
+                                      .swc = swc_};
   for (const std::string& path : paths_of_each_) {
     BCCSKEL_RETURN_IF_ERROR(
         exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());

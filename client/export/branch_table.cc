@@ -10,7 +10,12 @@ namespace bccskel::exporting {
 namespace {
 
 // The numbers are skan's.
-enum class BranchType : int { kEndToEnd = 0, kJunctionToEnd = 1, kBetweenJunctions = 2, kClosed = 3 };
+enum class BranchType : int {
+  kEndToEnd = 0,
+  kJunctionToEnd = 1,
+  kBetweenJunctions = 2,
+  kClosed = 3
+};
 
 BranchType TypeOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   const NodeKind source = graph.nodes[edge.source].kind, target = graph.nodes[edge.target].kind;

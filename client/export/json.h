@@ -14,8 +14,7 @@ namespace bccskel::exporting {
 // how it was made, timings, sha256. World coordinates and units.
 // With an order of trees, nodes and edges tell their places in it.
 std::string JsonText(const SkeletonizeResult& result,
-                     const std::optional<TreeOrder>& order = std::nullopt,
-                     const World& world = {});
+                     const std::optional<TreeOrder>& order = std::nullopt, const World& world = {});
 
 }  // namespace bccskel::exporting
 

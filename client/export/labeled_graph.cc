@@ -4,8 +4,10 @@
 
 #include "client/export/atomic_file.h"
 #include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/vtp.h"
 #include "core/exec/status_macros.h"
 
@@ -51,9 +53,14 @@ GraphContext LabeledSkeletons::Context() const {
   return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_)};
 }
 
+std::string LabeledSkeletons::Markups() const {
+  return WriteMarkups(graph_, Context(), world_).text;
+}
+
 bool HoldsManyLabels(SkeletonFormat format) {
   return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
-         format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv;
+         format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv ||
+         format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups;
 }
 
 absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons) {
@@ -67,6 +74,13 @@ absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& s
       return WriteFileAtomically(path, skeletons.Json());
     case SkeletonFormat::kCsv:
       return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()));
+    case SkeletonFormat::kMarkups:
+      return WriteFileAtomically(path, skeletons.Markups());
+    case SkeletonFormat::kGlb: {
+      BCCSKEL_ASSIGN_OR_RETURN(const std::string glb,
+                               GlbBytes(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, glb);
+    }
     default:
       return absl::InvalidArgumentError(path + ": this format holds one label");
   }

@@ -29,6 +29,7 @@ class LabeledSkeletons {
   GraphContext Context() const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
+  std::string Markups() const;
 
  private:
   SkeletonGraph graph_;
@@ -39,7 +40,7 @@ class LabeledSkeletons {
   std::string json_;
 };
 
-// .vtp, .graphml, .json and .csv.
+// .vtp, .graphml, .json, .csv, .glb and .mrk.json.
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().

@@ -1,77 +1,11 @@
 #include "client/export/point_forest.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <span>
 #include <utility>
-
-#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
 namespace {
-
-struct CurvePoint {
-  WorldPoint at;
-  double radius;
-};
-using Curve = std::vector<CurvePoint>;
-
-// Bounds what a tiny step may ask for.
-constexpr double kMostPerPoint = 1000;
-// Fewer would turn a loop of one edge into a point or a line there and back.
-constexpr size_t kLeastStepsOfLoop = 4;
-
-double Between(const WorldPoint& a, const WorldPoint& b) {
-  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-}
-
-// The way along the curve to each of its points.
-std::vector<double> WaysAlong(const Curve& curve) {
-  std::vector<double> ways = {0};
-  for (size_t n = 1; n < curve.size(); ++n) {
-    ways.push_back(ways.back() + Between(curve[n - 1].at, curve[n].at));
-  }
-  return ways;
-}
-
-CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
-  CurvePoint mixed = {a.at, a.radius + part * (b.radius - a.radius)};
-  for (size_t axis = 0; axis < 3; ++axis) mixed.at[axis] += part * (b.at[axis] - a.at[axis]);
-  return mixed;
-}
-
-// The same curve by `steps` steps of equal length. Needs: at least two points, a step.
-Curve Resampled(const Curve& curve, size_t steps) {
-  const std::vector<double> ways = WaysAlong(curve);
-  Curve resampled = {curve.front()};
-  size_t behind = 1;
-  for (size_t n = 1; n < steps; ++n) {
-    const double way = ways.back() * static_cast<double>(n) / static_cast<double>(steps);
-    while (behind + 1 < curve.size() && ways[behind] < way) ++behind;
-    const double length = ways[behind] - ways[behind - 1];
-    const double part = length > 0 ? (way - ways[behind - 1]) / length : 0;
-    resampled.push_back(Mix(curve[behind - 1], curve[behind], std::clamp(part, 0.0, 1.0)));
-  }
-  resampled.push_back(curve.back());
-  return resampled;
-}
-
-Curve CurveOf(const SkeletonGraph& graph, const SkeletonEdge& edge, const CurveSampling& sampling) {
-  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
-  const bool raw = sampling.step == 0.0;
-  const std::vector<WorldPoint> smooth =
-      raw ? std::vector<WorldPoint>() : SmoothCurve(graph, edge);
-  Curve curve;
-  for (size_t n = 0; n < points.size(); ++n) {
-    curve.push_back({raw ? graph.PositionOf(points[n]) : smooth[n], graph.RadiusOf(points[n])});
-  }
-  if (raw || !sampling.step.has_value() || curve.size() < 2) return curve;
-  const double most = kMostPerPoint * static_cast<double>(curve.size());
-  const double wanted = std::round(WaysAlong(curve).back() / *sampling.step);
-  const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
-  return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));
-}
 
 class Planting {
  public:
@@ -132,10 +66,11 @@ class Planting {
   // Returns the node that the branch ends at.
   std::optional<uint32_t> AddBranch(const Start& start) {
     const SkeletonEdge& edge = graph_.edges[start.edge];
-    Curve curve = CurveOf(graph_, edge, sampling_);
+    std::vector<CurvePoint> curve = SampledCurve(graph_, edge, sampling_);
     uint32_t node = edge.source, other = edge.target;
     const bool closes_loop = order_.edges[start.edge].ClosesLoop();
-    size_t end = closes_loop ? StepsOfSource(edge, curve) + 1 : std::max<size_t>(curve.size(), 1) - 1;
+    size_t end =
+        closes_loop ? StepsOfSource(edge, curve) + 1 : std::max<size_t>(curve.size(), 1) - 1;
     if (start.side == Side::kTarget) {
       std::ranges::reverse(curve);
       std::swap(node, other);
@@ -152,7 +87,7 @@ class Planting {
   }
 
   // How many inner points of an edge that closes a loop go to its source.
-  size_t StepsOfSource(const SkeletonEdge& edge, const Curve& curve) const {
+  size_t StepsOfSource(const SkeletonEdge& edge, const std::vector<CurvePoint>& curve) const {
     const std::vector<double> ways = WaysAlong(curve);
     const double from_source = order_.nodes[edge.source].root_distance;
     const double from_target = order_.nodes[edge.target].root_distance + ways.back();
@@ -167,7 +102,7 @@ class Planting {
     WorldPoint at = graph_.PositionOf(of.at);
     // The one kind of node that a smooth curve moves.
     if (of.kind == NodeKind::kLoop && !edges_at_[node].empty()) {
-      at = CurveOf(graph_, graph_.edges[edges_at_[node].front().edge], sampling_).front().at;
+      at = SampledCurve(graph_, graph_.edges[edges_at_[node].front().edge], sampling_).front().at;
     }
     forest_.points.push_back({at, graph_.RadiusOf(of.at), parent, node});
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/export/sampled_curve.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/tree_order.h"
 
@@ -25,14 +26,6 @@ struct PointForest {
   size_t trees = 0;
   // Loops of the graph that a tree cannot show.
   size_t loops_cut = 0;
-};
-
-// Which points of an edge a forest has.
-struct CurveSampling {
-  // The distance between points along the smooth curve in world units, rounded so that it divides
-  // each edge; 0: the lattice points themselves, not smoothed; nothing: a point of the smooth curve
-  // per lattice point.
-  std::optional<double> step = std::nullopt;
 };
 
 // An edge that closes a loop is cut at the step farthest from its root, so no point is lost.

@@ -9,8 +9,10 @@
 
 #include "client/export/atomic_file.h"
 #include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/picture/svg.h"
 #include "client/export/swc.h"
@@ -27,16 +29,19 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 10> kEndings = {{{".swc", SkeletonFormat::kSwc},
-                                             {".vtp", SkeletonFormat::kVtp},
-                                             {".graphml", SkeletonFormat::kGraphMl},
-                                             {".obj", SkeletonFormat::kObj},
-                                             {".json", SkeletonFormat::kJson},
-                                             {".csv", SkeletonFormat::kCsv},
-                                             {".exr", SkeletonFormat::kVolume},
-                                             {".bccb", SkeletonFormat::kVolume},
-                                             {".svg", SkeletonFormat::kSvg},
-                                             {".html", SkeletonFormat::kHtml}}};
+constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
+                                              // in front of .json, which it ends in
+                                              {".mrk.json", SkeletonFormat::kMarkups},
+                                              {".vtp", SkeletonFormat::kVtp},
+                                              {".graphml", SkeletonFormat::kGraphMl},
+                                              {".obj", SkeletonFormat::kObj},
+                                              {".json", SkeletonFormat::kJson},
+                                              {".csv", SkeletonFormat::kCsv},
+                                              {".glb", SkeletonFormat::kGlb},
+                                              {".exr", SkeletonFormat::kVolume},
+                                              {".bccb", SkeletonFormat::kVolume},
+                                              {".svg", SkeletonFormat::kSvg},
+                                              {".html", SkeletonFormat::kHtml}}};
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -81,8 +86,9 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
 }
 
 absl::StatusOr<std::string> PageText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
-                           view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world)));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const view::ResultDocument result,
+      view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world)));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling});
 }
@@ -109,6 +115,12 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
       return WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world));
     case SkeletonFormat::kCsv:
       return WithoutNote(BranchTableText(graph, context()));
+    case SkeletonFormat::kMarkups: {
+      MarkupsDocument markups = WriteMarkups(graph, context(), subject.world);
+      return Document{std::move(markups.text), std::move(markups.note)};
+    }
+    case SkeletonFormat::kGlb:
+      return WithoutNote(GlbBytes(graph, context()));
     case SkeletonFormat::kSvg:
       return WithoutNote(SvgText(subject));
     case SkeletonFormat::kHtml:
@@ -148,7 +160,7 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
   }
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.result.graph));
   BCCSKEL_ASSIGN_OR_RETURN(const Document document, Compose(format, subject));
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes));
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes, subject.context.stop));
   return document.note;
 }
 

@@ -58,8 +58,7 @@ std::string NoteOf(const SkeletonGraph& graph, const PointForest& forest) {
 }
 
 std::string_view CurveWord(const CurveSampling& sampling) {
-  if (!sampling.step.has_value()) return "smooth";
-  return *sampling.step == 0 ? "lattice points" : "smooth, resampled";
+  return sampling.step == 0.0 ? "lattice points, not smoothed" : "smooth";
 }
 
 void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,

@@ -28,6 +28,7 @@ function prune() {
   element("level").textContent = gone === 0 ? "all branches"
     : `${digits(gone)} off, to level ${figure(levels[shown.step - 1])}`;
   forget();
+  if (coloring === colorings.branch) colorTubes(tubes);
   showCounts();
   redraw();
 }
@@ -101,16 +102,18 @@ function branchUnder(x, y) {
     }
   });
   if (!found) return null;
-  const [id, n] = found, e = result.edges[id], { least, most } = rangeOf(e.radii);
-  const ends = [e.source, e.target].map((row) => words(result.nodes[row].kind));
-  const rows = [["length", figure(e.length)],
+  const [id, n] = found, e = result.edges[id], first = shown.branchOf(id);
+  const branch = shown.branches.get(first), whole = branch.edges.length === 1;
+  const { least, most } = rangeOf(branch.edges.flatMap((part) => result.edges[part].radii));
+  const ends = branch.ends.map((row) => words(result.nodes[row].kind));
+  const rows = [["length", figure(branch.length)],
                 ["radius here", `${figure(e.radii[n])} (${figure(least)} to ${figure(most)})`]];
-  if (e.tortuosity !== undefined) rows.push(["tortuosity", figure(e.tortuosity)]);
+  if (whole && e.tortuosity !== undefined) rows.push(["tortuosity", figure(e.tortuosity)]);
   for (const { name, ofEdge } of Object.values(colorings)) {
     if (!ofEdge || name === "length") continue;
     rows.push([name, Number.isFinite(ofEdge(e)) ? figure(ofEdge(e)) : "stays"]);
   }
-  return { title: `branch ${id}`, detail: ends.join(" to "), rows, place: curves[id][n],
+  return { title: `branch ${first}`, detail: ends.join(" to "), rows, place: curves[id][n],
            radius: e.radii[n] };
 }
 
@@ -174,7 +177,7 @@ function showCertificate() {
 function showCounts() {
   const count = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
   element("counts").textContent = `${count(shown.nodes.length, "node", "nodes")}, ` +
-    `${count(shown.edges, "branch", "branches")}, length ${figure(shown.length)}`;
+    `${count(shown.branches.size, "branch", "branches")}, length ${figure(shown.length)}`;
 }
 
 function showLegend() {
