@@ -113,7 +113,7 @@ function branchUnder(x, y) {
     if (!ofEdge || name === "length") continue;
     rows.push([name, Number.isFinite(ofEdge(e)) ? figure(ofEdge(e)) : "stays"]);
   }
-  return { title: `branch ${first}`, detail: ends.join(" to "), rows, place: curves[id][n],
+  return { title: `branch ${first}`, detail: ends.join(" to ") || "loop", rows, place: curves[id][n],
            radius: e.radii[n] };
 }
 
