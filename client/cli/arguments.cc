@@ -144,7 +144,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option_group& server = *command.add_option_group("", "");
+  CLI::Option_group& server = *command.add_option_group("Server", "A server that computes instead");
   CLI::Option* address = AddServer(server, arguments.server);
   arguments.place = Place::kHere;
   server.callback([&server, &arguments] {

@@ -65,7 +65,7 @@ struct SkeletonizeArguments {
   Place place = Place::kServer;
   Waiting waiting = Waiting::kForResult;
   client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
-  exporting::CurveSampling swc;    // of SWC files
+  exporting::CurveSampling swc;                                // of SWC files
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
