@@ -61,8 +61,8 @@ TEST(GlbTest, TubesAreAsThickAsTheObjectAndCornersAreVertices) {
     const Json& corners = scene["accessors"][primitive["indices"].get<size_t>()];
     const Json& view = scene["bufferViews"][corners["bufferView"].get<size_t>()];
     for (size_t n = 0; n < corners["count"]; ++n) {
-      EXPECT_LT(WordAt(glb, binary + view["byteOffset"].get<size_t>() + 4 * n),
-                positions["count"].get<uint32_t>());
+      const size_t at = view["byteOffset"].get<size_t>() + corners["byteOffset"].get<size_t>();
+      EXPECT_LT(WordAt(glb, binary + at + 4 * n), positions["count"].get<uint32_t>());
     }
   }
   // The stem runs along (1, 1, 1) from radius 2 to 4.
