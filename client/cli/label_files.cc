@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/markups.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
+
+using exporting::SkeletonFormat;
 
 constexpr std::string_view kPlace = kLabelPlace;
 
@@ -63,14 +66,15 @@ absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish() && {
+absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish(const std::stop_token& stop) && {
   std::vector<WrittenFile> files;
   for (const std::string& path : paths_of_each_) {
     files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
   }
   for (const std::string& path : paths_of_all_) {
-    BCCSKEL_RETURN_IF_ERROR(exporting::WriteLabeledFile(path, all_));
-    files.push_back({path, ""});
+    BCCSKEL_RETURN_IF_ERROR(exporting::WriteLabeledFile(path, all_, stop));
+    const bool markups = exporting::SkeletonFormatOf(path).value() == SkeletonFormat::kMarkups;
+    files.push_back({path, markups ? exporting::NoteOn(world_) : ""});
   }
   return files;
 }

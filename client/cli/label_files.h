@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ class LabelFiles {
   // Errors: as WriteSkeletonFile().
   absl::Status Add(LabelSkeleton&& skeleton);
 
-  // Writes the files of all labels. Errors: as above.
-  absl::StatusOr<std::vector<WrittenFile>> Finish() &&;
+  // Writes the files of all labels. Errors: as above; CANCELLED.
+  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) &&;
 
  private:
   std::vector<std::string> paths_of_each_;

@@ -82,7 +82,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
       team.context());
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return Fail(WithPath(computed, arguments.input));
-  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish();
+  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),
                                 *std::move(written),

@@ -63,23 +63,25 @@ bool HoldsManyLabels(SkeletonFormat format) {
          format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups;
 }
 
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons) {
+absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
+                              const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   switch (format) {
     case SkeletonFormat::kVtp:
-      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()), stop);
     case SkeletonFormat::kGraphMl:
-      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()), stop);
     case SkeletonFormat::kJson:
-      return WriteFileAtomically(path, skeletons.Json());
+      return WriteFileAtomically(path, skeletons.Json(), stop);
     case SkeletonFormat::kCsv:
-      return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()),
+                                 stop);
     case SkeletonFormat::kMarkups:
-      return WriteFileAtomically(path, skeletons.Markups());
+      return WriteFileAtomically(path, skeletons.Markups(), stop);
     case SkeletonFormat::kGlb: {
       BCCSKEL_ASSIGN_OR_RETURN(const std::string glb,
                                GlbBytes(skeletons.graph(), skeletons.Context()));
-      return WriteFileAtomically(path, glb);
+      return WriteFileAtomically(path, glb, stop);
     }
     default:
       return absl::InvalidArgumentError(path + ": this format holds one label");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -44,7 +45,8 @@ class LabeledSkeletons {
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons);
+absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
+                              const std::stop_token& stop = {});
 
 }  // namespace bccskel::exporting
 

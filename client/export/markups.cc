@@ -61,12 +61,15 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
 
 }  // namespace
 
+std::string NoteOn(const World& world) {
+  if (world.axes == "RAS" || world.axes == "LPS") return "";
+  return "the input does not say whether its world is RAS or LPS; written as LPS";
+}
+
 MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,
                              const World& world) {
   MarkupsDocument document;
-  if (world.axes != "RAS" && world.axes != "LPS") {
-    document.note = "the input does not say whether its world is RAS or LPS; written as LPS";
-  }
+  document.note = NoteOn(world);
   Text text;
   text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
   for (size_t n = 0; n < graph.edges.size(); ++n) {

@@ -15,6 +15,9 @@ struct MarkupsDocument {
   std::string note;
 };
 
+// What WriteMarkups() says of a world that it does not know; empty for one that it does.
+std::string NoteOn(const World& world);
+
 // 3D Slicer's markups, schema 1.0.3: an open or closed curve per edge, named "branch N" or, where
 // labels are given, "label L branch N"; its length and radii are measurements. Coordinates are
 // RAS or LPS, as the world is; one that is neither is taken for LPS, which the note says.
