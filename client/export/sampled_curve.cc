@@ -63,7 +63,7 @@ std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonE
   }
   if (raw || curve.size() < 2) return curve;
   const double most = kMostPerPoint * static_cast<double>(curve.size());
-  const double step = sampling.step.value_or(2 * std::ranges::max(graph.placement.spacing));
+  const double step = sampling.step.value_or(2 * std::ranges::min(graph.placement.spacing));
   const double wanted = std::round(WaysAlong(curve).back() / step);
   const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
   return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));

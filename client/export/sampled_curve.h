@@ -10,7 +10,7 @@ namespace bccskel::exporting {
 
 struct CurveSampling {
   // The distance between points along the smooth curve in world units, rounded so that it divides
-  // each edge; 0: the lattice points themselves, not smoothed; nothing: twice the largest spacing,
+  // each edge; 0: the lattice points themselves, not smoothed; nothing: twice the smallest spacing,
   // which leaves out the last ripples of the lattice.
   std::optional<double> step = std::nullopt;
 };
