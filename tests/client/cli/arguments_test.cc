@@ -193,6 +193,13 @@ TEST(ArgumentsTest, CountsMayBeShort) {
   }
 }
 
+TEST(ArgumentsTest, CountsOfBenchmarksMayBeShort) {
+  EXPECT_EQ(Parse({"bench", "core", "--points", "1e6"}).as<BenchCoreArguments>().points, 1'000'000);
+  const auto server = Parse({"bench", "server", "--points", "10k,2M"}).as<BenchServerArguments>();
+  EXPECT_THAT(server.points, ElementsAre(10'000, 2'000'000));
+  EXPECT_THAT(Parse({"bench", "core", "--points", "4k"}).err, HasSubstr("within 5000 and"));
+}
+
 TEST(ArgumentsTest, LabelsMayBeRanges) {
   const auto arguments =
       Parse({"labels", "a.tif", "-o", "a.vtp", "--label", "3-5,9"}).as<LabelsArguments>();
