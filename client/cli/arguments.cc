@@ -15,6 +15,7 @@
 #include "client/cli/operations_arguments.h"
 #include "client/cli/result_arguments.h"
 #include "client/cli/root_argument.h"
+#include "client/cli/swc_argument.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
 #include "core/version/version.h"
@@ -113,6 +114,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   arguments.accepted = AcceptedInput::kVolumeOnly;
   AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
+  AddSwcStep(command, arguments.swc);
   command.get_option("--output")->required(false)->option_text("FILE (required unless detached)");
   AddServer(command, arguments.server);
   command.add_flag_callback(
@@ -134,15 +136,21 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
       *app.add_subcommand("skeletonize", "Make the skeleton of an object in one go");
   AddInput(command, "INPUT", arguments.input, "Mesh, volume or image file");
   AddOutputs(command, arguments.outputs);
+  AddSwcStep(command, arguments.swc);
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option* server = AddServer(command, arguments.server);
+  CLI::Option_group& server = *command.add_option_group("Server", "A server that computes instead");
+  CLI::Option* address = AddServer(server, arguments.server);
+  arguments.place = Place::kHere;
+  server.callback([&server, &arguments] {
+    if (server.count_all() > 0) arguments.place = Place::kServer;
+  });
   command
       .add_flag_callback(
           "--local", [&arguments] { arguments.place = Place::kLocal; },
-          "Compute on this machine, without a server")
-      ->excludes(server);
+          "Compute on this machine, without a server (default, unless a server is named)")
+      ->excludes(address);
   AddSkeletonizeOptions(command, arguments.skeletonize);
   AddRoot(command, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);

@@ -12,6 +12,7 @@
 #include "client/cli/exit_code.h"
 #include "client/cli/image_arguments.h"
 #include "client/cli/server_arguments.h"
+#include "client/export/point_forest.h"
 #include "client/view/render/picture.h"
 #include "core/io/volume_header.h"
 #include "core/pipeline/skeletonize.h"
@@ -42,7 +43,8 @@ struct VoxelizeArguments {
   ImageArguments image;
 };
 
-enum class Place { kServer, kLocal };
+// kHere: on this machine, since no place was named.
+enum class Place { kServer, kLocal, kHere };
 
 // Whether `submit` waits for the result, or names the job and ends.
 enum class Waiting { kForResult, kDetach };
@@ -63,6 +65,7 @@ struct SkeletonizeArguments {
   Place place = Place::kServer;
   Waiting waiting = Waiting::kForResult;
   client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
+  exporting::CurveSampling swc;                                // of SWC files
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
@@ -77,6 +80,7 @@ struct LabelsArguments {
   uint64_t min_voxels = 1;
   SkeletonizeOptions skeletonize;
   std::optional<RootChoice> root;  // the trees are ordered from there
+  exporting::CurveSampling swc;    // of SWC files
 };
 
 struct InfoArguments {
@@ -158,7 +162,8 @@ struct FetchArguments {
   JobArguments job;
   WaitingArguments waiting;
   std::vector<std::string> outputs;
-  std::string object;  // the volume that was submitted; empty: not at hand
+  exporting::CurveSampling swc;  // of SWC files
+  std::string object;            // the volume that was submitted; empty: not at hand
 };
 
 // Is the server ready for calls?

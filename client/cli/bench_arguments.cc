@@ -7,6 +7,7 @@
 
 #include "client/cli/bench_objects.h"
 #include "client/cli/choice_option.h"
+#include "client/cli/count_option.h"
 #include "core/exec/instruction_sets.h"
 #include "core/pipeline/option_words.h"
 #include "core/shapes/shapes.h"
@@ -27,9 +28,10 @@ void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
   core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
       ->excludes(shape)
       ->option_text("FILE");
-  core.add_option("--points", arguments.points,
-                  "Points that a shape or a mesh shall have (default 850000)")
-      ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
+  core.add_option_function<std::string>(
+          "--points",
+          [&arguments](const std::string& given) { arguments.points = ReadBenchPoints(given); },
+          "Points that a shape or a mesh shall have (default 850000)")
       ->option_text("N");
 }
 
@@ -61,6 +63,14 @@ CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
       "--json", [&arguments] { arguments.common.summary = SummaryStyle::kJson; },
       "Print the summary as one JSON object");
   return bench;
+}
+
+uint64_t ReadBenchPoints(const std::string& given) {
+  const auto points = ReadCount<uint64_t>("--points", given);
+  if (points >= kMinShapePoints && points <= kMaxShapePoints) return points;
+  throw CLI::ValidationError("--points " + given + ": must be within " +
+                             std::to_string(kMinShapePoints) + " and " +
+                             std::to_string(kMaxShapePoints));
 }
 
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description) {

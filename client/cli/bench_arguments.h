@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CLIENT_CLI_BENCH_ARGUMENTS_H_
 #define BCCSKEL_CLIENT_CLI_BENCH_ARGUMENTS_H_
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ namespace bccskel::cli {
 CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments);
 
 // What all benchmarks take.
+uint64_t ReadBenchPoints(const std::string& given);  // throws CLI::ValidationError
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
 void AddBenchMethod(CLI::App& command, ThinningMethod& method,
                     std::optional<DistanceKind>& distance, const char* description);

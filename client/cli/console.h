@@ -13,6 +13,7 @@ namespace bccskel::cli {
 // What a command says. Results go to standard output, everything else to standard error.
 
 void Warn(std::string_view message);
+void Note(std::string_view message);
 
 // Prints the error, with a hint where there is one, and returns the exit code for it.
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");

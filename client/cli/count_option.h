@@ -3,21 +3,28 @@
 
 #include <CLI/CLI.hpp>
 #include <concepts>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
-
-#include "absl/strings/numbers.h"
+#include <string_view>
 
 namespace bccskel::cli {
 
-// A whole number from 0 on. CLI11 would take -3 for a huge one, and 010 for 8.
+// A whole number from 0 on: 850000, 850k, 1.5M, 2G, 1e6; nothing for another text.
+std::optional<uint64_t> ParseCount(std::string_view text);
+
+// CLI11 would take -3 for a huge one, and 010 for 8.
 template <std::unsigned_integral Number>
 Number ReadCount(const std::string& name, const std::string& given) {
-  Number number = 0;
-  if (absl::SimpleAtoi(given, &number)) return number;
+  const std::optional<uint64_t> number = ParseCount(given);
+  if (number.has_value() && *number <= std::numeric_limits<Number>::max()) {
+    return static_cast<Number>(*number);
+  }
   throw CLI::ValidationError(name + " " + given + ": must be a whole number from 0 to " +
-                             std::to_string(std::numeric_limits<Number>::max()));
+                             std::to_string(std::numeric_limits<Number>::max()) +
+                             ", such as 850000, 850k, 4M or 1e6");
 }
 
 template <std::unsigned_integral Number>

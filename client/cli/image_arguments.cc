@@ -36,11 +36,30 @@ CLI::Option* AddTriple(CLI::App& command, const char* name, const char* descript
       ->option_text("X,Y,Z");
 }
 
+// "7" or "3-9".
+void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
+  constexpr uint64_t kMostOfRange = 1'000'000;
+  const size_t dash = given.find('-', 1);
+  const auto low = ReadCount<uint64_t>("--label", given.substr(0, dash));
+  const auto high =
+      dash == given.npos ? low : ReadCount<uint64_t>("--label", given.substr(dash + 1));
+  const auto refuse = [&](const std::string& why) {
+    throw CLI::ValidationError("--label " + given + ": " + why);
+  };
+  if (low > high) refuse("the first label is above the last");
+  if (low == 0 && dash != given.npos) {
+    refuse("0 is the background; labels are counted from 1, so write 1-" + std::to_string(high));
+  }
+  if (high - low >= kMostOfRange) {
+    refuse("is more than " + std::to_string(kMostOfRange) + " labels; skeletonize has --range");
+  }
+  for (uint64_t label = low; label < high; ++label) labels.push_back(label);
+  labels.push_back(high);
+}
+
 CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const char* description) {
   const auto read = [&arguments](const std::vector<std::string>& given) {
-    for (const std::string& label : given) {
-      arguments.labels.push_back(ReadCount<uint64_t>("--label", label));
-    }
+    for (const std::string& labels : given) ReadLabels(labels, arguments.labels);
   };
   return command
       .add_option_function<std::vector<std::string>>("--label,--labels", read, description)
@@ -50,7 +69,8 @@ CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const ch
 }
 
 void AddForeground(CLI::App& command, ImageArguments& arguments) {
-  CLI::Option* labels = AddLabelList(command, arguments, "Voxels of these labels");
+  CLI::Option* labels =
+      AddLabelList(command, arguments, "Voxels of these labels, such as 3,7 or 1-85");
   CLI::Option* range =
       command
           .add_option("--range", arguments.range, "Voxels from LOW to HIGH; either may be left out")
@@ -188,7 +208,7 @@ void AddImage(CLI::App& command, ImageArguments& arguments) {
 }
 
 void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
-  AddLabelList(command, arguments, "Only these labels");
+  AddLabelList(command, arguments, "Only these labels, such as 3,7 or 1-85");
   AddConversion(command, arguments);
   AddLayout(command, arguments);
 }

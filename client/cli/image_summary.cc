@@ -42,15 +42,16 @@ std::string ImageText(const ImageStage& image) {
   return std::move(text).Take();
 }
 
-std::string ImageJson(const ImageStage& image) {
+std::string ImageJson(const ImageStage& image, const std::optional<ImageValues>& values) {
   const ImageInfo& info = image.info;
   Text text;
   text.Add("{\"format\":", JsonString(info.format), ",\"size\":[", info.size.nx, ',', info.size.ny,
            ',', info.size.nz, "],\"type\":", JsonString(VoxelTypeName(info.type)), ',',
            PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
            ",\"world\":", JsonString(info.world), ",\"voxels\":", image.voxels,
-           ",\"topology\":", BettiJson(image.mask), '}');
-  return std::move(text).Take();
+           ",\"topology\":", BettiJson(image.mask));
+  if (values.has_value()) text.Add(",\"values\":{", ValuesJson(*values), '}');
+  return std::move(text.Add('}')).Take();
 }
 
 }  // namespace bccskel::cli

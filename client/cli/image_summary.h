@@ -1,8 +1,10 @@
 #ifndef BCCSKEL_CLIENT_CLI_IMAGE_SUMMARY_H_
 #define BCCSKEL_CLIENT_CLI_IMAGE_SUMMARY_H_
 
+#include <optional>
 #include <string>
 
+#include "client/cli/image_values.h"
 #include "client/cli/load_image.h"
 
 namespace bccskel::cli {
@@ -11,9 +13,9 @@ namespace bccskel::cli {
 std::string ImagePhrase(const ImageStage& image);
 
 // Everything that is known about an image and its foreground, a line each; and the same as a JSON
-// object.
+// object, with the values where they are known.
 std::string ImageText(const ImageStage& image);
-std::string ImageJson(const ImageStage& image);
+std::string ImageJson(const ImageStage& image, const std::optional<ImageValues>& values = {});
 
 }  // namespace bccskel::cli
 

@@ -35,8 +35,13 @@ ExitCode AboutImage(const InfoArguments& arguments, const std::stop_token& stop)
   const absl::StatusOr<ImageObject> object =
       ConvertImageFile(arguments.file, arguments.image, KeptVoxels::kNone, team.context());
   if (!object.ok()) return Fail(object.status());
-  if (arguments.common.summary == SummaryStyle::kText) return Print(ImageText(object->image));
-  return Print(Wrapped(arguments, "image", ImageJson(object->image)));
+  const absl::StatusOr<ImageValues> values =
+      ReadImageValues(arguments.file, arguments.image.open, team.context());
+  if (!values.ok()) return Fail(values.status());
+  if (arguments.common.summary == SummaryStyle::kText) {
+    return Print(ImageText(object->image) + ValuesText(*values));
+  }
+  return Print(Wrapped(arguments, "image", ImageJson(object->image, *values)));
 }
 
 ExitCode AboutVolume(const InfoArguments& arguments, const std::stop_token& stop) {

@@ -5,6 +5,7 @@
 
 #include "client/cli/choice_option.h"
 #include "client/cli/server_arguments.h"
+#include "client/cli/swc_argument.h"
 #include "client/export/skeleton_file.h"
 
 namespace bccskel::cli {
@@ -81,6 +82,7 @@ CLI::App& AddFetch(CLI::App& app, FetchArguments& arguments) {
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
+  AddSwcStep(command, arguments.swc);
   command
       .add_option("--object", arguments.object,
                   "The volume that was submitted, which .svg and .html show")

@@ -107,7 +107,11 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
   if (!result.ok()) return FailOnServer(arguments.job.server, result.status());
   const absl::Status fits = CheckFetched(arguments, *object, *result);
   if (!fits.ok()) return Fail(fits);
-  const exporting::Subject subject = {*result, *object, TitleOf(arguments), team.context()};
+  const exporting::Subject subject = {.result = *result,
+                                      .object = *object,
+                                      .title = TitleOf(arguments),
+                                      .context = team.context(),
+                                      .swc = arguments.swc};
   for (const std::string& path : arguments.outputs) {
     const absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());

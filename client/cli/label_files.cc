@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/markups.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
+
+using exporting::SkeletonFormat;
 
 constexpr std::string_view kPlace = kLabelPlace;
 
@@ -33,13 +36,14 @@ absl::Status CheckLabelOutput(const std::string& path) {
         path + ": pictures show one object; use skeletonize --label for one label");
   }
   if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      path + ": this format holds one label; write " + kLabelPlace +
-      " where its number shall stand, or put all labels into a .vtp, .graphml or .json file");
+  return absl::InvalidArgumentError(path + ": this format holds one label; write " + kLabelPlace +
+                                    " where its number shall stand, or put all labels into a .vtp, "
+                                    ".graphml, .json, .csv, .glb or .mrk.json file");
 }
 
-LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root)
-    : root_(root), all_(root) {
+LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+                       exporting::World world, exporting::CurveSampling swc)
+    : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
   for (const std::string& path : paths) {
     (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
   }
@@ -47,8 +51,12 @@ LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optiona
 
 absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   const std::string title = "label " + std::to_string(skeleton.label);
-  const exporting::Subject subject = {
-      .result = skeleton.result, .object = skeleton.result.thin, .title = title, .root = root_};
+  const exporting::Subject subject = {.result = skeleton.result,
+                                      .object = skeleton.result.thin,
+                                      .title = title,
+                                      .root = root_,
+                                      .world = world_,
+                                      .swc = swc_};
   for (const std::string& path : paths_of_each_) {
     BCCSKEL_RETURN_IF_ERROR(
         exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
@@ -58,14 +66,15 @@ absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish() && {
+absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish(const std::stop_token& stop) && {
   std::vector<WrittenFile> files;
   for (const std::string& path : paths_of_each_) {
     files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
   }
   for (const std::string& path : paths_of_all_) {
-    BCCSKEL_RETURN_IF_ERROR(exporting::WriteLabeledFile(path, all_));
-    files.push_back({path, ""});
+    BCCSKEL_RETURN_IF_ERROR(exporting::WriteLabeledFile(path, all_, stop));
+    const bool markups = exporting::SkeletonFormatOf(path).value() == SkeletonFormat::kMarkups;
+    files.push_back({path, markups ? exporting::NoteOn(world_) : ""});
   }
   return files;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,19 +26,22 @@ absl::Status CheckLabelOutput(const std::string& path);
 class LabelFiles {
  public:
   // Needs: CheckLabelOutput() is OK for all.
-  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root);
+  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+             exporting::World world, exporting::CurveSampling swc);
 
   // Writes the label's own files, and keeps what goes into the files of all labels.
   // Errors: as WriteSkeletonFile().
   absl::Status Add(LabelSkeleton&& skeleton);
 
-  // Writes the files of all labels. Errors: as above.
-  absl::StatusOr<std::vector<WrittenFile>> Finish() &&;
+  // Writes the files of all labels. Errors: as above; CANCELLED.
+  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) &&;
 
  private:
   std::vector<std::string> paths_of_each_;
   std::vector<std::string> paths_of_all_;
   const std::optional<RootChoice> root_;
+  const exporting::World world_;
+  const exporting::CurveSampling swc_;
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
 };

@@ -4,6 +4,7 @@
 
 #include "client/cli/count_option.h"
 #include "client/cli/root_argument.h"
+#include "client/cli/swc_argument.h"
 #include "client/cli/thinning_arguments.h"
 
 namespace bccskel::cli {
@@ -17,11 +18,13 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   command
       .add_option("-o,--output", arguments.outputs,
                   "Output file: with {label} in its path one file per label, in any format but "
-                  "pictures; else all labels in a .vtp, .graphml or .json; may be given several "
+                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb or .mrk.json; "
+                  "may be given several "
                   "times")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
+  AddSwcStep(command, arguments.swc);
   AddLabelImage(command, arguments.image);
   AddCount(command, "--min-voxels", arguments.min_voxels,
            "Leave out labels with fewer voxels (default 1)");

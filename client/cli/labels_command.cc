@@ -7,6 +7,7 @@
 #include "client/cli/console.h"
 #include "client/cli/label_files.h"
 #include "client/cli/labels_summary.h"
+#include "client/cli/load_image.h"
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "core/exec/status_macros.h"
@@ -69,7 +70,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Labels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
-  LabelFiles files(arguments.outputs, arguments.root);
+  LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc);
   std::vector<LabelFigures> figures;
   absl::Status writing;
   const absl::Status computed = SkeletonizeLabels(
@@ -81,7 +82,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
       team.context());
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return Fail(WithPath(computed, arguments.input));
-  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish();
+  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),
                                 *std::move(written),

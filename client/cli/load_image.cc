@@ -87,6 +87,8 @@ absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
   return object;
 }
 
+exporting::World WorldOf(const ImageInfo& info) { return {info.world, info.unit}; }
+
 absl::Status CheckConversion(const std::string& path, const ImageArguments& arguments,
                              const BettiNumbers& mask, const BettiNumbers& object) {
   const std::string changes = DescribeChanges(mask, object);

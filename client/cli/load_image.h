@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/image_arguments.h"
+#include "client/export/world.h"
 #include "core/certificate/certificate.h"
 #include "core/exec/context.h"
 #include "core/image/image_info.h"
@@ -36,6 +37,9 @@ enum class KeptVoxels : uint8_t { kNone, kAll };
 absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
                                              const ImageArguments& arguments, KeptVoxels kept,
                                              const exec::Context& context);
+
+// What the image says of its world.
+exporting::World WorldOf(const ImageInfo& info);
 
 // OK where the object has the topology of the mask that it was made from. A sampling may change
 // it, which is only said on standard error; the exact conversion may not.

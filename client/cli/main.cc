@@ -6,7 +6,9 @@
 #include "absl/synchronization/mutex.h"
 #include "client/cli/arguments.h"
 #include "client/cli/commands.h"
+#include "client/cli/console.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/output_check.h"
 
 namespace {
 
@@ -15,6 +17,8 @@ using bccskel::cli::ExitCode;
 
 // Libraries throw where memory runs out; that is the one exception that our code can meet.
 ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
+  const absl::Status writable = bccskel::cli::CheckOutputs(arguments);
+  if (!writable.ok()) return bccskel::cli::FailWith(ExitCode::kOutput, writable);
   try {
     return std::visit([&](const auto& chosen) { return bccskel::cli::Run(chosen, stop); },
                       arguments);

@@ -2,11 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/server_arguments.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::cli {
 namespace {
@@ -64,9 +65,17 @@ CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->option_text("N,...");
-  command.add_option("--points", arguments.points, "Points of the volume (default 10000,850000)")
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--points",
+          [&arguments](const std::vector<std::string>& given) {
+            arguments.points.clear();
+            for (const std::string& count : given) {
+              arguments.points.push_back(ReadBenchPoints(count));
+            }
+          },
+          "Points of the volume (default 10000,850000)")
       ->delimiter(',')
-      ->check(CLI::Range(kMinShapePoints, kMaxShapePoints))
       ->option_text("N,...");
   AddBenchShape(command, arguments.shape, "What the volume is (default ball)");
   AddBenchMethod(command, arguments.method, arguments.distance, "How to thin (default symmetric)");

@@ -48,7 +48,7 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<std::string> png =
       view::RenderPng(loaded->result, *surface, options, team.context());
   if (!png.ok()) return Fail(png.status());
-  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *png);
+  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *png, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, surface->triangles.size()));
 }

@@ -136,7 +136,7 @@ struct Computed {
 absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, const Volume& object,
                                  const exec::Context& context) {
   Listeners listeners(arguments, object);
-  const bool local = arguments.place == Place::kLocal;
+  const bool local = arguments.place != Place::kServer;
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result,
                            local ? OnThisMachine(arguments, object, listeners, context)
                                  : OnServer(arguments, object, listeners, context.stop));
@@ -162,14 +162,18 @@ absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments
                                                       const Object& object,
                                                       const Computed& computed,
                                                       const exec::Context& context) {
-  const exporting::Subject subject = {computed.result,
-                                      object.volume,
-                                      std::string(FileName(arguments.input)),
-                                      context,
-                                      computed.shells.has_value() ? &*computed.shells : nullptr,
-                                      arguments.root};
+  const exporting::Subject subject = {
+      computed.result,
+      object.volume,
+      std::string(FileName(arguments.input)),
+      context,
+      computed.shells.has_value() ? &*computed.shells : nullptr,
+      arguments.root,
+      object.image.has_value() ? WorldOf(object.image->info) : exporting::World(),
+      arguments.swc};
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
     BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));
     files.push_back({path, std::move(note)});
   }
@@ -200,7 +204,7 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
 }
 
 ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
-  if (arguments.place == Place::kLocal) return Fail(error);
+  if (arguments.place != Place::kServer) return Fail(error);
   return FailOnServer(arguments.server, error,
                       absl::IsUnavailable(error)
                           ? "start bccskel-server, name another with --server, or compute here "
@@ -235,6 +239,9 @@ double SecondsSince(Clock::time_point start) {
 
 ExitCode Run(const SkeletonizeArguments& given, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
+  if (given.place == Place::kHere) {
+    Note("computing on this machine, as with --local; --server HOST:PORT names a server");
+  }
   LocalTeam team(given.common.threads, stop);
   const absl::StatusOr<Object> object = Load(given, team.context());
   if (!object.ok()) return Fail(object.status());

@@ -62,7 +62,7 @@ ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   const auto& [title, result, peeling] = *scene;
   const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling});
   if (!page.ok()) return Fail(page.status());
-  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *page);
+  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *page, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, peeling, page->size()));
 }

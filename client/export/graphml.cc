@@ -27,7 +27,7 @@ constexpr std::string_view kHead =
     "<key id=\"z\" for=\"node\" attr.name=\"z\" attr.type=\"double\"/>\n"
     "<key id=\"radius\" for=\"node\" attr.name=\"radius\" attr.type=\"double\"/>\n"
     "<key id=\"component\" for=\"node\" attr.name=\"component\" attr.type=\"int\"/>\n"
-    "<key id=\"label\" for=\"all\" attr.name=\"label\" attr.type=\"long\"/>\n"
+    "<key id=\"label\" for=\"all\" attr.name=\"label\" attr.type=\"string\"/>\n"
     "<key id=\"loops\" for=\"node\" attr.name=\"loops\" attr.type=\"int\"/>\n"
     "<key id=\"cavities\" for=\"node\" attr.name=\"cavities\" attr.type=\"int\"/>\n"
     "<key id=\"length\" for=\"edge\" attr.name=\"length\" attr.type=\"double\"/>\n"

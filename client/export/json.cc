@@ -172,7 +172,8 @@ void AddTimings(Text& text, const StageTimings& timings) {
 
 }  // namespace
 
-std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order) {
+std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order,
+                     const World& world) {
   const SkeletonGraph& graph = result.graph;
   Text text;
   text.Add("{\n\"nodes\":");
@@ -200,7 +201,8 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
   AddList(text, ",\n", NotesOn(result), [&](const std::string& note) { text.Add('"', note, '"'); });
   text.Add(",\n\"placement\":");
   AddPlacement(text, graph.placement);
-  text.Add(",\n\"object_points\":", result.object_points, ",\n\"timings\":");
+  text.Add(",\n\"world\":\"", OrUnknown(world.axes), "\",\n\"unit\":\"", OrUnknown(world.unit),
+           "\",\n\"object_points\":", result.object_points, ",\n\"timings\":");
   AddTimings(text, result.timings);
   text.Add(",\n\"sha256\":\"", result.sha256, "\"\n}\n");
   return std::move(text).Take();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "client/export/world.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/tree_order.h"
 
@@ -13,7 +14,7 @@ namespace bccskel::exporting {
 // how it was made, timings, sha256. World coordinates and units.
 // With an order of trees, nodes and edges tell their places in it.
 std::string JsonText(const SkeletonizeResult& result,
-                     const std::optional<TreeOrder>& order = std::nullopt);
+                     const std::optional<TreeOrder>& order = std::nullopt, const World& world = {});
 
 }  // namespace bccskel::exporting
 

@@ -3,8 +3,11 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/vtp.h"
 #include "core/exec/status_macros.h"
 
@@ -22,7 +25,7 @@ std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,
 void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
   const SkeletonGraph& graph = result.graph;
   if (facts_.empty()) {
-    facts_ = MethodFactsOf(result);
+    facts_ = MethodFactsOf(result, world_);
     // What preparing did differs from label to label.
     std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
   }
@@ -43,27 +46,43 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   labels_.of_edges.resize(graph_.edges.size(), label);
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
-           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_)) + "}";
+           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_), world_) + "}";
 }
 
 GraphContext LabeledSkeletons::Context() const {
   return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_)};
 }
 
-bool HoldsManyLabels(SkeletonFormat format) {
-  return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
-         format == SkeletonFormat::kJson;
+std::string LabeledSkeletons::Markups() const {
+  return WriteMarkups(graph_, Context(), world_).text;
 }
 
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons) {
+bool HoldsManyLabels(SkeletonFormat format) {
+  return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
+         format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv ||
+         format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups;
+}
+
+absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
+                              const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   switch (format) {
     case SkeletonFormat::kVtp:
-      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()), stop);
     case SkeletonFormat::kGraphMl:
-      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()), stop);
     case SkeletonFormat::kJson:
-      return WriteFileAtomically(path, skeletons.Json());
+      return WriteFileAtomically(path, skeletons.Json(), stop);
+    case SkeletonFormat::kCsv:
+      return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()),
+                                 stop);
+    case SkeletonFormat::kMarkups:
+      return WriteFileAtomically(path, skeletons.Markups(), stop);
+    case SkeletonFormat::kGlb: {
+      BCCSKEL_ASSIGN_OR_RETURN(const std::string glb,
+                               GlbBytes(skeletons.graph(), skeletons.Context()));
+      return WriteFileAtomically(path, glb, stop);
+    }
     default:
       return absl::InvalidArgumentError(path + ": this format holds one label");
   }

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "client/export/graph_context.h"
 #include "client/export/skeleton_file.h"
+#include "client/export/world.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::exporting {
@@ -15,7 +18,8 @@ namespace bccskel::exporting {
 // The skeletons of many labels of one image, on their way into one file.
 class LabeledSkeletons {
  public:
-  explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt) : root_(root) {}
+  explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt, World world = {})
+      : root_(root), world_(std::move(world)) {}
 
   // Needs: all have one placement.
   void Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result);
@@ -26,20 +30,23 @@ class LabeledSkeletons {
   GraphContext Context() const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
+  std::string Markups() const;
 
  private:
   SkeletonGraph graph_;
   const std::optional<RootChoice> root_;
+  const World world_;
   GraphLabels labels_;
   MethodFacts facts_;
   std::string json_;
 };
 
-// .vtp, .graphml and .json.
+// .vtp, .graphml, .json, .csv, .glb and .mrk.json.
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons);
+absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
+                              const std::stop_token& stop = {});
 
 }  // namespace bccskel::exporting
 

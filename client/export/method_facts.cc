@@ -6,8 +6,11 @@
 
 namespace bccskel::exporting {
 
-MethodFacts MethodFactsOf(const SkeletonizeResult& result) {
-  MethodFacts facts = {{"method", result.method}, {"algorithm_version", result.algorithm_version}};
+MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
+  MethodFacts facts = {{"method", result.method},
+                       {"algorithm_version", result.algorithm_version},
+                       {"world", std::string(OrUnknown(world.axes))},
+                       {"unit", std::string(OrUnknown(world.unit))}};
   for (const OptionFact& fact : FactsOf(result.options)) facts.emplace_back(fact.name, fact.value);
   std::string prepared;
   for (const PreparingStep& step : result.preparing) {

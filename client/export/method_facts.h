@@ -5,15 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/world.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::exporting {
 
 // How a result was made: names and values for formats that hold no structure. The first is `method`
-// in words, the second `algorithm_version`, the others are the options; `prepared` has what
-// preparing did. Plain text, no quotes.
+// in words, the second `algorithm_version`, then come `world` and `unit`, "unknown" where the input
+// does not tell, and the options; `prepared` has what preparing did. Plain text, no quotes.
 using MethodFacts = std::vector<std::pair<std::string, std::string>>;
-MethodFacts MethodFactsOf(const SkeletonizeResult& result);
+MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world = {});
 
 // The same as JSON values: an object of the options, and a list of the steps of preparing.
 std::string OptionsJson(const SkeletonizeOptions& options);

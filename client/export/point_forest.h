@@ -2,30 +2,36 @@
 #define BCCSKEL_CLIENT_EXPORT_POINT_FOREST_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "client/export/sampled_curve.h"
 #include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
 
-// The skeleton's points, each once, as one tree per component: what formats without loops need.
+// The graph as one tree per component: what formats without loops need. World coordinates and
+// units.
 struct PointForest {
-  // A parent comes before its children, and a branch is in one piece.
-  std::vector<SkeletonPoint> points;
-  // Position of the parent in `points`; nothing for a root.
-  std::vector<std::optional<size_t>> parents;
+  struct Point {
+    WorldPoint at;
+    double radius;
+    std::optional<size_t> parent;  // position in `points`; nothing for a root
+    std::optional<uint32_t> node;  // of the graph; nothing inside an edge
+  };
+  // A parent comes before its children, and a branch is in one piece. Each node is one point.
+  std::vector<Point> points;
   size_t trees = 0;
   // Loops of the graph that a tree cannot show.
   size_t loops_cut = 0;
 };
 
-// The root of a component is the first of `roots` in it, or else its deepest point, on ties the
-// smallest. Every point hangs on the shortest way to its root, so a loop is cut at the step
-// farthest from the root and no point is lost.
-// Needs: `roots` are nodes' points.
-PointForest PointForestOf(const SkeletonGraph& graph, std::span<const LatticePoint> roots = {});
+// An edge that closes a loop is cut at the step farthest from its root, so no point is lost.
+// Needs: the order is of this graph; a step is not negative.
+PointForest PointForestOf(const SkeletonGraph& graph, const TreeOrder& order,
+                          const CurveSampling& sampling = {});
 
 }  // namespace bccskel::exporting
 

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
+#include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/picture/svg.h"
 #include "client/export/swc.h"
@@ -26,15 +29,19 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 9> kEndings = {{{".swc", SkeletonFormat::kSwc},
-                                             {".vtp", SkeletonFormat::kVtp},
-                                             {".graphml", SkeletonFormat::kGraphMl},
-                                             {".obj", SkeletonFormat::kObj},
-                                             {".json", SkeletonFormat::kJson},
-                                             {".exr", SkeletonFormat::kVolume},
-                                             {".bccb", SkeletonFormat::kVolume},
-                                             {".svg", SkeletonFormat::kSvg},
-                                             {".html", SkeletonFormat::kHtml}}};
+constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
+                                              // in front of .json, which it ends in
+                                              {".mrk.json", SkeletonFormat::kMarkups},
+                                              {".vtp", SkeletonFormat::kVtp},
+                                              {".graphml", SkeletonFormat::kGraphMl},
+                                              {".obj", SkeletonFormat::kObj},
+                                              {".json", SkeletonFormat::kJson},
+                                              {".csv", SkeletonFormat::kCsv},
+                                              {".glb", SkeletonFormat::kGlb},
+                                              {".exr", SkeletonFormat::kVolume},
+                                              {".bccb", SkeletonFormat::kVolume},
+                                              {".svg", SkeletonFormat::kSvg},
+                                              {".html", SkeletonFormat::kHtml}}};
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -79,8 +86,9 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
 }
 
 absl::StatusOr<std::string> PageText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
-                           view::ParseResultDocument(JsonText(subject.result, OrderOf(subject))));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const view::ResultDocument result,
+      view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world)));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling});
 }
@@ -89,11 +97,12 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
 absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
   const SkeletonGraph& graph = subject.result.graph;
   const auto context = [&] {
-    return GraphContext{.facts = MethodFactsOf(subject.result), .order = OrderOf(subject)};
+    return GraphContext{.facts = MethodFactsOf(subject.result, subject.world),
+                        .order = OrderOf(subject)};
   };
   switch (format) {
     case SkeletonFormat::kSwc: {
-      SwcDocument swc = WriteSwc(graph, OrderOf(subject));
+      SwcDocument swc = WriteSwc(graph, OrderOf(subject), {subject.swc, subject.world});
       return Document{std::move(swc.text), std::move(swc.note)};
     }
     case SkeletonFormat::kVtp:
@@ -103,7 +112,15 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
     case SkeletonFormat::kObj:
       return WithoutNote(ObjText(graph));
     case SkeletonFormat::kJson:
-      return WithoutNote(JsonText(subject.result, OrderOf(subject)));
+      return WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world));
+    case SkeletonFormat::kCsv:
+      return WithoutNote(BranchTableText(graph, context()));
+    case SkeletonFormat::kMarkups: {
+      MarkupsDocument markups = WriteMarkups(graph, context(), subject.world);
+      return Document{std::move(markups.text), std::move(markups.note)};
+    }
+    case SkeletonFormat::kGlb:
+      return WithoutNote(GlbBytes(graph, context()));
     case SkeletonFormat::kSvg:
       return WithoutNote(SvgText(subject));
     case SkeletonFormat::kHtml:
@@ -143,7 +160,7 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
   }
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.result.graph));
   BCCSKEL_ASSIGN_OR_RETURN(const Document document, Compose(format, subject));
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes));
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes, subject.context.stop));
   return document.note;
 }
 

@@ -8,7 +8,19 @@
 
 namespace bccskel::exporting {
 
-enum class SkeletonFormat { kSwc, kVtp, kGraphMl, kObj, kJson, kVolume, kSvg, kHtml };
+enum class SkeletonFormat {
+  kSwc,
+  kVtp,
+  kGraphMl,
+  kObj,
+  kJson,
+  kCsv,
+  kMarkups,
+  kGlb,
+  kVolume,
+  kSvg,
+  kHtml
+};
 
 // The format that a file's ending asks for, in capitals or not.
 // Errors: INVALID_ARGUMENT with the endings there are.

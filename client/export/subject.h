@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "client/export/point_forest.h"
+#include "client/export/world.h"
 #include "client/view/display_surface.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
@@ -24,6 +26,8 @@ struct Subject {
   const view::PeeledShells* shells = nullptr;
   // Where the trees begin, if they are to be ordered. Needs: CheckRootChoice() is OK.
   std::optional<RootChoice> root = std::nullopt;
+  World world = {};
+  CurveSampling swc = {};  // of SWC files
 };
 
 }  // namespace bccskel::exporting

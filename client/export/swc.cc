@@ -1,6 +1,8 @@
 #include "client/export/swc.h"
 
-#include <map>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -12,13 +14,11 @@ namespace {
 
 enum class SwcType : int { kUndefined = 0, kFork = 5, kEnd = 6 };
 
-std::map<LatticePoint, SwcType> TypesOf(const SkeletonGraph& graph) {
-  std::map<LatticePoint, SwcType> types;
-  for (const SkeletonNode& node : graph.nodes) {
-    if (node.kind == NodeKind::kEnd) types[node.at.point] = SwcType::kEnd;
-    if (node.kind == NodeKind::kJunction) types[node.at.point] = SwcType::kFork;
-  }
-  return types;
+SwcType TypeOf(const SkeletonGraph& graph, std::optional<uint32_t> node) {
+  if (!node.has_value()) return SwcType::kUndefined;
+  const NodeKind kind = graph.nodes[*node].kind;
+  if (kind == NodeKind::kJunction) return SwcType::kFork;
+  return kind == NodeKind::kEnd ? SwcType::kEnd : SwcType::kUndefined;
 }
 
 uint64_t LoopsStatedByNodes(const SkeletonGraph& graph) {
@@ -57,36 +57,59 @@ std::string NoteOf(const SkeletonGraph& graph, const PointForest& forest) {
   return std::move(note).Take();
 }
 
-void AddHeader(Text& text, const PointForest& forest, const std::string& note) {
+std::string_view CurveWord(const CurveSampling& sampling) {
+  return sampling.step == 0.0 ? "lattice points, not smoothed" : "smooth";
+}
+
+void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
+               const std::string& note) {
   text.Add("# curve skeleton by bccskel, ", forest.trees, " tree(s)\n");
   if (!note.empty()) text.Add("# ", note, '\n');
+  text.Add("# world: ", OrUnknown(options.world.axes), "\n# unit: ", OrUnknown(options.world.unit),
+           "\n# curve: ", CurveWord(options.sampling), '\n');
   text.Add("# types: 6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
+}
+
+// Decimals that tell a ten-thousandth of the spacing apart; none where a double has not as many.
+std::optional<int> DecimalsFor(const Placement& placement) {
+  const double decimals = std::ceil(4 - std::log10(std::ranges::min(placement.spacing)));
+  if (!(decimals <= std::numeric_limits<double>::max_digits10)) return std::nullopt;
+  return static_cast<int>(std::max(decimals, 0.0));
+}
+
+void AddRow(Text& text, size_t row, SwcType type, const PointForest::Point& point,
+            std::optional<int> decimals) {
+  text.Add(row + 1, ' ', static_cast<int>(type));
+  for (const double value : {point.at[0], point.at[1], point.at[2], point.radius}) {
+    text.Add(' ');
+    if (decimals.has_value()) {
+      text.AddRounded(value, *decimals);
+    } else {
+      text.Add(value);
+    }
+  }
+  if (point.parent.has_value()) {
+    text.Add(' ', *point.parent + 1, '\n');
+  } else {
+    text.Add(" -1\n");
+  }
 }
 
 }  // namespace
 
-SwcDocument WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order) {
-  std::vector<LatticePoint> roots;
-  if (order.has_value()) {
-    for (uint32_t root : order->roots) roots.push_back(graph.nodes[root].at.point);
-  }
-  const PointForest forest = PointForestOf(graph, roots);
-  const std::map<LatticePoint, SwcType> types = TypesOf(graph);
+SwcDocument WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order,
+                     const SwcOptions& options) {
+  const PointForest forest = PointForestOf(
+      graph, order.has_value() ? *order : OrderTrees(graph, {RootChoice::Rule::kDeepestNode}),
+      options.sampling);
   SwcDocument document;
   document.note = NoteOf(graph, forest);
   Text text;
-  AddHeader(text, forest, document.note);
+  AddHeader(text, forest, options, document.note);
+  const std::optional<int> decimals = DecimalsFor(graph.placement);
   for (size_t n = 0; n < forest.points.size(); ++n) {
-    const SkeletonPoint& point = forest.points[n];
-    const WorldPoint p = graph.PositionOf(point);
-    const auto type = types.find(point.point);
-    text.Add(n + 1, ' ', static_cast<int>(type == types.end() ? SwcType::kUndefined : type->second),
-             ' ', p[0], ' ', p[1], ' ', p[2], ' ', graph.RadiusOf(point), ' ');
-    if (forest.parents[n].has_value()) {
-      text.Add(*forest.parents[n] + 1, '\n');
-    } else {
-      text.Add("-1\n");
-    }
+    const PointForest::Point& point = forest.points[n];
+    AddRow(text, n, TypeOf(graph, point.node), point, decimals);
   }
   document.text = std::move(text).Take();
   return document;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "client/export/point_forest.h"
+#include "client/export/world.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/tree_order.h"
 
@@ -15,10 +17,18 @@ struct SwcDocument {
   std::string note;
 };
 
-// SWC: `id type x y z radius parent`, one tree per component (see PointForest).
-// Types: 6 end, 5 junction, 0 everything else. World coordinates and units.
+struct SwcOptions {
+  CurveSampling sampling = {};
+  World world = {};
+};
+
+// SWC: `id type x y z radius parent`, one tree per component (see PointForest), from the roots of
+// the order, or else from the deepest node of each component.
+// Types: 6 end, 5 junction, 0 everything else. World coordinates and units, rounded to a
+// ten-thousandth of the smallest spacing.
 SwcDocument WriteSwc(const SkeletonGraph& graph,
-                     const std::optional<TreeOrder>& order = std::nullopt);
+                     const std::optional<TreeOrder>& order = std::nullopt,
+                     const SwcOptions& options = {});
 
 }  // namespace bccskel::exporting
 

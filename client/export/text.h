@@ -20,6 +20,20 @@ class Text {
     (Append(parts), ...);
     return *this;
   }
+  // With at most this many decimals, and no zeros at their end.
+  Text& AddRounded(double number, int decimals) {
+    std::array<char, 400> digits;  // the largest double has 309 in front of the point
+    char* end = std::to_chars(digits.data(), digits.data() + digits.size(), number,
+                              std::chars_format::fixed, decimals)
+                    .ptr;
+    if (decimals > 0) {
+      while (end[-1] == '0') --end;
+      if (end[-1] == '.') --end;
+    }
+    const std::string_view text(digits.data(), static_cast<size_t>(end - digits.data()));
+    Append(text == "-0" ? "0" : text);
+    return *this;
+  }
   std::string Take() && { return std::move(text_); }
 
  private:

@@ -53,6 +53,7 @@ class Ordering {
     if (choice_.rule == RootChoice::Rule::kNearestNode) {
       return {1, SquaredDistance(graph_.PositionOf(at.at), choice_.point), 0, node};
     }
+    if (choice_.rule == RootChoice::Rule::kDeepestNode) return {1, -at.at.radius, 0, node};
     if (at.kind != NodeKind::kEnd || edges_at_[node].empty()) return {2, 0, -at.at.radius, node};
     return {1, -figures_[edges_at_[node].front()].mean_radius, -at.at.radius, node};
   }

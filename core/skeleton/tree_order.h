@@ -20,6 +20,8 @@ struct RootChoice {
     kNearestNode,
     // `node` in its own component, the thickest end in the others.
     kNode,
+    // The deepest node of each component.
+    kDeepestNode,
   };
   Rule rule = Rule::kThickestEnd;
   WorldPoint point = {0, 0, 0};

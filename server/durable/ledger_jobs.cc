@@ -373,7 +373,8 @@ void DurableLedger::OpenResult(const std::string& tenant, const std::string& job
           auto reader = OpenStoredResult(*found, first_record, blobs_, files_);
           if (!absl::IsDataLoss(reader.status())) return done(std::move(reader));
           // The next job that wants the same makes it anew, also for this one.
-          DropResult(*found, [done, status = reader.status()]() mutable { done(std::move(status)); });
+          DropResult(*found,
+                     [done, status = reader.status()]() mutable { done(std::move(status)); });
         });
       });
 }

@@ -6,8 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
@@ -73,6 +76,10 @@ void RegisterAll() {
   Register("million_edges/graphml", [&graph] { return exporting::GraphMlText(graph, {}); });
   Register("million_edges/vtp", [&graph] { return exporting::VtpText(graph, {}); });
   Register("million_edges/swc", [&graph] { return exporting::WriteSwc(graph, {}).text; });
+  Register("million_edges/csv", [&graph] { return exporting::BranchTableText(graph); });
+  Register("million_edges/glb", [&graph] { return *exporting::GlbBytes(graph); });
+  Register("million_edges/mrk.json",
+           [&graph] { return exporting::WriteMarkups(graph, {}, {}).text; });
   Register("million_edges/obj", [&graph] { return exporting::ObjText(graph); });
 }
 

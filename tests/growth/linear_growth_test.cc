@@ -7,8 +7,11 @@
 #include <functional>
 #include <string>
 
+#include "client/export/branch_table.h"
+#include "client/export/glb.h"
 #include "client/export/graphml.h"
 #include "client/export/json.h"
+#include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
@@ -73,7 +76,8 @@ bool IsOneCurve(int32_t i, int32_t j, int32_t k, int sublattice) {
 }
 
 struct Formats {
-  uint64_t graph = 0, json = 0, graphml = 0, vtp = 0, swc = 0, obj = 0;
+  uint64_t graph = 0, json = 0, graphml = 0, vtp = 0, swc = 0, csv = 0, glb = 0, markups = 0,
+           obj = 0;
 };
 
 Formats WorkFor(const Box& box, const IsIn& is_in, const SkeletonizeOptions& options) {
@@ -89,6 +93,9 @@ Formats WorkFor(const Box& box, const IsIn& is_in, const SkeletonizeOptions& opt
   work.graphml = WorkOf([&] { exporting::GraphMlText(graph, {.order = order}); });
   work.vtp = WorkOf([&] { exporting::VtpText(graph, {.order = order}); });
   work.swc = WorkOf([&] { exporting::WriteSwc(graph, order); });
+  work.csv = WorkOf([&] { exporting::BranchTableText(graph, {.order = order}); });
+  work.glb = WorkOf([&] { exporting::GlbBytes(graph).status().IgnoreError(); });
+  work.markups = WorkOf([&] { exporting::WriteMarkups(graph, {}, {}); });
   work.obj = WorkOf([&] { exporting::ObjText(graph); });
   return work;
 }
@@ -109,6 +116,9 @@ void ExpectLinear(const IsIn& is_in, const SkeletonizeOptions& options = {}) {
   ExpectLinear("GraphML", once.graphml, twice.graphml);
   ExpectLinear("VTP", once.vtp, twice.vtp);
   ExpectLinear("SWC", once.swc, twice.swc);
+  ExpectLinear("CSV", once.csv, twice.csv);
+  ExpectLinear("GLB", once.glb, twice.glb);
+  ExpectLinear("markups", once.markups, twice.markups);
   ExpectLinear("OBJ", once.obj, twice.obj);
 }
 

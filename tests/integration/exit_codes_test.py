@@ -88,6 +88,35 @@ class ExitCodesTest(harness.TestCase):
         self.assertEqual((done.returncode, done.stderr),
                          (8, "bccskel: error: cannot write to standard output\n"))
 
+    def test_8_comes_before_the_work(self):
+        good, bad = self.path("a.swc"), self.path("no/{label}.swc")
+        for words in (("skeletonize", "missing.off", "--local", "-o", good, "-o", bad),
+                      ("labels", "missing.tif", "-o", bad),
+                      ("skeletonize", "missing.nrrd", "--local", "-o", good,
+                       "--branch-image", self.path("no/b.nrrd"))):
+            self.fail_with(8, "cannot write " + self.path("no/"), *words)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_130_while_files_are_written(self):
+        volume = self.generate("tree", 2_000_000)
+        os.mkfifo(self.path("pipe.json"))
+        client = self.start("skeletonize", volume, "--local", "-o", self.path("pipe.json"),
+                            "-o", self.path("out.swc"))
+        with open(self.path("pipe.json"), "rb") as pipe:
+            pipe.read(1)  # it writes
+            client.send_signal(signal.SIGINT)
+            time.sleep(0.2)
+            pipe.read()
+        _, error = client.communicate(timeout=60)
+        self.assertEqual(client.returncode, 130, error)
+        self.assert_no_output()
+
+    def test_without_a_place_it_computes_here_and_says_so(self):
+        done = harness.bccskel(*self.skeletonize(self.generate("ball")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertIn("bccskel: note: computing on this machine", done.stderr)
+
     def test_9_for_a_token_that_is_missing_or_wrong(self):
         tokens, token = pathlib.Path(self.path("tokens")), pathlib.Path(self.path("token"))
         tokens.write_text("acme " + "0" * 64 + "\n")

@@ -19,12 +19,21 @@ try:
 except ImportError:
     networkx = None
 try:
+    import pandas
+except ImportError:
+    pandas = None
+try:
+    from vtkmodules.vtkCommonDataModel import vtkBoundingBox
+    from vtkmodules.vtkIOGeometry import vtkGLTFReader
+except ImportError:
+    vtkGLTFReader = None
+try:
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 except ImportError:
     vtkXMLPolyDataReader = None
 
 SHAPES = ("ball", "torus", "tree", "knot", "hollow-ball")
-ENDINGS = ("json", "swc", "vtp", "graphml", "obj", "svg", "html", "exr")
+ENDINGS = ("json", "swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb", "svg", "html", "exr")
 
 
 class FormatsTest(harness.TestCase):
@@ -109,11 +118,15 @@ class FormatsTest(harness.TestCase):
 
     def test_swc_is_a_forest_of_the_same_components(self):
         for summary, document in self.each_skeleton():
-            positions = {tuple(p) for e in document["edges"] for p in e["points"]}
-            positions |= {tuple(n["position"]) for n in document["nodes"]}
             rows = self.swc_rows()
-            self.assertEqual({tuple(row[2:5]) for row in rows}, positions)
-            self.assertEqual(len(rows), len(positions))
+            places = {tuple(row[2:5]) for row in rows}
+            kept = {tuple(n["position"]) for n in document["nodes"] if n["kind"] != "loop"}
+            self.assertLessEqual(kept, places)
+            junctions = sum(n["kind"] == "junction" for n in document["nodes"])
+            self.assertEqual(sum(row[1] == 5 for row in rows), junctions)
+            cable = sum(math.dist(row[2:5], rows[row[6] - 1][2:5]) for row in rows if row[6] > 0)
+            if document["totals"]["loops"] == 0:
+                self.assertAlmostEqual(cable, document["totals"]["length"], delta=0.03 * cable)
             roots = sum(row[6] == -1 for row in rows)
             self.assertEqual(roots, summary["certificate"]["skeleton"]["components"])
 
@@ -134,6 +147,82 @@ class FormatsTest(harness.TestCase):
                 self.assertTrue(row[6] == -1 or 1 <= row[6] < row[0], "parent before child")
                 rows.append(row)
         return rows
+
+    @unittest.skipIf(pandas is None, "python3-pandas is not installed")
+    def test_pandas_reads_the_branch_table(self):
+        for summary, document in self.each_skeleton():
+            table = pandas.read_csv(self.path("s.csv"), float_precision="round_trip")
+            self.assertEqual(len(table), summary["edges"])
+            self.assertEqual(list(table.branch_distance), [e["length"] for e in document["edges"]])
+            self.assertEqual(list(table.mean_radius),
+                             [e["mean_radius"] for e in document["edges"]])
+            for row, edge in zip(table.itertuples(), document["edges"]):
+                source = document["nodes"][edge["source"]]
+                self.assertEqual([row.coord_src_x, row.coord_src_y, row.coord_src_z],
+                                 source["position"])
+                self.assertEqual((row.node_id_dst, row.skeleton_id),
+                                 (edge["target"], source["component"]))
+
+    @unittest.skipIf(vtkGLTFReader is None, "python3-vtk9 is not installed")
+    def test_vtk_reads_the_tubes_of_glb_where_the_object_is(self):
+        for _, document in self.each_skeleton():
+            if not document["edges"]:
+                continue
+            reader = vtkGLTFReader()
+            reader.SetFileName(self.path("s.glb"))
+            reader.Update()
+            parts = reader.GetOutput().NewIterator()
+            bounds, tubes = vtkBoundingBox(), 0
+            while not parts.IsDoneWithTraversal():
+                bounds.AddBounds(parts.GetCurrentDataObject().GetBounds())
+                tubes += 1
+                parts.GoToNextItem()
+            self.assertEqual(tubes, len(document["edges"]))
+            # VTK leaves glTF's y axis up; the world's z is.
+            low, high = [0] * 3, [0] * 3
+            bounds.GetMinPoint(low)
+            bounds.GetMaxPoint(high)
+            seen = [(low[0], high[0]), (-high[2], -low[2]), (low[1], high[1])]
+            for axis, (least, most) in enumerate(seen):
+                places = [p[axis] for e in document["edges"] for p in e["curve"]]
+                widest = document["totals"]["max_radius"]
+                self.assertGreaterEqual(least, min(places) - widest - 1e-3)
+                self.assertLessEqual(least, min(places) + 1e-3)
+                self.assertLessEqual(most, max(places) + widest + 1e-3)
+                self.assertGreaterEqual(most, max(places) - 1e-3)
+
+    def test_markups_hold_a_curve_per_branch(self):
+        for summary, document in self.each_skeleton():
+            with open(self.path("s.mrk.json")) as file:
+                markups = json.load(file)["markups"]
+            self.assertEqual(len(markups), summary["edges"])
+            for markup, edge in zip(markups, document["edges"]):
+                places = [point["position"] for point in markup["controlPoints"]]
+                if markup["type"] == "ClosedCurve":
+                    places.append(places[0])
+                length = sum(map(math.dist, places, places[1:]))
+                self.assertAlmostEqual(length, edge["length"], delta=0.1 * edge["length"])
+
+    def test_the_world_and_the_unit_are_those_of_the_input(self):
+        (self.folder / "v.nhdr").write_text(
+            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 3 3\nspace: right-anterior-superior\n"
+            "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+            "space units: \"mm\" \"mm\" \"mm\"\nencoding: raw\ndata file: v.raw\n")
+        (self.folder / "v.raw").write_bytes(bytes([1]) * 108)
+        outputs = [word for e in ("json", "swc", "graphml", "vtp", "mrk.json")
+                   for word in ("-o", self.path(f"w.{e}"))]
+        self.succeed("skeletonize", self.path("v.nhdr"), "--local", *outputs)
+        document = json.loads((self.folder / "w.json").read_text())
+        self.assertEqual((document["world"], document["unit"]), ("RAS", "mm"))
+        self.assertIn("# world: RAS\n# unit: mm\n", (self.folder / "w.swc").read_text())
+        graph = networkx.read_graphml(self.path("w.graphml")).graph
+        self.assertEqual((graph["world"], graph["unit"]), ("RAS", "mm"))
+        facts = {array.get("Name"): bytes(map(int, array.text.split()[:-1])).decode()
+                 for array in xml.etree.ElementTree.parse(self.path("w.vtp")).iterfind(
+                     ".//FieldData/DataArray")}
+        self.assertEqual((facts["world"], facts["unit"]), ("RAS", "mm"))
+        markups = json.loads((self.folder / "w.mrk.json").read_text())["markups"]
+        self.assertEqual(markups[0]["coordinateSystem"], "RAS")
 
     def test_swc_says_which_loops_it_cut(self):
         note = "SWC holds trees only: 1 loop cut"

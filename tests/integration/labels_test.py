@@ -1,13 +1,15 @@
 """Images of labels: one skeleton for each, in files of their own or in one with all."""
 
+import csv
 import json
+import pathlib
 import xml.etree.ElementTree
 
 import harness
 import networkx
 import numpy
 
-HUGE = 2**40 + 7
+HUGE = 2**64 - 1
 
 
 def touching_labels():
@@ -92,12 +94,44 @@ class LabelsTest(harness.TestCase):
         graph = networkx.read_graphml(names[1])
         for part in networkx.connected_components(graph):
             self.assertEqual(len({graph.nodes[node]["label"] for node in part}), 1)
-        self.assertEqual({label for _, label in graph.nodes(data="label")}, everything)
+        self.assertEqual({int(label) for _, label in graph.nodes(data="label")}, everything)
+        # A long of GraphML, 64 bits with a sign, would be too short.
+        self.assertIn('attr.name="label" attr.type="string"', pathlib.Path(names[1]).read_text())
         with open(names[2], encoding="utf-8") as file:
             document = json.load(file)
         self.assertEqual([entry["label"] for entry in document["labels"]], sorted(everything))
         for entry in document["labels"]:
             self.assertGreater(len(entry["skeleton"]["nodes"]), 0)
+
+    def test_the_branch_table_names_the_label_of_each_branch(self):
+        self.labels("-o", self.path("all.csv"), "-o", self.path("{label}.csv"))
+        with open(self.path("all.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for label in {int(row["label"]) for row in rows}:
+            with open(self.path(f"{label}.csv"), newline="", encoding="utf-8") as file:
+                alone = list(csv.DictReader(file))
+            lengths = [row["branch_distance"] for row in rows if int(row["label"]) == label]
+            self.assertEqual(lengths, [row["branch_distance"] for row in alone])
+        self.assertIn(HUGE, {int(row["label"]) for row in rows})
+
+    def test_a_range_of_labels_is_taken(self):
+        summary = self.labels("--label", "3-9", "-o", self.path("a.vtp"))
+        self.assertEqual([label["label"] for label in summary["labels"]], [3, 8])
+
+    def test_info_tells_labels_counts_and_range(self):
+        image = json.loads(self.succeed("info", self.image, "--json"))["image"]
+        values, counts = numpy.unique(touching_labels(), return_counts=True)
+        self.assertEqual(image["values"]["labels"],
+                         [{"label": int(v), "voxels": int(n)} for v, n in zip(values, counts) if v])
+        self.assertEqual((image["values"]["low"], image["values"]["high"]), (0, HUGE))
+        text = self.succeed("info", self.image)
+        self.assertIn(f"values:      0 to {HUGE}\n", text)
+        self.assertRegex(text, r"labels:      5: 1 \(1 voxel\), 3 \(")
+
+    def test_info_of_measured_values_tells_no_labels(self):
+        numpy.save(self.image, numpy.array([-0.1, 2.5, numpy.nan, 7], "<f4").reshape(1, 2, 2))
+        image = json.loads(self.succeed("info", self.image, "--json"))["image"]
+        self.assertEqual(image["values"], {"low": -0.1, "high": 7, "not_numbers": 1})
 
     def test_wrong_wishes_are_told(self):
         for words, code, message in (

@@ -49,6 +49,7 @@ __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-type -a 'u8 i8 u16 i16 u32 i32 u64 i64 f32 f64' -d 'Type of raw voxels'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-order -a 'little big' -d 'Byte order of raw voxels'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-header -d 'Bytes in front of raw voxels'
+__bccskel_option 'submit skeletonize labels fetch' -x -l swc-step -d 'Distance of points of SWC'
 __bccskel_option labels -x -l min-voxels -d 'Leave out smaller labels'
 __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe top' -x -l server -a '127.0.0.1:50051 unix:' -d 'Where the server is'
 __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe top' -r -l tls-ca -d 'Use TLS; who may sign the certificate'

@@ -6,6 +6,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const result = JSON.parse(document.getElementById("result").textContent);
+const unit = result.unit && result.unit !== "unknown" ? result.unit : "";
 const root = document.documentElement;
 const element = (id) => document.getElementById(id);
 window.addEventListener("error", () => { root.dataset.state = "failed"; });

@@ -28,6 +28,7 @@ function prune() {
   element("level").textContent = gone === 0 ? "all branches"
     : `${digits(gone)} off, to level ${figure(levels[shown.step - 1])}`;
   forget();
+  if (coloring === colorings.branch) colorTubes(tubes);
   showCounts();
   redraw();
 }
@@ -54,6 +55,7 @@ function play() {
 // ---- Figures under the pointer ----
 
 const figure = (v) => Number(v.toPrecision(4)).toString();
+const measure = (v) => `${figure(v)} ${unit}`.trim();
 const digits = (n) => n.toLocaleString("en-US");
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const words = (kind) => escaped(kind.replace("_", " "));
@@ -85,7 +87,7 @@ function nodeUnder(x, y) {
   });
   if (!found) return null;
   const node = result.nodes[found[0]];
-  const rows = [["radius", figure(node.radius)],
+  const rows = [["radius", measure(node.radius)],
                 ["at", node.position.map(figure).join(", ")]];
   if (shown.degree[found[0]]) rows.unshift(["branches", shown.degree[found[0]]]);
   if (node.cavities) rows.push(["cavities", node.cavities]);
@@ -101,16 +103,18 @@ function branchUnder(x, y) {
     }
   });
   if (!found) return null;
-  const [id, n] = found, e = result.edges[id], { least, most } = rangeOf(e.radii);
-  const ends = [e.source, e.target].map((row) => words(result.nodes[row].kind));
-  const rows = [["length", figure(e.length)],
-                ["radius here", `${figure(e.radii[n])} (${figure(least)} to ${figure(most)})`]];
-  if (e.tortuosity !== undefined) rows.push(["tortuosity", figure(e.tortuosity)]);
+  const [id, n] = found, e = result.edges[id], first = shown.branchOf(id);
+  const branch = shown.branches.get(first), whole = branch.edges.length === 1;
+  const { least, most } = rangeOf(branch.edges.flatMap((part) => result.edges[part].radii));
+  const ends = branch.ends.map((row) => words(result.nodes[row].kind));
+  const rows = [["length", measure(branch.length)],
+                ["radius here", `${measure(e.radii[n])} (${figure(least)} to ${figure(most)})`]];
+  if (whole && e.tortuosity !== undefined) rows.push(["tortuosity", figure(e.tortuosity)]);
   for (const { name, ofEdge } of Object.values(colorings)) {
     if (!ofEdge || name === "length") continue;
     rows.push([name, Number.isFinite(ofEdge(e)) ? figure(ofEdge(e)) : "stays"]);
   }
-  return { title: `branch ${id}`, detail: ends.join(" to "), rows, place: curves[id][n],
+  return { title: `branch ${first}`, detail: ends.join(" to ") || "loop", rows, place: curves[id][n],
            radius: e.radii[n] };
 }
 
@@ -174,7 +178,7 @@ function showCertificate() {
 function showCounts() {
   const count = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
   element("counts").textContent = `${count(shown.nodes.length, "node", "nodes")}, ` +
-    `${count(shown.edges, "branch", "branches")}, length ${figure(shown.length)}`;
+    `${count(shown.branches.size, "branch", "branches")}, length ${measure(shown.length)}`;
 }
 
 function showLegend() {

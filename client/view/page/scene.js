@@ -160,5 +160,5 @@ function drawScale() {
   const power = 10 ** Math.floor(Math.log10(140 * pixel));
   const round = [5, 2, 1].find((n) => n * power <= 140 * pixel) * power;
   element("bar").style.width = `${round / pixel}px`;
-  element("scale").textContent = `${Number(round.toPrecision(2))} ${result.unit || ""}`.trim();
+  element("scale").textContent = `${Number(round.toPrecision(2))} ${unit}`.trim();
 }

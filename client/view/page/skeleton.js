@@ -50,7 +50,7 @@ function rampColor(value, { least, most }) {
 const branchColor = (id) =>
   new THREE.Color().setHSL((id * 0.618034) % 1, 0.68, theme.lightness);
 function edgeColor(id) {
-  if (coloring === colorings.branch) return branchColor(id);
+  if (coloring === colorings.branch) return branchColor(shown.branchOf(id));
   const value = coloring.ofEdge(result.edges[id]);
   return Number.isFinite(value) ? rampColor(value, coloring.range)
                                 : new THREE.Color(theme.junction);
@@ -64,7 +64,6 @@ const levels = [...new Set(result.edges.map(levelOf))].filter(Number.isFinite)
 // The branches that go last come first, so that those shown are always the first ones.
 const byLevel = result.edges.map((_, id) => id)
   .sort((a, b) => levelOf(result.edges[b]) - levelOf(result.edges[a]) || a - b);
-let shown = { step: 0, edges: result.edges.length, nodes: [], length: 0 };
 
 // What is left when the first `step` levels are pruned.
 function prunedTo(step) {
@@ -83,8 +82,40 @@ function prunedTo(step) {
   const stays = ({ kind }, n) => kind === "isolated" || kind === "closed_surface" ||
     (degree[n] > 0 && !(step > 0 && kind === "junction" && degree[n] === 2));
   const nodes = result.nodes.map((_, n) => n).filter((n) => stays(result.nodes[n], n));
-  return { step, edges, nodes, length, degree };
+  const branches = branchesOf(byLevel.slice(0, edges), degree, new Set(nodes));
+  return { step, edges, nodes, length, degree, ...branches };
 }
+
+// Edges that meet in a node that is none any more are one branch.
+// Returns: `branchOf`, by edge, the first edge of its branch; `branches`, by first edge.
+function branchesOf(ids, degree, nodes) {
+  const next = Uint32Array.from(result.edges.keys());
+  const firstOf = (id) => {
+    while (next[id] !== id) id = next[id] = next[next[id]];
+    return id;
+  };
+  const edgeAt = new Map();
+  for (const id of ids) {
+    for (const n of [result.edges[id].source, result.edges[id].target]) {
+      if (degree[n] !== 2 || nodes.has(n)) continue;
+      const [a, b] = [firstOf(edgeAt.get(n) ?? id), firstOf(id)];
+      next[Math.max(a, b)] = Math.min(a, b);
+      edgeAt.set(n, id);
+    }
+  }
+  const branches = new Map();
+  for (const id of ids) {
+    const e = result.edges[id], first = firstOf(id);
+    if (!branches.has(first)) branches.set(first, { edges: [], ends: [], length: 0 });
+    const branch = branches.get(first);
+    branch.edges.push(id);
+    branch.length += e.length;
+    branch.ends.push(...[e.source, e.target].filter((n) => nodes.has(n)));
+  }
+  return { branches, branchOf: firstOf };
+}
+
+let shown = prunedTo(0);
 
 // ---- Shapes ----
 

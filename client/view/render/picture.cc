@@ -157,16 +157,23 @@ absl::Status DrawObject(const Geometry& geometry, cairo_surface_t* image,
 class Words {
  public:
   Words(cairo_t* pen, const PictureOptions& options)
-      : pen_(pen), height_(options.height), size_(FontSize(options)) {}
+      : pen_(pen), width_(options.width), height_(options.height), size_(FontSize(options)) {}
 
   void AddTitle(const ResultDocument& result, const std::string& title) {
     constexpr LinearColor kInk = {0.06f, 0.09f, 0.16f};
-    Write(title, kMargin * size_, 2.4 * size_, 1.5, kInk, CAIRO_FONT_WEIGHT_BOLD);
-    Write(exporting::GroupedDigits(result.object_points) + " points, " +
-              exporting::BettiPhrase(result.certificate.input) +
-              "; skeleton: " + exporting::Counted(result.edges.size(), "branch", "branches") +
-              ", " + VerdictInWords(result.certificate),
-          kMargin * size_, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+    WriteFitting(title, 2.4 * size_, 1.5, kInk, CAIRO_FONT_WEIGHT_BOLD);
+    const std::string object = exporting::GroupedDigits(result.object_points) + " points, " +
+                               exporting::BettiPhrase(result.certificate.input);
+    const std::string skeleton =
+        "skeleton: " + exporting::Counted(result.edges.size(), "branch", "branches") + ", " +
+        VerdictInWords(result.certificate);
+    const std::string both = object + "; " + skeleton;
+    if (WidthOf(both, 1, CAIRO_FONT_WEIGHT_NORMAL) <= Room()) {
+      WriteFitting(both, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+    } else {
+      WriteFitting(object, 4.1 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+      WriteFitting(skeleton, 5.5 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+    }
   }
 
   void AddLegend(const ResultDocument& result) {
@@ -193,17 +200,32 @@ class Words {
   static constexpr double kMargin = 1.6;  // in font sizes
   static constexpr LinearColor kSoft = {0.28f, 0.33f, 0.41f};
 
+  double Room() const { return width_ - 2 * kMargin * size_; }
+
+  double WidthOf(const std::string& words, double scale, cairo_font_weight_t weight) {
+    cairo_select_font_face(pen_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
+    cairo_set_font_size(pen_, scale * size_);
+    cairo_text_extents_t extents;
+    cairo_text_extents(pen_, words.c_str(), &extents);
+    return extents.x_advance;
+  }
+
+  // A line from the left margin on, smaller where it would not fit.
+  void WriteFitting(const std::string& words, double y, double scale, const LinearColor& color,
+                    cairo_font_weight_t weight) {
+    const double width = WidthOf(words, scale, weight);
+    if (width > Room()) scale *= Room() / width;
+    Write(words, kMargin * size_, y, scale, color, weight);
+  }
+
   // Returns: where the words end.
   double Write(const std::string& words, double x, double y, double scale, const LinearColor& color,
                cairo_font_weight_t weight) {
-    cairo_select_font_face(pen_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, weight);
-    cairo_set_font_size(pen_, scale * size_);
+    const double width = WidthOf(words, scale, weight);
     cairo_set_source_rgb(pen_, color[0], color[1], color[2]);
     cairo_move_to(pen_, x, y);
     cairo_show_text(pen_, words.c_str());
-    cairo_text_extents_t extents;
-    cairo_text_extents(pen_, words.c_str(), &extents);
-    return x + extents.x_advance;
+    return x + width;
   }
   double Label(const std::string& words, double x, double y) {
     return Write(words, x, y, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL) + 0.7 * size_;
@@ -221,6 +243,7 @@ class Words {
   }
 
   cairo_t* pen_;
+  double width_;
   double height_;
   double size_;
 };

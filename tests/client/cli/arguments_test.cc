@@ -179,10 +179,64 @@ TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   EXPECT_EQ(arguments.common.summary, SummaryStyle::kJson);
 }
 
-TEST(ArgumentsTest, DefaultsSuitAUserWithAServerOnThisMachine) {
+TEST(ArgumentsTest, NamingAServerOrWhatOpensOneComputesThere) {
+  for (const std::vector<const char*>& words : std::vector<std::vector<const char*>>{
+           {"--server", "unix:/x"}, {"--token-file", "t"}, {"--tls-ca", "c"}}) {
+    std::vector<const char*> all = {"skeletonize", "a.off", "-o", "a.swc"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(Parse(all).as<SkeletonizeArguments>().place, Place::kServer) << words.front();
+  }
+  EXPECT_EQ(Parse({"submit", "a.exr", "-o", "a.swc"}).as<SkeletonizeArguments>().place,
+            Place::kServer);
+}
+
+TEST(ArgumentsTest, CountsMayBeShort) {
+  const auto points = [](const char* word) {
+    return Parse({"voxelize", "a.off", "-o", "a.exr", "--points", word})
+        .as<VoxelizeArguments>()
+        .grid.points;
+  };
+  EXPECT_EQ(points("850k"), 850'000);
+  EXPECT_EQ(points("4M"), 4'000'000);
+  EXPECT_EQ(points("1e6"), 1'000'000);
+  EXPECT_EQ(points("1.5e+6"), 1'500'000);
+  EXPECT_EQ(points("2.25G"), 2'250'000'000);
+  EXPECT_EQ(points("18446744073709551615"), 18446744073709551615u);
+  for (const char* wrong :
+       {"1.5", "1e", "k", "1.k", "1e-6", "1e20", "4Mk", "0x10", "1.2345k", " 1"}) {
+    const Parsed parsed = Parse({"voxelize", "a.off", "-o", "a.exr", "--points", wrong});
+    EXPECT_EQ(parsed.code(), ExitCode::kUsage) << wrong;
+    EXPECT_THAT(parsed.err, HasSubstr("850k")) << wrong;
+  }
+}
+
+TEST(ArgumentsTest, CountsOfBenchmarksMayBeShort) {
+  EXPECT_EQ(Parse({"bench", "core", "--points", "1e6"}).as<BenchCoreArguments>().points, 1'000'000);
+  const auto server = Parse({"bench", "server", "--points", "10k,2M"}).as<BenchServerArguments>();
+  EXPECT_THAT(server.points, ElementsAre(10'000, 2'000'000));
+  EXPECT_THAT(Parse({"bench", "core", "--points", "4k"}).err, HasSubstr("within 5000 and"));
+}
+
+TEST(ArgumentsTest, LabelsMayBeRanges) {
+  const auto arguments =
+      Parse({"labels", "a.tif", "-o", "a.vtp", "--label", "3-5,9"}).as<LabelsArguments>();
+  EXPECT_THAT(arguments.image.labels, ElementsAre(3, 4, 5, 9));
+}
+
+TEST(ArgumentsTest, SwcTakesAStep) {
+  const auto step = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"skeletonize", "a.off", "-o", "a.swc"});
+    return Parse(words).as<SkeletonizeArguments>().swc.step;
+  };
+  EXPECT_EQ(step({}), std::nullopt);
+  EXPECT_EQ(step({"--swc-step", "0"}), 0);
+  EXPECT_EQ(step({"--swc-step", "2.5"}), 2.5);
+}
+
+TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {
   const Parsed parsed = Parse({"skeletonize", "a.off", "-o", "a.swc"});
   const auto& arguments = parsed.as<SkeletonizeArguments>();
-  EXPECT_EQ(arguments.place, Place::kServer);
+  EXPECT_EQ(arguments.place, Place::kHere);
   EXPECT_EQ(arguments.server.address, "127.0.0.1:50051");
   EXPECT_EQ(arguments.timeout, std::chrono::hours(1));
   EXPECT_EQ(arguments.common.threads, 0);
@@ -302,6 +356,18 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"negative_label",
               {"skeletonize", "a.tif", "-o", "a.swc", "--label", "4,-5"},
               "--label -5: must be a whole number"},
+        Wrong{"label_of_the_background",
+              {"labels", "a.tif", "-o", "a.vtp", "--label", "0-85"},
+              "0 is the background; labels are counted from 1, so write 1-85"},
+        Wrong{"labels_backwards",
+              {"labels", "a.tif", "-o", "a.vtp", "--label", "9-3"},
+              "--label 9-3: the first label is above the last"},
+        Wrong{"too_many_labels",
+              {"skeletonize", "a.tif", "-o", "a.swc", "--label", "1-5000000000"},
+              "more than 1000000 labels"},
+        Wrong{"negative_swc_step",
+              {"skeletonize", "a.off", "-o", "a.swc", "--swc-step", "-1"},
+              "--swc-step"},
         Wrong{"negative_label_of_many",
               {"labels", "a.tif", "-o", "a.vtp", "--labels", "-5"},
               "--label -5: must be a whole number"},

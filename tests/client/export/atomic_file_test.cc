@@ -83,6 +83,30 @@ TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
   EXPECT_NE(status.message().find(path), status.message().npos) << status;
 }
 
+TEST_F(AtomicFileTest, AStopLeavesTheOldFileAndNoDraft) {
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
+  std::stop_source stop;
+  stop.request_stop();
+  const absl::Status status = WriteFileAtomically(folder_ / "file", "new", stop.get_token());
+  EXPECT_TRUE(absl::IsCancelled(status)) << status;
+  EXPECT_EQ(ReadBack(folder_ / "file"), "old");
+  EXPECT_EQ(FilesThere(), 1);
+}
+
+TEST_F(AtomicFileTest, TellsBeforehandWhetherAFileCanBeWritten) {
+  EXPECT_TRUE(CheckWritable(folder_ / "new").ok());
+  EXPECT_TRUE(CheckWritable("/dev/null").ok());
+  EXPECT_EQ(FilesThere(), 0);
+  const std::string path = folder_ / "no" / "folder";
+  const absl::Status missing = CheckWritable(path);
+  EXPECT_TRUE(absl::IsNotFound(missing)) << missing;
+  EXPECT_NE(missing.message().find(path), missing.message().npos) << missing;
+  EXPECT_FALSE(CheckWritable(folder_).ok());
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "bytes").ok());
+  EXPECT_TRUE(CheckWritable(folder_ / "file").ok());
+  EXPECT_FALSE(CheckWritable(folder_ / "file" / "below").ok());
+}
+
 TEST_F(AtomicFileTest, AFolderIsNotReplaced) {
   EXPECT_FALSE(WriteFileAtomically(folder_, "bytes").ok());
   EXPECT_TRUE(fs::is_directory(folder_));

@@ -41,6 +41,8 @@ TEST_F(SkeletonFileTest, TheEndingChoosesTheFormatInCapitalsOrNot) {
   EXPECT_EQ(*SkeletonFormatOf("/x.y/A.GraphML"), SkeletonFormat::kGraphMl);
   EXPECT_EQ(*SkeletonFormatOf("a.exr"), SkeletonFormat::kVolume);
   EXPECT_EQ(*SkeletonFormatOf("a.bccb"), SkeletonFormat::kVolume);
+  EXPECT_EQ(*SkeletonFormatOf("a.mrk.json"), SkeletonFormat::kMarkups);
+  EXPECT_EQ(*SkeletonFormatOf("amrk.json"), SkeletonFormat::kJson);
   const auto unknown = SkeletonFormatOf("a.docx");
   EXPECT_TRUE(absl::IsInvalidArgument(unknown.status()));
   EXPECT_THAT(std::string(unknown.status().message()), HasSubstr(SkeletonFormatEndings()));
@@ -48,8 +50,8 @@ TEST_F(SkeletonFileTest, TheEndingChoosesTheFormatInCapitalsOrNot) {
 
 TEST_F(SkeletonFileTest, EqualSubjectsGiveEqualBytes) {
   const Sample sample = SampleOf(Shape::kKnot);
-  for (const char* name :
-       {"a.swc", "a.vtp", "a.graphml", "a.obj", "a.json", "a.exr", "a.bccb", "a.svg", "a.html"}) {
+  for (const char* name : {"a.swc", "a.vtp", "a.graphml", "a.obj", "a.json", "a.csv", "a.mrk.json",
+                           "a.glb", "a.exr", "a.bccb", "a.svg", "a.html"}) {
     const std::string first = Written(name, sample);
     EXPECT_FALSE(first.empty()) << name;
     EXPECT_TRUE(first == Written(name, sample)) << name;

@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "client/export/point_forest.h"
 #include "tests/client/export/sample_skeletons.h"
@@ -44,12 +49,65 @@ size_t RootsOf(const std::vector<Row>& rows) {
   return roots;
 }
 
-// Distinct points of a graph: what a lossless tree must hold.
+// Nodes, and the points between them: what a lossless tree must hold.
 size_t PointsOf(const SkeletonGraph& graph) {
-  std::set<LatticePoint> points;
-  for (const SkeletonNode& node : graph.nodes) points.insert(node.at.point);
-  for (const SkeletonPoint& p : graph.points) points.insert(p.point);
-  return points.size();
+  size_t points = graph.nodes.size();
+  for (const SkeletonEdge& edge : graph.edges) {
+    points += edge.point_count > 2 ? edge.point_count - 2 : 0;
+  }
+  return points;
+}
+
+std::string RawSwc(const SkeletonGraph& graph) {
+  return WriteSwc(graph, std::nullopt, {.sampling = {.step = 0}}).text;
+}
+
+double Between(const WorldPoint& a, const WorldPoint& b) {
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+double CableLength(const std::vector<Row>& rows) {
+  double length = 0;
+  for (const Row& row : rows) {
+    if (row.parent > 0) length += Between(row.at, rows[static_cast<size_t>(row.parent) - 1].at);
+  }
+  return length;
+}
+
+// How often each row is an end of a step.
+std::vector<int> DegreesOf(const std::vector<Row>& rows) {
+  std::vector<int> degrees(rows.size());
+  for (const Row& row : rows) {
+    if (row.parent < 0) continue;
+    ++degrees[row.id - 1];
+    ++degrees[static_cast<size_t>(row.parent) - 1];
+  }
+  return degrees;
+}
+
+// A rod along (1, 2, 3), which the lattice has no direction for.
+Sample ObliqueRod(const std::array<double, 3>& spacing) {
+  constexpr double kLength = 100, kRadius = 5;
+  const double root = std::sqrt(14.0);
+  const WorldPoint way = {1 / root, 2 / root, 3 / root};
+  const Placement placement = {.spacing = spacing};
+  const auto reach = [&](size_t axis) { return static_cast<int32_t>(2 * 100 / spacing[axis]); };
+  VolumeBuilder builder({reach(0) / 2, reach(1) / 2, reach(2) / 2}, placement);
+  for (int32_t z = 0; z < reach(2); ++z) {
+    for (int32_t y = z & 1; y < reach(1); y += 2) {
+      for (int32_t x = z & 1; x < reach(0); x += 2) {
+        WorldPoint p = placement.ToWorld(LatticePoint{x, y, z});
+        for (double& coordinate : p) coordinate -= kRadius + 2;
+        const double along = p[0] * way[0] + p[1] * way[1] + p[2] * way[2];
+        const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - along * along;
+        if (along < 0 || along > kLength || square > kRadius * kRadius) continue;
+        builder.Add({x, y, z});
+      }
+    }
+  }
+  Volume object = *std::move(builder).Build();
+  SkeletonizeResult result = *Skeletonize(object, {}, {});
+  return {std::move(object), std::move(result)};
 }
 
 TEST(SwcTest, NumbersItsRowsFromOneAndNamesParentsBeforeTheirChildren) {
@@ -66,14 +124,14 @@ TEST(SwcTest, NumbersItsRowsFromOneAndNamesParentsBeforeTheirChildren) {
 
 TEST(SwcTest, HoldsEveryPointOnceAndATreePerComponent) {
   for (const Sample& sample : Samples()) {
-    const std::vector<Row> rows = RowsOf(WriteSwc(sample.result.graph).text);
+    const std::vector<Row> rows = RowsOf(RawSwc(sample.result.graph));
     EXPECT_EQ(rows.size(), PointsOf(sample.result.graph));
     EXPECT_EQ(RootsOf(rows), sample.result.certificate.skeleton.components);
   }
 }
 
-TEST(SwcTest, StepsAreStepsOfTheLattice) {
-  const std::vector<Row> rows = RowsOf(WriteSwc(SampleOf(Shape::kTree).result.graph).text);
+TEST(SwcTest, StepZeroGivesTheStepsOfTheLattice) {
+  const std::vector<Row> rows = RowsOf(RawSwc(SampleOf(Shape::kTree).result.graph));
   for (const Row& row : rows) {
     if (row.parent == -1) continue;
     const WorldPoint& from = rows[static_cast<size_t>(row.parent) - 1].at;
@@ -85,8 +143,67 @@ TEST(SwcTest, StepsAreStepsOfTheLattice) {
   }
 }
 
+TEST(SwcTest, TheCableOfAnObliqueRodIsAsLongAsTheWayBetweenItsEnds) {
+  for (const std::array<double, 3>& spacing :
+       {std::array<double, 3>{1, 1, 1}, std::array<double, 3>{0.5, 0.5, 1}}) {
+    const Sample rod = ObliqueRod(spacing);
+    ASSERT_EQ(rod.result.graph.edges.size(), 1);
+    const std::vector<Row> rows = RowsOf(WriteSwc(rod.result.graph).text);
+    const double straight = Between(rows.front().at, rows.back().at);
+    EXPECT_GT(straight, 80);
+    EXPECT_NEAR(CableLength(rows) / straight, 1, 0.01) << spacing[0];
+  }
+}
+
+TEST(SwcTest, HasTheGraphsJunctionsAndNoOthers) {
+  const SkeletonGraph graph = SampleOf(Shape::kTree, 20000).result.graph;
+  const std::vector<Row> rows = RowsOf(WriteSwc(graph).text);
+  const std::vector<int> degrees = DegreesOf(rows);
+  const auto junctions = std::ranges::count(graph.nodes, NodeKind::kJunction, &SkeletonNode::kind);
+  EXPECT_GT(junctions, 5);
+  EXPECT_EQ(std::ranges::count(rows, 5, &Row::type), junctions);
+  for (size_t n = 0; n < rows.size(); ++n) EXPECT_EQ(degrees[n] > 2, rows[n].type == 5) << n;
+}
+
+TEST(SwcTest, TheStepSaysHowFarPointsLieApart) {
+  const SkeletonGraph graph = SampleOf(Shape::kTorus, 20000).result.graph;
+  for (const double step : {1.0, 3.0, 7.5}) {
+    const std::vector<Row> rows =
+        RowsOf(WriteSwc(graph, std::nullopt, {.sampling = {.step = step}}).text);
+    ASSERT_GT(rows.size(), 4);
+    for (const Row& row : rows) {
+      if (row.parent < 0) continue;
+      const double way = Between(row.at, rows[static_cast<size_t>(row.parent) - 1].at);
+      EXPECT_NEAR(way, step, 0.2 * step);
+    }
+  }
+}
+
+TEST(SwcTest, WritesNoMoreDigitsThanTheLatticeIsWorth) {
+  SkeletonGraph graph = SampleOf(Shape::kTree).result.graph;
+  for (const auto& [spacing, decimals] : {std::pair(1.0, 4), std::pair(0.004, 7)}) {
+    graph.placement.spacing = {spacing, spacing, spacing};
+    for (const std::string& line : LinesOf(WriteSwc(graph).text)) {
+      if (line.starts_with('#')) continue;
+      for (const std::string& word : WordsOf(line)) {
+        const size_t point = word.find('.');
+        if (point == word.npos) continue;
+        EXPECT_LE(word.size() - point - 1, decimals) << word;
+        EXPECT_NE(word.back(), '0') << word;
+      }
+    }
+  }
+}
+
+TEST(SwcTest, TellsWorldAndUnit) {
+  const std::string text =
+      WriteSwc(Lollipop(), std::nullopt, {.world = {.axes = "RAS", .unit = "mm"}}).text;
+  EXPECT_THAT(text, HasSubstr("# world: RAS\n# unit: mm\n"));
+  EXPECT_THAT(WriteSwc(Lollipop()).text, HasSubstr("# world: unknown\n# unit: unknown\n"));
+}
+
 TEST(SwcTest, CutsALoopOnceAndSaysSo) {
-  const SwcDocument document = WriteSwc(Lollipop());
+  const SwcDocument document = WriteSwc(Lollipop(), std::nullopt, {.sampling = {.step = 0}});
   EXPECT_EQ(RowsOf(document.text).size(), 6);
   EXPECT_EQ(RootsOf(RowsOf(document.text)), 2);
   EXPECT_THAT(document.note, HasSubstr("1 loop cut"));
@@ -104,7 +221,7 @@ TEST(SwcTest, SaysThatAClosedSurfaceIsShownAsAPoint) {
 
 TEST(SwcTest, MarksEndsAndForksAndGivesWorldUnits) {
   std::multiset<std::tuple<int, double, double>> seen;
-  for (const Row& row : RowsOf(WriteSwc(Lollipop()).text)) {
+  for (const Row& row : RowsOf(RawSwc(Lollipop()))) {
     seen.insert({row.type, row.at[0], row.radius});
   }
   EXPECT_TRUE(seen.contains({6, 10, 2}));  // the end at (0, 0, 0): two lattice units deep
@@ -116,18 +233,14 @@ TEST(SwcTest, BeginsEveryTreeAtItsRoot) {
   for (const Sample& sample : Samples()) {
     const SkeletonGraph& graph = sample.result.graph;
     const TreeOrder order = OrderTrees(graph, {});
-    const PointForest deepest = PointForestOf(graph);
-    std::vector<LatticePoint> wanted;
-    for (uint32_t root : order.roots) wanted.push_back(graph.nodes[root].at.point);
-    const PointForest forest = PointForestOf(graph, wanted);
-    std::vector<LatticePoint> roots;
-    for (size_t n = 0; n < forest.points.size(); ++n) {
-      if (!forest.parents[n].has_value()) roots.push_back(forest.points[n].point);
+    std::vector<uint32_t> roots;
+    for (const PointForest::Point& point : PointForestOf(graph, order).points) {
+      if (!point.parent.has_value()) roots.push_back(point.node.value());
     }
-    EXPECT_EQ(roots, wanted);
-    EXPECT_EQ(forest.points.size(), deepest.points.size());
-    EXPECT_EQ(forest.loops_cut, deepest.loops_cut);
-    EXPECT_EQ(RowsOf(WriteSwc(graph, order).text).size(), forest.points.size());
+    EXPECT_EQ(roots, order.roots);
+    const WorldPoint root = graph.PositionOf(graph.nodes[roots.front()].at);
+    const std::vector<Row> rows = RowsOf(WriteSwc(graph, order, {.sampling = {.step = 0}}).text);
+    EXPECT_EQ(rows.front().at, root);
   }
 }
 
@@ -137,7 +250,8 @@ TEST(SwcTest, AnEmptyGraphIsAHeader) {
 
 TEST(PointForestTest, CountsTheLoopsOfTheObject) {
   for (const Sample& sample : Samples()) {
-    const PointForest forest = PointForestOf(sample.result.graph);
+    const PointForest forest =
+        PointForestOf(sample.result.graph, OrderTrees(sample.result.graph, {}));
     int64_t stated = 0;
     for (const SkeletonNode& node : sample.result.graph.nodes) stated += node.loops;
     EXPECT_EQ(static_cast<int64_t>(forest.loops_cut) + stated,

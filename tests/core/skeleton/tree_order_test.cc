@@ -58,6 +58,12 @@ SkeletonGraph Tree() {
   return GraphOf(6, {{0, 1, 8, 4}, {1, 2, 3}, {1, 3, 4, 2}, {3, 4, 2}, {3, 5, 5}});
 }
 
+TEST(TreeOrderTest, TheDeepestNodeMayBeTheRoot) {
+  SkeletonGraph graph = Tree();
+  graph.nodes[3].at.radius = 7;
+  EXPECT_EQ(OrderTrees(graph, {Rule::kDeepestNode}).roots, Numbers({3}));
+}
+
 TEST(TreeOrder, NumbersATreeFromItsTrunk) {
   const TreeOrder order = OrderTrees(Tree(), {});
   EXPECT_EQ(order.roots, Numbers{0});

@@ -1,9 +1,12 @@
 #include "client/view/render/picture.h"
 
+#include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stop_token>
+#include <utility>
+#include <vector>
 
 #include "client/export/json.h"
 #include "core/exec/worker_team.h"
@@ -69,6 +72,50 @@ TEST(PictureTest, ATitleThatIsNotUtf8IsLeftOut) {
   broken.title = "\xff\xfe";
   EXPECT_EQ(*PictureOf(sample, broken, {}), *PictureOf(sample, without, {}));
   EXPECT_NE(*PictureOf(sample, Small(), {}), *PictureOf(sample, without, {}));
+}
+
+// Pixels of a picture, row by row.
+struct Pixels {
+  int width;
+  std::vector<uint32_t> values;
+
+  uint32_t At(int x, int y) const { return values[static_cast<size_t>(y * width + x)]; }
+};
+
+Pixels Decoded(std::string png) {
+  const auto read = [](void* from, unsigned char* bytes, unsigned count) {
+    auto& left = *static_cast<std::string*>(from);
+    left.copy(reinterpret_cast<char*>(bytes), count);
+    left.erase(0, count);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_surface_t* image = cairo_image_surface_create_from_png_stream(read, &png);
+  cairo_surface_flush(image);
+  Pixels pixels = {cairo_image_surface_get_width(image), {}};
+  for (int y = 0; y < cairo_image_surface_get_height(image); ++y) {
+    const auto* row = reinterpret_cast<const uint32_t*>(cairo_image_surface_get_data(image) +
+                                                        static_cast<ptrdiff_t>(y) *
+                                                            cairo_image_surface_get_stride(image));
+    pixels.values.insert(pixels.values.end(), row, row + pixels.width);
+  }
+  cairo_surface_destroy(image);
+  return pixels;
+}
+
+TEST(PictureTest, NoWordIsCutOff) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  for (const int width : {160, 400, 1000}) {
+    PictureOptions options = Small();
+    options.width = width;
+    options.title = "a file with a rather long name, as they come out of pipelines.off";
+    const Pixels picture = Decoded(*PictureOf(sample, options, {}));
+    constexpr int kRowsOfWords = 66, kMargin = 8;
+    for (int y = 0; y < kRowsOfWords; ++y) {
+      for (int x = width - kMargin; x < width; ++x) {
+        ASSERT_EQ(picture.At(x, y), picture.At(0, 0)) << width << ": " << x << ", " << y;
+      }
+    }
+  }
 }
 
 TEST(PictureTest, StopsWhenItIsToldTo) {

@@ -1,0 +1,151 @@
+#include "client/cli/image_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include "client/cli/load_object.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
+#include "core/exec/status_macros.h"
+#include "core/image/open_image.h"
+
+namespace bccskel::cli {
+namespace {
+
+using exporting::Counted;
+using exporting::Text;
+
+class Survey {
+ public:
+  template <typename T>
+  void Add(std::span<const T> values) {
+    for (size_t begin = 0, end; begin < values.size(); begin = end) {
+      end = begin + 1;
+      while (end < values.size() && values[end] == values[begin]) ++end;
+      AddRun(values[begin], end - begin);
+    }
+  }
+
+  ImageValues Take(VoxelType type) && {
+    values_.type = type;
+    if (are_labels_) values_.labels.emplace(counts_.begin(), counts_.end());
+    return std::move(values_);
+  }
+
+ private:
+  template <typename T>
+  void AddRun(T value, uint64_t count) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (std::isnan(value)) {
+        values_.not_numbers += count;
+        return;
+      }
+    }
+    const auto number = static_cast<long double>(value);
+    if (!values_.range.has_value()) values_.range = {number, number};
+    values_.range->low = std::min(values_.range->low, number);
+    values_.range->high = std::max(values_.range->high, number);
+    if (!are_labels_ || value == T{0}) return;
+    // 2^64 is the first that is too large.
+    are_labels_ = number > 0 && number < std::ldexp(1.0L, 64) && std::floor(number) == number &&
+                  counts_.size() <= kMostLabels;
+    if (are_labels_) counts_[static_cast<uint64_t>(value)] += count;
+  }
+
+  ImageValues values_;
+  std::unordered_map<uint64_t, uint64_t> counts_;
+  bool are_labels_ = true;
+};
+
+absl::StatusOr<ImageValues> Read(const std::string& path, const ImageOptions& options,
+                                 const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, options));
+  Survey survey;
+  for (int32_t z = 0; z < source->info().size.nz; ++z) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
+    std::visit([&](const auto values) { survey.Add(values); }, slice.values);
+  }
+  return std::move(survey).Take(source->info().type);
+}
+
+// In the shortest form that its own type reads back.
+std::string NumberText(long double value, VoxelType type) {
+  Text text;
+  if (type == VoxelType::kFloat32) {
+    text.Add(static_cast<float>(value));
+  } else if (type == VoxelType::kFloat64) {
+    text.Add(static_cast<double>(value));
+  } else if (value < 0) {
+    text.Add(static_cast<int64_t>(value));
+  } else {
+    text.Add(static_cast<uint64_t>(value));
+  }
+  return std::move(text).Take();
+}
+
+// JSON has no infinities.
+std::string NumberJson(long double value, VoxelType type) {
+  return std::isfinite(value) ? NumberText(value, type) : '"' + NumberText(value, type) + '"';
+}
+
+}  // namespace
+
+absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const ImageOptions& options,
+                                            const exec::Context& context) {
+  absl::StatusOr<ImageValues> values = Read(path, options, context);
+  if (!values.ok()) return WithPath(values.status(), path);
+  return values;
+}
+
+std::string ValuesText(const ImageValues& values) {
+  constexpr size_t kShown = 10;
+  Text text;
+  text.Add("values:      ");
+  if (values.range.has_value()) {
+    text.Add(NumberText(values.range->low, values.type), " to ",
+             NumberText(values.range->high, values.type));
+  } else {
+    text.Add("none");
+  }
+  if (values.not_numbers > 0) {
+    text.Add(", ", Counted(values.not_numbers, "voxel is NaN", "voxels are NaN"));
+  }
+  if (!values.labels.has_value()) return std::move(text.Add('\n')).Take();
+  text.Add("\nlabels:      ", exporting::GroupedDigits(values.labels->size()));
+  size_t shown = 0;
+  for (const auto& [label, voxels] : *values.labels) {
+    text.Add(shown == 0 ? ": " : ", ");
+    if (shown++ == kShown) {
+      text.Add("...");
+      break;
+    }
+    text.Add(label, " (", Counted(voxels, "voxel", "voxels"), ')');
+  }
+  return std::move(text.Add('\n')).Take();
+}
+
+std::string ValuesJson(const ImageValues& values) {
+  Text text;
+  if (values.range.has_value()) {
+    text.Add("\"low\":", NumberJson(values.range->low, values.type),
+             ",\"high\":", NumberJson(values.range->high, values.type), ',');
+  }
+  text.Add("\"not_numbers\":", values.not_numbers);
+  if (!values.labels.has_value()) return std::move(text).Take();
+  text.Add(",\"labels\":[");
+  std::string_view before;
+  for (const auto& [label, voxels] : *values.labels) {
+    text.Add(before, "{\"label\":", label, ",\"voxels\":", voxels, '}');
+    before = ",";
+  }
+  return std::move(text.Add(']')).Take();
+}
+
+}  // namespace bccskel::cli

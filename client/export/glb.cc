@@ -1,0 +1,311 @@
+#include "client/export/glb.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/export/branch_name.h"
+#include "client/export/picture/display_curve.h"
+#include "client/export/sampled_curve.h"
+#include "client/export/text.h"
+#include "core/skeleton/skeleton_figures.h"
+
+namespace bccskel::exporting {
+namespace {
+
+// Sides of a tube, in a scene of few and of many tubes.
+constexpr size_t kSides = 8, kSidesOfMany = 4;
+constexpr size_t kMany = 100'000;
+constexpr int kFloat = 5126, kUint32 = 5125, kUint8 = 5121;  // component types
+constexpr int kOfVertices = 34962, kOfCorners = 34963;       // buffer targets
+constexpr uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+
+using Vector = std::array<float, 3>;
+
+Vector Scaled(const Vector& v, float by) { return {v[0] * by, v[1] * by, v[2] * by}; }
+Vector Added(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+float Product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector Cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+// Of length 1; (1, 0, 0) for zero.
+Vector Direction(const Vector& v) {
+  const float length = std::sqrt(Product(v, v));
+  return length > 0 ? Scaled(v, 1 / length) : Vector{1, 0, 0};
+}
+
+void AppendWord(std::string& bytes, uint32_t word) {
+  std::array<char, 4> low_first;
+  for (size_t n = 0; n < 4; ++n) low_first[n] = static_cast<char>(word >> 8 * n);
+  bytes.append(low_first.data(), low_first.size());
+}
+
+struct Vertex {
+  Vector position;
+  Vector normal;
+  uint32_t color;  // r, g, b, a from the lowest byte on; linear
+};
+constexpr size_t kVertexBytes = 28;
+
+void AppendVertex(std::string& bytes, const Vertex& vertex) {
+  for (const float part : vertex.position) AppendWord(bytes, std::bit_cast<uint32_t>(part));
+  for (const float part : vertex.normal) AppendWord(bytes, std::bit_cast<uint32_t>(part));
+  AppendWord(bytes, vertex.color);
+}
+
+// A closed surface around a curve.
+struct Tube {
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> corners;
+};
+
+// glTF's colors are linear.
+std::array<uint32_t, kRadiusColors> LinearColors() {
+  std::array<uint32_t, kRadiusColors> colors;
+  for (size_t n = 0; n < colors.size(); ++n) {
+    colors[n] = 0xff000000;
+    int shift = 0;
+    for (const double part : RadiusRgb(static_cast<int>(n))) {
+      colors[n] |= static_cast<uint32_t>(std::lround(255 * std::pow(part / 255, 2.2))) << shift;
+      shift += 8;
+    }
+  }
+  return colors;
+}
+
+struct Turn {
+  float cosine;
+  float sine;
+};
+std::vector<Turn> TurnsOfRing(size_t tubes) {
+  std::vector<Turn> turns(tubes > kMany ? kSidesOfMany : kSides);
+  for (size_t k = 0; k < turns.size(); ++k) {
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(turns.size());
+    turns[k] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+  }
+  return turns;
+}
+
+class TubeMaker {
+ public:
+  TubeMaker(const WorldPoint& center, const SkeletonGraph& graph)
+      : center_(center), range_(RadiusRangeOf(graph)), turns_(TurnsOfRing(graph.edges.size())) {}
+
+  // Rings that turn no more than the curve does, and a cap at either end.
+  Tube Around(const std::vector<CurvePoint>& curve) const {
+    Tube tube;
+    Vector side = {0.36f, 0.48f, 0.8f};
+    for (size_t n = 0; n < curve.size(); ++n) {
+      const Vector before = PlaceOf(curve[n == 0 ? 0 : n - 1]);
+      const Vector after = PlaceOf(curve[std::min(n + 1, curve.size() - 1)]);
+      const Vector along = Direction(Added(after, Scaled(before, -1)));
+      side = Added(side, Scaled(along, -Product(side, along)));
+      if (Product(side, side) < 1e-8f) side = Cross({along[1], along[2], -along[0]}, along);
+      side = Direction(side);
+      if (n == 0) AddCap(curve[n], Scaled(along, -1), tube);
+      AddRing(curve[n], side, Cross(along, side), tube);
+      if (n > 0) JoinRings(tube);
+      if (n + 1 == curve.size()) AddCap(curve[n], along, tube);
+    }
+    CloseCaps(tube);
+    return tube;
+  }
+
+ private:
+  Vector PlaceOf(const CurvePoint& p) const {
+    return {static_cast<float>(p.at[0] - center_[0]), static_cast<float>(p.at[1] - center_[1]),
+            static_cast<float>(p.at[2] - center_[2])};
+  }
+
+  void AddVertex(const Vector& position, const Vector& normal, double radius, Tube& tube) const {
+    const auto color = static_cast<size_t>(RadiusColorIndex(radius, range_));
+    tube.vertices.push_back({position, normal, colors_[color]});
+  }
+
+  void AddCap(const CurvePoint& p, const Vector& normal, Tube& tube) const {
+    AddVertex(PlaceOf(p), normal, p.radius, tube);
+  }
+
+  void AddRing(const CurvePoint& p, const Vector& side, const Vector& other, Tube& tube) const {
+    for (const Turn& turn : turns_) {
+      const Vector out = Added(Scaled(side, turn.cosine), Scaled(other, turn.sine));
+      AddVertex(Added(PlaceOf(p), Scaled(out, static_cast<float>(p.radius))), out, p.radius, tube);
+    }
+  }
+
+  // The last two.
+  void JoinRings(Tube& tube) const {
+    const auto ring = static_cast<uint32_t>(turns_.size());
+    const auto last = static_cast<uint32_t>(tube.vertices.size()) - ring;
+    for (uint32_t k = 0; k < ring; ++k) {
+      const uint32_t a = last + k, b = last + (k + 1) % ring;
+      tube.corners.insert(tube.corners.end(), {a - ring, b - ring, b, a - ring, b, a});
+    }
+  }
+
+  // Needs: the caps' centers are the first and the last vertex.
+  void CloseCaps(Tube& tube) const {
+    if (tube.vertices.empty()) return;
+    const auto ring = static_cast<uint32_t>(turns_.size());
+    const auto last = static_cast<uint32_t>(tube.vertices.size() - 1), last_ring = last - ring;
+    for (uint32_t k = 0; k < ring; ++k) {
+      const uint32_t next = (k + 1) % ring;
+      tube.corners.insert(tube.corners.end(),
+                          {0, 1 + next, 1 + k, last, last_ring + k, last_ring + next});
+    }
+  }
+
+  const WorldPoint center_;
+  const RadiusRange range_;
+  const std::array<uint32_t, kRadiusColors> colors_ = LinearColors();
+  const std::vector<Turn> turns_;
+};
+
+// The two chunks of the file while they grow.
+class Scene {
+ public:
+  void Add(const Tube& tube) {
+    const size_t first_vertex = vertices_.size(), first_corner = corners_.size();
+    Vector low = tube.vertices.front().position, high = low;
+    for (const Vertex& vertex : tube.vertices) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], vertex.position[axis]);
+        high[axis] = std::max(high[axis], vertex.position[axis]);
+      }
+      AppendVertex(vertices_, vertex);
+    }
+    for (const uint32_t corner : tube.corners) AppendWord(corners_, corner);
+    const size_t count = tube.vertices.size();
+    AddAccessor(kVertexView, first_vertex, kFloat, "VEC3", count);
+    accessor_text_.Add(",\"min\":[", low[0], ',', low[1], ',', low[2], "],\"max\":[", high[0], ',',
+                       high[1], ',', high[2], "]}");
+    AddAccessor(kVertexView, first_vertex + 12, kFloat, "VEC3", count);
+    accessor_text_.Add('}');
+    AddAccessor(kVertexView, first_vertex + 24, kUint8, "VEC4", count);
+    accessor_text_.Add(",\"normalized\":true}");
+    AddAccessor(kCornerView, first_corner, kUint32, "SCALAR", tube.corners.size());
+    accessor_text_.Add('}');
+    const size_t accessor = 4 * meshes_;
+    mesh_text_.Add(meshes_ == 0 ? "\n" : ",\n",
+                   "{\"primitives\":[{\"attributes\":{\"POSITION\":", accessor,
+                   ",\"NORMAL\":", accessor + 1, ",\"COLOR_0\":", accessor + 2,
+                   "},\"indices\":", accessor + 3, ",\"material\":0}]}");
+    ++meshes_;
+  }
+
+  // The node of the last mesh; node 0 is the root. Its figures are as exact as its vertices.
+  void AddNode(std::string_view name, const EdgeFigures& figures) {
+    const auto rounded = [](double figure) { return static_cast<float>(figure); };
+    node_text_.Add(",\n{\"name\":\"", name, "\",\"mesh\":", meshes_ - 1,
+                   ",\"extras\":{\"length\":", rounded(figures.length),
+                   ",\"mean_radius\":", rounded(figures.mean_radius),
+                   ",\"min_radius\":", rounded(figures.min_radius),
+                   ",\"max_radius\":", rounded(figures.max_radius), "}}");
+  }
+
+  std::string Json(const WorldPoint& center) && {
+    Text text;
+    text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
+             "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[", center[0],
+             ',', center[2], ',', -center[1],
+             // A quarter turn about x: z goes up.
+             "],\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476]");
+    if (meshes_ > 0) text.Add(",\"children\":[");
+    for (size_t n = 1; n <= meshes_; ++n) text.Add(n == 1 ? "" : ",", n);
+    text.Add(meshes_ > 0 ? "]}" : "}", std::move(node_text_).Take(), "\n]");
+    if (meshes_ > 0) AddMeshes(text);
+    text.Add("}\n");
+    return std::move(text).Take();
+  }
+  const std::string& vertices() const { return vertices_; }
+  const std::string& corners() const { return corners_; }
+
+ private:
+  static constexpr int kVertexView = 0, kCornerView = 1;
+
+  // Its JSON object is left open.
+  void AddAccessor(int view, size_t offset, int type, std::string_view shape, size_t count) {
+    accessor_text_.Add(view == kVertexView && offset == 0 ? "\n" : ",\n", "{\"bufferView\":", view,
+                       ",\"byteOffset\":", offset, ",\"componentType\":", type,
+                       ",\"count\":", count, ",\"type\":\"", shape, '"');
+  }
+
+  void AddMeshes(Text& text) {
+    text.Add(
+        ",\n\"materials\":[{\"name\":\"radius\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,",
+        "\"roughnessFactor\":0.6}}],\n\"meshes\":[", std::move(mesh_text_).Take(),
+        "\n],\n\"accessors\":[", std::move(accessor_text_).Take(),
+        "\n],\n\"bufferViews\":[\n{\"buffer\":0,\"byteLength\":", vertices_.size(),
+        ",\"byteStride\":", kVertexBytes, ",\"target\":", kOfVertices,
+        "},\n{\"buffer\":0,\"byteOffset\":", vertices_.size(), ",\"byteLength\":", corners_.size(),
+        ",\"target\":", kOfCorners,
+        "}\n],\n\"buffers\":[{\"byteLength\":", vertices_.size() + corners_.size(), "}]");
+  }
+
+  std::string vertices_, corners_;
+  Text node_text_, mesh_text_, accessor_text_;
+  size_t meshes_ = 0;
+};
+
+// Coordinates around it fit a float wherever the world's origin is.
+WorldPoint CenterOf(const SkeletonGraph& graph) {
+  WorldPoint sum = {0, 0, 0};
+  for (const SkeletonNode& node : graph.nodes) {
+    const WorldPoint p = graph.PositionOf(node.at);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      sum[axis] += p[axis] / static_cast<double>(graph.nodes.size());
+    }
+  }
+  return sum;
+}
+
+constexpr size_t RoundedUp(size_t bytes) { return (bytes + 3) / 4 * 4; }
+
+void AppendHead(std::string& file, size_t bytes, uint32_t type) {
+  AppendWord(file, static_cast<uint32_t>(bytes));
+  AppendWord(file, type);
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphContext& context) {
+  const WorldPoint center = CenterOf(graph);
+  const TubeMaker maker(center, graph);
+  Scene scene;
+  for (size_t n = 0; n < graph.edges.size(); ++n) {
+    const std::vector<CurvePoint> curve = SampledCurve(graph, graph.edges[n]);
+    if (curve.empty()) continue;
+    scene.Add(maker.Around(curve));
+    scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, graph.edges[n]));
+  }
+  std::string json = std::move(scene).Json(center);
+  json.resize(RoundedUp(json.size()), ' ');
+  const size_t binary = scene.vertices().size() + scene.corners().size();  // words alone
+  constexpr size_t kHead = 8;
+  const size_t bytes = 12 + kHead + json.size() + (binary == 0 ? 0 : kHead + binary);
+  if (bytes > std::numeric_limits<uint32_t>::max()) {
+    return absl::ResourceExhaustedError("GLB holds no more than 4 GiB");
+  }
+  std::string file;
+  file.reserve(bytes);
+  AppendWord(file, kMagic);
+  AppendWord(file, 2);
+  AppendWord(file, static_cast<uint32_t>(bytes));
+  AppendHead(file, json.size(), kJson);
+  file += json;
+  if (binary == 0) return file;
+  AppendHead(file, binary, kBinary);
+  file += scene.vertices();
+  file += scene.corners();
+  return file;
+}
+
+}  // namespace bccskel::exporting

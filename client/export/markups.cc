@@ -1,0 +1,84 @@
+#include "client/export/markups.h"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/export/branch_name.h"
+#include "client/export/sampled_curve.h"
+#include "client/export/text.h"
+#include "core/skeleton/skeleton_figures.h"
+
+namespace bccskel::exporting {
+namespace {
+
+constexpr std::string_view kSchema =
+    "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+    "Schema/markups-schema-v1.0.3.json#";
+
+void AddMeasurement(Text& text, std::string_view before, std::string_view name, double value,
+                    const World& world) {
+  text.Add(before, "{\"name\":\"", name, "\",\"enabled\":false,\"value\":", value);
+  if (!world.unit.empty()) text.Add(",\"units\":\"", world.unit, '"');
+  text.Add('}');
+}
+
+void AddPoints(Text& text, const std::vector<CurvePoint>& curve) {
+  for (size_t n = 0; n < curve.size(); ++n) {
+    const WorldPoint& p = curve[n].at;
+    text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1,
+             "\",\"label\":\"\",\"description\":\"radius ", curve[n].radius, "\",\"position\":[",
+             p[0], ',', p[1], ',', p[2],
+             "],\"selected\":true,\"locked\":false,\"visibility\":true,"
+             "\"positionStatus\":\"defined\"}");
+  }
+}
+
+void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context,
+              const World& world) {
+  const SkeletonEdge& edge = graph.edges[n];
+  const bool closed = graph.nodes[edge.source].kind == NodeKind::kLoop;
+  std::vector<CurvePoint> curve = SampledCurve(graph, edge);
+  if (closed && !curve.empty()) curve.pop_back();  // is the first
+  const EdgeFigures figures = FiguresOf(graph, edge);
+  text.Add("{\"type\":\"", closed ? "ClosedCurve" : "Curve", "\",\"coordinateSystem\":\"",
+           world.axes == "RAS" ? "RAS" : "LPS", '"');
+  if (world.unit == "mm") text.Add(",\"coordinateUnits\":\"mm\"");
+  text.Add(",\"name\":\"", BranchName(context.labels, n),
+           "\",\"locked\":true,\"fixedNumberOfControlPoints\":false,\"labelFormat\":\"\","
+           "\"lastUsedControlPointNumber\":",
+           curve.size(), ",\"controlPoints\":[");
+  AddPoints(text, curve);
+  text.Add("],\"measurements\":[");
+  AddMeasurement(text, "", "length", figures.length, world);
+  AddMeasurement(text, ",", "mean radius", figures.mean_radius, world);
+  AddMeasurement(text, ",", "min radius", figures.min_radius, world);
+  AddMeasurement(text, ",", "max radius", figures.max_radius, world);
+  text.Add(
+      "],\"display\":{\"visibility\":true,\"pointLabelsVisibility\":false,"
+      "\"propertiesLabelVisibility\":false,\"glyphScale\":0.5,\"lineThickness\":0.5}}");
+}
+
+}  // namespace
+
+std::string NoteOn(const World& world) {
+  if (world.axes == "RAS" || world.axes == "LPS") return "";
+  return "the input does not say whether its world is RAS or LPS; written as LPS";
+}
+
+MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,
+                             const World& world) {
+  MarkupsDocument document;
+  document.note = NoteOn(world);
+  Text text;
+  text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
+  for (size_t n = 0; n < graph.edges.size(); ++n) {
+    text.Add(n == 0 ? "\n" : ",\n");
+    AddCurve(text, graph, n, context, world);
+  }
+  text.Add("\n]}\n");
+  document.text = std::move(text).Take();
+  return document;
+}
+
+}  // namespace bccskel::exporting

@@ -1,0 +1,72 @@
+#include "client/export/sampled_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/skeleton/skeleton_figures.h"
+
+namespace bccskel::exporting {
+namespace {
+
+using Curve = std::vector<CurvePoint>;
+
+// Bounds what a tiny step may ask for.
+constexpr double kMostPerPoint = 1000;
+// Fewer would turn a loop of one edge into a point or a line there and back.
+constexpr size_t kLeastStepsOfLoop = 4;
+
+double Between(const WorldPoint& a, const WorldPoint& b) {
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
+  CurvePoint mixed = {a.at, a.radius + part * (b.radius - a.radius)};
+  for (size_t axis = 0; axis < 3; ++axis) mixed.at[axis] += part * (b.at[axis] - a.at[axis]);
+  return mixed;
+}
+
+// The same curve by `steps` steps of equal length. Needs: at least two points, a step.
+Curve Resampled(const Curve& curve, size_t steps) {
+  const std::vector<double> ways = WaysAlong(curve);
+  Curve resampled = {curve.front()};
+  size_t behind = 1;
+  for (size_t n = 1; n < steps; ++n) {
+    const double way = ways.back() * static_cast<double>(n) / static_cast<double>(steps);
+    while (behind + 1 < curve.size() && ways[behind] < way) ++behind;
+    const double length = ways[behind] - ways[behind - 1];
+    const double part = length > 0 ? (way - ways[behind - 1]) / length : 0;
+    resampled.push_back(Mix(curve[behind - 1], curve[behind], std::clamp(part, 0.0, 1.0)));
+  }
+  resampled.push_back(curve.back());
+  return resampled;
+}
+
+}  // namespace
+
+std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve) {
+  std::vector<double> ways = {0};
+  for (size_t n = 1; n < curve.size(); ++n) {
+    ways.push_back(ways.back() + Between(curve[n - 1].at, curve[n].at));
+  }
+  return ways;
+}
+
+std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                                     const CurveSampling& sampling) {
+  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+  const bool raw = sampling.step == 0.0;
+  const std::vector<WorldPoint> smooth = raw ? std::vector<WorldPoint>() : SmoothCurve(graph, edge);
+  Curve curve;
+  for (size_t n = 0; n < points.size(); ++n) {
+    curve.push_back({raw ? graph.PositionOf(points[n]) : smooth[n], graph.RadiusOf(points[n])});
+  }
+  if (raw || curve.size() < 2) return curve;
+  const double most = kMostPerPoint * static_cast<double>(curve.size());
+  const double step = sampling.step.value_or(2 * std::ranges::min(graph.placement.spacing));
+  const double wanted = std::round(WaysAlong(curve).back() / step);
+  const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
+  return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));
+}
+
+}  // namespace bccskel::exporting

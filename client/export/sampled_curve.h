@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_SAMPLED_CURVE_H_
+#define BCCSKEL_CLIENT_EXPORT_SAMPLED_CURVE_H_
+
+#include <optional>
+#include <vector>
+
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::exporting {
+
+struct CurveSampling {
+  // The distance between points along the smooth curve in world units, rounded so that it divides
+  // each edge; 0: the lattice points themselves, not smoothed; nothing: twice the smallest spacing,
+  // which leaves out the last ripples of the lattice.
+  std::optional<double> step = std::nullopt;
+};
+
+// World coordinates and units.
+struct CurvePoint {
+  WorldPoint at;
+  double radius;
+};
+
+// An edge from its source's place to its target's.
+// Needs: the step is not negative.
+std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                                     const CurveSampling& sampling = {});
+
+// The way along the curve to each of its points; 0 for no point.
+std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve);
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_SAMPLED_CURVE_H_

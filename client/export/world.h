@@ -1,0 +1,19 @@
+#ifndef BCCSKEL_CLIENT_EXPORT_WORLD_H_
+#define BCCSKEL_CLIENT_EXPORT_WORLD_H_
+
+#include <string>
+#include <string_view>
+
+namespace bccskel::exporting {
+
+// What coordinates mean, as far as the input tells. Empty: unknown.
+struct World {
+  std::string axes;  // what they point to: "RAS", "LPS"
+  std::string unit;  // of coordinates, radii and lengths: "mm", "um", ...
+};
+
+inline std::string_view OrUnknown(std::string_view text) { return text.empty() ? "unknown" : text; }
+
+}  // namespace bccskel::exporting
+
+#endif  // BCCSKEL_CLIENT_EXPORT_WORLD_H_

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "client/export/glb.h"
+#include "client/export/markups.h"
+#include "tests/client/export/sample_skeletons.h"
+
+// Formats that programs of pictures open: GLB and Slicer's markups.
+
+namespace bccskel::exporting {
+namespace {
+
+using Json = nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+uint32_t WordAt(const std::string& bytes, size_t at) {
+  uint32_t word;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+// The JSON chunk, with the lengths of the file checked.
+Json SceneOf(const std::string& glb) {
+  EXPECT_EQ(glb.substr(0, 4), "glTF");
+  EXPECT_EQ(WordAt(glb, 4), 2);
+  EXPECT_EQ(WordAt(glb, 8), glb.size());
+  const uint32_t json = WordAt(glb, 12);
+  const Json scene = Json::parse(glb.substr(20, json));
+  if (scene.contains("buffers")) {
+    const size_t binary = scene["buffers"][0]["byteLength"];
+    EXPECT_EQ(WordAt(glb, 20 + json), (binary + 3) / 4 * 4);
+  }
+  return scene;
+}
+
+TEST(GlbTest, HasANamedNodeAndATubePerBranch) {
+  for (const Sample& sample : Samples()) {
+    const SkeletonGraph& graph = sample.result.graph;
+    const Json scene = SceneOf(*GlbBytes(graph));
+    EXPECT_EQ(scene["nodes"].size(), 1 + graph.edges.size());
+    EXPECT_EQ(scene.value("meshes", Json::array()).size(), graph.edges.size());
+    for (size_t n = 0; n < graph.edges.size(); ++n) {
+      EXPECT_EQ(scene["nodes"][n + 1]["name"], "branch " + std::to_string(n));
+    }
+  }
+}
+
+TEST(GlbTest, TubesAreAsThickAsTheObjectAndCornersAreVertices) {
+  const SkeletonGraph graph = Lollipop();
+  const std::string glb = *GlbBytes(graph);
+  const Json scene = SceneOf(glb);
+  const size_t binary = 20 + WordAt(glb, 12) + 8;
+  for (const Json& mesh : scene["meshes"]) {
+    const Json& primitive = mesh["primitives"][0];
+    const Json& positions = scene["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
+    const Json& corners = scene["accessors"][primitive["indices"].get<size_t>()];
+    const Json& view = scene["bufferViews"][corners["bufferView"].get<size_t>()];
+    for (size_t n = 0; n < corners["count"]; ++n) {
+      const size_t at = view["byteOffset"].get<size_t>() + corners["byteOffset"].get<size_t>();
+      EXPECT_LT(WordAt(glb, binary + at + 4 * n), positions["count"].get<uint32_t>());
+    }
+  }
+  // The stem runs along (1, 1, 1) from radius 2 to 4.
+  const Json& stem = scene["accessors"][0];
+  EXPECT_GT(stem["max"][0].get<double>() - stem["min"][0].get<double>(), 2 + 2 + 2);
+  EXPECT_LT(stem["max"][0].get<double>() - stem["min"][0].get<double>(), 2 + 2 + 4);
+}
+
+TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
+  SkeletonGraph graph = Lollipop();
+  const Json near = SceneOf(*GlbBytes(graph))["accessors"][0]["max"];
+  for (double& coordinate : graph.placement.origin) coordinate += 1e9;
+  const Json far = SceneOf(*GlbBytes(graph))["accessors"][0]["max"];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(far[axis].get<double>(), near[axis].get<double>(), 1e-4);
+  }
+}
+
+TEST(GlbTest, NothingIsAnEmptyScene) {
+  EXPECT_EQ(SceneOf(*GlbBytes(SkeletonGraph()))["nodes"].size(), 1);
+}
+
+TEST(MarkupsTest, HasACurvePerBranch) {
+  const SkeletonGraph graph = Lollipop();
+  const MarkupsDocument document = WriteMarkups(graph, {}, {.axes = "RAS", .unit = "mm"});
+  EXPECT_THAT(document.note, IsEmpty());
+  const Json markups = Json::parse(document.text)["markups"];
+  ASSERT_EQ(markups.size(), 2);
+  EXPECT_EQ(markups[0]["type"], "Curve");
+  EXPECT_EQ(markups[0]["name"], "branch 0");
+  EXPECT_EQ(markups[0]["coordinateSystem"], "RAS");
+  EXPECT_EQ(markups[0]["coordinateUnits"], "mm");
+  EXPECT_THAT(markups[0]["controlPoints"].front()["position"], ElementsAre(10, 20, 30));
+  EXPECT_THAT(markups[0]["controlPoints"].back()["position"], ElementsAre(12, 22, 32));
+}
+
+TEST(MarkupsTest, ALoopWithoutJunctionIsAClosedCurve) {
+  const MarkupsDocument document = WriteMarkups(SampleOf(Shape::kTorus).result.graph, {}, {});
+  EXPECT_THAT(document.note, HasSubstr("written as LPS"));
+  const Json curve = Json::parse(document.text)["markups"][0];
+  EXPECT_EQ(curve["type"], "ClosedCurve");
+  EXPECT_NE(curve["controlPoints"].front()["position"], curve["controlPoints"].back()["position"]);
+}
+
+TEST(MarkupsTest, NamesTheLabel) {
+  GraphContext context;
+  context.labels.of_edges = {5, 18446744073709551615u};
+  const Json markups = Json::parse(WriteMarkups(Lollipop(), context, {}).text)["markups"];
+  EXPECT_EQ(markups[1]["name"], "label 18446744073709551615 branch 1");
+}
+
+}  // namespace
+}  // namespace bccskel::exporting
