@@ -173,7 +173,7 @@ TEST(JsonTest, SaysHowTheResultWasMade) {
   const std::string json = JsonText(Prepared());
   EXPECT_THAT(json, HasSubstr("\"method\":\"by hand\""));
   EXPECT_THAT(json, HasSubstr("\"algorithm_version\":\"7\""));
-  EXPECT_THAT(json, HasSubstr("\"cavities\":\"filled\",\"min_component_points\":0,"));
+  EXPECT_THAT(json, HasSubstr("\"cavities\":\"filled\",\"tunnel_width\":0,"));
   EXPECT_THAT(json, HasSubstr("\"thinning\":\"symmetric\",\"kind\":\"curve\","));
   EXPECT_THAT(json, HasSubstr("\"preparing\":[{\"step\":\"fill-cavities\",\"count\":2,"
                               "\"points_added\":30,\"points_removed\":0}]"));
