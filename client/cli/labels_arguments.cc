@@ -3,10 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cli/count_option.h"
-#include "client/cli/root_argument.h"
 #include "client/cli/thinning_arguments.h"
 
 namespace bccskel::cli {
+
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
+  AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
+}
 
 CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   CLI::App& command =
@@ -23,14 +26,8 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
   AddLabelImage(command, arguments.image);
-  AddCount(command, "--min-voxels", arguments.min_voxels,
-           "Leave out labels with fewer voxels (default 1)");
-  AddPreparing(command, arguments.skeletonize.preparing);
-  AddDistance(command, arguments.skeletonize.distance);
-  AddPruning(command, arguments.skeletonize.pruning);
-  AddJunctions(command, arguments.skeletonize.junction_reach);
-  AddThinning(command, arguments.skeletonize.thinning);
-  AddRoot(command, arguments.root);
+  AddMinVoxels(command, arguments.min_voxels);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   command.add_flag_callback(
       "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
   return command;

@@ -2,9 +2,11 @@
 
 #include "client/cli/choice_option.h"
 #include "client/cli/count_option.h"
+#include "client/cli/root_argument.h"
 #include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
+namespace {
 
 void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command
@@ -78,6 +80,18 @@ void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   command.add_flag_callback(
       "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
       "Leave the simple points that parallel thinning leaves");
+}
+
+}  // namespace
+
+void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
+                        std::optional<RootChoice>& root) {
+  AddPreparing(command, options.preparing);
+  AddDistance(command, options.distance);
+  AddPruning(command, options.pruning);
+  AddJunctions(command, options.junction_reach);
+  AddThinning(command, options.thinning);
+  AddRoot(command, root);
 }
 
 }  // namespace bccskel::cli
