@@ -12,7 +12,6 @@
 
 #include "absl/synchronization/mutex.h"
 #include "client/cli/named_options.h"
-#include "client/export/skeleton_file.h"
 #include "client/python/native/array_source.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/job.h"
@@ -241,7 +240,6 @@ void AddFunctions(py::module_& module) {
   });
   module.def("is_mesh", &HasMeshFileName);
   module.def("is_image", &HasImageFileName);
-  module.def("format_endings", &exporting::SkeletonFormatEndings);
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);
   module.def("skeletonize_labels", &Labels);

@@ -6,9 +6,11 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/cli/local_team.h"
+#include "client/export/labeled_graph.h"
 #include "client/export/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
@@ -193,12 +195,31 @@ std::string Save(const Outcome& outcome, const std::string& path, const std::str
   return note;
 }
 
+using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
+
+absl::Status WriteLabels(const std::string& path, const Labels& labels) {
+  exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root);
+  for (const auto& [label, outcome] : labels) {
+    const Outcome& first = *labels.front().second;
+    if (outcome->result.graph.placement != first.result.graph.placement) {
+      return absl::InvalidArgumentError("the skeletons are of images that lie elsewhere");
+    }
+    all.Add(label, outcome->voxels, outcome->result);
+  }
+  return exporting::WriteLabeledFile(path, all);
+}
+
+void SaveLabels(const std::string& path, const Labels& labels) {
+  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels); });
+}
+
 }  // namespace
 
 void AddSkeletonClass(py::module_& module) {
   const auto graph = [](const Outcome& outcome) -> const SkeletonGraph& {
     return outcome.result.graph;
   };
+  module.def("save_labels", &SaveLabels);
   py::class_<Outcome, std::shared_ptr<Outcome>>(module, "Outcome")
       .def("nodes", [graph](const Outcome& o) { return NodesOf(graph(o)); })
       .def("edges", [graph](const Outcome& o) { return EdgesOf(graph(o)); })
