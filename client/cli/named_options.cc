@@ -20,26 +20,8 @@ std::string Exchange(std::string text, char from, char to) {
 
 std::string FlagOf(const std::string& name) { return "--" + Exchange(name, '_', '-'); }
 
-// "--merge-junctions is" becomes "merge_junctions is".
-std::string WithNames(std::string_view message) {
-  std::string text;
-  bool in_name = false;
-  while (!message.empty()) {
-    if (!in_name && message.starts_with("--")) {
-      in_name = true;
-      message.remove_prefix(2);
-      continue;
-    }
-    const char c = message.front();
-    in_name = in_name && (std::islower(static_cast<unsigned char>(c)) != 0 || c == '-');
-    text += in_name && c == '-' ? '_' : c;
-    message.remove_prefix(1);
-  }
-  return text;
-}
-
 absl::Status Wrong(std::string_view message) {
-  return absl::InvalidArgumentError(WithNames(message));
+  return absl::InvalidArgumentError(WithOptionNames(message));
 }
 
 // An App without --help, which points into what it fills: neither moves.
@@ -94,6 +76,24 @@ auto WithApp(OptionSet set, Use use) {
 }
 
 }  // namespace
+
+std::string WithOptionNames(std::string_view message) {
+  std::string text;
+  bool in_name = false;
+  while (!message.empty()) {
+    const bool begins = text.empty() || text.back() == ' ' || text.back() == '(';
+    if (begins && message.starts_with("--")) {
+      in_name = true;
+      message.remove_prefix(2);
+      continue;
+    }
+    const char c = message.front();
+    in_name = in_name && (std::islower(static_cast<unsigned char>(c)) != 0 || c == '-');
+    text += in_name && c == '-' ? '_' : c;
+    message.remove_prefix(1);
+  }
+  return text;
+}
 
 std::vector<std::string> OptionNames(OptionSet set) {
   return WithApp(set, [](const CLI::App& app) {

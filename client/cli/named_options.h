@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -17,6 +18,10 @@ struct NamedOption {
 };
 
 enum class OptionSet { kMask, kMesh, kLabels, kFile };
+
+// A message with the names of options as they are here: "--fill-cavities helps" becomes
+// "fill_cavities helps".
+std::string WithOptionNames(std::string_view message);
 
 // The names that a set has, in the order of --help.
 std::vector<std::string> OptionNames(OptionSet set);

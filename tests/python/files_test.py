@@ -41,6 +41,31 @@ class FilesTest(harness.TestCase):
                     self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
         self.assertGreater(len(self.bytes("mine.html")), 100_000)
 
+    def test_images_are_those_of_the_command_line(self):
+        for options in ({}, {"voxel_points": 16}):
+            words = [word for name, value in options.items()
+                     for word in ("--" + name.replace("_", "-"), value)]
+            self.succeed("skeletonize", self.image, "--local", "--curve-image",
+                         self.path("curves.nrrd"), "--branch-image", self.path("branches.nrrd"),
+                         *words, "-o", self.path("a.obj"))
+            mask = numpy.load(self.image)
+            skeleton = bccskel.skeletonize(mask, **options)
+            turned = bccskel.skeletonize(mask.T, axes="xyz", **options)
+            label = bccskel.skeletonize_labels(mask.astype("u2") * 9, **options)[9]
+            for name in ("curve", "branch"):
+                theirs = bccskel.read(self.path({"curve": "curves.nrrd",
+                                                 "branch": "branches.nrrd"}[name])).array
+                for one, image in ((skeleton, theirs), (turned, theirs.T), (label, theirs)):
+                    numpy.testing.assert_array_equal(getattr(one, name + "_image")(), image)
+
+    def test_what_has_no_voxels_is_not_drawn(self):
+        mask = numpy.load(self.image)
+        for skeleton in (bccskel.skeletonize_mesh(*box_mesh(), points=1000),
+                         bccskel.skeletonize(mask, denoise=1),
+                         bccskel.skeletonize(mask, sampling="trilinear")):
+            with self.assertRaises(ValueError):
+                skeleton.curve_image()
+
     def test_a_page_shows_in_a_notebook_or_a_browser(self):
         with unittest.mock.patch("webbrowser.open") as browser:
             page = bccskel.skeletonize(numpy.ones((5, 5, 30))).view()

@@ -264,6 +264,26 @@ class Skeleton:
         types[self.node_kinds[self.edges[:, 0]] == "loop"] = 3
         return types
 
+    def curve_image(self) -> np.ndarray:
+        """The voxels that the curves run through, in the shape of the mask: the number of the edge
+        + 1 (of an isolated node, its number + 1 + the edges'), 0 elsewhere. The voxels of an edge
+        are connected.
+
+        Raises ValueError for meshes, samplings and objects that were prepared (denoise, ...).
+
+        >>> import numpy as np, bccskel
+        >>> int((bccskel.skeletonize(np.ones((5, 5, 40))).curve_image() > 0).sum())
+        36
+        """
+        return self._of_axes(self._outcome.curve_image())
+
+    def branch_image(self) -> np.ndarray:
+        """The same with each voxel of the mask: the number of the nearest edge + 1."""
+        return self._of_axes(self._outcome.branch_image())
+
+    def _of_axes(self, image: np.ndarray) -> np.ndarray:
+        return image.transpose(["zyx".index(axis) for axis in self.axes])
+
     def save(self, path: Union[str, os.PathLike]) -> None:
         """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .exr or .bccb
         (lattice points), .svg or .html (a page). It has the coordinates x, y, z.

@@ -61,6 +61,10 @@ absl::StatusOr<Outcome> OutcomeOf(Volume object, const SkeletonizeOptions& optio
   return outcome;
 }
 
+MaskGrid GridOf(const ImageInfo& info) {
+  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
+}
+
 // Takes the mask's own topology into the certificate.
 absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, Outcome& outcome) {
   Certificate& certificate = outcome.result.certificate;
@@ -102,6 +106,8 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
       Outcome outcome, OutcomeOf(std::move(image.volume), ForMask(arguments.skeletonize, options),
                                  arguments.root, run, here.context()));
   outcome.voxels = image.image.voxels;
+  outcome.grid = GridOf(mask.info());
+  outcome.mask = options;
   BCCSKEL_RETURN_IF_ERROR(Certify(image.image, options, outcome));
   return outcome;
 }
@@ -135,6 +141,9 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
     outcome->result = std::move(skeleton.result);
     outcome->root = arguments.root;
     outcome->voxels = skeleton.voxels;
+    outcome->grid = labels->grid;
+    outcome->mask = options;
+    outcome->label = {labels, &labels->objects[outcomes.size()]};
     outcome->make_object = [labels, options, n = outcomes.size()]() -> absl::StatusOr<Volume> {
       BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask made,
                                ConvertLabel(labels->grid, labels->objects[n], options, {}));

@@ -31,6 +31,10 @@ struct Outcome {
   uint64_t voxels = 0;                                  // of a mask or a label
   std::shared_ptr<const Volume> object;                 // none for a label
   std::function<absl::StatusOr<Volume>()> make_object;  // of a label, where it was computed here
+  std::optional<MaskGrid> grid;                         // of a mask or a label
+  MaskOptions mask;
+  // The voxels of a label, where it was computed here; those of a mask are found in its object.
+  std::shared_ptr<const LabeledObject> label;
 
   // Errors: UNIMPLEMENTED for a label that a server has computed.
   absl::StatusOr<std::shared_ptr<const Volume>> Object() const;

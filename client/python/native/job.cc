@@ -4,6 +4,8 @@
 #include <string>
 #include <thread>
 
+#include "client/cli/named_options.h"
+
 namespace bccskel::python {
 namespace {
 
@@ -109,7 +111,8 @@ void RunJob(const py::object& progress, const std::function<absl::Status(Job&)>&
 
 void ThrowIfError(const absl::Status& status) {
   if (status.ok()) return;
-  PyErr_SetString(ExceptionFor(status.code()), std::string(status.message()).c_str());
+  const std::string message = cli::WithOptionNames(std::string(status.message()));
+  PyErr_SetString(ExceptionFor(status.code()), message.c_str());
   throw py::error_already_set();
 }
 

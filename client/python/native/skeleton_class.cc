@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -10,11 +11,14 @@
 #include <vector>
 
 #include "client/cli/local_team.h"
+#include "client/cli/named_options.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
+#include "client/python/native/edge_images.h"
 #include "client/python/native/job.h"
+#include "core/exec/status_macros.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -145,6 +149,11 @@ py::dict TimingsDict(const StageTimings& timings) {
   return dict;
 }
 
+std::vector<std::string> WithOptionNames(std::vector<std::string> messages) {
+  for (std::string& message : messages) message = cli::WithOptionNames(message);
+  return messages;
+}
+
 // The places in the trees; None where none were asked for.
 py::object OrderOf(const Outcome& outcome) {
   if (!outcome.root.has_value()) return py::none();
@@ -195,6 +204,23 @@ std::string Save(const Outcome& outcome, const std::string& path, const std::str
   return note;
 }
 
+// Shape: [z, y, x] of the mask's grid.
+py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
+  SparseImage image;
+  RunJob(py::none(), [&](Job& job) -> absl::Status {
+    cli::LocalTeam team(0, job.stop());
+    BCCSKEL_ASSIGN_OR_RETURN(image, ImageOf(outcome, kind, team.context()));
+    return absl::OkStatus();
+  });
+  py::array_t<uint32_t> array({outcome.grid->nz, outcome.grid->ny, outcome.grid->nx});
+  std::fill_n(array.mutable_data(), array.size(), 0);
+  for (const auto& [voxels, value] : image) {
+    std::fill(array.mutable_data(voxels.z, voxels.y, voxels.begin),
+              array.mutable_data(voxels.z, voxels.y, 0) + voxels.end, value);
+  }
+  return array;
+}
+
 using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
 absl::Status WriteLabels(const std::string& path, const Labels& labels) {
@@ -225,6 +251,8 @@ void AddSkeletonClass(py::module_& module) {
       .def("edges", [graph](const Outcome& o) { return EdgesOf(graph(o)); })
       .def("sheets", [graph](const Outcome& o) { return SheetsOf(graph(o)); })
       .def("order", &OrderOf)
+      .def("curve_image", [](const Outcome& o) { return Draw(o, EdgeImage::kCurves); })
+      .def("branch_image", [](const Outcome& o) { return Draw(o, EdgeImage::kBranches); })
       .def("save", &Save, py::arg("path"), py::arg("title"))
       .def_property_readonly("certificate",
                              [](const Outcome& o) { return CertificateDict(o.result.certificate); })
@@ -232,8 +260,10 @@ void AddSkeletonClass(py::module_& module) {
                              [](const Outcome& o) { return OptionsDict(o.result.options); })
       .def_property_readonly("timings",
                              [](const Outcome& o) { return TimingsDict(o.result.timings); })
-      .def_property_readonly("notes", [](const Outcome& o) { return NotesOn(o.result); })
-      .def_readonly("warnings", &Outcome::warnings)
+      .def_property_readonly("notes",
+                             [](const Outcome& o) { return WithOptionNames(NotesOn(o.result)); })
+      .def_property_readonly("warnings",
+                             [](const Outcome& o) { return WithOptionNames(o.warnings); })
       .def_readonly("voxels", &Outcome::voxels)
       .def_property_readonly("method", [](const Outcome& o) { return o.result.method; })
       .def_property_readonly("algorithm_version",
