@@ -14,7 +14,7 @@ def crossing_bars():
 
 
 def ball(radius):
-    z, y, x = numpy.indices((2 * radius + 3,) * 3) - radius - 1
+    z, y, x = numpy.ogrid[(slice(-radius - 1, radius + 2),) * 3]
     return x * x + y * y + z * z <= radius * radius
 
 

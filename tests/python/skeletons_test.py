@@ -43,6 +43,10 @@ class SkeletonsTest(harness.TestCase):
             "coord-src-0", "coord-src-1", "coord-src-2", "coord-dst-0", "coord-dst-1",
             "coord-dst-2", "euclidean-distance"])
         self.assertEqual(sorted(table["branch-type"]), [1, 1, 1, 3])
+        numpy.testing.assert_allclose(table["mean-pixel-value"],
+                                      [radii.mean() for radii in self.skeleton.radii])
+        numpy.testing.assert_allclose(table["stdev-pixel-value"],
+                                      [radii.std() for radii in self.skeleton.radii], atol=1e-12)
         self.assertEqual((table["coord-src-0"] / 2).round().astype(int).tolist(),
                          table["image-coord-src-0"].tolist())
         self.assertTrue((table["branch-distance"] >= table["euclidean-distance"] - 1e-9).all())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import os
 import pathlib
 import warnings
@@ -19,14 +20,14 @@ _SYSTEM_AUTHORITIES = "/etc/ssl/certs/ca-certificates.crt"
 
 def _call(server: Any, threads: int, timeout: Optional[float],
           progress: Optional[Callable[[int, int], Any]]) -> Any:
-    if isinstance(threads, bool) or not isinstance(threads, int) or not 0 <= threads <= 1024:
+    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= 1024:
         raise ValueError(f"threads must be a whole number from 0 to 1024, got {threads!r}")
     if timeout is not None and not 0 < timeout <= 1e7:
         raise ValueError(f"timeout must be a positive number of seconds, got {timeout!r}")
     if progress is not None and not callable(progress):
         raise TypeError("progress must be a function of (done, total) or None, got "
                         f"{type(progress).__name__}")
-    return _native.Call(server, threads, timeout or 0.0, progress)
+    return _native.Call(server, int(threads), float(timeout or 0), progress)
 
 
 def _frame(image: Any, axes: str, spacing: Any, origin: Any, direction: Any) -> Frame:

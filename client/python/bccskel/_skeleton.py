@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
+import math
 import os
 import pathlib
 import tempfile
@@ -210,7 +211,7 @@ class Skeleton:
                             for name in ("generation", "strahler")})
         for n, (source, target) in enumerate(self.edges.tolist()):
             facts = {name: values[n] for name, values in figures.items()
-                     if np.isfinite(values[n])}
+                     if math.isfinite(values[n])}
             if points:
                 facts.update(path=self.paths[n], radii=self.radii[n])
             graph.add_edge(source, target, key=n, **facts)
@@ -231,14 +232,17 @@ class Skeleton:
 
         source, target = self.edges[:, 0], self.edges[:, 1]
         figures = self._edges["figures"]
+        mean = self._mean_of_edges(self._edges["radii"])
+        counts = np.diff(self._edges["offsets"])
+        variance = self._mean_of_edges((self._edges["radii"] - np.repeat(mean, counts)) ** 2)
         table = {
             "skeleton-id": self.node_components[source],
             "node-id-src": source,
             "node-id-dst": target,
             "branch-distance": self.lengths,
             "branch-type": self._branch_types(),
-            "mean-pixel-value": np.array([radii.mean() for radii in self.radii]),
-            "stdev-pixel-value": np.array([radii.std() for radii in self.radii]),
+            "mean-pixel-value": mean,
+            "stdev-pixel-value": np.sqrt(variance),
         }
         places = {"coord": self.nodes}
         if self._of_voxels:
@@ -255,6 +259,13 @@ class Skeleton:
             table.update({name: self.order[name] for name in ("generation", "strahler")})
         return pandas.DataFrame({name.replace("-", separator): values
                                  for name, values in table.items()})
+
+    def _mean_of_edges(self, values: np.ndarray) -> np.ndarray:
+        """Of one value for each point of all edges."""
+        offsets = self._edges["offsets"]
+        if len(offsets) == 1:
+            return np.empty(0)
+        return np.add.reduceat(values, offsets[:-1]) / np.diff(offsets)
 
     def _branch_types(self) -> np.ndarray:
         """As skan: 0 from end to end, 1 from a junction to an end, 2 between junctions, 3 a closed
