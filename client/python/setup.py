@@ -18,7 +18,7 @@ class CMakeBuild(build_ext):
     """Makes the extension module in the project's own build. CMAKE_ARGS adds to its arguments."""
 
     def build_extension(self, extension):
-        build = pathlib.Path(self.build_temp).resolve() / "cmake"
+        build = ROOT / "build/python"
         subprocess.run(
             ["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
              "-DBCCSKEL_BUILD_SERVER=OFF", "-DBCCSKEL_BUILD_TESTS=OFF", "-DBCCSKEL_PYTHON=ON",

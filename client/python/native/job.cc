@@ -53,21 +53,6 @@ void Attend(Job& job, const py::object& progress) {
   }
 }
 
-// Joins without the interpreter's lock, whatever comes.
-class Joining {
- public:
-  Joining(std::thread& thread, Job& job) : thread_(thread), job_(job) {}
-  ~Joining() {
-    const py::gil_scoped_release release;
-    job_.RequestStop();
-    thread_.join();
-  }
-
- private:
-  std::thread& thread_;
-  Job& job_;
-};
-
 }  // namespace
 
 void Job::Report(const Progress& progress) {
@@ -93,18 +78,26 @@ void RunJob(const py::object& progress, const std::function<absl::Status(Job&)>&
   Job job;
   absl::Status status;
   std::exception_ptr thrown;
-  {
-    std::thread thread([&] {
-      try {
-        status = work(job);
-      } catch (...) {
-        thrown = std::current_exception();
-      }
-      job.Finish();
-    });
-    const Joining joining(thread, job);
+  std::exception_ptr raised;  // by Python
+  std::thread thread([&] {
+    try {
+      status = work(job);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    job.Finish();
+  });
+  try {
     Attend(job, progress);
+  } catch (...) {
+    raised = std::current_exception();
+    job.RequestStop();
   }
+  {
+    const py::gil_scoped_release release;
+    thread.join();
+  }
+  if (raised) std::rethrow_exception(raised);
   if (thrown) std::rethrow_exception(thrown);
   ThrowIfError(status);
 }

@@ -86,8 +86,9 @@ auto RunCall(const Call& call, const Compute& compute) {
   RunJob(call.progress, [&](Job& job) {
     const Run run = call.RunIn(job);
     absl::StatusOr<Result> computed = compute(run);
-    if (computed.ok()) result = *std::move(computed);
-    return computed.status();
+    absl::Status status = computed.status();
+    if (status.ok()) result = *std::move(computed);
+    return status;
   });
   return result;
 }

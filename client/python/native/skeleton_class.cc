@@ -193,8 +193,9 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const std::
                                       .context = team.context(),
                                       .root = outcome.root};
   absl::StatusOr<std::string> written = exporting::WriteSkeletonFile(path, subject);
-  if (written.ok()) note = *std::move(written);
-  return written.status();
+  if (!written.ok()) return written.status();
+  note = *std::move(written);
+  return absl::OkStatus();
 }
 
 // What the format could not hold; empty if it held everything.
