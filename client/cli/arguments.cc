@@ -8,13 +8,12 @@
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/complaints.h"
-#include "client/cli/count_option.h"
 #include "client/cli/generate_arguments.h"
+#include "client/cli/grid_arguments.h"
 #include "client/cli/job_arguments.h"
 #include "client/cli/labels_arguments.h"
 #include "client/cli/operations_arguments.h"
 #include "client/cli/result_arguments.h"
-#include "client/cli/root_argument.h"
 #include "client/cli/swc_argument.h"
 #include "client/cli/thinning_arguments.h"
 #include "client/export/skeleton_file.h"
@@ -56,18 +55,6 @@ void AddVolumeOutput(CLI::App& command, std::string& path) {
   command.add_option("-o,--output", path, "Volume to write: .exr or .bccb")
       ->required()
       ->option_text("FILE (required)");
-}
-
-void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
-  CLI::Option* points = AddCount<uint64_t>(
-      command, "--points", [&grid](uint64_t count) { grid.points = count; },
-      "Lattice points the solid shall have");
-  command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
-      ->excludes(points)
-      ->option_text("LENGTH");
-  AddChoice<FillRule>(
-      command, "--fill", grid.fill, "What is inside a mesh (default auto)",
-      {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
 }
 
 void AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {
@@ -123,8 +110,7 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   command.add_flag_callback(
       "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
       "With --detach: keep the thinned volume, too, which fetch can write then");
-  AddSkeletonizeOptions(command, arguments.skeletonize);
-  AddRoot(command, arguments.root);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
@@ -151,8 +137,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
           "--local", [&arguments] { arguments.place = Place::kLocal; },
           "Compute on this machine, without a server (default, unless a server is named)")
       ->excludes(address);
-  AddSkeletonizeOptions(command, arguments.skeletonize);
-  AddRoot(command, arguments.root);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);

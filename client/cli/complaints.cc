@@ -8,9 +8,8 @@
 #include "absl/status/statusor.h"
 #include "client/cli/label_files.h"
 #include "client/cli/load_object.h"
+#include "client/cli/option_complaints.h"
 #include "client/export/skeleton_file.h"
-#include "core/pipeline/canonical_options.h"
-#include "core/pipeline/option_words.h"
 
 namespace bccskel::cli {
 namespace {
@@ -59,43 +58,13 @@ Complaint ImagesComplaint(const SkeletonizeArguments& arguments) {
   }
   if (arguments.skeletonize.preparing.Wanted()) {
     return "--branch-image and --curve-image show the voxels as they are, so not with --denoise, "
-           "--fill-cavities, --cut-loops, --min-component, --min-component-volume or --keep-largest";
+           "--fill-cavities, --cut-loops, --min-component, --min-component-volume or "
+           "--keep-largest";
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return std::nullopt;
   return "--branch-image and --curve-image are for images; " + arguments.input + " is " +
          std::string(InputKindPhrase(*kind));
-}
-
-// Options of pruning that would do nothing.
-Complaint PruningComplaint(const SkeletonizeOptions& options) {
-  const PruningOptions& pruning = options.pruning;
-  if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
-    return "--pruning-threshold is for a rule of pruning, not for --pruning none";
-  }
-  const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
-  if (!asked || HasCurves(options.thinning)) return std::nullopt;
-  if (HasSheets(options.thinning)) {
-    if (pruning.tips == TipPlacement::kRidge) return std::nullopt;
-    return "--tips is for curves, and --kind surface has none";
-  }
-  const std::string why =
-      options.thinning.last_shell > 0
-          ? "--last-shell stops before there are curves"
-          : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
-  return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
-}
-
-Complaint JunctionComplaint(const SkeletonizeOptions& options) {
-  const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
-  if (!asked || HasGraphOfCurves(options.thinning)) return std::nullopt;
-  return "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell";
-}
-
-Complaint ThinningComplaint(const SkeletonizeOptions& options) {
-  if (Complaint c = IfError(CheckSkeletonizeOptions(options)); c.has_value()) return c;
-  if (Complaint c = JunctionComplaint(options); c.has_value()) return c;
-  return PruningComplaint(options);
 }
 
 Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
@@ -117,7 +86,7 @@ Complaint ComplaintAbout(const SkeletonizeArguments& arguments) {
     return c;
   }
   if (Complaint c = ImagesComplaint(arguments); c.has_value()) return c;
-  return ThinningComplaint(arguments.skeletonize);
+  return ComplaintAboutOptions(arguments.skeletonize);
 }
 
 Complaint ComplaintAbout(const VoxelizeArguments& arguments) {
@@ -155,10 +124,8 @@ Complaint ComplaintAbout(const LabelsArguments& arguments) {
     if (Complaint c = IfError(CheckLabelOutput(output)); c.has_value()) return c;
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
-  if (arguments.root.has_value() && arguments.root->rule == RootChoice::Rule::kNode) {
-    return "--root node:N names a node of one skeleton; labels have many";
-  }
-  return ThinningComplaint(arguments.skeletonize);
+  if (Complaint c = ComplaintAboutRootOfLabels(arguments.root); c.has_value()) return c;
+  return ComplaintAboutOptions(arguments.skeletonize);
 }
 
 Complaint FetchComplaint(const std::string& object, const std::string& output) {

@@ -156,20 +156,6 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
       ->needs(size);
 }
 
-// Where the voxels lie, in the file and in the world.
-void AddLayout(CLI::App& command, ImageArguments& arguments) {
-  AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
-                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
-  const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
-                                 const char* description) {
-    AddCount<uint32_t>(
-        command, name, [&chosen](uint32_t number) { chosen = number; }, description);
-  };
-  choose("--channel", arguments.open.channel, "Of a TIFF file with several, counted from 0");
-  choose("--time", arguments.open.time, "Point of time of a TIFF file with several, from 0");
-  AddRaw(command, arguments);
-}
-
 // An end of a range; open where nothing is said.
 absl::StatusOr<double> EndOf(std::string_view text, double open) {
   if (text.empty()) return open;
@@ -199,18 +185,39 @@ absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
 
 }  // namespace
 
+void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
+  AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
+                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+  const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
+                                 const char* description) {
+    AddCount<uint32_t>(
+        command, name, [&chosen](uint32_t number) { chosen = number; }, description);
+  };
+  choose("--channel", arguments.open.channel, "Of a TIFF file with several, counted from 0");
+  choose("--time", arguments.open.time, "Point of time of a TIFF file with several, from 0");
+  AddRaw(command, arguments);
+}
+
+void AddMaskOptions(CLI::App& command, ImageArguments& arguments) {
+  AddForeground(command, arguments);
+  AddConversion(command, arguments);
+}
+
+void AddLabelOptions(CLI::App& command, ImageArguments& arguments) {
+  AddLabelList(command, arguments, "Only these labels, such as 3,7 or 1-85");
+  AddConversion(command, arguments);
+}
+
 void AddImage(CLI::App& command, ImageArguments& arguments) {
   CLI::Option_group& group = *command.add_option_group(kGroup, "How an image becomes an object");
-  AddForeground(group, arguments);
-  AddConversion(group, arguments);
-  AddLayout(group, arguments);
+  AddMaskOptions(group, arguments);
+  AddImageLayout(group, arguments);
   group.callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
 }
 
 void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
-  AddLabelList(command, arguments, "Only these labels, such as 3,7 or 1-85");
-  AddConversion(command, arguments);
-  AddLayout(command, arguments);
+  AddLabelOptions(command, arguments);
+  AddImageLayout(command, arguments);
 }
 
 void AddSkeletonImages(CLI::App& command, SkeletonImages& images) {

@@ -37,9 +37,16 @@ struct SkeletonImages {
   bool wanted() const { return !branches.empty() || !curves.empty(); }
 };
 
-// Adds the options to a command that takes images.
-void AddImage(CLI::App& command, ImageArguments& arguments);
+// Adds the options that say which voxels are the object and how they become lattice points.
+void AddMaskOptions(CLI::App& command, ImageArguments& arguments);
+// The same for images of labels.
+void AddLabelOptions(CLI::App& command, ImageArguments& arguments);
 
+// Adds how the voxels of a file lie, in it and in the world.
+void AddImageLayout(CLI::App& command, ImageArguments& arguments);
+
+// Adds both, to a command that takes images.
+void AddImage(CLI::App& command, ImageArguments& arguments);
 // The same for a command that takes images of labels.
 void AddLabelImage(CLI::App& command, ImageArguments& arguments);
 

@@ -3,11 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include "client/cli/count_option.h"
-#include "client/cli/root_argument.h"
 #include "client/cli/swc_argument.h"
 #include "client/cli/thinning_arguments.h"
 
 namespace bccskel::cli {
+
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
+  AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
+}
 
 CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   CLI::App& command =
@@ -26,10 +29,8 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
       ->option_text("FILE (required)");
   AddSwcStep(command, arguments.swc);
   AddLabelImage(command, arguments.image);
-  AddCount(command, "--min-voxels", arguments.min_voxels,
-           "Leave out labels with fewer voxels (default 1)");
-  AddSkeletonizeOptions(command, arguments.skeletonize);
-  AddRoot(command, arguments.root);
+  AddMinVoxels(command, arguments.min_voxels);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   command.add_flag_callback(
       "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
   return command;

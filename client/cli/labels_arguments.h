@@ -9,6 +9,9 @@ class App;
 
 namespace bccskel::cli {
 
+// Adds --min-voxels.
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
+
 // Adds `labels` without the options that all commands know.
 CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments);
 

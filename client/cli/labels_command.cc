@@ -5,6 +5,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/convert_image.h"
 #include "client/cli/label_files.h"
 #include "client/cli/labels_summary.h"
 #include "client/cli/load_image.h"
@@ -12,7 +13,6 @@
 #include "client/cli/local_team.h"
 #include "core/exec/status_macros.h"
 #include "core/image/open_image.h"
-#include "core/labels/label_collector.h"
 #include "core/labels/skeletonize_labels.h"
 
 namespace bccskel::cli {
@@ -20,34 +20,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Labels {
-  ImageInfo info;
-  LabeledObjects objects;
-  uint64_t left_out = 0;  // labels with fewer voxels than wanted
-};
-
-absl::StatusOr<Labels> Collect(const LabelsArguments& arguments, const exec::Context& context) {
+absl::StatusOr<CollectedLabels> Collect(const LabelsArguments& arguments,
+                                        const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(arguments.input, arguments.image.open));
-  Labels labels = {.info = source->info(), .objects = {}};
-  const ImageSize& size = labels.info.size;
-  const MaskGrid grid = {size.nx, size.ny, size.nz, labels.info.placement};
-  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
-                           LabelCollector::Create(grid, {.labels = arguments.image.labels}));
-  std::vector<uint64_t> values(grid.VoxelsPerSlice());
-  for (int32_t z = 0; z < size.nz; ++z) {
-    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
-    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
-    BCCSKEL_RETURN_IF_ERROR(collector.AddSlice(values, context));
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
-  labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
-    return object.voxels < arguments.min_voxels;
-  });
-  return labels;
+  return CollectLabels(*source, arguments.image, arguments.min_voxels, context);
 }
 
-absl::StatusOr<Labels> Load(const LabelsArguments& arguments, const exec::Context& context) {
-  absl::StatusOr<Labels> labels = Collect(arguments, context);
+absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
+                                     const exec::Context& context) {
+  absl::StatusOr<CollectedLabels> labels = Collect(arguments, context);
   if (!labels.ok()) return WithPath(labels.status(), arguments.input);
   if (labels->objects.objects.empty()) {
     return absl::InvalidArgumentError(arguments.input + ": has no such label of " +
@@ -68,7 +49,7 @@ absl::Status Deliver(LabelSkeleton&& skeleton, LabelFiles& files,
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<Labels> labels = Load(arguments, team.context());
+  const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
   LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc);
   std::vector<LabelFigures> figures;

@@ -12,7 +12,6 @@
 #include "client/export/picture/caption.h"
 #include "core/exec/status_macros.h"
 #include "core/image/open_image.h"
-#include "core/labels/label_collector.h"
 #include "core/mask/mask_converter.h"
 
 namespace bccskel::cli {
@@ -38,10 +37,11 @@ absl::StatusOr<std::set<uint64_t>> LabelsIn(const std::string& path,
   return labels;
 }
 
-absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments,
-                         const ForegroundRule& rule) {
+absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments) {
   constexpr size_t kShown = 10;
-  const std::string none = "no voxel has the label " + absl::StrJoin(rule.labels(), " or ");
+  const std::string none =
+      "no voxel has the label " +
+      absl::StrJoin(std::set(arguments.labels.begin(), arguments.labels.end()), " or ");
   const absl::StatusOr<std::set<uint64_t>> there = LabelsIn(path, arguments);
   if (!there.ok()) return absl::InvalidArgumentError(none);
   if (there->empty()) return absl::InvalidArgumentError(none + ", nor any other");
@@ -54,26 +54,9 @@ absl::Status NoSuchLabel(const std::string& path, const ImageArguments& argument
 
 absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArguments& arguments,
                                     KeptVoxels kept, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const ForegroundRule rule, ForegroundOf(arguments));
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
-  const ImageInfo& info = source->info();
-  const MaskGrid grid = {info.size.nx, info.size.ny, info.size.nz, info.placement};
-  BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
-  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
-  std::vector<uint64_t> words(grid.WordsPerSlice());
-  for (int32_t z = 0; z < grid.nz; ++z) {
-    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
-    ForegroundSlice(slice, rule, words);
-    BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
-    if (kept == KeptVoxels::kNone) continue;
-    BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(words, context));
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
-  if (mask.voxels == 0 && !rule.labels().empty()) return NoSuchLabel(path, arguments, rule);
-  ImageObject object = {std::move(mask.volume), {info, mask.voxels, mask.mask}};
-  if (kept == KeptVoxels::kAll) {
-    BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
-  }
+  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImage(*source, arguments, kept, context));
+  if (object.image.voxels == 0 && !arguments.labels.empty()) return NoSuchLabel(path, arguments);
   return object;
 }
 

@@ -1,39 +1,17 @@
 #ifndef BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
 #define BCCSKEL_CLIENT_CLI_LOAD_IMAGE_H_
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/cli/image_arguments.h"
+#include "client/cli/convert_image.h"
 #include "client/export/world.h"
-#include "core/certificate/certificate.h"
-#include "core/exec/context.h"
-#include "core/image/image_info.h"
-#include "core/labels/voxel_runs.h"
-#include "core/volume/volume.h"
 
 namespace bccskel::cli {
 
-// What an image was before it became an object.
-struct ImageStage {
-  ImageInfo info;
-  uint64_t voxels = 0;  // of the foreground
-  BettiNumbers mask;    // counted on the image's own grid
-};
-
-struct ImageObject {
-  Volume volume;
-  ImageStage image;
-  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if wanted
-};
-
-enum class KeptVoxels : uint8_t { kNone, kAll };
-
-// Reads an image slice by slice and converts its foreground.
-// Errors: as OpenImage(), ForegroundOf() and MaskConverter; every message names the path.
+// The object of a file.
+// Errors: as OpenImage() and ConvertImage(), and labels of no voxel; every message names the path.
 absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
                                              const ImageArguments& arguments, KeptVoxels kept,
                                              const exec::Context& context);

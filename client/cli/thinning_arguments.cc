@@ -2,6 +2,7 @@
 
 #include "client/cli/choice_option.h"
 #include "client/cli/count_option.h"
+#include "client/cli/root_argument.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/presets.h"
 
@@ -109,13 +110,15 @@ void AddThinning(CLI::App& command, ThinningOptions& thinning) {
 
 }  // namespace
 
-void AddSkeletonizeOptions(CLI::App& command, SkeletonizeOptions& options) {
+void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
+                        std::optional<RootChoice>& root) {
   AddPreset(command, options);
   AddPreparing(command, options.preparing);
   AddDistance(command, options.distance);
   AddPruning(command, options.pruning);
   AddJunctions(command, options.junction_reach);
   AddThinning(command, options.thinning);
+  AddRoot(command, root);
 }
 
 }  // namespace bccskel::cli

@@ -32,7 +32,8 @@ install(DIRECTORY core/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/core
 if(BCCSKEL_BUILD_CLIENT)
   install(DIRECTORY client/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/client
           COMPONENT development
-          FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN examples EXCLUDE)
+          FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN examples EXCLUDE
+          PATTERN python EXCLUDE)
   install(DIRECTORY proto/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bccskel/proto
           COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "*.proto")
   install(DIRECTORY ${PROJECT_BINARY_DIR}/proto/generated/
@@ -60,6 +61,10 @@ install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/bccskel RENAME
         COMPONENT runtime)
 install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libbccskel-dev RENAME copyright
         COMPONENT development)
+if(BCCSKEL_PYTHON)
+  install(FILES NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-bccskel RENAME copyright
+          COMPONENT python)
+endif()
 if(BCCSKEL_BUILD_SERVER)
   install(FILES docker/bccskel-server.service DESTINATION lib/systemd/system COMPONENT runtime)
 endif()

@@ -1,5 +1,6 @@
-# `cpack` in a build folder makes two Debian packages: bccskel (server, command line, man page,
-# completions) and libbccskel-dev (static libraries and headers).
+# `cpack` in a build folder makes three Debian packages: bccskel (server, command line, man page,
+# completions), libbccskel-dev (static libraries and headers) and, with BCCSKEL_PYTHON,
+# python3-bccskel.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME bccskel)
 set(CPACK_PACKAGE_VENDOR "The bccskel authors")
@@ -19,6 +20,20 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "Server and command line that turn meshes and volumes into curve skeletons.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Static libraries, headers and CMake files for find_package(bccskel).")
+
+if(BCCSKEL_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bccskel)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The extension module is for one minor version.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), \
+python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-networkx, python3-pandas")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+      "Python package that turns masks, label images and meshes into curve skeletons.")
+endif()
 
 # The development package needs what a program that links the libraries needs: our build list
 # without the tools.

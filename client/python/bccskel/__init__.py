@@ -1,0 +1,20 @@
+"""Skeletons of masks, label images and meshes: graphs of curves with radii.
+
+The topology is kept, and every result carries the proof of it (`Skeleton.certificate`).
+
+>>> import numpy as np
+>>> import bccskel
+>>> mask = np.zeros((9, 9, 40), bool)
+>>> mask[2:7, 2:7, 2:38] = True
+>>> skeleton = bccskel.skeletonize(mask, spacing=(2.0, 1.0, 1.0))
+>>> len(skeleton.edges), skeleton.certificate["topology_kept"]
+(1, True)
+"""
+
+from ._compute import Client, read, skeletonize, skeletonize_labels, skeletonize_mesh
+from ._image import Image, Mesh
+from ._native import __version__
+from ._skeleton import Page, Skeleton, save_labels
+
+__all__ = ["Client", "Image", "Mesh", "Page", "Skeleton", "__version__", "read", "save_labels",
+           "skeletonize", "skeletonize_labels", "skeletonize_mesh"]

@@ -1,0 +1,263 @@
+"""Skeletons of arrays and meshes, here or on a server."""
+
+from __future__ import annotations
+
+import numbers
+import os
+import pathlib
+import warnings
+from typing import Any, Callable, Optional, Union
+
+import numpy as np
+
+from . import _native
+from ._image import Frame, Image, Mesh, labels_for_sending, triangles_of, voxels_of
+from ._options import texts_of
+from ._skeleton import Skeleton
+
+_SYSTEM_AUTHORITIES = "/etc/ssl/certs/ca-certificates.crt"
+
+
+def _call(server: Any, threads: int, timeout: Optional[float],
+          progress: Optional[Callable[[int, int], Any]]) -> Any:
+    if not isinstance(threads, numbers.Integral) or not 0 <= threads <= 1024:
+        raise ValueError(f"threads must be a whole number from 0 to 1024, got {threads!r}")
+    if timeout is not None and not 0 < timeout <= 1e7:
+        raise ValueError(f"timeout must be a positive number of seconds, got {timeout!r}")
+    if progress is not None and not callable(progress):
+        raise TypeError("progress must be a function of (done, total) or None, got "
+                        f"{type(progress).__name__}")
+    return _native.Call(server, int(threads), float(timeout or 0), progress)
+
+
+def _frame(image: Any, axes: str, spacing: Any, origin: Any, direction: Any) -> Frame:
+    if not isinstance(image, Image):
+        return Frame(axes, spacing, origin, direction)
+    if axes != "zyx":
+        raise ValueError(f"the axes of an Image are 'zyx', got {axes!r}")
+    return Frame("zyx", image.spacing if spacing is None else spacing,
+                 image.origin if origin is None else origin,
+                 image.direction if direction is None else direction)
+
+
+def _warn(skeleton: Skeleton) -> Skeleton:
+    for warning in skeleton.warnings + skeleton.notes:
+        warnings.warn(warning, stacklevel=4)
+    return skeleton
+
+
+def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axes: str,
+          threads: int, timeout: Optional[float], progress: Any, options: dict) -> Skeleton:
+    array = voxels_of(mask, "mask")
+    frame = _frame(mask, axes, spacing, origin, direction)
+    texts = texts_of("skeletonize", "mask", options, frame.to_xyz)
+    outcome = _native.skeletonize_mask(frame.zyx(array), frame.placement(), texts,
+                                       _call(server, threads, timeout, progress))
+    return _warn(Skeleton(outcome, frame, title=getattr(mask, "name", None) or "mask",
+                          voxels=True))
+
+
+def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
+            threads: int, timeout: Optional[float], progress: Any, options: dict) -> dict:
+    array = voxels_of(image, "image")
+    frame = _frame(image, axes, spacing, origin, direction)
+    texts = texts_of("skeletonize_labels", "labels", options, frame.to_xyz)
+    view = frame.zyx(array)
+    if server is not None:
+        view = labels_for_sending(view)
+    outcomes = _native.skeletonize_labels(view, frame.placement(), texts,
+                                          _call(server, threads, timeout, progress))
+    return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label)
+            for label, outcome in outcomes.items()}
+
+
+def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optional[float],
+          progress: Any, options: dict) -> Skeleton:
+    title = "mesh"
+    if isinstance(vertices, Mesh):
+        if faces is not None:
+            raise TypeError("skeletonize_mesh() takes a Mesh or vertices and faces, not both")
+        vertices, faces, title = vertices.vertices, vertices.faces, vertices.name
+    elif faces is None:
+        raise TypeError("skeletonize_mesh() needs faces beside vertices")
+    frame = Frame("xyz")
+    texts = texts_of("skeletonize_mesh", "mesh", options, frame.to_xyz)
+    outcome = _native.skeletonize_mesh(*triangles_of(vertices, faces), texts,
+                                       _call(server, threads, timeout, progress))
+    return _warn(Skeleton(outcome, frame, title=title))
+
+
+def skeletonize(mask: Any, spacing: Any = None, origin: Any = None, direction: Any = None,
+                axes: str = "zyx", threads: int = 0, timeout: Optional[float] = None,
+                progress: Optional[Callable[[int, int], Any]] = None,
+                **options: Any) -> Skeleton:
+    """The skeleton of a mask.
+
+    mask: an array of three axes, of any real type and any strides, or an `Image`. What is not 0 is
+        the object; NaN is background. `threshold=`, `below=`, `range=` and `label=` choose other
+        voxels.
+    spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
+    origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
+    direction: shape (3, 3); column n is what axis n of the array points to.
+    axes: which axis of the array is which: 'zyx' or, as nibabel has it, 'xyz'. Coordinates of the
+        result are in the same order.
+    threads: 0 takes all of the machine. The result is the same for any number.
+    timeout: seconds.
+    progress: called with (shells done, all shells).
+    options: those of `bccskel skeletonize` with underscores: method, kind, pruning,
+        pruning_threshold, merge_junctions, adjacency, ... See its manual.
+
+    Raises ValueError (shapes, values of options), TypeError (types, unknown options), MemoryError
+    (more than the library's limits), TimeoutError; KeyboardInterrupt ends the work.
+
+    >>> import numpy as np
+    >>> z, y, x = np.indices((16, 40, 40)) - np.array([8, 20, 20])[:, None, None, None]
+    >>> ring = np.hypot(np.hypot(x, y) - 12, z) < 4
+    >>> skeleton = skeletonize(ring, spacing=0.5)
+    >>> skeleton.certificate["skeleton"]
+    {'components': 1, 'loops': 1, 'cavities': 0}
+    >>> bool(abs(skeleton.lengths.sum() - 2 * np.pi * 6) < 2)
+    True
+    """
+    return _mask(None, mask, spacing, origin, direction, axes, threads, timeout, progress, options)
+
+
+def skeletonize_labels(image: Any, spacing: Any = None, origin: Any = None, direction: Any = None,
+                       axes: str = "zyx", threads: int = 0, timeout: Optional[float] = None,
+                       progress: Optional[Callable[[int, int], Any]] = None,
+                       **options: Any) -> dict:
+    """The skeletons of the labels of an image, by label; 0 and NaN are background.
+
+    As `skeletonize()`, but `progress` is called with (labels done, all labels), and the options are
+    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ...
+
+    >>> import numpy as np
+    >>> image = np.zeros((8, 16, 30), np.uint16)
+    >>> image[2:6, 2:6, 2:28] = 7
+    >>> image[2:6, 6:10, 2:28] = 9
+    >>> {label: skeleton.voxels for label, skeleton in skeletonize_labels(image).items()}
+    {7: 416, 9: 416}
+    """
+    return _labels(None, image, spacing, origin, direction, axes, threads, timeout, progress,
+                   options)
+
+
+def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
+                     timeout: Optional[float] = None,
+                     progress: Optional[Callable[[int, int], Any]] = None,
+                     **options: Any) -> Skeleton:
+    """The skeleton of the solid inside a triangle mesh.
+
+    vertices: shape (n, 3), x, y, z; or a `Mesh`, then without faces.
+    faces: shape (m, 3), indices of vertices.
+    options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
+        spacing=0.5 is the resolution; fill='parity' or 'winding' says what is inside.
+
+    Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
+
+    >>> import numpy as np
+    >>> box = np.array([[x, y, z] for x in (0, 9) for y in (0, 1) for z in (0, 1)], float)
+    >>> faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+    ...          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    >>> skeletonize_mesh(box, faces, points=5000).certificate["topology_kept"]
+    True
+    """
+    return _mesh(None, vertices, faces, threads, timeout, progress, options)
+
+
+def read(path: Union[str, os.PathLike], **options: Any) -> Union[Image, Mesh]:
+    """An image (NIfTI, NRRD, TIFF, MetaImage, npy, vol, ...) or a mesh (OBJ, STL, PLY, OFF) from a
+    file, as the command line reads it; also compressed by gzip.
+
+    options, of images: channel and time (of TIFF), voxel_size=(z, y, x), and raw_size=(z, y, x),
+        raw_type, raw_order and raw_header for files without a header.
+
+    Raises FileNotFoundError, PermissionError; ValueError for what is no such file.
+
+    >>> import os, tempfile
+    >>> import numpy as np
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "mask.npy")
+    ...     np.save(path, np.ones((2, 3, 4), np.uint8))
+    ...     image = read(path, voxel_size=(2, 1, 1))
+    >>> image.array.shape, image.spacing
+    ((2, 3, 4), (2.0, 1.0, 1.0))
+    """
+    name = os.fspath(path)
+    texts = texts_of("read", "file", options, [2, 1, 0])
+    if _native.is_mesh(name) and not texts:
+        vertices, faces = _native.read_mesh(name)
+        return Mesh(vertices, faces, pathlib.Path(name).name)
+    if not _native.is_image(name) and not texts:
+        raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
+                         ".raw, ...) and meshes (.obj, .stl, .ply, .off)")
+    array, placement, unit, world = _native.read_image(name, texts)
+    direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
+    return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,
+                 unit, world, pathlib.Path(name).name)
+
+
+def _pem(path: Optional[Union[str, os.PathLike]]) -> str:
+    return "" if path is None else pathlib.Path(path).read_text()
+
+
+class Client:
+    """The same functions, computed by a server.
+
+    address: 'HOST:PORT' or 'unix:PATH'.
+    token: what the server wants to let the caller in.
+    tls: None for no encryption; True to trust the authorities of this machine; the path of a file
+        of authorities (PEM); or (authorities, certificate, key), three paths.
+    plaintext_token: send the token over a network without TLS, too.
+
+    Nothing is sent until a method is called. Raises ConnectionError where no server is reached,
+    PermissionError for a missing or wrong token.
+
+    >>> client = Client("unix:/nowhere")
+    >>> client
+    Client('unix:/nowhere')
+    """
+
+    def __init__(self, address: str = "127.0.0.1:50051", token: Optional[str] = None,
+                 tls: Any = None, plaintext_token: bool = False) -> None:
+        if tls is True:
+            tls = _SYSTEM_AUTHORITIES
+        paths = (tls,) if tls is None or isinstance(tls, (str, os.PathLike)) else tuple(tls)
+        if len(paths) not in (1, 3):
+            raise ValueError("tls must be True, a path or (authorities, certificate, key)")
+        pems = [_pem(path) for path in paths] + [""] * (3 - len(paths))
+        self.address = address
+        self._endpoint = _native.Endpoint(address, token or "", pems, plaintext_token)
+        self._server = _native.Server(self._endpoint)
+
+    def __repr__(self) -> str:
+        return f"Client({self.address!r})"
+
+    def describe(self, timeout: float = 10.0) -> dict:
+        """{'server_version': ..., 'algorithm_version': ...}"""
+        return _native.describe_server(self._endpoint, timeout)
+
+    def skeletonize(self, mask: Any, spacing: Any = None, origin: Any = None,
+                    direction: Any = None, axes: str = "zyx", threads: int = 0,
+                    timeout: Optional[float] = None,
+                    progress: Optional[Callable[[int, int], Any]] = None,
+                    **options: Any) -> Skeleton:
+        """As `bccskel.skeletonize()`."""
+        return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
+                     progress, options)
+
+    def skeletonize_labels(self, image: Any, spacing: Any = None, origin: Any = None,
+                           direction: Any = None, axes: str = "zyx", threads: int = 0,
+                           timeout: Optional[float] = None,
+                           progress: Optional[Callable[[int, int], Any]] = None,
+                           **options: Any) -> dict:
+        """As `bccskel.skeletonize_labels()`, without samplings, pages and lattice volumes."""
+        return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
+                       progress, options)
+
+    def skeletonize_mesh(self, vertices: Any, faces: Any = None, threads: int = 0,
+                         timeout: Optional[float] = None,
+                         progress: Optional[Callable[[int, int], Any]] = None,
+                         **options: Any) -> Skeleton:
+        """As `bccskel.skeletonize_mesh()`; the mesh is filled here."""
+        return _mesh(self._server, vertices, faces, threads, timeout, progress, options)

@@ -1,0 +1,144 @@
+"""Arrays and where they lie in the world."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from . import _native
+
+
+@dataclasses.dataclass
+class Image:
+    """An image as `read()` returns it. numpy functions take it as its array.
+
+    All but `array` are in the order of its axes, z, y, x. `origin` is the center of voxel (0, 0, 0).
+    """
+
+    array: np.ndarray
+    spacing: tuple
+    origin: tuple
+    direction: np.ndarray
+    """Shape (3, 3); column n is what axis n of the array points to."""
+    unit: str = ""
+    """Of the coordinates: "mm", "um", ...; empty where the file does not say."""
+    world: str = ""
+    """What the axes of the world point to: "RAS", "LPS", ...; empty where the file does not say."""
+    name: str = "image"
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray:
+        array = self.array if dtype is None else self.array.astype(dtype)
+        return array.copy() if copy and array is self.array else array
+
+
+@dataclasses.dataclass
+class Mesh:
+    """A triangle mesh as `read()` returns it."""
+
+    vertices: np.ndarray
+    """Shape (n, 3), x, y, z."""
+    faces: np.ndarray
+    """Shape (m, 3), indices of vertices."""
+    name: str = "mesh"
+
+
+class Frame:
+    """Which axis of an array is which, and where its voxels lie."""
+
+    def __init__(self, axes: str, spacing: Any = None, origin: Any = None,
+                 direction: Any = None) -> None:
+        if sorted(axes) != ["x", "y", "z"]:
+            raise ValueError(f"axes must be 'zyx', 'xyz' or another order of them, got {axes!r}")
+        self.axes = axes
+        self.spacing = _three("spacing", 1.0 if spacing is None else spacing)
+        if not (self.spacing > 0).all():
+            raise ValueError(f"spacing must be positive, got {spacing}")
+        self.origin = _three("origin", 0.0 if origin is None else origin)
+        self.direction = np.eye(3) if direction is None else np.asarray(direction, float)
+        if self.direction.shape != (3, 3) or not np.allclose(
+                self.direction.T @ self.direction, np.eye(3), atol=1e-3):
+            raise ValueError("direction must be 3 perpendicular unit vectors, shape (3, 3)")
+
+    @property
+    def from_xyz(self) -> list:
+        """Where each axis of the array is in x, y, z."""
+        return ["xyz".index(axis) for axis in self.axes]
+
+    @property
+    def to_xyz(self) -> list:
+        return [self.axes.index(axis) for axis in "xyz"]
+
+    def placement(self) -> Any:
+        order = self.to_xyz
+        return _native.Placement(self.spacing[order].tolist(), self.origin[order].tolist(),
+                                 self.direction[np.ix_(order, order)].ravel().tolist())
+
+    def zyx(self, array: np.ndarray) -> np.ndarray:
+        return array.transpose([self.axes.index(axis) for axis in "zyx"])
+
+    def voxels(self, points: np.ndarray) -> np.ndarray:
+        """Indices of the voxels that points in the world lie in, shape (n, 3)."""
+        offsets = (points - self.origin) @ np.linalg.inv(self.direction).T
+        return np.rint(offsets / self.spacing).astype(np.int64)
+
+
+def _three(name: str, value: Any) -> np.ndarray:
+    """Three finite numbers from three or one."""
+    array = np.asarray(value, float)
+    if array.shape not in ((), (3,)) or not np.isfinite(array).all():
+        raise ValueError(f"{name} must be 3 finite numbers or one for all axes, got {value}")
+    return np.broadcast_to(array, 3).copy()
+
+
+def voxels_of(array: Any, name: str) -> np.ndarray:
+    """An array of three axes with a type that the extension module takes, copied only where its
+    type is another."""
+    if isinstance(array, np.ma.MaskedArray):
+        array = array.filled(0)
+    array = np.asarray(array)
+    if array.ndim != 3:
+        raise ValueError(f"{name} must have 3 axes, got shape {array.shape}")
+    if array.size == 0:
+        raise ValueError(f"{name} must not be empty, got shape {array.shape}")
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name} must hold booleans or real numbers, got dtype {array.dtype}")
+    if array.dtype.kind == "b":
+        return array.view(np.uint8)
+    if array.dtype.kind == "f" and array.itemsize not in (4, 8):
+        return array.astype(np.float32 if array.itemsize < 4 else np.float64)
+    return array.astype(array.dtype.newbyteorder("="), copy=False)
+
+
+def labels_for_sending(labels: np.ndarray) -> np.ndarray:
+    """The same labels as unsigned numbers in one piece."""
+    if labels.dtype.kind == "f":
+        whole = np.nan_to_num(labels, nan=0.0)
+        if not (whole == np.trunc(whole)).all() or not (np.abs(whole) < 2.0 ** 63).all():
+            raise ValueError("labels must be whole numbers")
+        labels = whole.astype(np.int64)
+    if labels.dtype.kind == "i":
+        if labels.min() < 0:
+            raise ValueError(f"labels must be whole numbers from 0 on, got {labels.min()}")
+        labels = labels.astype(f"u{labels.itemsize}", copy=False)
+    return np.ascontiguousarray(labels)
+
+
+def triangles_of(mesh: Any, faces: Any) -> tuple:
+    """Checked vertices and triangles, for the extension module."""
+    vertices = np.ascontiguousarray(mesh, dtype=np.float64)
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise ValueError(f"vertices must have shape (n, 3), got {vertices.shape}")
+    if not np.isfinite(vertices).all():
+        raise ValueError("vertices must be finite")
+    faces = np.asarray(faces)
+    if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu":
+        raise ValueError("faces must be triangles, whole numbers of shape (m, 3), got shape "
+                         f"{faces.shape} and dtype {faces.dtype}")
+    if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
+        raise ValueError(f"faces must be indices of the {len(vertices)} vertices, got "
+                         f"{faces.min()} to {faces.max()}")
+    if not faces.size:
+        raise ValueError("faces must not be empty")
+    return vertices, np.ascontiguousarray(faces, dtype=np.uint32)

@@ -1,0 +1,54 @@
+"""Options: the command line's, with underscores. The extension module hands them to its parser."""
+
+from __future__ import annotations
+
+import difflib
+import numbers
+from typing import Any
+
+import numpy as np
+
+from . import _native
+
+_PLACES = ("root", "voxel_size", "raw_size")
+"""Options of three numbers that go with the axes."""
+
+
+def texts_of(function: str, kind: str, options: dict, to_xyz: list) -> list:
+    """(name, text) for each option that is not None; no text for a flag."""
+    names = _native.option_names(kind)
+    texts = []
+    for name, value in options.items():
+        if name not in names:
+            near = difflib.get_close_matches(name, names, 1)
+            hint = f". Did you mean {near[0]!r}?" if near else ""
+            raise TypeError(f"{function}() got an unexpected keyword argument {name!r}{hint}")
+        if value is None:
+            continue
+        if _native.is_flag(kind, name):
+            if not isinstance(value, (bool, np.bool_)):
+                raise TypeError(f"{name} must be True or False, got {value!r}")
+            if value:
+                texts.append((name, None))
+        elif name in _PLACES and not isinstance(value, str):
+            texts.append((name, _text(name, np.asarray(value)[to_xyz])))
+        else:
+            texts.append((name, _text(name, value)))
+    return texts
+
+
+def _text(name: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    if value is None:
+        return ""
+    if isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be a number or a text, got {value}")
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    try:
+        return ",".join(_text(name, item) for item in value)
+    except TypeError:
+        raise TypeError(f"{name} must be a number, a text or several, got {value!r}") from None

@@ -1,0 +1,372 @@
+"""A skeleton as numpy arrays, as a graph, as a table and as files."""
+
+from __future__ import annotations
+
+import functools
+import html
+import math
+import os
+import pathlib
+import tempfile
+import warnings
+import webbrowser
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _native
+from ._image import Frame
+
+if TYPE_CHECKING:
+    import networkx
+    import pandas
+
+
+class Skeleton:
+    """A graph of curves with radii, as the functions of this package return it.
+
+    Coordinates are those of the world, columns in the order of `axes`; lengths and radii are in its
+    unit.
+
+    >>> import numpy as np, bccskel
+    >>> mask = np.zeros((12, 30, 60), bool)
+    >>> mask[4:8, 13:17, 2:58] = mask[4:8, 2:16, 28:32] = True
+    >>> skeleton = bccskel.skeletonize(mask)
+    >>> skeleton.nodes.shape, skeleton.edges.shape, skeleton.node_kinds.tolist()
+    ((4, 3), (3, 2), ['end', 'end', 'junction', 'end'])
+    >>> [path.shape == (len(radii), 3) for path, radii in zip(skeleton.paths, skeleton.radii)]
+    [True, True, True]
+    """
+
+    def __init__(self, outcome: Any, frame: Frame, title: str, voxels: bool = False,
+                 label: Optional[int] = None) -> None:
+        """Not for users."""
+        self._outcome = outcome
+        self._frame = frame
+        self._of_voxels = voxels
+        self.title = title
+        """Of pages and pictures."""
+        self.label = label
+        """Of the image that it was made from; None where it is the skeleton of a mask or mesh."""
+
+    def __repr__(self) -> str:
+        kept = "kept" if self.certificate["topology_kept"] else "changed"
+        return (f"<Skeleton of {self.title}: {len(self.nodes)} nodes, {len(self.edges)} edges, "
+                f"length {self.lengths.sum():.6g}, topology {kept}>")
+
+    @functools.cached_property
+    def _nodes(self) -> dict:
+        return self._outcome.nodes()
+
+    @functools.cached_property
+    def _edges(self) -> dict:
+        return self._outcome.edges()
+
+    @functools.cached_property
+    def _sheets(self) -> dict:
+        return self._outcome.sheets()
+
+    def _columns(self, points: np.ndarray) -> np.ndarray:
+        return points[:, self._frame.from_xyz]
+
+    @property
+    def axes(self) -> str:
+        """The order of coordinates: that of the array, 'zyx' by default, of a mesh 'xyz'."""
+        return self._frame.axes
+
+    @functools.cached_property
+    def nodes(self) -> np.ndarray:
+        """Where the ends, junctions and so on are, shape (nodes, 3)."""
+        return self._columns(self._nodes["positions"])
+
+    @property
+    def node_radii(self) -> np.ndarray:
+        """Of the largest ball around each node inside the object, shape (nodes,)."""
+        return self._nodes["radii"]
+
+    @functools.cached_property
+    def node_kinds(self) -> np.ndarray:
+        """'end', 'junction', 'loop' (stands for a closed curve), 'isolated' or 'closed_surface',
+        shape (nodes,)."""
+        return np.array(self._nodes["kinds"], dtype="U14")
+
+    @property
+    def node_components(self) -> np.ndarray:
+        """Which connected piece each node belongs to, from 0, shape (nodes,)."""
+        return self._nodes["components"]
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Indices of the two nodes of each branch, shape (edges, 2)."""
+        return self._edges["ends"]
+
+    @functools.cached_property
+    def paths(self) -> list:
+        """Of each edge the smooth curve from its first to its second node, shape (points, 3)."""
+        return self._split(self._columns(self._edges["points"]))
+
+    @functools.cached_property
+    def radii(self) -> list:
+        """Of each edge the radii along `paths`, shape (points,)."""
+        return self._split(self._edges["radii"])
+
+    def _split(self, rows: np.ndarray) -> list:
+        offsets = self._edges["offsets"].tolist()
+        return [rows[begin:end] for begin, end in zip(offsets, offsets[1:])]
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """Of the curves, shape (edges,)."""
+        return self._edges["figures"]["length"]
+
+    @property
+    def pruning_levels(self) -> np.ndarray:
+        """The `pruning_threshold` above which each edge goes; infinite for those that never do,
+        shape (edges,)."""
+        return self._edges["figures"]["pruning_level"]
+
+    @functools.cached_property
+    def sheets(self) -> np.ndarray:
+        """Points on no edge, as of surface skeletons, shape (points, 3)."""
+        return self._columns(self._sheets["points"])
+
+    @property
+    def sheet_radii(self) -> np.ndarray:
+        """Shape (points,)."""
+        return self._sheets["radii"]
+
+    @functools.cached_property
+    def order(self) -> Optional[dict]:
+        """Where `root` was given, the graph as trees: of components 'roots', of nodes 'parent' (-1
+        for none) and 'root_distance', of edges 'proximal' (-1 where one closes a loop),
+        'generation' and 'strahler'."""
+        return self._outcome.order()
+
+    @functools.cached_property
+    def certificate(self) -> dict:
+        """What proves that the topology was kept: components, loops and cavities of the mask, of
+        the object and of the skeleton, and whether they agree."""
+        return self._outcome.certificate
+
+    @property
+    def sha256(self) -> str:
+        """Of the graph: equal on every machine, and equal to what the command line prints."""
+        return self._outcome.sha256
+
+    @property
+    def method(self) -> str:
+        """How it was made, in words."""
+        return self._outcome.method
+
+    @property
+    def options(self) -> dict:
+        """Everything that the result depends on, by name."""
+        return self._outcome.options
+
+    @property
+    def notes(self) -> list:
+        """What a user of this result should know, a sentence each."""
+        return self._outcome.notes
+
+    @property
+    def warnings(self) -> list:
+        """What the conversion to lattice points met with, a sentence each."""
+        return self._outcome.warnings
+
+    @property
+    def timings(self) -> dict:
+        """Seconds of each stage."""
+        return self._outcome.timings
+
+    @property
+    def voxels(self) -> int:
+        """Of the mask or the label; 0 for a mesh."""
+        return self._outcome.voxels
+
+    def to_networkx(self, points: bool = False) -> networkx.MultiGraph:
+        """The graph: nodes with x, y, z, radius, kind and component, edges with length, mean_radius
+        and so on, all plain numbers and texts that `networkx.write_graphml()` takes.
+
+        points: gives each edge its `path` and `radii`, too, which GraphML cannot hold.
+
+        >>> import numpy as np, bccskel
+        >>> graph = bccskel.skeletonize(np.ones((5, 5, 40))).to_networkx()
+        >>> sorted(graph.nodes[0])
+        ['component', 'kind', 'radius', 'x', 'y', 'z']
+        """
+        import networkx
+
+        graph = networkx.MultiGraph(sha256=self.sha256, method=self.method)
+        columns = {axis: self.nodes[:, self.axes.index(axis)].tolist() for axis in "xyz"}
+        columns.update(radius=self.node_radii.tolist(), kind=self._nodes["kinds"],
+                       component=self.node_components.tolist())
+        if self.order is not None:
+            columns["root_distance"] = self.order["root_distance"].tolist()
+        names = list(columns)
+        graph.add_nodes_from((n, dict(zip(names, row)))
+                             for n, row in enumerate(zip(*columns.values())))
+        figures = {name: values.tolist() for name, values in self._edges["figures"].items()}
+        if self.order is not None:
+            figures.update({name: self.order[name].tolist()
+                            for name in ("generation", "strahler")})
+        for n, (source, target) in enumerate(self.edges.tolist()):
+            facts = {name: values[n] for name, values in figures.items()
+                     if math.isfinite(values[n])}
+            if points:
+                facts.update(path=self.paths[n], radii=self.radii[n])
+            graph.add_edge(source, target, key=n, **facts)
+        return graph
+
+    def to_pandas(self, separator: str = "-") -> pandas.DataFrame:
+        """A row for each branch, with the columns of `skan.summarize()` and more.
+
+        mean-pixel-value and stdev-pixel-value are those of the radius. Of a mesh there is no
+        image-coord.
+
+        >>> import numpy as np, bccskel
+        >>> table = bccskel.skeletonize(np.ones((5, 5, 40))).to_pandas()
+        >>> table[["branch-type", "image-coord-src-0", "image-coord-src-1"]].values.tolist()
+        [[0, 2, 2]]
+        """
+        import pandas
+
+        source, target = self.edges[:, 0], self.edges[:, 1]
+        figures = self._edges["figures"]
+        mean = self._mean_of_edges(self._edges["radii"])
+        counts = np.diff(self._edges["offsets"])
+        variance = self._mean_of_edges((self._edges["radii"] - np.repeat(mean, counts)) ** 2)
+        table = {
+            "skeleton-id": self.node_components[source],
+            "node-id-src": source,
+            "node-id-dst": target,
+            "branch-distance": self.lengths,
+            "branch-type": self._branch_types(),
+            "mean-pixel-value": mean,
+            "stdev-pixel-value": np.sqrt(variance),
+        }
+        places = {"coord": self.nodes}
+        if self._of_voxels:
+            places = {"image-coord": self._frame.voxels(self.nodes), "coord": self.nodes}
+        for name, values in places.items():
+            for end, index in (("src", source), ("dst", target)):
+                for axis in range(3):
+                    table[f"{name}-{end}-{axis}"] = values[index, axis]
+        table["euclidean-distance"] = np.linalg.norm(self.nodes[source] - self.nodes[target],
+                                                     axis=1)
+        for name in ("mean_radius", "min_radius", "max_radius", "pruning_level"):
+            table[name.replace("_", "-")] = figures[name]
+        if self.order is not None:
+            table.update({name: self.order[name] for name in ("generation", "strahler")})
+        return pandas.DataFrame({name.replace("-", separator): values
+                                 for name, values in table.items()})
+
+    def _mean_of_edges(self, values: np.ndarray) -> np.ndarray:
+        """Of one value for each point of all edges."""
+        offsets = self._edges["offsets"]
+        if len(offsets) == 1:
+            return np.empty(0)
+        return np.add.reduceat(values, offsets[:-1]) / np.diff(offsets)
+
+    def _branch_types(self) -> np.ndarray:
+        """As skan: 0 from end to end, 1 from a junction to an end, 2 between junctions, 3 a closed
+        curve of its own."""
+        junction = np.isin(self.node_kinds, ["junction", "closed_surface"])
+        types = junction[self.edges].sum(axis=1)
+        types[self.node_kinds[self.edges[:, 0]] == "loop"] = 3
+        return types
+
+    def curve_image(self) -> np.ndarray:
+        """The voxels that the curves run through, in the shape of the mask: the number of the edge
+        + 1 (of an isolated node, its number + 1 + the edges'), 0 elsewhere. The voxels of an edge
+        are connected.
+
+        Raises ValueError for meshes, samplings and objects that were prepared (denoise, ...).
+
+        >>> import numpy as np, bccskel
+        >>> int((bccskel.skeletonize(np.ones((5, 5, 40))).curve_image() > 0).sum())
+        36
+        """
+        return self._of_axes(self._outcome.curve_image())
+
+    def branch_image(self) -> np.ndarray:
+        """The same with each voxel of the mask: the number of the nearest edge + 1."""
+        return self._of_axes(self._outcome.branch_image())
+
+    def _of_axes(self, image: np.ndarray) -> np.ndarray:
+        return image.transpose(["zyx".index(axis) for axis in self.axes])
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .exr or .bccb
+        (lattice points), .svg or .html (a page). It has the coordinates x, y, z.
+
+        Raises ValueError for another ending, OSError where it cannot be written. Warns of what the
+        format could not hold.
+
+        >>> import os, tempfile
+        >>> import numpy as np, bccskel
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     bccskel.skeletonize(np.ones((5, 5, 40))).save(os.path.join(folder, "bar.swc"))
+        ...     os.listdir(folder)
+        ['bar.swc']
+        """
+        note = self._outcome.save(os.fspath(path), self.title)
+        if note:
+            warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
+
+    def page(self) -> Page:
+        """The page that shows the object and its skeleton, as a text of HTML."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "page.html")
+            self.save(path)
+            return Page(path.read_text(encoding="utf-8"))
+
+    def view(self) -> Page:
+        """Shows the page: in a notebook as the value of a cell, elsewhere in a browser."""
+        page = self.page()
+        if not _in_notebook():
+            page.open()
+        return page
+
+
+class Page:
+    """A page that needs nothing else: `html` is its text."""
+
+    def __init__(self, text: str) -> None:
+        self.html = text
+
+    def __repr__(self) -> str:
+        return f"<Page of {len(self.html)} characters>"
+
+    def _repr_html_(self) -> str:
+        return ('<iframe style="width: 100%; height: 600px; border: 0" '
+                f'srcdoc="{html.escape(self.html)}"></iframe>')
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        pathlib.Path(path).write_text(self.html, encoding="utf-8")
+
+    def open(self) -> str:
+        """Opens it in a browser, from a file that stays. Returns the file's path."""
+        with tempfile.NamedTemporaryFile("w", prefix="bccskel-", suffix=".html", delete=False,
+                                         encoding="utf-8") as file:
+            file.write(self.html)
+        webbrowser.open(pathlib.Path(file.name).as_uri())
+        return file.name
+
+
+def _in_notebook() -> bool:
+    try:
+        from IPython import get_ipython
+    except ImportError:
+        return False
+    shell = get_ipython()
+    return shell is not None and "IPKernelApp" in shell.config
+
+
+def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]) -> None:
+    """Writes the skeletons of labels of one image into one file, .vtp, .graphml or .json, as
+    `bccskel labels` does.
+
+    Raises ValueError for another ending, OSError where it cannot be written.
+    """
+    _native.save_labels(os.fspath(path), [(int(label), skeleton._outcome)
+                                          for label, skeleton in sorted(skeletons.items())])

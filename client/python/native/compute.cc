@@ -1,0 +1,190 @@
+#include "client/python/native/compute.h"
+
+#include <utility>
+
+#include "absl/strings/str_join.h"
+#include "client/cli/convert_image.h"
+#include "client/cli/load_object.h"
+#include "client/cli/local_team.h"
+#include "core/exec/status_macros.h"
+#include "core/labels/convert_label.h"
+#include "core/labels/skeletonize_labels.h"
+#include "core/voxelize/voxelize.h"
+
+namespace bccskel::python {
+namespace {
+
+// The threads of one call here; conversions are done here even for a server.
+class Here {
+ public:
+  explicit Here(const Run& run) : team_(run.threads, run.stop) {
+    team_.context().deadline = exec::Context::Clock::now() + run.timeout;
+  }
+  exec::Context& context() { return team_.context(); }
+
+ private:
+  cli::LocalTeam team_;
+};
+
+std::function<void(const exec::ShellProgress&)> OnShell(const Run& run) {
+  return [&run](const exec::ShellProgress& shell) {
+    if (run.on_progress) {
+      run.on_progress(static_cast<uint64_t>(shell.shell), static_cast<uint64_t>(shell.last_shell));
+    }
+  };
+}
+
+absl::StatusOr<SkeletonizeResult> Compute(const Volume& object, const SkeletonizeOptions& options,
+                                          const Run& run, exec::Context context) {
+  if (run.server == nullptr) {
+    context.on_shell = OnShell(run);
+    return Skeletonize(object, options, context);
+  }
+  client::CallOptions call;
+  call.skeletonize = options;
+  call.threads = run.threads;
+  call.thin_volume = client::ThinVolume::kReturn;
+  call.timeout = run.timeout;
+  call.stop = run.stop;
+  call.on_shell = OnShell(run);
+  return run.server->Skeletonize(object, call);
+}
+
+absl::StatusOr<Outcome> OutcomeOf(Volume object, const SkeletonizeOptions& options,
+                                  const std::optional<RootChoice>& root, const Run& run,
+                                  const exec::Context& context) {
+  Outcome outcome;
+  BCCSKEL_ASSIGN_OR_RETURN(outcome.result, Compute(object, options, run, context));
+  outcome.root = root;
+  if (root.has_value()) BCCSKEL_RETURN_IF_ERROR(CheckRootChoice(*root, outcome.result.graph));
+  outcome.object = std::make_shared<const Volume>(std::move(object));
+  return outcome;
+}
+
+MaskGrid GridOf(const ImageInfo& info) {
+  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
+}
+
+// Takes the mask's own topology into the certificate.
+absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, Outcome& outcome) {
+  Certificate& certificate = outcome.result.certificate;
+  certificate.mask = image.mask;
+  const std::string changes = DescribeChanges(image.mask, certificate.Given());
+  if (changes.empty()) return absl::OkStatus();
+  const std::string message = "the conversion to the lattice changed " + changes;
+  if (!options.sampling.has_value()) return absl::InternalError(message);
+  outcome.warnings.push_back(message);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
+  if (object != nullptr) return object;
+  if (!make_object) {
+    return absl::UnimplementedError(
+        "pictures and pages show the object, too: of a label that a server has computed, use "
+        "skeletonize(image == label)");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(Volume made, make_object());
+  return std::make_shared<const Volume>(std::move(made));
+}
+
+absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
+                                        const cli::SkeletonizeArguments& arguments,
+                                        const Run& run) {
+  Here here(run);
+  const MaskOptions& options = arguments.image.mask;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      cli::ImageObject image,
+      cli::ConvertImage(mask, arguments.image, cli::KeptVoxels::kNone, here.context()));
+  if (image.image.voxels == 0 && !arguments.image.labels.empty()) {
+    return absl::InvalidArgumentError("no voxel has the label " +
+                                      absl::StrJoin(arguments.image.labels, " or "));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(
+      Outcome outcome, OutcomeOf(std::move(image.volume), ForMask(arguments.skeletonize, options),
+                                 arguments.root, run, here.context()));
+  outcome.voxels = image.image.voxels;
+  outcome.grid = GridOf(mask.info());
+  outcome.mask = options;
+  BCCSKEL_RETURN_IF_ERROR(Certify(image.image, options, outcome));
+  return outcome;
+}
+
+absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
+                                        const cli::SkeletonizeArguments& arguments,
+                                        const Run& run) {
+  Here here(run);
+  VoxelizeOptions grid = arguments.grid;
+  if (!grid.points.has_value() && !grid.spacing.has_value()) grid.points = cli::kDefaultPoints;
+  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult filled, Voxelize(mesh, grid, here.context()));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      Outcome outcome, OutcomeOf(std::move(filled.volume), arguments.skeletonize, arguments.root,
+                                 run, here.context()));
+  outcome.warnings = std::move(filled.warnings);
+  return outcome;
+}
+
+absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
+                                               const cli::LabelsArguments& arguments,
+                                               const Run& run) {
+  Here here(run);
+  const MaskOptions options = arguments.image.mask;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      cli::CollectedLabels collected,
+      cli::CollectLabels(image, arguments.image, arguments.min_voxels, here.context()));
+  const auto labels = std::make_shared<const LabeledObjects>(std::move(collected.objects));
+  LabelOutcomes outcomes;
+  const auto take = [&](LabelSkeleton&& skeleton) {
+    const auto outcome = std::make_shared<Outcome>();
+    outcome->result = std::move(skeleton.result);
+    outcome->root = arguments.root;
+    outcome->voxels = skeleton.voxels;
+    outcome->grid = labels->grid;
+    outcome->mask = options;
+    outcome->label = {labels, &labels->objects[outcomes.size()]};
+    outcome->make_object = [labels, options, n = outcomes.size()]() -> absl::StatusOr<Volume> {
+      BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask made,
+                               ConvertLabel(labels->grid, labels->objects[n], options, {}));
+      return std::move(made.volume);
+    };
+    outcomes.emplace(skeleton.label, outcome);
+    if (run.on_progress) run.on_progress(outcomes.size(), labels->objects.size());
+    return absl::OkStatus();
+  };
+  BCCSKEL_RETURN_IF_ERROR(SkeletonizeLabels(
+      *labels, {.mask = options, .skeleton = arguments.skeletonize}, take, here.context()));
+  return outcomes;
+}
+
+absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& image,
+                                                  const cli::LabelsArguments& arguments,
+                                                  const Run& run) {
+  if (arguments.image.mask.sampling.has_value()) {
+    return absl::UnimplementedError("servers convert labels exactly: leave out sampling");
+  }
+  client::LabelsCallOptions call;
+  call.skeletonize = arguments.skeletonize;
+  call.adjacency = arguments.image.mask.adjacency;
+  call.points = arguments.image.mask.points;
+  call.labels = arguments.image.labels;
+  call.min_voxels = arguments.min_voxels;
+  call.threads = run.threads;
+  call.timeout = run.timeout;
+  call.stop = run.stop;
+  call.on_progress = run.on_progress;
+  LabelOutcomes outcomes;
+  const auto take = [&](LabelSkeleton&& skeleton) {
+    const auto outcome = std::make_shared<Outcome>();
+    outcome->result = std::move(skeleton.result);
+    outcome->root = arguments.root;
+    outcome->voxels = skeleton.voxels;
+    outcomes.emplace(skeleton.label, outcome);
+    return absl::OkStatus();
+  };
+  BCCSKEL_RETURN_IF_ERROR(run.server->SkeletonizeLabels(image, call, take).status());
+  return outcomes;
+}
+
+}  // namespace bccskel::python

@@ -1,0 +1,79 @@
+#ifndef BCCSKEL_CLIENT_PYTHON_NATIVE_COMPUTE_H_
+#define BCCSKEL_CLIENT_PYTHON_NATIVE_COMPUTE_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+#include "client/encoded_labels.h"
+#include "client/skeletonize_client.h"
+#include "core/image/image_source.h"
+#include "core/labels/voxel_runs.h"
+#include "core/mask/mask_converter.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/pipeline/skeletonize.h"
+
+namespace bccskel::python {
+
+// A skeleton and what it was made from.
+struct Outcome {
+  SkeletonizeResult result;
+  std::optional<RootChoice> root;
+  std::vector<std::string> warnings;
+  uint64_t voxels = 0;                                  // of a mask or a label
+  std::shared_ptr<const Volume> object;                 // none for a label
+  std::function<absl::StatusOr<Volume>()> make_object;  // of a label, where it was computed here
+  std::optional<MaskGrid> grid;                         // of a mask or a label
+  MaskOptions mask;
+  // The voxels of a label, where it was computed here; those of a mask are found in its object.
+  std::shared_ptr<const LabeledObject> label;
+
+  // Errors: UNIMPLEMENTED for a label that a server has computed.
+  absl::StatusOr<std::shared_ptr<const Volume>> Object() const;
+};
+
+using OnProgress = std::function<void(uint64_t done, uint64_t total)>;
+
+// Where and how a skeleton is computed, apart from its options.
+struct Run {
+  std::shared_ptr<client::SkeletonizeClient> server;  // none: here
+  int threads = 0;                                    // 0: all of the machine
+  std::chrono::milliseconds timeout = std::chrono::hours(24 * 365);
+  std::stop_token stop;
+  OnProgress on_progress;  // shells, or labels
+};
+
+// Errors: as ConvertImage(), Skeletonize() and CheckRootChoice(); INVALID_ARGUMENT where no voxel
+// has
+//         a wanted label; INTERNAL where an exact conversion changed the topology, which would be a
+//         defect.
+absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
+                                        const cli::SkeletonizeArguments& arguments, const Run& run);
+
+// Errors: as Voxelize(), Skeletonize() and CheckRootChoice().
+absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
+                                        const cli::SkeletonizeArguments& arguments, const Run& run);
+
+using LabelOutcomes = std::map<uint64_t, std::shared_ptr<Outcome>>;
+
+// Errors: as CollectLabels() and SkeletonizeLabels().
+absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
+                                               const cli::LabelsArguments& arguments,
+                                               const Run& run);
+
+// Needs: run.server. Errors: those of Connection::SkeletonizeLabels(); UNIMPLEMENTED for samplings.
+absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& image,
+                                                  const cli::LabelsArguments& arguments,
+                                                  const Run& run);
+
+}  // namespace bccskel::python
+
+#endif  // BCCSKEL_CLIENT_PYTHON_NATIVE_COMPUTE_H_

@@ -1,0 +1,67 @@
+#include "client/python/native/edge_images.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/exec/status_macros.h"
+#include "core/labels/label_collector.h"
+
+namespace bccskel::python {
+namespace {
+
+absl::Status CheckVoxels(const Outcome& outcome) {
+  if (!outcome.grid.has_value()) return absl::InvalidArgumentError("a mesh has no voxels to draw");
+  if (outcome.mask.sampling.has_value()) {
+    return absl::InvalidArgumentError("a sampling has no voxels of its own to draw");
+  }
+  if (!outcome.result.preparing.empty()) {
+    return absl::InvalidArgumentError(
+        "images show the voxels as they are, so not with denoise, fill_cavities, min_component, "
+        "min_component_volume or keep_largest");
+  }
+  if (outcome.object != nullptr || outcome.label != nullptr) return absl::OkStatus();
+  return absl::UnimplementedError("of a label that a server has computed, use image == label");
+}
+
+// An exact conversion puts the odd points into the centers of voxels, or of half voxels.
+absl::StatusOr<LabeledObject> VoxelsOf(const Volume& object, const MaskGrid& grid,
+                                       VoxelPoints points, const exec::Context& context) {
+  const int per_voxel = points == VoxelPoints::kTwo ? 2 : 4;
+  std::vector<uint64_t> words(grid.WordsPerSlice() * static_cast<size_t>(grid.nz));
+  object.ForEachPoint([&](LatticePoint p) {
+    if (SublatticeOf(p) == Sublattice::kEven) return;
+    const auto x = static_cast<size_t>(p.x / per_voxel);
+    const size_t row = static_cast<size_t>(p.z / per_voxel) * static_cast<size_t>(grid.ny) +
+                       static_cast<size_t>(p.y / per_voxel);
+    words[row * grid.WordsPerRow() + x / 64] |= uint64_t{1} << (x % 64);
+  });
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
+  for (size_t z = 0; z < static_cast<size_t>(grid.nz); ++z) {
+    const std::span slice =
+        std::span(words).subspan(z * grid.WordsPerSlice(), grid.WordsPerSlice());
+    BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(slice, context));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(LabeledObjects objects, std::move(collector).Finish());
+  return objects.objects.empty() ? LabeledObject() : std::move(objects.objects.front());
+}
+
+}  // namespace
+
+absl::StatusOr<SparseImage> ImageOf(const Outcome& outcome, EdgeImage kind,
+                                    const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckVoxels(outcome));
+  const MaskGrid& grid = *outcome.grid;
+  std::shared_ptr<const LabeledObject> voxels = outcome.label;
+  if (voxels == nullptr) {
+    BCCSKEL_ASSIGN_OR_RETURN(LabeledObject found,
+                             VoxelsOf(*outcome.object, grid, outcome.mask.points, context));
+    voxels = std::make_shared<const LabeledObject>(std::move(found));
+  }
+  if (voxels->runs.empty()) return SparseImage();
+  const SkeletonGraph& graph = outcome.result.graph;
+  if (kind == EdgeImage::kCurves) return DrawSkeleton(grid, *voxels, graph);
+  return NearestEdges(grid, *voxels, graph, outcome.mask.adjacency, context);
+}
+
+}  // namespace bccskel::python

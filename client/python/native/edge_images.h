@@ -1,0 +1,25 @@
+#ifndef BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_
+#define BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_
+
+#include "absl/status/statusor.h"
+#include "client/python/native/compute.h"
+#include "core/exec/context.h"
+#include "core/labels/edge_image.h"
+
+namespace bccskel::python {
+
+enum class EdgeImage {
+  kCurves,    // DrawSkeleton()
+  kBranches,  // NearestEdges()
+};
+
+// The image on the grid of the mask or the label.
+// Errors: INVALID_ARGUMENT for a mesh, a sampling or a prepared object, whose voxels are not those
+//         that were thinned; UNIMPLEMENTED for a label that a server has computed; those of the
+//         function.
+absl::StatusOr<SparseImage> ImageOf(const Outcome& outcome, EdgeImage kind,
+                                    const exec::Context& context);
+
+}  // namespace bccskel::python
+
+#endif  // BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_

@@ -1,0 +1,60 @@
+#ifndef BCCSKEL_CLIENT_PYTHON_NATIVE_JOB_H_
+#define BCCSKEL_CLIENT_PYTHON_NATIVE_JOB_H_
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+
+namespace bccskel::python {
+
+// What the thread of a job and the Python thread that waits for it tell each other.
+class Job {
+ public:
+  struct Progress {
+    uint64_t done = 0;
+    uint64_t total = 0;
+  };
+
+  std::stop_token stop() const { return stop_.get_token(); }
+  void RequestStop() { stop_.request_stop(); }
+
+  // On the job's thread. A report that nobody has taken gives way to the next.
+  void Report(const Progress& progress);
+  void Finish();
+
+  // The news until `patience` is over or the job is done, whether or not there are any.
+  struct News {
+    std::optional<Progress> progress;
+    bool finished = false;
+  };
+  News Wait(std::chrono::milliseconds patience);
+
+ private:
+  std::stop_source stop_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  News news_;
+};
+
+// Runs `work` on a thread of its own without the interpreter's lock, while this thread calls
+// `progress(done, total)`, unless it is None, and takes signals. Where either raises, the job is
+// stopped, and what was raised goes on. Needs: the interpreter's lock.
+// Throws: the error of the work as ThrowIfError() does.
+void RunJob(const pybind11::object& progress, const std::function<absl::Status(Job&)>& work);
+
+// The exception of Python's that fits an error: ValueError for INVALID_ARGUMENT, and so on.
+void ThrowIfError(const absl::Status& status);
+
+}  // namespace bccskel::python
+
+#endif  // BCCSKEL_CLIENT_PYTHON_NATIVE_JOB_H_

@@ -1,0 +1,262 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/synchronization/mutex.h"
+#include "client/cli/named_options.h"
+#include "client/python/native/array_source.h"
+#include "client/python/native/compute.h"
+#include "client/python/native/job.h"
+#include "client/python/native/skeleton_class.h"
+#include "core/exec/status_macros.h"
+#include "core/image/open_image.h"
+#include "core/mesh/mesh_file.h"
+#include "core/version/version.h"
+
+// What the Python files of this package call: coordinates in the order x, y, z, arrays in the order
+// [z, y, x], options as texts.
+
+namespace bccskel::python {
+namespace {
+
+namespace py = pybind11;
+using Options = std::vector<std::pair<std::string, std::optional<std::string>>>;
+using Server = std::shared_ptr<client::SkeletonizeClient>;
+using Triple = std::array<double, 3>;
+
+template <typename T>
+T Value(absl::StatusOr<T> value) {
+  ThrowIfError(value.status());
+  return *std::move(value);
+}
+
+cli::OptionSet SetOf(const std::string& name) {
+  if (name == "mesh") return cli::OptionSet::kMesh;
+  if (name == "labels") return cli::OptionSet::kLabels;
+  return name == "file" ? cli::OptionSet::kFile : cli::OptionSet::kMask;
+}
+
+std::vector<cli::NamedOption> Named(const Options& options) {
+  std::vector<cli::NamedOption> named;
+  for (const auto& [name, value] : options) named.push_back({name, value});
+  return named;
+}
+
+// Needs: three axes and a type that ParseVoxelType() knows, in this machine's byte order.
+ArrayView ViewOf(const py::array& array) {
+  ArrayView view = {.data = static_cast<const std::byte*>(array.data()),
+                    .type = Value(ParseVoxelType(py::str(py::object(array.dtype())))),
+                    .shape = {},
+                    .strides = {}};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    view.shape[axis] = array.shape(static_cast<py::ssize_t>(axis));
+    view.strides[axis] = array.strides(static_cast<py::ssize_t>(axis));
+  }
+  return view;
+}
+
+// How a call runs, from Python.
+struct Call {
+  Server server;
+  int threads = 0;
+  double timeout = 0;  // seconds; 0: none
+  py::object progress = py::none();
+
+  Run RunIn(Job& job) const {
+    Run run = {.server = server, .threads = threads, .stop = job.stop(), .on_progress = {}};
+    run.on_progress = [&job](uint64_t done, uint64_t total) { job.Report({done, total}); };
+    if (timeout > 0) run.timeout = std::chrono::milliseconds(static_cast<int64_t>(1000 * timeout));
+    return run;
+  }
+};
+
+// Runs `compute(run)`, which returns an absl::StatusOr, as a job.
+template <typename Compute>
+auto RunCall(const Call& call, const Compute& compute) {
+  using Result = typename decltype(compute(std::declval<const Run&>()))::value_type;
+  Result result;
+  RunJob(call.progress, [&](Job& job) {
+    const Run run = call.RunIn(job);
+    absl::StatusOr<Result> computed = compute(run);
+    absl::Status status = computed.status();
+    if (status.ok()) result = *std::move(computed);
+    return status;
+  });
+  return result;
+}
+
+std::shared_ptr<Outcome> Mask(const py::array& array, const Placement& placement,
+                              const Options& options, const Call& call) {
+  const auto arguments = Value(cli::ReadNamedOptions(cli::OptionSet::kMask, Named(options)));
+  ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
+  return std::make_shared<Outcome>(
+      RunCall(call, [&](const Run& run) { return SkeletonizeMask(source, arguments, run); }));
+}
+
+using Vertices = py::array_t<double, py::array::c_style>;
+using Triangles = py::array_t<uint32_t, py::array::c_style>;
+
+// Needs: finite vertices, indices of them.
+TriangleMesh MeshOf(const Vertices& vertices, const Triangles& triangles) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(static_cast<size_t>(vertices.shape(0)));
+  mesh.triangles.resize(static_cast<size_t>(triangles.shape(0)));
+  for (size_t n = 0; n < mesh.vertices.size(); ++n) {
+    std::memcpy(mesh.vertices[n].data(), vertices.data(n, 0), sizeof mesh.vertices[n]);
+  }
+  for (size_t n = 0; n < mesh.triangles.size(); ++n) {
+    std::memcpy(mesh.triangles[n].data(), triangles.data(n, 0), sizeof mesh.triangles[n]);
+  }
+  return mesh;
+}
+
+std::shared_ptr<Outcome> Mesh(const Vertices& vertices, const Triangles& triangles,
+                              const Options& options, const Call& call) {
+  const auto arguments = Value(cli::ReadNamedOptions(cli::OptionSet::kMesh, Named(options)));
+  const TriangleMesh mesh = MeshOf(vertices, triangles);
+  return std::make_shared<Outcome>(
+      RunCall(call, [&](const Run& run) { return SkeletonizeMesh(mesh, arguments, run); }));
+}
+
+// Needs for a server: an array of unsigned numbers in one piece.
+LabelOutcomes Labels(const py::array& array, const Placement& placement, const Options& options,
+                     const Call& call) {
+  const auto arguments = Value(cli::ReadLabelsOptions(Named(options)));
+  ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
+  if (call.server == nullptr) {
+    return RunCall(call, [&](const Run& run) { return SkeletonizeImage(source, arguments, run); });
+  }
+  const ImageSize size = source.info().size;
+  const client::LabelVolume image = {
+      .grid = {size.nx, size.ny, size.nz, placement},
+      .label_bytes = static_cast<int>(array.itemsize()),
+      .voxels = {static_cast<const std::byte*>(array.data()), static_cast<size_t>(array.nbytes())}};
+  return RunCall(call, [&](const Run& run) { return SkeletonizeOnServer(image, arguments, run); });
+}
+
+absl::Status ReadInto(ImageSource& source, std::byte* to, const exec::Context& context) {
+  for (int32_t z = 0; z < source.info().size.nz; ++z) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    std::visit(
+        [&](const auto& values) {
+          std::memcpy(to, values.data(), values.size_bytes());
+          to += values.size_bytes();
+        },
+        slice.values);
+  }
+  return absl::OkStatus();
+}
+
+// (array [z, y, x], placement, unit, world)
+py::tuple ReadImage(const std::string& path, const Options& options) {
+  const auto arguments = Value(cli::ReadNamedOptions(cli::OptionSet::kFile, Named(options)));
+  const auto source = Value(OpenImage(path, arguments.image.open));
+  const ImageInfo& info = source->info();
+  const py::array array(py::dtype(std::string(VoxelTypeName(info.type))),
+                        std::vector<py::ssize_t>{info.size.nz, info.size.ny, info.size.nx});
+  auto* const to = static_cast<std::byte*>(const_cast<void*>(array.data()));
+  RunJob(py::none(), [&](Job& job) {
+    exec::Context context;
+    context.stop = job.stop();
+    return ReadInto(*source, to, context);
+  });
+  return py::make_tuple(array, info.placement, info.unit, info.world);
+}
+
+// (vertices, triangles)
+py::tuple ReadMesh(const std::string& path) {
+  TriangleMesh mesh;
+  RunJob(py::none(), [&](Job&) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(mesh, ReadMeshFile(path));
+    return absl::OkStatus();
+  });
+  const auto rows = [](size_t n) { return static_cast<py::ssize_t>(n); };
+  const py::array_t<double> vertices({rows(mesh.vertices.size()), rows(3)},
+                                     mesh.vertices.front().data());
+  const py::array_t<uint32_t> triangles({rows(mesh.triangles.size()), rows(3)},
+                                        mesh.triangles.front().data());
+  return py::make_tuple(vertices, triangles);
+}
+
+Server ConnectTo(const client::Endpoint& endpoint) {
+  return std::make_shared<client::SkeletonizeClient>(Value(client::Connect(endpoint)));
+}
+
+py::dict Describe(const client::Endpoint& endpoint, double timeout) {
+  client::ServerDescription description;
+  RunJob(py::none(), [&](Job&) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto connection, client::Connect(endpoint));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        description,
+        connection->Describe(std::chrono::milliseconds(static_cast<int64_t>(1000 * timeout))));
+    return absl::OkStatus();
+  });
+  py::dict dict;
+  dict["server_version"] = description.server_version;
+  dict["algorithm_version"] = description.algorithm_version;
+  return dict;
+}
+
+client::Endpoint MakeEndpoint(const std::string& address, const std::string& token,
+                              const std::array<std::string, 3>& tls, bool plaintext_token) {
+  client::Endpoint endpoint = {.address = address,
+                               .tls = {.ca = tls[0], .certificate = tls[1], .key = tls[2]},
+                               .token = token};
+  if (plaintext_token) {
+    endpoint.plaintext_token = client::Endpoint::PlaintextToken::kAllow;
+  }
+  return endpoint;
+}
+
+void AddValues(py::module_& module) {
+  py::class_<Placement>(module, "Placement")
+      .def(py::init(
+          [](const Triple& spacing, const Triple& origin, const std::array<double, 9>& direction) {
+            return Placement{spacing, origin, direction};
+          }))
+      .def_readonly("spacing", &Placement::spacing)
+      .def_readonly("origin", &Placement::origin)
+      .def_readonly("direction", &Placement::direction);
+  py::class_<client::Endpoint>(module, "Endpoint").def(py::init(&MakeEndpoint));
+  py::class_<client::SkeletonizeClient, Server>(module, "Server").def(py::init(&ConnectTo));
+  py::class_<Call>(module, "Call")
+      .def(py::init([](Server server, int threads, double timeout, py::object progress) {
+        return Call{std::move(server), threads, timeout, std::move(progress)};
+      }));
+}
+
+void AddFunctions(py::module_& module) {
+  module.def("option_names", [](const std::string& set) { return cli::OptionNames(SetOf(set)); });
+  module.def("is_flag", [](const std::string& set, const std::string& name) {
+    return cli::IsFlag(SetOf(set), name);
+  });
+  module.def("is_mesh", &HasMeshFileName);
+  module.def("is_image", &HasImageFileName);
+  module.def("skeletonize_mask", &Mask);
+  module.def("skeletonize_mesh", &Mesh);
+  module.def("skeletonize_labels", &Labels);
+  module.def("read_image", &ReadImage);
+  module.def("read_mesh", &ReadMesh);
+  module.def("describe_server", &Describe);
+}
+
+}  // namespace
+}  // namespace bccskel::python
+
+PYBIND11_MODULE(_native, module) {
+  // Debian's build of gRPC's locks looks for deadlocks at every one of them.
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  module.attr("__version__") = std::string(bccskel::Version());
+  bccskel::python::AddSkeletonClass(module);
+  bccskel::python::AddValues(module);
+  bccskel::python::AddFunctions(module);
+}

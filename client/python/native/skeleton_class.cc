@@ -1,0 +1,277 @@
+#include "client/python/native/skeleton_class.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/cli/local_team.h"
+#include "client/cli/named_options.h"
+#include "client/export/labeled_graph.h"
+#include "client/export/node_kind_name.h"
+#include "client/export/skeleton_file.h"
+#include "client/python/native/compute.h"
+#include "client/python/native/edge_images.h"
+#include "client/python/native/job.h"
+#include "core/exec/status_macros.h"
+#include "core/pipeline/notes.h"
+#include "core/pipeline/option_words.h"
+#include "core/skeleton/skeleton_figures.h"
+
+namespace bccskel::python {
+namespace {
+
+namespace py = pybind11;
+
+py::array_t<double> PointsArray(const std::vector<WorldPoint>& points) {
+  const auto rows = static_cast<py::ssize_t>(points.size());
+  return py::array_t<double>({rows, py::ssize_t{3}}, rows == 0 ? nullptr : points.front().data());
+}
+
+template <typename T>
+py::array_t<T> Array(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+template <typename Items, typename Of>
+auto ArrayOf(const Items& items, Of of) {
+  std::vector<std::decay_t<decltype(of(items.front()))>> values;
+  values.reserve(items.size());
+  for (const auto& item : items) values.push_back(of(item));
+  return Array(values);
+}
+
+py::dict NodesOf(const SkeletonGraph& graph) {
+  std::vector<WorldPoint> positions;
+  py::list kinds;
+  for (const SkeletonNode& node : graph.nodes) {
+    positions.push_back(graph.PositionOf(node.at));
+    kinds.append(py::str(std::string(exporting::NodeKindName(node.kind))));
+  }
+  py::dict nodes;
+  nodes["positions"] = PointsArray(positions);
+  nodes["kinds"] = kinds;
+  nodes["radii"] = ArrayOf(graph.nodes, [&](const auto& node) { return graph.RadiusOf(node.at); });
+  nodes["components"] =
+      ArrayOf(ComponentsOf(graph).of_node, [](uint32_t n) { return static_cast<int64_t>(n); });
+  return nodes;
+}
+
+py::dict FiguresDict(const SkeletonGraph& graph, const std::vector<EdgeFigures>& figures) {
+  py::dict dict;
+  dict["length"] = ArrayOf(figures, [](const auto& f) { return f.length; });
+  dict["mean_radius"] = ArrayOf(figures, [](const auto& f) { return f.mean_radius; });
+  dict["min_radius"] = ArrayOf(figures, [](const auto& f) { return f.min_radius; });
+  dict["max_radius"] = ArrayOf(figures, [](const auto& f) { return f.max_radius; });
+  dict["pruning_level"] =
+      ArrayOf(graph.edges, [](const SkeletonEdge& edge) { return edge.pruning_level; });
+  return dict;
+}
+
+// Of all edges: the ends, and the curves and radii one after the other, cut at `offsets`.
+py::dict EdgesOf(const SkeletonGraph& graph) {
+  std::vector<WorldPoint> points;
+  std::vector<double> radii;
+  std::vector<int64_t> offsets = {0};
+  std::vector<EdgeFigures> figures;
+  std::vector<int64_t> ends;
+  for (const SkeletonEdge& edge : graph.edges) {
+    const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+    points.insert(points.end(), curve.begin(), curve.end());
+    for (const SkeletonPoint& p : graph.PointsOf(edge)) radii.push_back(graph.RadiusOf(p));
+    offsets.push_back(static_cast<int64_t>(points.size()));
+    figures.push_back(FiguresOf(graph, edge, curve));
+    ends.insert(ends.end(), {edge.source, edge.target});
+  }
+  py::dict edges;
+  edges["ends"] = Array(ends).reshape({py::ssize_t{-1}, py::ssize_t{2}});
+  edges["points"] = PointsArray(points);
+  edges["radii"] = Array(radii);
+  edges["offsets"] = Array(offsets);
+  edges["figures"] = FiguresDict(graph, figures);
+  return edges;
+}
+
+// Points on no edge.
+py::dict SheetsOf(const SkeletonGraph& graph) {
+  std::vector<WorldPoint> points;
+  for (const SkeletonPoint& p : graph.sheets) points.push_back(graph.PositionOf(p));
+  py::dict sheets;
+  sheets["points"] = PointsArray(points);
+  sheets["radii"] = ArrayOf(graph.sheets, [&](const auto& p) { return graph.RadiusOf(p); });
+  return sheets;
+}
+
+py::dict BettiDict(const BettiNumbers& betti) {
+  py::dict dict;
+  dict["components"] = betti.components;
+  dict["loops"] = betti.loops;
+  dict["cavities"] = betti.cavities;
+  return dict;
+}
+
+// As in a JSON result, and whether all was kept.
+py::dict CertificateDict(const Certificate& certificate) {
+  py::dict dict;
+  dict["topology_kept"] = certificate.TopologyKept() && certificate.MaskKept();
+  if (certificate.mask.has_value()) dict["mask"] = BettiDict(*certificate.mask);
+  if (certificate.unprepared.has_value()) dict["unprepared"] = BettiDict(*certificate.unprepared);
+  dict["input"] = BettiDict(certificate.input);
+  dict["skeleton"] = BettiDict(certificate.skeleton);
+  dict["sampled"] = certificate.sampled;
+  dict["simple_points_left"] = certificate.simple_points_left;
+  return dict;
+}
+
+py::dict OptionsDict(const SkeletonizeOptions& options) {
+  py::dict dict;
+  for (const OptionFact& fact : FactsOf(options)) {
+    const bool number = fact.type == OptionFact::Type::kNumber;
+    dict[fact.name] =
+        number ? py::object(py::float_(py::str(fact.value))) : py::object(py::str(fact.value));
+  }
+  return dict;
+}
+
+// Seconds.
+py::dict TimingsDict(const StageTimings& timings) {
+  const auto seconds = [](StageTimings::Duration time) {
+    return std::chrono::duration<double>(time).count();
+  };
+  py::dict dict;
+  for (const Stage& stage : kStages) dict[stage.name] = seconds(timings.*stage.time);
+  dict["total"] = seconds(timings.total);
+  return dict;
+}
+
+std::vector<std::string> WithOptionNames(std::vector<std::string> messages) {
+  for (std::string& message : messages) message = cli::WithOptionNames(message);
+  return messages;
+}
+
+// The places in the trees; None where none were asked for.
+py::object OrderOf(const Outcome& outcome) {
+  if (!outcome.root.has_value()) return py::none();
+  const TreeOrder order = OrderTrees(outcome.result.graph, *outcome.root);
+  const auto number = [](uint32_t n) { return n == kNoRow ? int64_t{-1} : int64_t{n}; };
+  py::dict dict;
+  dict["roots"] = ArrayOf(order.roots, number);
+  dict["parent"] = ArrayOf(order.nodes, [&](const NodeOrder& n) { return number(n.parent); });
+  dict["root_distance"] = ArrayOf(order.nodes, [](const NodeOrder& n) { return n.root_distance; });
+  dict["proximal"] = ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.proximal); });
+  dict["generation"] =
+      ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.generation); });
+  dict["strahler"] = ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.strahler); });
+  return dict;
+}
+
+absl::Status SaveIn(const Outcome& outcome, const std::string& path, const std::string& title,
+                    Job& job, std::string& note) {
+  const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
+  if (!format.ok()) return format.status();
+  using exporting::SkeletonFormat;
+  const bool shows_object = *format == SkeletonFormat::kSvg || *format == SkeletonFormat::kHtml;
+  if (*format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
+      outcome.result.skeleton_points > 0) {
+    return absl::UnimplementedError("servers do not send the lattice points of labels");
+  }
+  cli::LocalTeam team(0, job.stop());
+  auto object = std::make_shared<const Volume>();
+  if (shows_object) {
+    absl::StatusOr<std::shared_ptr<const Volume>> made = outcome.Object();
+    if (!made.ok()) return made.status();
+    object = *std::move(made);
+  }
+  const exporting::Subject subject = {.result = outcome.result,
+                                      .object = *object,
+                                      .title = title,
+                                      .context = team.context(),
+                                      .root = outcome.root};
+  absl::StatusOr<std::string> written = exporting::WriteSkeletonFile(path, subject);
+  if (!written.ok()) return written.status();
+  note = *std::move(written);
+  return absl::OkStatus();
+}
+
+// What the format could not hold; empty if it held everything.
+std::string Save(const Outcome& outcome, const std::string& path, const std::string& title) {
+  std::string note;
+  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, title, job, note); });
+  return note;
+}
+
+// Shape: [z, y, x] of the mask's grid.
+py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
+  SparseImage image;
+  RunJob(py::none(), [&](Job& job) -> absl::Status {
+    cli::LocalTeam team(0, job.stop());
+    BCCSKEL_ASSIGN_OR_RETURN(image, ImageOf(outcome, kind, team.context()));
+    return absl::OkStatus();
+  });
+  py::array_t<uint32_t> array({outcome.grid->nz, outcome.grid->ny, outcome.grid->nx});
+  std::fill_n(array.mutable_data(), array.size(), 0);
+  for (const auto& [voxels, value] : image) {
+    std::fill(array.mutable_data(voxels.z, voxels.y, voxels.begin),
+              array.mutable_data(voxels.z, voxels.y, 0) + voxels.end, value);
+  }
+  return array;
+}
+
+using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
+
+absl::Status WriteLabels(const std::string& path, const Labels& labels) {
+  exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root);
+  for (const auto& [label, outcome] : labels) {
+    const Outcome& first = *labels.front().second;
+    if (outcome->result.graph.placement != first.result.graph.placement) {
+      return absl::InvalidArgumentError("the skeletons are of images that lie elsewhere");
+    }
+    all.Add(label, outcome->voxels, outcome->result);
+  }
+  return exporting::WriteLabeledFile(path, all);
+}
+
+void SaveLabels(const std::string& path, const Labels& labels) {
+  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels); });
+}
+
+}  // namespace
+
+void AddSkeletonClass(py::module_& module) {
+  const auto graph = [](const Outcome& outcome) -> const SkeletonGraph& {
+    return outcome.result.graph;
+  };
+  module.def("save_labels", &SaveLabels);
+  py::class_<Outcome, std::shared_ptr<Outcome>>(module, "Outcome")
+      .def("nodes", [graph](const Outcome& o) { return NodesOf(graph(o)); })
+      .def("edges", [graph](const Outcome& o) { return EdgesOf(graph(o)); })
+      .def("sheets", [graph](const Outcome& o) { return SheetsOf(graph(o)); })
+      .def("order", &OrderOf)
+      .def("curve_image", [](const Outcome& o) { return Draw(o, EdgeImage::kCurves); })
+      .def("branch_image", [](const Outcome& o) { return Draw(o, EdgeImage::kBranches); })
+      .def("save", &Save, py::arg("path"), py::arg("title"))
+      .def_property_readonly("certificate",
+                             [](const Outcome& o) { return CertificateDict(o.result.certificate); })
+      .def_property_readonly("options",
+                             [](const Outcome& o) { return OptionsDict(o.result.options); })
+      .def_property_readonly("timings",
+                             [](const Outcome& o) { return TimingsDict(o.result.timings); })
+      .def_property_readonly("notes",
+                             [](const Outcome& o) { return WithOptionNames(NotesOn(o.result)); })
+      .def_property_readonly("warnings",
+                             [](const Outcome& o) { return WithOptionNames(o.warnings); })
+      .def_readonly("voxels", &Outcome::voxels)
+      .def_property_readonly("method", [](const Outcome& o) { return o.result.method; })
+      .def_property_readonly("algorithm_version",
+                             [](const Outcome& o) { return o.result.algorithm_version; })
+      .def_property_readonly("object_points",
+                             [](const Outcome& o) { return o.result.object_points; })
+      .def_property_readonly("sha256", [](const Outcome& o) { return o.result.sha256; });
+}
+
+}  // namespace bccskel::python

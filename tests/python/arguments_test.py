@@ -1,0 +1,138 @@
+"""Wrong arguments are told in Python's way, and the stubs know every option."""
+
+import ast
+import inspect
+import pathlib
+
+import bccskel
+import harness
+import numpy
+from bccskel import _native
+
+from shapes import ball, box_mesh
+
+PACKAGE = pathlib.Path(bccskel.__file__).parent
+MASK = ball(4)
+
+
+class ArgumentsTest(harness.TestCase):
+    def refuse(self, error, message, function, *arguments, **options):
+        with self.assertRaises(error) as caught:
+            function(*arguments, **options)
+        self.assertEqual(str(caught.exception), message)
+
+    def test_masks(self):
+        refuse = lambda error, message, mask: self.refuse(error, message, bccskel.skeletonize, mask)
+        refuse(ValueError, "mask must have 3 axes, got shape (5, 5)", numpy.ones((5, 5)))
+        refuse(ValueError, "mask must not be empty, got shape (3, 0, 2)", numpy.ones((3, 0, 2)))
+        refuse(TypeError, "mask must hold booleans or real numbers, got dtype complex128",
+               numpy.ones((2, 2, 2), complex))
+        refuse(TypeError, "mask must hold booleans or real numbers, got dtype object",
+               numpy.full((2, 2, 2), None))
+        self.refuse(ValueError, "image must have 3 axes, got shape (4,)",
+                    bccskel.skeletonize_labels, [1, 2, 3, 4])
+
+    def test_places(self):
+        refuse = lambda message, **places: self.refuse(ValueError, message, bccskel.skeletonize,
+                                                       MASK, **places)
+        refuse("spacing must be positive, got (1, 0, 1)", spacing=(1, 0, 1))
+        refuse("spacing must be 3 finite numbers or one for all axes, got (1, 2)", spacing=(1, 2))
+        refuse("origin must be 3 finite numbers or one for all axes, got nan",
+               origin=float("nan"))
+        refuse("axes must be 'zyx', 'xyz' or another order of them, got 'zzx'", axes="zzx")
+        refuse("direction must be 3 perpendicular unit vectors, shape (3, 3)",
+               direction=2 * numpy.eye(3))
+
+    def test_options(self):
+        refuse = lambda error, message, **options: self.refuse(
+            error, message, bccskel.skeletonize, MASK, **options)
+        refuse(TypeError, "skeletonize() got an unexpected keyword argument 'prunning'. "
+               "Did you mean 'pruning'?", prunning="none")
+        refuse(TypeError, "skeletonize() got an unexpected keyword argument 'output'", output="a")
+        refuse(ValueError, "pruning all: must be significance, length, relative-length, "
+               "persistence or none", pruning="all")
+        refuse(ValueError, "pruning_threshold is for a rule of pruning, not for pruning none",
+               pruning="none", pruning_threshold=1)
+        refuse(TypeError, "fill_cavities must be True or False, got 3", fill_cavities=3)
+        refuse(TypeError, "method must be a number or a text, got True", method=True)
+        refuse(ValueError, "threads must be a whole number from 0 to 1024, got -1", threads=-1)
+        refuse(ValueError, "timeout must be a positive number of seconds, got 0", timeout=0)
+        refuse(TypeError, "progress must be a function of (done, total) or None, got bool",
+               progress=True)
+        refuse(ValueError, "no voxel has the label 7", label=7)
+        self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",
+                    bccskel.skeletonize_labels, MASK, root="node:1")
+
+    def test_flags_that_are_off_and_options_that_are_none_do_nothing(self):
+        self.assertEqual(bccskel.skeletonize(MASK, fill_cavities=False, threshold=None).sha256,
+                         bccskel.skeletonize(MASK).sha256)
+
+    def test_meshes(self):
+        vertices, faces = box_mesh()
+        refuse = lambda error, message, *mesh: self.refuse(
+            error, message, bccskel.skeletonize_mesh, *mesh)
+        refuse(ValueError, "vertices must have shape (n, 3), got (8, 2)", vertices[:, :2], faces)
+        refuse(ValueError, "vertices must be finite", vertices * numpy.inf, faces)
+        refuse(ValueError, "faces must be indices of the 8 vertices, got 1 to 8", vertices,
+               faces + 1)
+        refuse(ValueError, "faces must be triangles, whole numbers of shape (m, 3), got shape "
+               "(12, 3) and dtype float64", vertices, faces * 1.0)
+        refuse(TypeError, "skeletonize_mesh() needs faces beside vertices", vertices)
+
+    def test_files(self):
+        self.refuse(FileNotFoundError, "cannot open '/nowhere.npy': No such file or directory",
+                    bccskel.read, "/nowhere.npy")
+        with self.assertRaisesRegex(ValueError, r"read\(\) takes images"):
+            bccskel.read("mask.xyz")
+        with self.assertRaisesRegex(ValueError, "there are .swc, "):
+            bccskel.skeletonize(MASK).save(self.path("ball.xyz"))
+        with self.assertRaises(FileNotFoundError):
+            bccskel.skeletonize(MASK).save(self.path("none/ball.swc"))
+
+
+class StubsTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.stub = ast.parse((PACKAGE / "__init__.pyi").read_text())
+        self.nodes = {node.name: node for node in self.stub.body if hasattr(node, "name")}
+
+    def keys(self, name):
+        """Those of a TypedDict and what it extends."""
+        node = self.nodes[name]
+        names = {line.target.id for line in node.body}
+        for base in node.bases:
+            if base.id in self.nodes:
+                names |= self.keys(base.id)
+        return names
+
+    def test_the_stubs_have_every_option(self):
+        for kind in ("mask", "labels", "mesh", "file"):
+            self.assertEqual(self.keys(f"_{kind.capitalize()}Options"),
+                             set(_native.option_names(kind)))
+
+    def test_the_stubs_have_every_parameter(self):
+        for name in ("skeletonize", "skeletonize_labels", "skeletonize_mesh", "read"):
+            stubbed = [argument.arg for argument in self.nodes[name].args.args]
+            real = list(inspect.signature(getattr(bccskel, name)).parameters)
+            self.assertEqual(stubbed + ["options"], real)
+            if name == "read":
+                continue
+            method = next(node for node in self.nodes["Client"].body
+                          if getattr(node, "name", "") == name)
+            self.assertEqual([argument.arg for argument in method.args.args], ["self"] + stubbed)
+
+    def test_the_stubs_have_every_public_name(self):
+        stubbed = set(self.nodes) | {alias.asname for node in self.stub.body
+                                     if isinstance(node, ast.ImportFrom) for alias in node.names}
+        self.assertLessEqual(set(bccskel.__all__) - {"__version__"}, stubbed)
+        self.assertTrue((PACKAGE / "py.typed").is_file())
+
+    def test_the_options_are_the_command_line_s(self):
+        text = self.succeed("skeletonize", "--help")
+        for kind in ("mask", "mesh"):
+            for name in _native.option_names(kind):
+                self.assertIn("--" + name.replace("_", "-"), text)
+
+
+if __name__ == "__main__":
+    harness.main()

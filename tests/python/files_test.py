@@ -1,0 +1,124 @@
+"""Files that the package writes are those of the command line; files that it reads, too."""
+
+import json
+import re
+import unittest.mock
+
+import bccskel
+import harness
+import numpy
+
+from shapes import box_mesh, crossing_bars
+
+ENDINGS = (".swc", ".vtp", ".graphml", ".obj", ".json", ".exr", ".bccb", ".svg", ".html")
+
+
+def without_times(text):
+    return re.sub(rb'"timings":\{[^}]*\}', b"", text)
+
+
+class FilesTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.image = self.path("mask.npy")
+        numpy.save(self.image, crossing_bars())
+
+    def bytes(self, name):
+        return without_times((self.folder / name).read_bytes())
+
+    def test_every_format_has_the_bytes_of_the_command_line(self):
+        words = [word for ending in ENDINGS for word in ("-o", self.path("theirs" + ending))]
+        self.succeed("skeletonize", self.image, "--local", "--root", "thickest-end", *words)
+        skeleton = bccskel.skeletonize(bccskel.read(self.image), root="thickest-end")
+        for ending in ENDINGS:
+            with self.subTest(ending):
+                if ending == ".swc":  # cannot hold the ring
+                    with self.assertWarns(UserWarning):
+                        skeleton.save(self.path("mine.swc"))
+                else:
+                    skeleton.save(self.folder / ("mine" + ending))
+                if ending != ".html":  # the command line shows how the object was peeled
+                    self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
+        self.assertGreater(len(self.bytes("mine.html")), 100_000)
+
+    def test_images_are_those_of_the_command_line(self):
+        for options in ({}, {"voxel_points": 16}):
+            words = [word for name, value in options.items()
+                     for word in ("--" + name.replace("_", "-"), value)]
+            self.succeed("skeletonize", self.image, "--local", "--curve-image",
+                         self.path("curves.nrrd"), "--branch-image", self.path("branches.nrrd"),
+                         *words, "-o", self.path("a.obj"))
+            mask = numpy.load(self.image)
+            skeleton = bccskel.skeletonize(mask, **options)
+            turned = bccskel.skeletonize(mask.T, axes="xyz", **options)
+            label = bccskel.skeletonize_labels(mask.astype("u2") * 9, **options)[9]
+            for name in ("curve", "branch"):
+                theirs = bccskel.read(self.path({"curve": "curves.nrrd",
+                                                 "branch": "branches.nrrd"}[name])).array
+                for one, image in ((skeleton, theirs), (turned, theirs.T), (label, theirs)):
+                    numpy.testing.assert_array_equal(getattr(one, name + "_image")(), image)
+
+    def test_what_has_no_voxels_is_not_drawn(self):
+        mask = numpy.load(self.image)
+        for skeleton in (bccskel.skeletonize_mesh(*box_mesh(), points=1000),
+                         bccskel.skeletonize(mask, denoise=1),
+                         bccskel.skeletonize(mask, sampling="trilinear")):
+            with self.assertRaises(ValueError):
+                skeleton.curve_image()
+
+    def test_a_page_shows_in_a_notebook_or_a_browser(self):
+        with unittest.mock.patch("webbrowser.open") as browser:
+            page = bccskel.skeletonize(numpy.ones((5, 5, 30))).view()
+        [[url], _] = browser.call_args
+        self.addCleanup(harness.pathlib.Path(url.removeprefix("file://")).unlink)
+        self.assertEqual(harness.pathlib.Path(url.removeprefix("file://")).read_text(), page.html)
+        self.assertIn("srcdoc=\"&lt;!", page._repr_html_().replace("\n", "")[:200])
+        page.save(self.path("page.html"))
+        self.assertEqual((self.folder / "page.html").read_text(), page.html)
+
+    def test_an_image_keeps_its_place(self):
+        nrrd = (b"NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n"
+                b"endian: little\nspace: LPS\nspace directions: (0,2,0) (-3,0,0) (0,0,5)\n"
+                b"space origin: (7,8,9)\n\n")
+        values = numpy.arange(24, dtype="<i2").reshape(2, 3, 4)
+        (self.folder / "a.nrrd").write_bytes(nrrd + values.tobytes())
+        image = bccskel.read(self.path("a.nrrd"))
+        numpy.testing.assert_array_equal(image.array, values)
+        self.assertEqual((image.array.dtype, image.spacing, image.origin, image.world, image.name),
+                         (numpy.dtype("i2"), (5, 3, 2), (9, 8, 7), "LPS", "a.nrrd"))
+        skeleton = bccskel.skeletonize(image)
+        self.succeed("skeletonize", self.path("a.nrrd"), "--local", "-o", self.path("a.json"))
+        theirs = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(skeleton.sha256, theirs["sha256"])
+        numpy.testing.assert_allclose(skeleton.nodes[:, ::-1],
+                                      [node["position"] for node in theirs["nodes"]])
+
+    def test_raw_voxels_are_read(self):
+        values = numpy.arange(24, dtype=">u2").reshape(2, 3, 4)
+        (self.folder / "a.bin").write_bytes(b"head" + values.tobytes())
+        image = bccskel.read(self.path("a.bin"), raw_size=(2, 3, 4), raw_type="u16",
+                             raw_order="big", raw_header=4, voxel_size=(3, 2, 1))
+        numpy.testing.assert_array_equal(image, values)
+        self.assertEqual(image.spacing, (3, 2, 1))
+
+    def test_a_mesh_gives_the_command_line_s_skeleton(self):
+        vertices, faces = box_mesh()
+        with open(self.path("box.off"), "w") as file:
+            print("OFF", len(vertices), len(faces), 0, file=file)
+            for row in vertices.tolist():
+                print(*row, file=file)
+            for row in faces.tolist():
+                print(3, *row, file=file)
+        for words, options in (("--points 3000", dict(points=3000)),
+                               ("--spacing 0.25 --fill winding",
+                                dict(spacing=0.25, fill="winding"))):
+            theirs = json.loads(self.succeed("skeletonize", self.path("box.off"), "--local",
+                                             "--json", *words.split(), "-o", self.path("b.obj")))
+            for mesh in ((vertices, faces), (bccskel.read(self.path("box.off")),)):
+                mine = bccskel.skeletonize_mesh(*mesh, **options)
+                self.assertEqual(mine.sha256, theirs["sha256"])
+                self.assertEqual(mine.axes, "xyz")
+
+
+if __name__ == "__main__":
+    harness.main()

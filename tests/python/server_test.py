@@ -1,0 +1,73 @@
+"""The client has the functions of the package and gives the same results."""
+
+import bccskel
+import harness
+import numpy
+
+from shapes import box_mesh, crossing_bars
+
+
+class ServerTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        server = harness.Server(self.folder)
+        self.enterContext(server)
+        self.client = bccskel.Client(server.address)
+
+    def test_masks(self):
+        reports = []
+        options = dict(spacing=(3, 2, 1), method="directional", pruning="none", root="node:1")
+        there = self.client.skeletonize(crossing_bars(), **options,
+                                        progress=lambda *report: reports.append(report))
+        here = bccskel.skeletonize(crossing_bars(), **options)
+        self.assertEqual(there.sha256, here.sha256)
+        self.assertEqual(there.certificate, here.certificate)
+        self.assertEqual(*reports[-1])
+        for name in ("a.vtp", "a.bccb", "a.svg"):
+            there.save(self.path("there-" + name))
+            here.save(self.path("here-" + name))
+            self.assertEqual((self.folder / ("there-" + name)).read_bytes(),
+                             (self.folder / ("here-" + name)).read_bytes())
+
+    def test_meshes(self):
+        self.assertEqual(self.client.skeletonize_mesh(*box_mesh(), points=2000).sha256,
+                         bccskel.skeletonize_mesh(*box_mesh(), points=2000).sha256)
+
+    def test_labels(self):
+        image = crossing_bars() * numpy.where(numpy.arange(50) < 25, 4, 300)
+        here = bccskel.skeletonize_labels(image)
+        for form in (image.astype("i2"), image.astype("f4"), image.astype(">u8"), image[::-1][::-1],
+                     numpy.asfortranarray(image)):
+            there = self.client.skeletonize_labels(form)
+            self.assertEqual({n: (s.sha256, s.voxels) for n, s in there.items()},
+                             {n: (s.sha256, s.voxels) for n, s in here.items()})
+        self.assertEqual(sorted(self.client.skeletonize_labels(image, labels=[300])), [300])
+        self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
+        there[4].save(self.path("four.swc"))
+        for name in ("four.html", "four.exr"):
+            with self.assertRaises(NotImplementedError):
+                there[4].save(self.path(name))
+        with self.assertRaises(NotImplementedError):
+            self.client.skeletonize_labels(image, sampling="nearest")
+
+    def test_descriptions(self):
+        self.assertEqual(self.client.describe()["server_version"], bccskel.__version__)
+
+
+class RefusalsTest(harness.TestCase):
+    def test_no_server(self):
+        with self.assertRaises(ConnectionError):
+            bccskel.Client(f"unix:{self.folder}/none").skeletonize(numpy.ones((3, 3, 3)),
+                                                                   timeout=20)
+
+    def test_tokens(self):
+        with self.assertRaisesRegex(ValueError, "token"):
+            bccskel.Client("example.org:1", token="secret")
+        with self.assertRaises(FileNotFoundError):
+            bccskel.Client(tls=self.path("none.pem"))
+        with self.assertRaisesRegex(ValueError, "tls must be"):
+            bccskel.Client(tls=("a", "b"))
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,102 @@
+"""What a skeleton says of itself as arrays, graph and table."""
+
+import bccskel
+import harness
+import networkx
+import numpy
+
+from shapes import ball, box_mesh, crossing_bars
+
+
+class SkeletonsTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.mask = crossing_bars()
+        self.skeleton = bccskel.skeletonize(self.mask, spacing=(2, 1, 1))
+
+    def test_arrays_fit_together(self):
+        s = self.skeleton
+        self.assertEqual(sorted(s.node_kinds), ["end", "end", "end", "junction", "loop"])
+        for edge, path, radii, length in zip(s.edges, s.paths, s.radii, s.lengths):
+            self.assertEqual(path.shape, (len(radii), 3))
+            if s.node_kinds[edge[0]] != "loop":  # which is smooth all around
+                numpy.testing.assert_allclose(path[[0, -1]], s.nodes[edge], atol=1e-9)
+            steps = numpy.linalg.norm(numpy.diff(path, axis=0), axis=1)
+            self.assertAlmostEqual(steps.sum(), length)
+            numpy.testing.assert_allclose(radii[[0, -1]], s.node_radii[edge])
+        self.assertEqual(len(s.paths), len(s.edges))
+        self.assertEqual(sorted(set(s.node_components)), [0, 1])
+        self.assertEqual(s.voxels, self.mask.sum())
+
+    def test_the_certificate_counts(self):
+        same = {"components": 2, "loops": 1, "cavities": 0}
+        self.assertEqual(self.skeleton.certificate,
+                         {"topology_kept": True, "mask": same, "input": same, "skeleton": same,
+                          "sampled": False, "simple_points_left": 0})
+
+    def test_the_table_has_the_columns_of_skan(self):
+        table = self.skeleton.to_pandas()
+        self.assertEqual(list(table)[:20], [
+            "skeleton-id", "node-id-src", "node-id-dst", "branch-distance", "branch-type",
+            "mean-pixel-value", "stdev-pixel-value", "image-coord-src-0", "image-coord-src-1",
+            "image-coord-src-2", "image-coord-dst-0", "image-coord-dst-1", "image-coord-dst-2",
+            "coord-src-0", "coord-src-1", "coord-src-2", "coord-dst-0", "coord-dst-1",
+            "coord-dst-2", "euclidean-distance"])
+        self.assertEqual(sorted(table["branch-type"]), [1, 1, 1, 3])
+        numpy.testing.assert_allclose(table["mean-pixel-value"],
+                                      [radii.mean() for radii in self.skeleton.radii])
+        numpy.testing.assert_allclose(table["stdev-pixel-value"],
+                                      [radii.std() for radii in self.skeleton.radii], atol=1e-12)
+        self.assertEqual((table["coord-src-0"] / 2).round().astype(int).tolist(),
+                         table["image-coord-src-0"].tolist())
+        self.assertTrue((table["branch-distance"] >= table["euclidean-distance"] - 1e-9).all())
+        self.assertIn("branch_type", self.skeleton.to_pandas(separator="_"))
+        mesh = bccskel.skeletonize_mesh(*box_mesh(), points=2000).to_pandas()
+        self.assertNotIn("image-coord-src-0", mesh)
+
+    def test_the_graph_can_be_written_as_graphml(self):
+        graph = self.skeleton.to_networkx()
+        networkx.write_graphml(graph, self.path("graph.graphml"))
+        read = networkx.read_graphml(self.path("graph.graphml"), force_multigraph=True)
+        self.assertEqual(sorted(length for *_, length in read.edges(data="length")),
+                         sorted(self.skeleton.lengths))
+        self.assertEqual(networkx.number_connected_components(graph), 2)
+        self.assertEqual(len(networkx.cycle_basis(networkx.Graph(graph))), 1)
+        path = self.skeleton.to_networkx(points=True).edges[tuple(self.skeleton.edges[0]) + (0,)]
+        numpy.testing.assert_array_equal(path["path"], self.skeleton.paths[0])
+
+    def test_a_root_orders_the_trees(self):
+        self.assertIsNone(self.skeleton.order)
+        near = self.skeleton.nodes[0]
+        ordered = bccskel.skeletonize(self.mask, spacing=(2, 1, 1), root=tuple(near))
+        self.assertEqual(ordered.order["roots"][ordered.node_components[0]], 0)
+        self.assertEqual(ordered.order["root_distance"][0], 0)
+        self.assertEqual(sorted(ordered.to_pandas()["generation"]), [0, 0, 1, 1])
+        self.assertIn("root_distance", ordered.to_networkx().nodes[0])
+
+    def test_surfaces_have_sheets(self):
+        plate = numpy.zeros((9, 30, 30), bool)
+        plate[3:6, 2:28, 2:28] = True
+        sheets = bccskel.skeletonize(plate, kind="surface")
+        self.assertGreater(len(sheets.sheets), 100)
+        self.assertEqual(sheets.sheet_radii.shape, sheets.sheets.shape[:1])
+        self.assertEqual(self.skeleton.sheets.shape[1], 3)
+
+    def test_cavities_are_noted(self):
+        hollow = numpy.pad(ball(9), 3)
+        hollow[11:16, 11:16, 11:16] = False
+        with self.assertWarnsRegex(UserWarning, "; fill_cavities fills cavities") as caught:
+            skeleton = bccskel.skeletonize(hollow)
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(skeleton.certificate["skeleton"]["cavities"], 1)
+        with self.assertWarnsRegex(UserWarning, "cavities 1 -> 0"):
+            filled = bccskel.skeletonize(hollow, fill_cavities=True)
+        self.assertEqual(filled.certificate["skeleton"]["cavities"], 0)
+
+    def test_its_representation_names_it(self):
+        self.assertRegex(repr(self.skeleton),
+                         r"<Skeleton of mask: 5 nodes, 4 edges, length [\d.]+, topology kept>")
+
+
+if __name__ == "__main__":
+    harness.main()
