@@ -22,8 +22,7 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
       .add_option("-o,--output", arguments.outputs,
                   "Output file: with {label} in its path one file per label, in any format but "
                   "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb or .mrk.json; "
-                  "may be given several "
-                  "times")
+                  "may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE (required)");

@@ -85,6 +85,13 @@ void AddJunctions(CLI::App& command, double& reach) {
       ->option_text("X");
 }
 
+void AddBorder(CLI::App& command, Border& border) {
+  AddChoice<Border>(command, "--border", border,
+                    "What lies beyond the border of an image or a volume: nothing (default), or "
+                    "more of what is cut off there, which then runs straight to the border",
+                    Choices(kBorderWords));
+}
+
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
                             "How points are chosen for removal (default symmetric)",
@@ -117,6 +124,7 @@ void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
   AddDistance(command, options.distance);
   AddPruning(command, options.pruning);
   AddJunctions(command, options.junction_reach);
+  AddBorder(command, options.border);
   AddThinning(command, options.thinning);
   AddRoot(command, root);
 }

@@ -35,7 +35,7 @@ class UnlimitedMemory final : public MemoryBudget {
   void GiveBack(uint64_t) override {}
 };
 
-// A part of a budget. Gives everything back at its end. Needs: `whole` outlives it.
+// A part of a budget. Gives everything back at its end, unless told to keep it. Needs: `whole` outlives it.
 class MemoryShare final : public MemoryBudget {
  public:
   explicit MemoryShare(MemoryBudget& whole) : whole_(whole) {}
@@ -52,6 +52,8 @@ class MemoryShare final : public MemoryBudget {
     taken_ -= bytes;
     whole_.GiveBack(bytes);
   }
+  // What was taken is the whole's from now on.
+  void Keep() { taken_ = 0; }
 
  private:
   MemoryBudget& whole_;

@@ -38,7 +38,8 @@ std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options) {
           NumberFact("pruning_threshold", options.pruning.threshold),
           {"tips", WordFor(kTipsWords, options.pruning.tips)},
           {"source", WordFor(kSourceWords, options.source)},
-          NumberFact("merge_junctions", options.junction_reach)};
+          NumberFact("merge_junctions", options.junction_reach),
+          {"border", WordFor(kBorderWords, options.border)}};
 }
 
 }  // namespace bccskel

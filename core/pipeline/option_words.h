@@ -43,6 +43,8 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
      {"voxels", ObjectSource::kVoxels},
      {"refined-voxels", ObjectSource::kRefinedVoxels},
      {"sampled-voxels", ObjectSource::kSampledVoxels}}};
+inline constexpr Words<Border, 2> kBorderWords = {
+    {{"ends", Border::kEnds}, {"continues", Border::kContinues}}};
 inline constexpr Words<PreparingStepKind, 5> kPreparingWords = {
     {{"denoise", PreparingStepKind::kDenoise},
      {"fill-cavities", PreparingStepKind::kFillCavities},

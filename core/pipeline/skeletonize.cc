@@ -10,6 +10,7 @@
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/skeletonize_within.h"
+#include "core/prepare/beyond_border.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
 #include "core/skeleton/trace_skeleton.h"
@@ -21,12 +22,12 @@ namespace {
 // The points that stay though they may be simple: isthmuses where they are not made curves of, and
 // those that the caller keeps.
 Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses,
-                    const SkeletonizeOptions& options) {
+                    const ThinningOptions& thinning) {
   VolumeBuilder spared(thin.extent(), thin.placement());
-  if (!HasCurves(options.thinning)) {
+  if (!HasCurves(thinning)) {
     for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
   }
-  for (LatticePoint p : options.thinning.keep) spared.Add(p);
+  for (LatticePoint p : thinning.keep) spared.Add(p);
   absl::StatusOr<Volume> volume = std::move(spared).Build();
   return volume.ok() ? *std::move(volume) : Volume();  // an empty extent has no points
 }
@@ -92,6 +93,13 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
   return *std::move(builder).Build();
 }
 
+// The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
+// points beyond them.
+BorderPoints LastPointsOf(ObjectSource source) {
+  const bool converted = source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
+  return converted ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+}
+
 DistanceField NoDistances(DistanceKind kind) {
   return DistanceField(kind, ChamferWeights(), DistanceField::Values(), 0);
 }
@@ -112,7 +120,11 @@ class Pipeline {
  public:
   Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
            const exec::Context& context, const OnShellPoints& on_points)
-      : options_(options), memory_(memory), context_(context), on_points_(on_points) {
+      : options_(options),
+        thinning_(options.thinning),
+        memory_(memory),
+        context_(context),
+        on_points_(on_points) {
     result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
     result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
@@ -142,6 +154,44 @@ class Pipeline {
 
   absl::Status RunFrom(const Volume& object) {
     result_.object_points = object.PointCount();
+    if (options_.border == Border::kContinues && !object.empty()) {
+      return RunBeyondBorder(object);
+    }
+    return RunIn(object);
+  }
+
+  // All stages work on the shifted object; what they made goes back.
+  absl::Status RunBeyondBorder(const Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ContinuedObject continued,
+        ContinueBeyondBorder(object, LastPointsOf(options_.source), memory_, context_));
+    continued_.emplace(std::move(continued));
+    const LatticePoint shift = ShiftOf(continued_->room);
+    for (LatticePoint& p : thinning_.keep) p = p + shift;
+    extent_ = object.extent();
+    BCCSKEL_RETURN_IF_ERROR(RunIn(continued_->object));
+    result_.thin = ShiftedBack(result_.thin);
+    return absl::OkStatus();
+  }
+
+  Volume ShiftedBack(const Volume& volume) const {
+    return ShiftedBy(volume, continued_->room, -1, extent_);
+  }
+
+  void ShiftGraphBack() {
+    const LatticePoint shift = ShiftOf(continued_->room);
+    SkeletonGraph& graph = result_.graph;
+    for (SkeletonNode& node : graph.nodes) node.at.point = node.at.point - shift;
+    for (SkeletonPoint& p : graph.points) p.point = p.point - shift;
+    for (SkeletonPoint& p : graph.sheets) p.point = p.point - shift;
+  }
+
+  // Where widths and distances are measured.
+  const Volume& SpaceOf(const Volume& object) const {
+    return continued_.has_value() ? continued_->space : object;
+  }
+
+  absl::Status RunIn(const Volume& object) {
     DistanceField distance = NoDistances(options_.distance);
     BCCSKEL_RETURN_IF_ERROR(NeedsDistances() ? ThinInField(object, distance)
                                              : ThinInShells(object));
@@ -151,7 +201,7 @@ class Pipeline {
     BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
         CountSimplePoints(result_.thin, ThatMayGo(options_),
-                          SparedPoints(result_.thin, isthmuses_, options_), context_);
+                          SparedPoints(result_.thin, isthmuses_, thinning_), context_);
     result_.timings.certificate = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, memory_, context_));
     BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(levels_, context_, result_.graph));
@@ -161,7 +211,8 @@ class Pipeline {
     if (options_.distance == DistanceKind::kEuclidean) {
       BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
     }
-    BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(object));
+    BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(SpaceOf(object)));
+    if (continued_.has_value()) ShiftGraphBack();
     BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();
@@ -178,30 +229,40 @@ class Pipeline {
 
   // The directional methods only look at shells, and radii are found without chamfer distances.
   bool NeedsDistances() const {
-    return options_.thinning.method == ThinningMethod::kSymmetric ||
-           options_.distance == DistanceKind::kEuclidean;
+    return thinning_.method == ThinningMethod::kSymmetric ||
+           options_.distance == DistanceKind::kEuclidean || continued_.has_value();
+  }
+
+  absl::StatusOr<DistanceField> MeasureDistances(const Volume& object, DistanceKind kind) {
+    if (!continued_.has_value()) return ComputeDistance(object, kind, context_);
+    if (kind == DistanceKind::kEuclidean) return std::move(continued_->distance);
+    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field,
+                             ComputeDistance(continued_->space, kind, context_));
+    return FieldOfPart(object, continued_->space, field);
   }
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
-    BCCSKEL_ASSIGN_OR_RETURN(distance, ComputeDistance(object, options_.distance, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
     result_.timings.distance = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(
-        ThinningResult thinned,
-        ThinToCurve(object, distance, options_.thinning, context_, on_points_));
+    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
+                             ThinToCurve(object, distance, thinning_, context_, PointsTeller()));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
 
   absl::Status ThinInShells(const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const Shells shells,
-        StreamShells(object, options_.distance, options_.thinning.shell_width, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(const Shells shells, StreamShells(object, options_.distance,
+                                                               thinning_.shell_width, context_));
     result_.timings.distance = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(
-        ThinningResult thinned,
-        ThinByDirections(object, shells, options_.thinning, context_, on_points_));
+    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
+                             ThinByDirections(object, shells, thinning_, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
+  }
+
+  OnShellPoints PointsTeller() const {
+    if (!on_points_ || !continued_.has_value()) return on_points_;
+    return [this](int32_t shell, const Volume& points) { on_points_(shell, ShiftedBack(points)); };
   }
 
   void TakeOver(ThinningResult thinned) {
@@ -217,7 +278,11 @@ class Pipeline {
   // Returns the radii of the points that stay.
   absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
                                                      DistanceField& distance) {
-    BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
+    if (!continued_.has_value()) {
+      BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
+    } else if (distance.kind() != DistanceKind::kEuclidean) {
+      distance = std::move(continued_->distance);
+    }
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
     if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, radius, radii));
@@ -235,8 +300,8 @@ class Pipeline {
     }
     BCCSKEL_ASSIGN_OR_RETURN(
         PrunedSkeleton pruned,
-        Prune({result_.thin, radii, births, SurfaceStepOf(options_.source)}, object, radius,
-              options_.thinning.keep, options_.pruning, context_));
+        Prune({result_.thin, radii, births, SurfaceStepOf(options_.source), &SpaceOf(object)},
+              object, radius, thinning_.keep, options_.pruning, context_));
     TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
     levels_ = std::move(pruned.levels);
     return absl::OkStatus();
@@ -246,26 +311,29 @@ class Pipeline {
     const PruningOptions& pruning = result_.options.pruning;
     if (pruning.rule == PruningRule::kNone) return absl::OkStatus();
     const std::vector<int32_t> births = BirthsOf(result_.thin, isthmuses_);
-    BCCSKEL_ASSIGN_OR_RETURN(PrunedSheets pruned,
-                             PruneSheets({result_.thin, radii, births}, pruning.threshold,
-                                         options_.thinning.keep, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        PrunedSheets pruned,
+        PruneSheets({result_.thin, radii, births}, pruning.threshold, thinning_.keep, context_));
     TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
     return absl::OkStatus();
   }
 
   void TakeOver(Volume thin, std::vector<float> new_radii, std::vector<float>& radii) {
-    if (on_points_) on_points_(result_.last_shell + 1, PointsOnlyIn(result_.thin, thin));
+    if (on_points_) PointsTeller()(result_.last_shell + 1, PointsOnlyIn(result_.thin, thin));
     result_.thin = std::move(thin);
     radii = std::move(new_radii);
   }
 
   const SkeletonizeOptions& options_;
+  ThinningOptions thinning_;  // the points to keep where the object is
   exec::MemoryBudget& memory_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
   exec::StageClock clock_;
   std::vector<IsthmusBirth> isthmuses_;
   PruningLevels levels_;
+  std::optional<ContinuedObject> continued_;
+  LatticeExtent extent_;  // of the object as it was given, where that is continued
   SkeletonizeResult result_;
 };
 

@@ -31,6 +31,12 @@ enum class ObjectSource : uint8_t {
 // about that.
 double SurfaceStepOf(ObjectSource source);
 
+// What lies beyond the border of the lattice, or of the image that it was made of.
+enum class Border : uint8_t {
+  kEnds,       // background: the object ends there
+  kContinues,  // nobody knows: a limb that is cut off there runs straight to the border
+};
+
 struct SkeletonizeOptions {
   PreparingOptions preparing = {};
   // The symmetric method puts curves closer to the center than the paper's directions do.
@@ -44,6 +50,7 @@ struct SkeletonizeOptions {
   // Junctions this near to each other, in radii, are one node; 0 leaves all. Only where there is a
   // graph of curves.
   double junction_reach = kDefaultJunctionReach;
+  Border border = Border::kEnds;
 };
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.

@@ -12,6 +12,7 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/status_macros.h"
 #include "core/lattice/directions.h"
+#include "core/prepare/brick_sets.h"
 #include "core/prepare/fill_cavities.h"
 #include "core/topology/neighborhood.h"
 
@@ -28,56 +29,6 @@ constexpr uint64_t kBytesPerNewBrick = 5120;
 // In lattice units: that of a voxel missing in a wall.
 constexpr double kNarrowest = 2;
 
-constexpr BrickCoordinates Shifted(BrickCoordinates brick, BrickCoordinates by, int32_t times) {
-  return {brick.bx + times * by.bx, brick.by + times * by.by, brick.bz + times * by.bz,
-          brick.sublattice};
-}
-
-Volume ShiftedBy(const Volume& volume, BrickCoordinates by, int32_t times, LatticeExtent extent) {
-  std::vector<BrickKey> keys;
-  keys.reserve(volume.brick_count());
-  for (BrickKey key : volume.keys()) {
-    keys.push_back(BrickKey(Shifted(key.coordinates(), by, times)));
-  }
-  return Volume::FromSortedBricks(extent, volume.placement(), std::move(keys),
-                                  {volume.bricks().begin(), volume.bricks().end()});
-}
-
-// Calls visit(key, a, b) for each brick that is stored in one of them, in order; what is not stored
-// is empty.
-template <typename Visit>
-void ForEachBrickOf(const Volume& a, const Volume& b, Visit visit) {
-  const BrickBits none;
-  size_t m = 0, n = 0;
-  while (m < a.brick_count() || n < b.brick_count()) {
-    const bool in_a = m < a.brick_count() && (n == b.brick_count() || a.keys()[m] <= b.keys()[n]);
-    const bool in_b = n < b.brick_count() && (m == a.brick_count() || b.keys()[n] <= a.keys()[m]);
-    visit(in_a ? a.keys()[m] : b.keys()[n], in_a ? a.bricks()[m] : none,
-          in_b ? b.bricks()[n] : none);
-    m += in_a ? 1 : 0;
-    n += in_b ? 1 : 0;
-  }
-}
-
-// `join` makes a word of a word of each.
-template <typename Join>
-Volume Joined(const Volume& a, const Volume& b, Join join) {
-  std::vector<BrickKey> keys;
-  std::vector<BrickBits> bricks;
-  ForEachBrickOf(a, b, [&](BrickKey key, const BrickBits& in_a, const BrickBits& in_b) {
-    keys.push_back(key);
-    BrickBits& bits = bricks.emplace_back();
-    for (size_t k = 0; k < 8; ++k) bits.words[k] = join(in_a.words[k], in_b.words[k]);
-  });
-  return Volume::FromSortedBricks(a.extent(), a.placement(), std::move(keys), std::move(bricks));
-}
-Volume Union(const Volume& a, const Volume& b) {
-  return Joined(a, b, [](uint64_t x, uint64_t y) { return x | y; });
-}
-Volume Difference(const Volume& a, const Volume& b) {
-  return Joined(a, b, [](uint64_t x, uint64_t y) { return x & ~y; });
-}
-
 template <typename Passes>
 Volume PointsAt(const Volume& volume, const DistanceField& distance, Passes passes) {
   std::vector<BrickBits> bricks(volume.brick_count());
@@ -88,43 +39,6 @@ Volume PointsAt(const Volume& volume, const DistanceField& distance, Passes pass
   }
   return Volume::FromSortedBricks(volume.extent(), volume.placement(),
                                   {volume.keys().begin(), volume.keys().end()}, std::move(bricks));
-}
-
-// Sorted keys with those beside them, up to `reach` bricks away along one axis.
-template <typename Step>
-std::vector<BrickKey> Widened(const std::vector<BrickKey>& keys, int32_t reach, Step step) {
-  std::vector<BrickKey> wide;
-  wide.reserve(keys.size() * static_cast<size_t>(2 * reach + 1));
-  for (BrickKey key : keys) {
-    for (int32_t n = -reach; n <= reach; ++n) wide.push_back(BrickKey(step(key.coordinates(), n)));
-  }
-  std::ranges::sort(wide);
-  wide.erase(std::unique(wide.begin(), wide.end()), wide.end());
-  return wide;
-}
-
-// The bricks of an object, of both sublattices, with all around it up to `reach` bricks away.
-// Needs: no coordinate below `reach`.
-std::vector<BrickKey> BricksAround(const Volume& object, BrickCoordinates reach) {
-  std::vector<BrickKey> keys;
-  for (BrickKey key : object.keys()) {
-    for (const Sublattice s : {Sublattice::kEven, Sublattice::kOdd}) {
-      BrickCoordinates brick = key.coordinates();
-      brick.sublattice = s;
-      keys.push_back(BrickKey(brick));
-    }
-  }
-  std::ranges::sort(keys);
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  keys = Widened(keys, reach.bx, [](BrickCoordinates brick, int32_t n) {
-    return Shifted(brick, {1, 0, 0}, n);
-  });
-  keys = Widened(keys, reach.by, [](BrickCoordinates brick, int32_t n) {
-    return Shifted(brick, {0, 1, 0}, n);
-  });
-  return Widened(keys, reach.bz, [](BrickCoordinates brick, int32_t n) {
-    return Shifted(brick, {0, 0, 1}, n);
-  });
 }
 
 // How the Euler characteristic changes when a point with these object neighbors joins them.
@@ -171,17 +85,9 @@ class TunnelFiller {
     // Nothing is known of what lies beyond the bricks that are looked at, and they count as
     // background. That is wrong by up to two radii from there, and matters to the closing up to two
     // radii from the object.
-    const auto reach = [&](int32_t cells) {
-      return static_cast<int32_t>(std::ceil((4 * radius_ + 2) / (2 * cells)));
-    };
-    const BrickCoordinates room = {reach(kBrickX), reach(kBrickY), reach(kBrickZ)};
+    const BrickCoordinates room = RoomFor(4 * radius_);
     const LatticeExtent& given = object_.extent();
-    const auto bricks = [](int32_t cells, int32_t per_brick, int32_t more) {
-      return ((cells + per_brick - 1) / per_brick + 2 * more) * per_brick;
-    };
-    const LatticeExtent extent = {bricks(given.nx, kBrickX, room.bx),
-                                  bricks(given.ny, kBrickY, room.by),
-                                  bricks(given.nz, kBrickZ, room.bz)};
+    const LatticeExtent extent = WithRoom(given, room);
     const Volume object = ShiftedBy(object_, room, 1, extent);
     std::vector<BrickKey> keys = BricksAround(object, room);
     exec::MemoryShare share(memory_);

@@ -58,7 +58,8 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
-  Significance significance(object, curves.surface_step);
+  const Volume& space = curves.space != nullptr ? *curves.space : object;
+  Significance significance(space, curves.surface_step);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
@@ -67,7 +68,8 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   }
   pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, radius, kept, curves.surface_step, context));
+    BCCSKEL_RETURN_IF_ERROR(
+        PlaceTips(set, object, space, radius, kept, curves.surface_step, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);

@@ -30,6 +30,9 @@ struct ThinCurves {
   std::span<const int32_t> births = {};
   // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
   double surface_step = 1;
+  // Where widths and depths are measured, if not in the object: the same with points beyond the
+  // border.
+  const Volume* space = nullptr;
 };
 
 // The points of a thin volume while branches go and tips move: each with its radius, its birth and

@@ -35,12 +35,12 @@ constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, const PointSet& keep,
-            double step, const exec::Context& context)
+  TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
+            const PointSet& keep, double step, const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
-        depth_(object, radius, context),
+        depth_(space, radius, context),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
         noise_(NoiseOf(step)) {}
@@ -277,11 +277,12 @@ class TipPlacer {
 
 }  // namespace
 
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       const PointSet& keep, double step, const exec::Context& context) {
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
+                       const ExactRadius& radius, const PointSet& keep, double step,
+                       const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, radius, keep, step, context);
+  TipPlacer placer(set, object, space, radius, keep, step, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

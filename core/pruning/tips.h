@@ -16,10 +16,13 @@ namespace bccskel {
 // and no tip is put on a bump (FillPits(), Denoise()): a single point says nothing of the limb.
 // A tip is never cut back behind where its limb begins (LargestRun()), grows by the radius there
 // and 6 units at most, and not into the ball of another branch. Points of `keep` are not cut off.
-// Needs:  `radius` belongs to `object`; its surface goes in steps of `step` lattice units.
+// Needs:  `radius` belongs to `object`; `space` is the object, or that with points beyond its
+// border,
+//         which no tip grows into; the surface goes in steps of `step` lattice units.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       const PointSet& keep, double step, const exec::Context& context);
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
+                       const ExactRadius& radius, const PointSet& keep, double step,
+                       const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -231,6 +231,18 @@ absl::StatusOr<KeptComponents> FromMessage(v1::KeptComponents kept, const std::s
   }
 }
 
+absl::StatusOr<Border> FromMessage(v1::Border border, const std::string& field) {
+  switch (border) {
+    case v1::BORDER_UNSPECIFIED:
+    case v1::BORDER_ENDS:
+      return Border::kEnds;
+    case v1::BORDER_CONTINUES:
+      return Border::kContinues;
+    default:
+      return InvalidField(field, absl::StrCat("unknown border ", int{border}));
+  }
+}
+
 v1::PreparingOptions ToMessage(const PreparingOptions& preparing) {
   v1::PreparingOptions message;
   message.set_denoise_passes(preparing.denoise_passes);
@@ -318,6 +330,7 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
                                 ? v1::TIP_PLACEMENT_RIDGE
                                 : v1::TIP_PLACEMENT_AS_THINNED);
   message.set_junction_reach(options.junction_reach);
+  message.set_border(options.border == Border::kContinues ? v1::BORDER_CONTINUES : v1::BORDER_ENDS);
   *message.mutable_preparing() = ToMessage(options.preparing);
   message.set_object_source(ToMessage(options.source));
   for (LatticePoint p : thinning.keep) {
@@ -346,6 +359,7 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
                            FromMessage(message.preparing(), field + ".preparing"));
   BCCSKEL_ASSIGN_OR_RETURN(options.source,
                            FromMessage(message.object_source(), field + ".object_source"));
+  BCCSKEL_ASSIGN_OR_RETURN(options.border, FromMessage(message.border(), field + ".border"));
   if (message.has_junction_reach()) options.junction_reach = message.junction_reach();
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();
   thinning.last_shell = message.last_shell();

@@ -7,6 +7,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "core/pipeline/presets.h"
 
 namespace bccskel::quality {
 namespace {
@@ -69,6 +70,13 @@ std::map<std::string, Setter> SettersOf(StudyOptions& options) {
          return Choose({{"tune", Half::kTune}, {"judge", Half::kJudge}, {"all", Half::kAll}}, given,
                        options.half);
        }},
+      {"border",
+       [&](const std::string& given) {
+         return Choose({{"ends", Border::kEnds}, {"continues", Border::kContinues}}, given,
+                       options.skeleton.border);
+       }},
+      {"preset",
+       [&](const std::string& given) { return ApplyPreset(given, options.skeleton).ok(); }},
       {"threshold",
        [&](const std::string& given) { return absl::SimpleAtod(given, &pruning.threshold); }},
       {"rule",

@@ -85,6 +85,7 @@ __bccskel_option 'submit skeletonize labels' -x -l pruning-threshold -d 'Lattice
 __bccskel_option 'submit skeletonize labels' -x -l tips -a 'ridge as-thinned' -d 'Where branches end'
 __bccskel_option 'submit skeletonize labels' -x -l stubble -a 'keep-two literal none' -d 'Which stubble points to remove'
 __bccskel_option 'submit skeletonize labels' -x -l shell-width -d 'Thickness of a shell in lattice units'
+__bccskel_option 'submit skeletonize labels' -x -l border -a 'ends continues' -d 'What lies beyond the border'
 __bccskel_option 'submit skeletonize labels' -x -l merge-junctions -d 'Make junctions this near one node, in radii'
 __bccskel_option 'submit skeletonize labels' -x -l last-shell -d 'Stop after this shell'
 __bccskel_option 'submit skeletonize labels' -f -l no-cleanup -d 'Leave simple points'

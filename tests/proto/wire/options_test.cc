@@ -92,6 +92,14 @@ TEST(OptionsRoundTrip, KeepsTheReachOfJunctions) {
             kDefaultJunctionReach);
 }
 
+TEST(OptionsRoundTrip, KeepsTheBorder) {
+  for (const Border border : {Border::kEnds, Border::kContinues}) {
+    const auto back = FromMessage(ToMessage(SkeletonizeOptions{.border = border}), "options");
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(back->border, border);
+  }
+}
+
 TEST(OptionsRoundTrip, KeepsPreparing) {
   for (CavityFilling cavities : {CavityFilling::kOff, CavityFilling::kOn}) {
     for (KeptComponents components : {KeptComponents::kAll, KeptComponents::kLargest}) {

@@ -1,0 +1,103 @@
+#include "core/prepare/beyond_border.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/exec/status_macros.h"
+
+namespace bccskel {
+namespace {
+
+// In lattice units, for a start: deeper than most vessels and neurites.
+constexpr double kFirstDepth = 24;
+// Of the bricks with points beyond: a distance field while it is made, and bits.
+constexpr uint64_t kBytesPerBrick = 5120;
+
+// A box of lattice points, ends included.
+struct Box {
+  LatticePoint low, high;
+
+  bool Contains(LatticePoint p) const {
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
+           p.z <= high.z;
+  }
+};
+
+Box BoxWithin(const LatticeExtent& extent, BorderPoints border, LatticePoint shift) {
+  const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
+  return {shift,
+          shift + LatticePoint{2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
+}
+
+BrickBits PointsBeyond(const Box& box, BrickCoordinates brick) {
+  BrickBits bits;
+  const LatticePoint first = PointOf(brick, 0), last = PointOf(brick, kBrickPoints - 1);
+  if (box.Contains(first) && box.Contains(last)) return bits;
+  for (int bit = 0; bit < kBrickPoints; ++bit) {
+    if (!box.Contains(PointOf(brick, bit))) bits.Set(bit);
+  }
+  return bits;
+}
+
+// The points beyond the box in bricks up to `room` away from the object.
+Volume Beyond(const Volume& object, const Box& box, BrickCoordinates room) {
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (BrickKey key : BricksAround(object, room)) {
+    const BrickBits bits = PointsBeyond(box, key.coordinates());
+    if (bits.Empty()) continue;
+    keys.push_back(key);
+    bricks.push_back(bits);
+  }
+  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                  std::move(bricks));
+}
+
+template <typename Value>
+DistanceField CopyPart(const Volume& part, const Volume& whole, const DistanceField& field,
+                       const exec::UninitializedVector<Value>& from) {
+  exec::UninitializedVector<Value> to((part.brick_count() + 1) * kBrickPoints);
+  std::ranges::fill(to, Value{0});
+  uint32_t largest = 0;
+  for (BrickIndex n = 0; n < part.brick_count(); ++n) {
+    const size_t source = size_t{*whole.Find(part.keys()[n])} * kBrickPoints;
+    part.bricks()[n].ForEachSetBit([&](int bit) {
+      const Value value = from[source + static_cast<size_t>(bit)];
+      to[size_t{n} * kBrickPoints + static_cast<size_t>(bit)] = value;
+      largest = std::max(largest, DistanceField::RankOf(value));
+    });
+  }
+  return DistanceField(field.kind(), field.weights(), std::move(to), largest);
+}
+
+}  // namespace
+
+DistanceField FieldOfPart(const Volume& part, const Volume& whole, const DistanceField& field) {
+  return std::visit([&](const auto& values) { return CopyPart(part, whole, field, values); },
+                    field.values());
+}
+
+absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, BorderPoints border,
+                                                     exec::MemoryBudget& memory,
+                                                     const exec::Context& context) {
+  const LatticeExtent& given = object.extent();
+  const double most = 2.0 * std::max({given.nx, given.ny, given.nz});
+  for (double depth = kFirstDepth;; depth *= 2) {
+    const BrickCoordinates room = RoomFor(depth);
+    Volume shifted = ShiftedBy(object, room, 1, WithRoom(given, room));
+    const Volume beyond = Beyond(shifted, BoxWithin(given, border, ShiftOf(room)), room);
+    exec::MemoryShare share(memory);
+    BCCSKEL_RETURN_IF_ERROR(
+        share.TakeFor(beyond.brick_count(), kBytesPerBrick, "bricks beyond the border"));
+    Volume space = Union(shifted, beyond);
+    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field,
+                             ComputeDistance(space, DistanceKind::kEuclidean, context));
+    DistanceField distance = FieldOfPart(shifted, space, field);
+    if (distance.ToLatticeUnits(distance.largest()) > depth && depth < most) continue;
+    share.Keep();
+    return ContinuedObject{room, std::move(shifted), std::move(space), std::move(distance)};
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/exec/worker_team.h"
+#include "core/pipeline/skeletonize.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+using IsIn = std::function<bool(double, double, double)>;
+
+Volume VolumeWhere(LatticeExtent cells, const IsIn& inside) {
+  VolumeBuilder builder(cells);
+  for (int32_t z = 0; z < 2 * cells.nz; ++z) {
+    for (int32_t y = z & 1; y < 2 * cells.ny; y += 2) {
+      for (int32_t x = z & 1; x < 2 * cells.nx; x += 2) {
+        if (inside(x, y, z)) builder.Add({x, y, z});
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+SkeletonizeOptions Continued(SkeletonizeOptions options = {}) {
+  options.border = Border::kContinues;
+  return options;
+}
+
+SkeletonizeResult SkeletonOf(const Volume& object, const SkeletonizeOptions& options,
+                             int threads = 1) {
+  exec::WorkerTeam team(threads);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  auto result = Skeletonize(object, options, context);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return *std::move(result);
+}
+
+Volume CroppedBlob(uint64_t seed) {
+  const Volume blob = VolumeOfPoints(test::RandomBlob(seed, {40, 40, 40}, 10, 14));
+  return VolumeWhere({21, 18, 19}, [&](double x, double y, double z) {
+    return blob.Contains(
+        {static_cast<int32_t>(x) + 20, static_cast<int32_t>(y) + 20, static_cast<int32_t>(z) + 20});
+  });
+}
+
+// Along (3, 1, 0) / sqrt(10) through the middle.
+bool IsInRod(double x, double y, double z, double radius) {
+  const double dx = x - 64, dy = y - 32, dz = z - 32;
+  const double along = (3 * dx + dy) / std::sqrt(10);
+  return dx * dx + dy * dy + dz * dz - along * along <= radius * radius;
+}
+
+TEST(Border, ARodThatIsCutOffRunsStraightToIt) {
+  for (const double radius : {4.0, 9.0, 14.0}) {
+    const Volume rod = VolumeWhere(
+        {64, 32, 32}, [radius](double x, double y, double z) { return IsInRod(x, y, z, radius); });
+    const SkeletonizeResult result = SkeletonOf(rod, Continued());
+    ASSERT_EQ(result.graph.edges.size(), 1u) << radius;
+    ASSERT_EQ(result.graph.nodes.size(), 2u) << radius;
+    for (const SkeletonNode& node : result.graph.nodes) {
+      const LatticePoint p = node.at.point;
+      EXPECT_TRUE(p.x <= 1 || p.x >= 126) << radius << ": " << p.x;
+      EXPECT_NEAR(node.at.radius, radius, 1.5);
+    }
+    for (const SkeletonPoint& p : result.graph.points) {
+      EXPECT_TRUE(IsInRod(p.point.x, p.point.y, p.point.z, 2.5)) << radius;
+    }
+    // As a limb that ends it stops about a radius before.
+    for (const SkeletonNode& node : SkeletonOf(rod, {}).graph.nodes) {
+      EXPECT_LT(node.at.radius, 0.8 * radius + 2);
+    }
+  }
+}
+
+// To the nearest background point of the extent, by looking at all.
+double DepthOf(LatticePoint p, const Volume& object) {
+  double least = std::numeric_limits<double>::infinity();
+  const LatticeExtent& extent = object.extent();
+  for (int32_t z = 0; z < 2 * extent.nz; ++z) {
+    for (int32_t y = z & 1; y < 2 * extent.ny; y += 2) {
+      for (int32_t x = z & 1; x < 2 * extent.nx; x += 2) {
+        if (object.Contains({x, y, z})) continue;
+        least = std::min(least, std::hypot(x - p.x, y - p.y, z - p.z));
+      }
+    }
+  }
+  return least;
+}
+
+TEST(BorderLaw, DistancesKnowNoBackgroundBeyond) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const Volume object = CroppedBlob(seed);
+    for (const DistanceKind kind : {DistanceKind::kEuclidean, DistanceKind::kChamfer}) {
+      const SkeletonizeResult result = SkeletonOf(object, Continued({.distance = kind}));
+      ASSERT_GT(result.skeleton_points, 0u);
+      for (const SkeletonNode& node : result.graph.nodes) {
+        EXPECT_NEAR(node.at.radius, DepthOf(node.at.point, object), 1e-4) << seed;
+      }
+    }
+  }
+}
+
+TEST(BorderLaw, KeepsTopologyAndStaysInTheObject) {
+  for (uint64_t seed = 0; seed < 12; ++seed) {
+    const Volume object = CroppedBlob(seed);
+    for (const ThinningMethod method : {ThinningMethod::kSymmetric, ThinningMethod::kDirectional}) {
+      const SkeletonizeOptions options = Continued({.thinning = {.method = method}});
+      const SkeletonizeResult result = SkeletonOf(object, options);
+      EXPECT_TRUE(result.certificate.TopologyKept()) << seed;
+      EXPECT_EQ(result.certificate.simple_points_left, 0u) << seed;
+      EXPECT_EQ(result.thin.extent(), object.extent());
+      result.thin.ForEachPoint([&](LatticePoint p) { ASSERT_TRUE(object.Contains(p)) << seed; });
+      for (const SkeletonPoint& p : result.graph.points) {
+        ASSERT_TRUE(result.thin.Contains(p.point)) << seed;
+      }
+      EXPECT_EQ(result.sha256, SkeletonOf(object, options, 3).sha256) << seed;
+    }
+  }
+}
+
+TEST(BorderLaw, SaysWhichPointsGoWhereTheyAre) {
+  const Volume object = CroppedBlob(5);
+  SkeletonizeOptions options = Continued();
+  options.thinning.keep = {object.SortedPoints().front()};
+  VolumeBuilder all(object.extent(), object.placement());
+  const auto result = Skeletonize(object, options, {}, [&](int32_t, const Volume& points) {
+    points.ForEachPoint([&](LatticePoint p) { all.Add(p); });
+  });
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(result->thin.Contains(options.thinning.keep.front()));
+  result->thin.ForEachPoint([&](LatticePoint p) { all.Add(p); });
+  EXPECT_TRUE(*std::move(all).Build() == object);
+}
+
+TEST(Border, OfAnObjectThatDoesNotTouchItIsNothing) {
+  const Volume blob = VolumeOfPoints(test::RandomBlob(3, {30, 30, 30}, 8, 10));
+  std::vector<LatticePoint> inner;
+  for (LatticePoint p : blob.SortedPoints()) inner.push_back(p + LatticePoint{40, 40, 40});
+  VolumeBuilder builder({80, 80, 80});
+  for (LatticePoint p : inner) builder.Add(p);
+  const Volume object = *std::move(builder).Build();
+  EXPECT_EQ(SkeletonOf(object, Continued()).sha256, SkeletonOf(object, {}).sha256);
+}
+
+TEST(Border, OfAnObjectWithoutBackgroundLeavesOnePoint) {
+  const Volume full = VolumeWhere({20, 9, 11}, [](double, double, double) { return true; });
+  const SkeletonizeResult result = SkeletonOf(full, Continued());
+  EXPECT_TRUE(result.certificate.TopologyKept());
+  EXPECT_EQ(result.certificate.skeleton.components, 1);
+  EXPECT_EQ(SkeletonOf(Volume(), Continued()).skeleton_points, 0u);
+}
+
+}  // namespace
+}  // namespace bccskel
