@@ -157,7 +157,6 @@ class ExampleTest(unittest.TestCase):
 
     def test_the_block_of_the_readme_runs_as_printed(self):
         readme = (server_process.SOURCE / "README.md").read_text()
-        self.assertIn("PYTHONPATH=stubs:client/examples", readme)
         block = re.search(r"```python\n(.*?)```", readme, re.S)[1]
         self.assertEqual(block.count("127.0.0.1:50051"), 1)
         with tempfile.TemporaryDirectory() as folder:
