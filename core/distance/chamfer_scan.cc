@@ -14,11 +14,11 @@
 // Does:  chamfer distance to the background for every point of the stored bricks.
 // Paper: section 4, local distances sqrt(3) between D8 and 2 between D6 neighbors; for unequal
 //        spacings the lengths that these steps have in the world.
-// Why it is right: nothing blocks a shortest path, so its steps may be taken in any order: first
-// the
-//   steps within a layer of constant z (D6 along x and y), then those that raise z, then those that
-//   lower it. All points of a shortest path to the nearest background point are object points, so
-//   bricks that are not stored count as background and nothing else is ever needed of them.
+// Why it is right: nothing blocks a shortest path, so its steps may be taken in any order:
+//   first the steps within a layer of constant z (D6 along x and y), then those that raise z, then
+//   those that lower it. All points of a shortest path to the nearest background point are object
+//   points, so bricks that are not stored count as background and nothing else is ever needed of
+//   them.
 // Cost:  one pass within layers, one up, one down; 2 bytes per point read and written in each.
 
 namespace bccskel {

@@ -2,8 +2,7 @@
 //
 // Euler characteristic: put the points in by increasing x + y + z. A point adds 1 - chi(L), L being
 // its neighbors that are in already. The seven neighbors below a point form a hexagon around the
-// hub
-// (-1,-1,-1) (see core/certificate/euler_characteristic.cc): chi(L) is 1 with the hub, else the
+// hub (-1,-1,-1) (see core/certificate/euler_characteristic.cc): chi(L) is 1 with the hub, else the
 // number of arcs, else, for the whole hexagon, 0.
 //
 // Cavities: a point of the bcc grid stands for its Voronoi cell, and at most four cells meet, so

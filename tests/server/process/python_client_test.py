@@ -1,6 +1,7 @@
 """The documented Python client against a server: the interface from the .proto files alone."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -153,6 +154,20 @@ class ExampleTest(unittest.TestCase):
             [sys.executable, server_process.SOURCE / "client/examples/skeletonize.py", *arguments],
             env={**os.environ, "PYTHONPATH": STUBS.name}, capture_output=True, text=True,
             check=False, timeout=server_process.TIMEOUT_S)
+
+    def test_the_block_of_the_readme_runs_as_printed(self):
+        readme = (server_process.SOURCE / "README.md").read_text()
+        block = re.search(r"```python\n(.*?)```", readme, re.S)[1]
+        self.assertEqual(block.count("127.0.0.1:50051"), 1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{STUBS.name}:{server_process.SOURCE}/client/examples"
+            ended = subprocess.run(
+                [sys.executable, "-c", block.replace("127.0.0.1:50051", self.server.address)],
+                cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True,
+                check=False, timeout=server_process.TIMEOUT_S)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            self.assertIn("loops: 1", ended.stdout)
+            self.assertEqual(os.listdir(folder), ["skeleton.swc"])
 
     def test_the_script_runs_as_documented(self):
         with tempfile.NamedTemporaryFile(suffix=".npy") as file:
