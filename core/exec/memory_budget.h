@@ -35,7 +35,8 @@ class UnlimitedMemory final : public MemoryBudget {
   void GiveBack(uint64_t) override {}
 };
 
-// A part of a budget. Gives everything back at its end, unless told to keep it. Needs: `whole` outlives it.
+// A part of a budget. Gives everything back at its end, unless told to keep it. Needs: `whole`
+// outlives it.
 class MemoryShare final : public MemoryBudget {
  public:
   explicit MemoryShare(MemoryBudget& whole) : whole_(whole) {}

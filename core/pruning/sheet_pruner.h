@@ -20,11 +20,10 @@ struct PrunedSheets {
   std::vector<float> radii;  // of its points, lattice units, in the order of ForEachPoint()
 };
 
-// Does:  removes points that are worth less than the margin (sheet_burning.h), in the order in
-// which
-//        they burn; then curves that end and whose balls leave that of the place where they begin
-//        by less than the margin, the way counted half; then points that have become simple and are
-//        neither isthmuses nor ends, as thinning would.
+// Does:  removes points that are worth less than the margin (sheet_burning.h), as they burn; then
+//        curves that end and whose balls leave that of the place where they begin by less than the
+//        margin, the way counted half; then points that have become simple and are neither
+//        isthmuses nor ends, as thinning would.
 // Why it is right: each point is simple at its turn. Points of `keep` stay.
 // Needs: a surface skeleton with the births of its isthmuses.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.

@@ -15,8 +15,7 @@ inline constexpr double kMaxJunctionReach = 4;
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckJunctionReach(double reach);
 
-// Does:  makes one node of junctions that lie in one ball. The deepest junction first, each takes
-// in
+// Does:  makes one node of junctions that lie in one ball. The deepest junction first, each joins
 //        those that edges lead to whose points all lie within `reach` of its radii from it: those
 //        edges become part of the node. A junction that was taken in takes in none, so that a row
 //        of junctions along a limb does not become one. All other edges of what was taken in run

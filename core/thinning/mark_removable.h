@@ -11,16 +11,15 @@
 
 // Does:  finds the points that a direction pass may remove, a brick (512 points) at a time.
 // Paper: Conditions 1 to 4 of section 3; end points for Condition 6 of section 4.
-// Why it is right: for a border point p of direction d (p - d background, p + d object), Condition
-// 3
-//   holds on all three checking rings through d if and only if, for each of the six neighbors f
-//   with d.f < 0 other than -d, p + f in O implies p + f + d in O: each ring through d is a 6-cycle
-//   -d, f, f + d, d, ..., so its object part is one arc around d exactly if nothing on the far side
-//   stands without its near-side partner. Condition 1 then follows: every object neighbor is joined
-//   to d, every background neighbor to -d. And Condition 2 asks for one more object neighbor than
-//   d, which the implications turn into "one of the six right-hand sides". So twelve three-input
-//   logic operations decide a whole register of points, with no table. All marks of a pass are
-//   taken on one frozen object, which is what the proof needs.
+// Why it is right: for a border point p of direction d (p - d background, p + d object),
+//   Condition 3 holds on all three checking rings through d if and only if, for each of the six
+//   neighbors f with d.f < 0 other than -d, p + f in O implies p + f + d in O: each ring through d
+//   is a 6-cycle -d, f, f + d, d, ..., so its object part is one arc around d exactly if nothing on
+//   the far side stands without its near-side partner. Condition 1 then follows: every object
+//   neighbor is joined to d, every background neighbor to -d. And Condition 2 asks for one more
+//   object neighbor than d, which the implications turn into "one of the six right-hand sides". So
+//   twelve three-input logic operations decide a whole register of points, with no table. All marks
+//   of a pass are taken on one frozen object, which is what the proof needs.
 // Cost:  15 bricks of 64 bytes are read for each brick. A pre-test for border points alone would be
 //        twice as fast but every second brick passes it.
 // Differs from the paper: no per-point test and no point lists; same points removed.

@@ -25,9 +25,8 @@
 //   Priorities are strict within a clique: depth in quarters of a lattice unit, and for equal
 //   depths (x + y + z + pass) modulo 4, which adjacent points never share. So the lowest point of S
 //   is never sent back, and a pass that removes nothing had nothing simple before it.
-// Cost:  about 160 logic operations per brick for S and as many for cliques. On smooth objects
-// every
-//   fifth brick has a critical pair, which takes 250 more to compare priorities, and every
+// Cost:  about 160 logic operations per brick for S and as many for cliques. Of smooth objects
+//   every fifth brick has a critical pair, which takes 250 more to compare priorities, and every
 //   hundredth a critical triple.
 
 namespace bccskel {

@@ -26,9 +26,8 @@ struct SweepTotals {
   uint32_t passes = 0;
 };
 
-// Does:  the algorithm of section 5: for each shell, one cycle of the rule's passes; on shell
-// `last`
-//        cycles repeat until a whole cycle removes nothing.
+// Does:  the algorithm of section 5: for each shell, one cycle of the rule's passes; on the last
+//        shell cycles repeat until a whole cycle removes nothing.
 // Paper: Figs. 9 and 10; Condition 5 (candidates are the remaining points of shells <= the current
 //        one) and Condition 6 (stubble points go in the same pass).
 // Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proofs

@@ -108,9 +108,9 @@ struct ThinningResult {
 using OnShellPoints = std::function<void(int32_t shell, Volume points)>;
 
 // Parallel thinning with shells: section 5, by the method and to the kind of skeleton wanted.
-// Cost:   where `on_points` is given, a copy of the object and a look at all bricks after each
-// shell. Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED. Threads: uses all of the
-// context's; the result is the same for any number.
+// Cost:   with `on_points`, a copy of the object and a visit to all bricks after each shell.
+// Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
+// Threads: uses all of the context's; the result is the same for any number.
 absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
                                            const ThinningOptions& options,
                                            const exec::Context& context,

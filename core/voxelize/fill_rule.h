@@ -28,9 +28,8 @@ namespace bccskel {
 enum class FillRule { kAuto, kParity, kWinding };
 
 // The rule that is used where `wanted` is asked for; never kAuto.
-// Errors: FAILED_PRECONDITION (kAuto, open mesh), INVALID_ARGUMENT (kParity for an open mesh,
-// kWinding
-//         for a closed one of inconsistent orientation).
+// Errors: FAILED_PRECONDITION (kAuto, open mesh), INVALID_ARGUMENT (kParity for an open mesh, or
+//         kWinding for a closed one of inconsistent orientation).
 absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted);
 
 // What a person should know when the mesh is filled by this rule although it has defects.

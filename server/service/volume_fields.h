@@ -13,9 +13,8 @@
 namespace bccskel::server {
 
 // Fields that every config or declaration of a volume has. `field` is a field's path in its
-// request, for the error's BadRequest. Errors: INVALID_ARGUMENT for an enumerator that this version
-// does not know and for numbers out of
-//         range.
+// request, for the error's BadRequest.
+// Errors: INVALID_ARGUMENT for an unknown enumerator and for numbers out of range.
 absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
                                                 const std::string& field);
 absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field);

@@ -17,9 +17,8 @@ namespace bccskel::server {
 
 // A database file in WAL mode with full synchronization, and its prepared statements. SQL has a
 // function checksum(...) more: CRC-32C of its arguments, their types included.
-// Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file;
-// UNAVAILABLE
-//         when a program of others keeps it locked; INTERNAL.
+// Errors of all: RESOURCE_EXHAUSTED (full disk), DATA_LOSS (damaged file), UNAVAILABLE (locked by
+//         another program), INTERNAL.
 // Threads: one at a time.
 class SqliteDatabase {
  public:

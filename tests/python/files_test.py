@@ -10,7 +10,8 @@ import numpy
 
 from shapes import box_mesh, crossing_bars
 
-ENDINGS = (".swc", ".vtp", ".graphml", ".obj", ".json", ".exr", ".bccb", ".svg", ".html")
+ENDINGS = (".swc", ".vtp", ".graphml", ".obj", ".json", ".csv", ".glb", ".mrk.json", ".exr", ".bccb",
+           ".svg", ".html")
 
 
 def without_times(text):
@@ -32,14 +33,35 @@ class FilesTest(harness.TestCase):
         skeleton = bccskel.skeletonize(bccskel.read(self.image), root="thickest-end")
         for ending in ENDINGS:
             with self.subTest(ending):
-                if ending == ".swc":  # cannot hold the ring
+                if ending in (".swc", ".mrk.json"):  # cannot hold the ring; needs to know the world
                     with self.assertWarns(UserWarning):
-                        skeleton.save(self.path("mine.swc"))
+                        skeleton.save(self.path("mine" + ending))
                 else:
                     skeleton.save(self.folder / ("mine" + ending))
                 if ending != ".html":  # the command line shows how the object was peeled
                     self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
         self.assertGreater(len(self.bytes("mine.html")), 100_000)
+
+    def test_what_an_image_says_of_its_world_is_in_the_files(self):
+        mask = crossing_bars().astype("u1")
+        with open(self.path("mask.nrrd"), "wb") as file:
+            file.write(b"NRRD0004\ntype: uint8\ndimension: 3\nspace: LPS\nencoding: raw\n"
+                       b"space units: \"mm\" \"mm\" \"mm\"\n"
+                       b"space directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (5,6,7)\n")
+            file.write(f"sizes: {mask.shape[2]} {mask.shape[1]} {mask.shape[0]}\n\n".encode())
+            file.write(mask.tobytes())
+        self.succeed("skeletonize", self.path("mask.nrrd"), "--local", "--swc-step", 0.5,
+                     "-o", self.path("theirs.json"), "-o", self.path("theirs.swc"))
+        skeleton = bccskel.skeletonize(bccskel.read(self.path("mask.nrrd")))
+        self.assertEqual((skeleton.world, skeleton.unit), ("LPS", "mm"))
+        skeleton.save(self.path("mine.json"))
+        with self.assertWarns(UserWarning):
+            skeleton.save(self.path("mine.swc"), swc_step=0.5)
+        for ending in (".json", ".swc"):
+            self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
+        self.assertEqual(json.loads((self.folder / "mine.json").read_text())["world"], "LPS")
+        with self.assertRaisesRegex(ValueError, "swc_step -1: must be 0 or more"):
+            skeleton.save(self.path("mine.swc"), swc_step=-1)
 
     def test_images_are_those_of_the_command_line(self):
         for options in ({}, {"voxel_points": 16}):

@@ -54,7 +54,7 @@ def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axe
     outcome = _native.skeletonize_mask(frame.zyx(array), frame.placement(), texts,
                                        _call(server, threads, timeout, progress))
     return _warn(Skeleton(outcome, frame, title=getattr(mask, "name", None) or "mask",
-                          voxels=True))
+                          voxels=True, image=mask))
 
 
 def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
@@ -67,7 +67,8 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
         view = labels_for_sending(view)
     outcomes = _native.skeletonize_labels(view, frame.placement(), texts,
                                           _call(server, threads, timeout, progress))
-    return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label)
+    return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
+                            image=image)
             for label, outcome in outcomes.items()}
 
 

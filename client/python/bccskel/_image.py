@@ -28,6 +28,9 @@ class Image:
     """What the axes of the world point to: "RAS", "LPS", ...; empty where the file does not say."""
     name: str = "image"
 
+    def __repr__(self) -> str:
+        return f"<Image {self.name}: {self.array.shape} {self.array.dtype}, spacing {self.spacing}>"
+
     def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray:
         array = self.array if dtype is None else self.array.astype(dtype)
         return array.copy() if copy and array is self.array else array
@@ -42,6 +45,9 @@ class Mesh:
     faces: np.ndarray
     """Shape (m, 3), indices of vertices."""
     name: str = "mesh"
+
+    def __repr__(self) -> str:
+        return f"<Mesh {self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces>"
 
 
 class Frame:

@@ -39,11 +39,15 @@ class Skeleton:
     """
 
     def __init__(self, outcome: Any, frame: Frame, title: str, voxels: bool = False,
-                 label: Optional[int] = None) -> None:
+                 label: Optional[int] = None, image: Any = None) -> None:
         """Not for users."""
         self._outcome = outcome
         self._frame = frame
         self._of_voxels = voxels
+        self.unit = getattr(image, "unit", "")
+        """Of coordinates, radii and lengths: "mm", "um", ...; empty where nobody said."""
+        self.world = getattr(image, "world", "")
+        """What the axes point to: "RAS", "LPS", ...; empty where nobody said."""
         self.title = title
         """Of pages and pictures."""
         self.label = label
@@ -295,9 +299,13 @@ class Skeleton:
     def _of_axes(self, image: np.ndarray) -> np.ndarray:
         return image.transpose(["zyx".index(axis) for axis in self.axes])
 
-    def save(self, path: Union[str, os.PathLike]) -> None:
-        """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .exr or .bccb
-        (lattice points), .svg or .html (a page). It has the coordinates x, y, z.
+    def save(self, path: Union[str, os.PathLike], swc_step: Optional[float] = None) -> None:
+        """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .csv (a table of
+        branches), .glb (tubes), .mrk.json (3D Slicer), .exr or .bccb (lattice points), .svg or .html
+        (a page). It has the coordinates x, y, z.
+
+        `swc_step` is the distance of SWC's points along the smooth curve, by default twice the
+        smallest spacing; 0 writes the lattice points, not smoothed.
 
         Raises ValueError for another ending, OSError where it cannot be written. Warns of what the
         format could not hold.
@@ -309,7 +317,7 @@ class Skeleton:
         ...     os.listdir(folder)
         ['bar.swc']
         """
-        note = self._outcome.save(os.fspath(path), self.title)
+        note = self._outcome.save(os.fspath(path), self.title, self.world, self.unit, swc_step)
         if note:
             warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
 
@@ -363,10 +371,13 @@ def _in_notebook() -> bool:
 
 
 def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]) -> None:
-    """Writes the skeletons of labels of one image into one file, .vtp, .graphml or .json, as
-    `bccskel labels` does.
+    """Writes the skeletons of labels of one image into one file, .vtp, .graphml, .json, .csv, .glb or
+    .mrk.json, as `bccskel labels` does.
 
     Raises ValueError for another ending, OSError where it cannot be written.
     """
-    _native.save_labels(os.fspath(path), [(int(label), skeleton._outcome)
-                                          for label, skeleton in sorted(skeletons.items())])
+    ordered = sorted(skeletons.items())
+    world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")
+    _native.save_labels(os.fspath(path),
+                        [(int(label), skeleton._outcome) for label, skeleton in ordered],
+                        world, unit)

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "client/cli/local_team.h"
 #include "client/cli/named_options.h"
 #include "client/export/labeled_graph.h"
@@ -170,8 +172,15 @@ py::object OrderOf(const Outcome& outcome) {
   return dict;
 }
 
-absl::Status SaveIn(const Outcome& outcome, const std::string& path, const std::string& title,
-                    Job& job, std::string& note) {
+// What a file says besides the skeleton.
+struct Saying {
+  std::string title;
+  exporting::World world;
+  exporting::CurveSampling swc;
+};
+
+absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying, Job& job,
+                    std::string& note) {
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
   if (!format.ok()) return format.status();
   using exporting::SkeletonFormat;
@@ -189,9 +198,11 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const std::
   }
   const exporting::Subject subject = {.result = outcome.result,
                                       .object = *object,
-                                      .title = title,
+                                      .title = saying.title,
                                       .context = team.context(),
-                                      .root = outcome.root};
+                                      .root = outcome.root,
+                                      .world = saying.world,
+                                      .swc = saying.swc};
   absl::StatusOr<std::string> written = exporting::WriteSkeletonFile(path, subject);
   if (!written.ok()) return written.status();
   note = *std::move(written);
@@ -199,9 +210,15 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const std::
 }
 
 // What the format could not hold; empty if it held everything.
-std::string Save(const Outcome& outcome, const std::string& path, const std::string& title) {
+std::string Save(const Outcome& outcome, const std::string& path, const std::string& title,
+                 const std::string& world, const std::string& unit,
+                 const std::optional<double>& swc_step) {
   std::string note;
-  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, title, job, note); });
+  if (swc_step.has_value() && !(*swc_step >= 0)) {
+    throw py::value_error(absl::StrCat("swc_step ", *swc_step, ": must be 0 or more"));
+  }
+  const Saying saying = {title, {world, unit}, {.step = swc_step}};
+  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, saying, job, note); });
   return note;
 }
 
@@ -224,8 +241,10 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
 
 using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
-absl::Status WriteLabels(const std::string& path, const Labels& labels) {
-  exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root);
+absl::Status WriteLabels(const std::string& path, const Labels& labels,
+                         const exporting::World& world) {
+  exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
+                                  world);
   for (const auto& [label, outcome] : labels) {
     const Outcome& first = *labels.front().second;
     if (outcome->result.graph.placement != first.result.graph.placement) {
@@ -236,8 +255,9 @@ absl::Status WriteLabels(const std::string& path, const Labels& labels) {
   return exporting::WriteLabeledFile(path, all);
 }
 
-void SaveLabels(const std::string& path, const Labels& labels) {
-  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels); });
+void SaveLabels(const std::string& path, const Labels& labels, const std::string& world,
+                const std::string& unit) {
+  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels, {world, unit}); });
 }
 
 }  // namespace
@@ -254,7 +274,8 @@ void AddSkeletonClass(py::module_& module) {
       .def("order", &OrderOf)
       .def("curve_image", [](const Outcome& o) { return Draw(o, EdgeImage::kCurves); })
       .def("branch_image", [](const Outcome& o) { return Draw(o, EdgeImage::kBranches); })
-      .def("save", &Save, py::arg("path"), py::arg("title"))
+      .def("save", &Save, py::arg("path"), py::arg("title"), py::arg("world"), py::arg("unit"),
+           py::arg("swc_step"))
       .def_property_readonly("certificate",
                              [](const Outcome& o) { return CertificateDict(o.result.certificate); })
       .def_property_readonly("options",

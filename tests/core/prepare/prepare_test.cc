@@ -280,7 +280,8 @@ TEST(Prepare, StopsWhenTheJobIsCancelled) {
   const Volume object = VolumeOfPoints(RandomCloud(3, {20, 20, 20}, 0.5));
   for (const PreparingOptions& options : {kFill, kLargest, PreparingOptions{1}}) {
     exec::UnlimitedMemory memory;
-    EXPECT_EQ(Prepare(object, options, memory, context).status().code(), absl::StatusCode::kCancelled);
+    EXPECT_EQ(Prepare(object, options, memory, context).status().code(),
+              absl::StatusCode::kCancelled);
   }
 }
 
