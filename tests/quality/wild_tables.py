@@ -181,8 +181,36 @@ def masks_section(masks, others):
                     "missed parts", "seconds"], rows)]
 
 
-def report(wild, lengths, meshes, masks, others):
+# Of bccskel_quality, and the kinds of masks that they are for.
+MASK_OPTIONS = {"--border continues": ("neuron", "vessels", "airway", "scan"),
+                "--preset neuron": ("neuron",), "--preset vessels": ("vessels",),
+                "--preset airway": ("airway",), "--preset materials": ("scan",)}
+
+
+def options_section(masks, changed):
+    if not masks:
+        return []
+    figures = ("components", "loops", "ends", "branches", "twigs", "missed")
+    rows = []
+    for words, kinds in MASK_OPTIONS.items():
+        for before in (r for r in masks if r["kind"] in kinds):
+            after = next(r for r in changed[words] if r["mask"] == before["mask"])
+            share = [f"{100 * r['redundant_length']:.2f}" for r in (before, after)]
+            rows.append([words, before["mask"],
+                         *(f"{before[key]} -> {after[key]}" for key in figures),
+                         f"{share[0]} -> {share[1]} %"])
+    return ["## Options for real masks", "",
+            "From the defaults to the option. A preset may change the topology: it fills cavities "
+            "and narrow tunnels and drops small components, so loops and components go. "
+            "`--border continues` keeps it. What lies flat along a face of the image then has its "
+            "curve in the face, where it covers less: more parts are missed, so it is no default.",
+            "",
+            *table(["option", "mask", "components", "loops", "free ends", "branches", "twigs",
+                    "missed parts", "redundant length"], rows)]
+
+
+def report(wild, lengths, meshes, masks, others, changed):
     return ["## Targets in the wild", "",
             *table(["what", "target", "measured", "met"],
                    list(target_rows(wild, lengths, meshes, masks))),
-            *figures_section(wild), *meshes_section(meshes), *masks_section(masks, others)]
+            *figures_section(wild), *meshes_section(meshes), *masks_section(masks, others), *options_section(masks, changed)]
