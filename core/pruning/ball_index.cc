@@ -9,6 +9,7 @@ namespace bccskel {
 namespace {
 
 constexpr double kInside = 0.9;  // in radii
+constexpr Coordinates kAlongAll = {1, 1, 1};
 
 // A radius of a level is less than two to the power of the level.
 size_t LevelOf(float radius) {
@@ -21,7 +22,7 @@ BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale) : scale_(scale)
   set.ForEachPoint([&](LatticePoint p) {
     const float radius = set.RadiusOf(p);
     const size_t level = std::min(LevelOf(radius), kLevels - 1);
-    levels_[level][CubeOf(p, level)].push_back({p, radius});
+    levels_[level][CubeOf(PlaceOf(p, scale_), level)].push_back({p, radius});
   });
 }
 
@@ -37,22 +38,29 @@ bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set,
   // Balls of a level have at least half the radius of its cubes' width.
   for (size_t level = 0; level < kLevels && std::ldexp(1.0, static_cast<int>(level)) <= way;
        ++level) {
-    if (levels_[level].empty()) continue;
-    const LatticePoint cube = CubeOf(p, level);
-    for (int32_t n = 0; n < 27; ++n) {
-      const LatticePoint offset{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-      const auto found = levels_[level].find(cube + offset);
-      if (found != levels_[level].end() && std::ranges::any_of(found->second, covers)) return true;
+    const Cubes& cubes = levels_[level];
+    if (cubes.empty()) continue;
+    const double reach = kInside * std::ldexp(1.0, static_cast<int>(level));
+    const LatticePoint low = CubeOf(Sum(place, -reach, kAlongAll), level);
+    const LatticePoint high = CubeOf(Sum(place, reach, kAlongAll), level);
+    for (int32_t z = low.z; z <= high.z; ++z) {
+      for (int32_t y = low.y; y <= high.y; ++y) {
+        for (int32_t x = low.x; x <= high.x; ++x) {
+          const auto found = cubes.find({x, y, z});
+          if (found != cubes.end() && std::ranges::any_of(found->second, covers)) return true;
+        }
+      }
     }
   }
   return false;
 }
 
-LatticePoint BallIndex::CubeOf(LatticePoint p, size_t level) const {
-  const auto at = [&](size_t axis, int32_t v) {
-    return static_cast<int32_t>(std::floor(std::ldexp(scale_[axis] * v, -static_cast<int>(level))));
+LatticePoint BallIndex::CubeOf(const Coordinates& place, size_t level) {
+  const double cubes_per_unit = std::ldexp(1.0, -static_cast<int>(level) - 1);
+  const auto at = [&](size_t axis) {
+    return static_cast<int32_t>(std::floor(place[axis] * cubes_per_unit));
   };
-  return {at(0, p.x), at(1, p.y), at(2, p.z)};
+  return {at(0), at(1), at(2)};
 }
 
 }  // namespace bccskel

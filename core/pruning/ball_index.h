@@ -12,9 +12,9 @@
 namespace bccskel {
 
 // Tells whether a point of a branch lies in the ball of another branch.
-// Does:  keeps the points of all curves by the power of two above their radius, in cubes as wide as
-//        that power: a ball that holds a point has its center in one of 27 cubes around it.
-// Cost:  a search looks at the points of a few cubes for each power.
+// Does:  keeps the points of all curves by the power of two above their radius, in cubes twice as
+//        wide as that power: a ball that holds a point has its center in one of 8 cubes.
+// Cost:  a search visits the points of a few cubes for each power.
 class BallIndex {
  public:
   // The points that `set` has now, with their radii. Points may go from the set later.
@@ -33,7 +33,7 @@ class BallIndex {
   };
   using Cubes = std::unordered_map<LatticePoint, std::vector<Ball>, LatticePointHash>;
 
-  LatticePoint CubeOf(LatticePoint p, size_t level) const;
+  static LatticePoint CubeOf(const Coordinates& place, size_t level);
 
   AxisScale scale_;
   std::array<Cubes, kLevels> levels_;
