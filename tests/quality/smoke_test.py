@@ -15,6 +15,10 @@ STUDIES = {"figures": [], "rotations": [], "reconstruction": [],
            "spine-lengths": [],
            "wild": ["--as", "bcc,mask", "--noise", "0,5", "--half", "judge", "--json"]}
 
+MASKS = [{"mask": f"{kind}.nrrd", "kind": kind, "voxels": 1000, "components": 1, "loops": 2, "ends": 3,
+          "twigs": 0, "redundant_length": 0.25, "missed": 1, "branches": 5, "seconds": 0.1}
+         for kind in ("neuron", "vessels", "airway", "scan")]
+
 
 class SmokeTest(unittest.TestCase):
     @classmethod
@@ -51,9 +55,12 @@ class SmokeTest(unittest.TestCase):
         text = "\n".join(tables.report(self.rows["figures"], [], self.rows["rotations"],
                                        self.rows["reconstruction"], [],
                                        wild_tables.report(self.rows["wild"],
-                                                          self.rows["spine-lengths"], [], [], [])))
+                                                          self.rows["spine-lengths"], [], MASKS, [],
+                                                          {words: MASKS for words in
+                                                           wild_tables.MASK_OPTIONS})))
         for title in ("Targets", "Against known center lines", "Figure by figure", "Turning",
-                      "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild"):
+                      "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild",
+                      "Real masks", "Options for real masks"):
             self.assertIn(f"## {title}", text)
         self.assertNotIn("nan", text)
 
