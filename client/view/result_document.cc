@@ -92,6 +92,11 @@ class Reader {
     if (cavities == "filled") to.cavities = CavityFilling::kOn;
     if (components == "largest") to.components = KeptComponents::kLargest;
   }
+  void Read(const Json& from, const std::string& place, Border& to) {
+    std::string border;
+    Read(from, place, border);
+    if (border == "continues") to = Border::kContinues;
+  }
   void Read(const Json& from, const std::string& place, BettiNumbers& to) {
     ReadMember(from, place, "components", to.components);
     ReadMember(from, place, "loops", to.loops);
@@ -151,6 +156,8 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   BCCSKEL_RETURN_IF_ERROR(reader.status());
   reader.ReadIfThere(json, "sheets", document.sheets);
   reader.ReadIfThere(json, "options", document.preparing);
+  BCCSKEL_RETURN_IF_ERROR(reader.status());
+  if (json.contains("options")) reader.ReadIfThere(json["options"], "border", document.border);
   if (json.contains("placement")) {
     reader.ReadMember(json, "", "placement", document.placement.emplace());
   }

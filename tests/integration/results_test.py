@@ -3,6 +3,8 @@
 import json
 import unittest
 
+import numpy as np
+
 import harness
 
 # A box with edges of 4, 3 and 2.
@@ -87,6 +89,17 @@ class ResultsTest(harness.TestCase):
             self.skeletonize(mesh, *grid)
             summary = self.reconstruct("--object", mesh)  # which would warn of another number
             self.assertEqual(summary["points"], summary["common_points"])
+
+    def test_balls_may_reach_beyond_a_border_that_continues(self):
+        voxels = np.zeros((30, 40, 40), np.uint8)
+        z, y, x = np.ogrid[:30, :40, :40]
+        voxels[((y - 20) ** 2 + (x - 20) ** 2 < 14 ** 2) & (z >= 0)] = 1
+        np.save(self.folder / "rod.npy", voxels)
+        rod = self.path("rod.npy")
+        self.skeletonize(rod, "--border", "continues")
+        summary = self.reconstruct("--object", rod)
+        self.assertGreater(summary["jaccard"], 0.9)
+        self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))
 
     def test_another_object_is_refused(self):
         self.skeletonize(self.generate("tree"))
