@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
 constexpr double kNoiseInSteps = 3;
-constexpr double kWidthShare = 3;    // of what the object is wider than thick
+constexpr double kWidthShare = 2.5;  // of what the object is wider than thick
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
+constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
@@ -27,6 +28,10 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                           {-0.38268343, 0.92387953},
                                                           {-0.70710678, 0.70710678},
                                                           {-0.92387953, 0.38268343}}};
+
+// Tangents of further turns, to either side of the widest of these.
+constexpr double kFirstTurn = 0.2;
+constexpr double kLeastTurn = 0.01;
 
 // The junction first.
 std::vector<LatticePoint> PathOf(const FreeBranch& branch) {
@@ -101,17 +106,27 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   if (run.ratio < kLeastRatio) return verdict;
   const double out = run.elongation - noise_, radius = set.RadiusOf(path[run.from]);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
-  const Widths wider = WidthsBeside(set, path, run, reach);
-  verdict.value = -std::numeric_limits<double>::infinity();
+  verdict.value = BestRoot(set, path, run, WidthsBeside(set, path, run, reach, Directions::kFew));
+  if (verdict.value >= kLeastFine) {
+    verdict.value =
+        BestRoot(set, path, run, WidthsBeside(set, path, run, reach, Directions::kMany));
+  }
+  return verdict;
+}
+
+// The limb begins at the root that makes the most of it.
+double Significance::BestRoot(const ThinSet& set, std::span<const LatticePoint> path,
+                              const Run& run, const Widths& wider) const {
+  double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
     const LatticePoint from = path[PlaceIn(run, place)], to = path[run.to];
     const double depth = set.RadiusOf(from);
     const double sticks_out =
         set.Between(from, to) - kSteepness * (depth - set.RadiusOf(to)) - noise_;
     const double width = depth + kWidthShare * MedianFrom(wider, place);
-    verdict.value = std::max(verdict.value, sticks_out / width);
+    value = std::max(value, sticks_out / width);
   }
-  return verdict;
+  return value;
 }
 
 // Points near the junction are not counted: there, other branches have to be near.
@@ -130,30 +145,39 @@ double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch
 // How much farther the object goes on to the sides of the run than the radius, at each place.
 Significance::Widths Significance::WidthsBeside(const ThinSet& set,
                                                 std::span<const LatticePoint> path, const Run& run,
-                                                double reach) {
+                                                double reach, Directions directions) {
   Widths wider;
   for (size_t place = 0; place < kPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
     const double radius = set.RadiusOf(path[n]);
-    wider[place] = HalfWidth(WayAt(path, n, scale_), path[n], radius, reach) - radius;
+    wider[place] = HalfWidth(WayAt(path, n, scale_), path[n], radius, reach, directions) - radius;
   }
   return wider;
 }
 
 // Of the widest line across, the mean of its two sides: what lies at a limb's end has one side.
-double Significance::HalfWidth(const Coordinates& way, LatticePoint p, double radius,
-                               double reach) {
+double Significance::HalfWidth(const Coordinates& way, LatticePoint p, double radius, double reach,
+                               Directions directions) {
   const Coordinates middle = PlaceOf(p, scale_);
   const auto [u, v] = Across(way);
   const double start = std::floor(radius);
-  double widest = radius;
-  for (const auto& [cosine, sine] : kTurns) {
-    const Coordinates side = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
+  Coordinates best = u;
+  double widest = 0;
+  const auto look = [&](const Coordinates& side) {
     const double there = WayOut(middle, side, start, reach);
     const double back = WayOut(middle, Sum({0, 0, 0}, -1, side), start, reach);
-    widest = std::max(widest, (there + back) / 2);
+    const bool wider = (there + back) / 2 > widest;
+    if (wider) widest = (there + back) / 2, best = side;
+    return wider;
+  };
+  for (const auto& [cosine, sine] : kTurns) look(Sum(Sum({0, 0, 0}, cosine, u), sine, v));
+  // A thin plate is left soon by lines that do not lie in it.
+  const double least = directions == Directions::kMany ? kLeastTurn : kFirstTurn;
+  for (double turn = kFirstTurn; turn > least; turn /= 2) {
+    const Coordinates from = best, across = Cross(way, from);
+    if (!look(Unit(Sum(from, turn, across)))) look(Unit(Sum(from, -turn, across)));
   }
-  return widest;
+  return std::max(widest, radius);
 }
 
 // How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`.
