@@ -10,11 +10,12 @@ namespace {
 
 constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
 constexpr double kNoiseInSteps = 3;
-constexpr double kWidthShare = 2.5;  // of what the object is wider than thick
+constexpr double kWidthShare = 2;    // of what the object is wider than thick
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
 constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
+constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
 constexpr size_t kCoverSamples = 16;
@@ -117,13 +118,16 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
 // The limb begins at the root that makes the most of it.
 double Significance::BestRoot(const ThinSet& set, std::span<const LatticePoint> path,
                               const Run& run, const Widths& wider) const {
+  const double half_width_near_tip = wider[kNearTip] + set.RadiusOf(path[PlaceIn(run, kNearTip)]);
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
     const LatticePoint from = path[PlaceIn(run, place)], to = path[run.to];
     const double depth = set.RadiusOf(from);
-    const double sticks_out =
-        set.Between(from, to) - kSteepness * (depth - set.RadiusOf(to)) - noise_;
-    const double width = depth + kWidthShare * MedianFrom(wider, place);
+    const double wide = MedianFrom(wider, place);
+    const double narrower = depth + wide - half_width_near_tip;
+    const double fallen = std::max(kSteepness * (depth - set.RadiusOf(to)), narrower);
+    const double sticks_out = set.Between(from, to) - fallen - noise_;
+    const double width = depth + kWidthShare * wide;
     value = std::max(value, sticks_out / width);
   }
   return value;

@@ -35,15 +35,16 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
 // Does:  finds the branch's run: leaving a body or going up a bump the radius D falls about as fast
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
-//          S = (elongation - noise) / (D + 2.5 (H - D)) * uncovered,
+//          S = (elongation - noise) / (D + 2 (H - D)) * uncovered,
 //        D the radius where the limb begins, at one of the first seven of 11 places of the run,
-//        whichever makes the most of it: the run may begin in something flat that the limb leaves;
-//        H the half-width of the object across the branch, the median of the places from there on,
-//        each the widest of eight lines and, where S by these is 0.35 or more, of up to ten more
-//        beside the widest, within a degree of the widest of all: a thin plate is left soon by
-//        lines that do not lie in it; `uncovered` the share of the run that lies outside 0.9 of
-//        the balls of other branches. In a limb H is D; a rib lies in something
-//        wide; a strand lies in the balls of the strand beside it.
+//        whichever makes the most of it: the run may begin in something flat that the limb leaves.
+//        H is the half-width of the object across the branch, the median of the places from there
+//        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
+//        more beside the widest: lines that do not lie in a thin plate leave it soon. Where H less
+//        the half-width near the tip is more than 2 (D(q) - D(p)), it takes the place of that in
+//        the elongation: the corner of a plate sticks out no farther than a bump. `uncovered` is
+//        the share of the run that lies outside 0.9 of the balls of other branches. In a limb H is
+//        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
 // Cost:  48 points of a branch; 176 rays where it sticks out at all, up to 572 where it may stay.
