@@ -38,14 +38,13 @@ LatticeBox BoxOf(const Volume& object) {
 
 absl::Status CheckBoxes(const view::ResultDocument& result, const Volume& object) {
   const LatticeBox box = BoxOf(object);
-  const bool balls_end = result.border == Border::kEnds;
   for (const OpenBall& ball : view::BallsOf(result, object.placement())) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const auto [low, high] = box[axis];
       const double unit = object.placement().spacing[axis] / 2;
       const double slack = kSlack * (high - low) + 2 * kSlackCells;
       const double inside = std::min(ball.center[axis] - low, high - ball.center[axis]);
-      const double radius = balls_end ? ball.radius : 0;
+      const double radius = result.border_continues ? 0 : ball.radius;
       if (radius / unit - inside <= slack) continue;
       return absl::InvalidArgumentError(absl::StrFormat(
           "is not what the result was made from: there the object reaches %.4g beyond this one's "

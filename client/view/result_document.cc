@@ -92,11 +92,6 @@ class Reader {
     if (cavities == "filled") to.cavities = CavityFilling::kOn;
     if (components == "largest") to.components = KeptComponents::kLargest;
   }
-  void Read(const Json& from, const std::string& place, Border& to) {
-    std::string border;
-    Read(from, place, border);
-    if (border == "continues") to = Border::kContinues;
-  }
   void Read(const Json& from, const std::string& place, BettiNumbers& to) {
     ReadMember(from, place, "components", to.components);
     ReadMember(from, place, "loops", to.loops);
@@ -157,7 +152,9 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   reader.ReadIfThere(json, "sheets", document.sheets);
   reader.ReadIfThere(json, "options", document.preparing);
   BCCSKEL_RETURN_IF_ERROR(reader.status());
-  if (json.contains("options")) reader.ReadIfThere(json["options"], "border", document.border);
+  if (json.contains("options")) {
+    document.border_continues = json["options"].value("border", Json()) == "continues";
+  }
   if (json.contains("placement")) {
     reader.ReadMember(json, "", "placement", document.placement.emplace());
   }

@@ -9,7 +9,6 @@
 #include "absl/status/statusor.h"
 #include "core/certificate/certificate.h"
 #include "core/lattice/lattice_point.h"
-#include "core/pipeline/skeletonize.h"
 #include "core/prepare/prepare.h"
 
 namespace bccskel::view {
@@ -38,7 +37,7 @@ struct ResultDocument {
   Sheets sheets;
   std::optional<Placement> placement;  // unknown in results of older versions
   PreparingOptions preparing;          // what was done to the object before thinning
-  Border border = Border::kEnds;       // where it continues, balls reach beyond it
+  bool border_continues = false;       // then balls reach beyond it
   Certificate certificate;
   uint64_t object_points = 0;
   std::string text;  // the document itself
