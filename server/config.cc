@@ -48,7 +48,8 @@ std::vector<Setting> ListenerSettings(ServerConfig& config) {
   };
 }
 
-std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
+std::vector<Setting> LimitSettings(ServerConfig& config) {
+  JobPool::Limits& limits = config.limits;
   constexpr int kMaxThreads = 4096, kMaxQueue = 1'000'000;
   return {
       NumberSetting("threads", limits.threads, 1, kMaxThreads,
@@ -62,6 +63,8 @@ std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
                   "Size of one encoded volume, such as 256MB"),
       CountSetting("max-bricks", limits.volume.max_bricks,
                    "Occupied bricks (512 points each) of one volume"),
+      MillisecondsSetting("sender-timeout-ms", config.sender_timeout,
+                          "Time for a caller to send the next 1 MiB of its volume; 0: no limit"),
   };
 }
 
@@ -97,7 +100,7 @@ std::vector<Setting> OperationSettings(ServerConfig& config) {
 
 std::vector<Setting> SettingsOf(ServerConfig& config) {
   std::vector<Setting> all;
-  for (auto&& part : {ListenerSettings(config), LimitSettings(config.limits),
+  for (auto&& part : {ListenerSettings(config), LimitSettings(config),
                       DurableSettings(config.durable), OperationSettings(config)}) {
     all.insert(all.end(), part.begin(), part.end());
   }
