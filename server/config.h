@@ -33,7 +33,8 @@ struct ServerConfig {
   std::string log_level = "info";                    // trace, debug, info, warning, error, off
 };
 
-// Everything from what this machine has: its threads, three quarters of its memory.
+// Everything from what this machine has: its threads, three quarters of the memory that this
+// process may use.
 ServerConfig DefaultServerConfig();
 
 using Variable = std::function<const char*(const char*)>;  // getenv()
