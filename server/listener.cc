@@ -106,7 +106,8 @@ absl::Status Listener::Serve(ListenerPlan& plan) {
   }
   Configure(builder);
   // First: the others see the status that is sent.
-  plan.interceptors.insert(plan.interceptors.begin(), std::make_unique<UnparsedRequests>());
+  plan.interceptors.insert(plan.interceptors.begin(),
+                           std::make_unique<UnparsedRequests>(plan.healthy));
   builder.experimental().SetInterceptorCreators(std::move(plan.interceptors));
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) return absl::InternalError("gRPC cannot start a server");

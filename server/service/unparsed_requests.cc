@@ -1,6 +1,10 @@
 #include "server/service/unparsed_requests.h"
 
-#include "absl/strings/match.h"
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+
+#include "absl/strings/str_split.h"
 #include "proto/wire/error_details.h"
 #include "server/status_mapping.h"
 
@@ -30,7 +34,14 @@ class NameUnparsed : public grpc::experimental::Interceptor {
 
 grpc::experimental::Interceptor* UnparsedRequests::CreateServerInterceptor(
     grpc::experimental::ServerRpcInfo* info) {
-  return absl::StartsWith(info->method(), "/bccskel.") ? new NameUnparsed : nullptr;
+  const std::vector<std::string> parts =
+      absl::StrSplit(info->method(), '/');  // "", service, method
+  if (parts.size() != 3 || std::ranges::find(services_, parts[1]) == services_.end()) {
+    return nullptr;
+  }
+  const auto* const known = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(
+      parts[1] + "." + parts[2]);
+  return known == nullptr ? nullptr : new NameUnparsed;
 }
 
 }  // namespace bccskel::server

@@ -240,7 +240,7 @@ void VolumeStream<Call>::Fail(absl::Status status) {
     std::lock_guard lock(mutex_);
     if (finished_ || error_.has_value()) return;
     error_ = status;
-    job = job_;
+    if (!half_closed_) job = job_;  // else OnDone() knows whether it was one
     Advance();
   }
   if (job != nullptr) job->EndWith(std::move(status));
@@ -270,11 +270,14 @@ void VolumeStream<Call>::Advance() {
 template <typename Call>
 void VolumeStream<Call>::OnDone() {
   const std::shared_ptr<VolumeStream> self = LetGo();
-  std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   facts_.LogEnded(job_ == nullptr ? std::string() : job_->name(),
                   error_.value_or(absl::OkStatus()));
-  job_.reset();
+  const std::shared_ptr<Job> job = std::move(job_);
+  const absl::Status error = half_closed_ ? error_.value_or(absl::OkStatus()) : absl::OkStatus();
   outbox_ = typename Call::Outbox();
+  lock.unlock();
+  if (job != nullptr && !error.ok()) job->EndWith(error);
 }
 
 // Starts a call's handler. Needs: `runner`, and what `more` refers to, outlive the call.

@@ -177,9 +177,7 @@ class MetricsTest(unittest.TestCase):
                     self.assertEqual(example.error_reason(raised.exception), "VOLUME_SIZE")
                 name = ('bccskel_jobs_total{code="INVALID_ARGUMENT",reason="VOLUME_SIZE",'
                         'tenant="default"}')
-                while server_process.metrics(page)["bccskel_jobs_admitted"] != "0":
-                    time.sleep(0.01)
-                lines = server_process.metrics(page)
+                lines = server_process.metrics_after_jobs(page, 2)
         self.assertEqual(lines.get(name), "2",
                          {name: value for name, value in lines.items() if "jobs_total" in name})
 

@@ -8,7 +8,7 @@ import unittest
 import grpc
 
 import server_process
-from durable_case import (Code, DurableTest, example, large_volume, service, service_grpc,
+from durable_case import (Code, DurableTest, durable, example, large_volume, service, service_grpc,
                           volume, volume_pb2, volumes)
 from server_process import ServerProcess, run_to_end
 
@@ -64,9 +64,9 @@ class SilentSenderTest(unittest.TestCase):
                 self.assertEqual((code, reason), (Code.ABORTED, "SENDER_TIMEOUT"))
                 self.assertIn(f"{LIMIT_MS} ms", details)
                 self.assertIn("sender-timeout-ms", details)
-            done = example.skeletonize(channel, example.torus())
+            done = durable.patiently(lambda: example.skeletonize(channel, example.torus()))
             self.assertEqual(done.summary.certificate.skeleton.loops, 1)
-            lines = server_process.metrics(page)
+            lines = server_process.metrics_after_jobs(page, 3)
         self.assertEqual(lines['bccskel_jobs_total{code="ABORTED",reason="SENDER_TIMEOUT",'
                                'tenant="default"}'], "2")
 
@@ -82,7 +82,7 @@ class SilentDurableSenderTest(DurableTest):
         for upload in uploads:
             found = self.volumes.GetUploadStatus(volumes.GetUploadStatusRequest(upload=upload))
             self.assertEqual(found.upload.committed_size, 0)
-        done = example.skeletonize(self.channel, example.torus())
+        done = durable.patiently(lambda: example.skeletonize(self.channel, example.torus()))
         self.assertEqual(done.summary.certificate.skeleton.loops, 1)
 
 
