@@ -1,7 +1,5 @@
 #include "server/config.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <optional>
 #include <thread>
@@ -13,6 +11,7 @@
 #include "core/version/version.h"
 #include "server/identity/token.h"
 #include "server/identity/token_table.h"
+#include "server/settings/memory_limit.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -20,14 +19,6 @@ namespace {
 
 constexpr int kUsageError = 2;
 constexpr char kName[] = "bccskel-server";
-
-uint64_t PhysicalMemoryBytes() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-  constexpr uint64_t kUnknown = uint64_t{4} << 30;
-  return pages > 0 && page_bytes > 0
-             ? static_cast<uint64_t>(pages) * static_cast<uint64_t>(page_bytes)
-             : kUnknown;
-}
 
 std::vector<Setting> ListenerSettings(ServerConfig& config) {
   return {
@@ -48,7 +39,8 @@ std::vector<Setting> ListenerSettings(ServerConfig& config) {
   };
 }
 
-std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
+std::vector<Setting> LimitSettings(ServerConfig& config) {
+  JobPool::Limits& limits = config.limits;
   constexpr int kMaxThreads = 4096, kMaxQueue = 1'000'000;
   return {
       NumberSetting("threads", limits.threads, 1, kMaxThreads,
@@ -62,6 +54,8 @@ std::vector<Setting> LimitSettings(JobPool::Limits& limits) {
                   "Size of one encoded volume, such as 256MB"),
       CountSetting("max-bricks", limits.volume.max_bricks,
                    "Occupied bricks (512 points each) of one volume"),
+      MillisecondsSetting("sender-timeout-ms", config.sender_timeout,
+                          "Time for a caller to send the next 1 MiB of its volume; 0: no limit"),
   };
 }
 
@@ -97,7 +91,7 @@ std::vector<Setting> OperationSettings(ServerConfig& config) {
 
 std::vector<Setting> SettingsOf(ServerConfig& config) {
   std::vector<Setting> all;
-  for (auto&& part : {ListenerSettings(config), LimitSettings(config.limits),
+  for (auto&& part : {ListenerSettings(config), LimitSettings(config),
                       DurableSettings(config.durable), OperationSettings(config)}) {
     all.insert(all.end(), part.begin(), part.end());
   }
@@ -230,7 +224,7 @@ ServerConfig DefaultServerConfig() {
   config.limits.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   config.limits.max_jobs = config.limits.threads;
   config.limits.max_queue = 64;
-  config.limits.max_bytes = PhysicalMemoryBytes() / 4 * 3;
+  config.limits.max_bytes = AvailableMemoryBytes() / 4 * 3;
   config.limits.max_volume_bytes = uint64_t{1} << 30;
   return config;
 }

@@ -27,12 +27,14 @@ struct ServerConfig {
   std::string plaintext_tokens = "refuse";  // over networks without TLS; or allow
   JobPool::Limits limits;
   DurableOptions durable;
-  std::chrono::milliseconds lame_duck{0};   // at least so long "not serving" before the end
-  std::chrono::milliseconds drain{25'000};  // for running calls after that
-  std::string log_level = "info";           // trace, debug, info, warning, error, off
+  std::chrono::milliseconds sender_timeout{60'000};  // for the next 1 MiB of a volume; 0: none
+  std::chrono::milliseconds lame_duck{0};            // "not serving", and serving all the same
+  std::chrono::milliseconds drain{25'000};           // for running calls after that
+  std::string log_level = "info";                    // trace, debug, info, warning, error, off
 };
 
-// Everything from what this machine has: its threads, three quarters of its memory.
+// Everything from what this machine has: its threads, three quarters of the memory that this
+// process may use.
 ServerConfig DefaultServerConfig();
 
 using Variable = std::function<const char*(const char*)>;  // getenv()

@@ -11,6 +11,7 @@
 
 #include "core/exec/status_macros.h"
 #include "server/service/server_service.h"
+#include "server/service/unparsed_requests.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -104,6 +105,9 @@ absl::Status Listener::Serve(ListenerPlan& plan) {
     builder.SetOption(std::make_unique<WithoutReflection>());
   }
   Configure(builder);
+  // First: the others see the status that is sent.
+  plan.interceptors.insert(plan.interceptors.begin(),
+                           std::make_unique<UnparsedRequests>(plan.healthy));
   builder.experimental().SetInterceptorCreators(std::move(plan.interceptors));
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) return absl::InternalError("gRPC cannot start a server");

@@ -68,6 +68,7 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
       malloc_trim(0);  // what is free between blocks in use
     }
     server.LookAfterData();
+    server.LookAfterCalls();
     const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {

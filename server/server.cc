@@ -84,7 +84,7 @@ class Server::Work {
 class Server::Services {
  public:
   Services(const ServerConfig& config, const Callers& callers, Work& work, ServerMetrics& metrics)
-      : gate_(callers),
+      : gate_(callers, config.sender_timeout),
         durable_gate_(gate_, work.ledger()),
         skeletonization_(gate_, work.runner(), config.limits.volume, work.ledger(), writers_),
         volumes_(durable_gate_, writers_, config.limits),
@@ -99,6 +99,7 @@ class Server::Services {
     Add(plan, server_, v1::ServerService::service_full_name());
   }
   void CutOff() { gate_.CutOff(); }
+  void LookAfterCalls() { gate_.LookAfterCalls(); }
   void AddAdmin(ListenerPlan& plan) {
     Add(plan, admin_, v1::AdminService::service_full_name());
     plan.reflection = ListenerPlan::Reflection::kOn;
@@ -208,7 +209,7 @@ ServerGauges Server::Gauges() const {
   const Admission::Usage admitted = jobs_.admission_usage();
   const ComputeQueue::Usage computing = jobs_.compute_usage();
   ServerGauges now;
-  now.admitted_jobs = admitted.places;
+  now.admitted_jobs = jobs_.admitted_jobs();
   now.waiting_jobs = computing.waiting;
   now.running_jobs = computing.running;
   now.threads = config_.limits.threads;
@@ -241,6 +242,8 @@ void Server::ReloadNow() {
   if (!config_.tokens.empty()) TakeReload(callers_->ReloadNow());
 }
 
+void Server::LookAfterCalls() { services_->LookAfterCalls(); }
+
 void Server::LookAfterData() {
   const Ledger* const ledger = work_->ledger();
   if (ledger == nullptr) return;
@@ -269,14 +272,25 @@ void Server::TakeReload(const absl::Status& status) {
       {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
 }
 
+void Server::BeLameDuck() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kBetweenLooks(1);
+  const Clock::time_point end = Clock::now() + config_.lame_duck;
+  for (Clock::time_point now = Clock::now(); now < end; now = Clock::now()) {
+    ReloadIfChanged();
+    LookAfterCalls();
+    std::this_thread::sleep_for(std::min<Clock::duration>(kBetweenLooks, end - now));
+  }
+}
+
 void Server::Drain() {
-  Log(LogLevel::kInfo, "draining", {{"jobs", int64_t{jobs_.admission_usage().places}}});
+  Log(LogLevel::kInfo, "draining", {{"jobs", int64_t{jobs_.admitted_jobs()}}});
   draining_ = true;
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
+  BeLameDuck();
   if (Ledger* const ledger = work_->ledger()) ledger->StopAdmitting();
   jobs_.StopAdmitting();
-  std::this_thread::sleep_for(config_.lame_duck);
   jobs_.WaitUntilEmpty(config_.drain);
   services_->CutOff();
   public_listener_->Shutdown(kLastReplies);

@@ -39,11 +39,14 @@ class Server {
   // without it.
   void ReloadIfChanged();
   void ReloadNow();
+  // Ends calls whose token is accepted no longer, and those of callers who do not send. Called once
+  // a second.
+  void LookAfterCalls();
   // Health of the services that need the data directory follows its own. Called once a second.
   void LookAfterData();
 
-  // Stops in good order: health says NOT_SERVING and new jobs are refused as UNAVAILABLE; after the
-  // lame-duck time the jobs that were let in have the drain time to finish and to be read; then the
+  // Stops in good order: health says NOT_SERVING; after the lame-duck time new jobs are refused as
+  // UNAVAILABLE, and those that were let in have the drain time to finish and to be read; then the
   // listener closes and what calls are left are cut off, which clients see as UNAVAILABLE.
   // Returns when all calls are over, at once where there are none. Needs: called once.
   void Drain();
@@ -61,6 +64,7 @@ class Server {
   absl::Status ListenForAdmins();
   absl::Status ShowMetrics();
   ServerGauges Gauges() const;
+  void BeLameDuck();
   void SetTenants();
   void TakeReload(const absl::Status& status);
 

@@ -57,8 +57,10 @@ void Ticket::LeavePlace() {
 }
 
 void Ticket::Release() {
-  LeavePlace();
-  ShrinkTo(0);
+  if (admission_ == nullptr) return;
+  std::exchange(admission_, nullptr)
+      ->GiveBack(tenant_, {.bytes = std::exchange(bytes_, 0), .places = std::exchange(places_, 0)},
+                 Admission::Leaving::kYes);
 }
 
 absl::StatusOr<Ticket> Admission::Admit(const std::string& tenant, uint64_t bytes) {
@@ -67,27 +69,39 @@ absl::StatusOr<Ticket> Admission::Admit(const std::string& tenant, uint64_t byte
     return Refuse(Refusal::kDraining, "the server is shutting down and takes no new jobs");
   }
   BCCSKEL_RETURN_IF_ERROR(Take(tenant, {.bytes = bytes, .places = 1}));
+  ++jobs_;
   return Ticket(this, tenant, bytes);
 }
 
 std::array<Admission::Part, 2> Admission::PartsOf(const std::string& tenant) const {
   const TenantLimits& own = limits_.tenants.Of(tenant);
   const auto found = tenants_.find(tenant);
+  const Usage usage = found == tenants_.end() ? Usage() : found->second;
   const Usage all = {.bytes = limits_.bytes, .places = limits_.places};
   return {Part{"all jobs together", all, usage_},
           Part{"this tenant's jobs together",
                {.bytes = own.max_bytes > 0 ? std::min(own.max_bytes, all.bytes) : all.bytes,
-                .places = own.max_jobs > 0 ? std::min(own.max_jobs, all.places) : all.places},
-               found == tenants_.end() ? Usage() : found->second}};
+                .places = MostPlaces(own, usage)},
+               usage}};
+}
+
+int Admission::MostPlaces(const TenantLimits& own, const Usage& usage) const {
+  if (own.max_jobs > 0) return std::min(own.max_jobs, limits_.places);
+  if (limits_.tenants.named.size() < 2) return limits_.places;
+  const int others = usage_.places - usage.places;
+  return (limits_.places - others + 1) / 2;
 }
 
 absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
+  const TenantLimits& own = limits_.tenants.Of(tenant);
   for (const Part& part : PartsOf(tenant)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes, kWhereDeclared));
     if (part.usage.places + wanted.places > part.limit.places) {
+      const bool is_share = part.limit.places < limits_.places && own.max_jobs == 0;
       return Refuse(Refusal::kQueueFull,
-                    absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d",
-                                    part.usage.places, part.whose, part.limit.places));
+                    absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d%s",
+                                    part.usage.places, part.whose, part.limit.places,
+                                    is_share ? ", half of what other tenants leave" : ""));
     }
     const uint64_t free_bytes = part.limit.bytes - std::min(part.limit.bytes, part.usage.bytes);
     if (wanted.bytes > free_bytes) {
@@ -138,8 +152,14 @@ Admission::Usage Admission::usage(const std::string& tenant) const {
   return found == tenants_.end() ? Usage() : found->second;
 }
 
-void Admission::GiveBack(const std::string& tenant, const Usage& part) {
+int Admission::jobs() const {
   std::lock_guard lock(mutex_);
+  return jobs_;
+}
+
+void Admission::GiveBack(const std::string& tenant, const Usage& part, Leaving leaving) {
+  std::lock_guard lock(mutex_);
+  if (leaving == Leaving::kYes) --jobs_;
   Usage& own = tenants_[tenant];
   for (Usage* usage : {&usage_, &own}) {
     usage->bytes -= part.bytes;

@@ -53,6 +53,8 @@ class Ticket {
 // it. Needs: outlives its tickets.
 class Admission {
  public:
+  // Where there are several named tenants, one that has no max_jobs may have half of the places
+  // that the others leave: so none of them takes all.
   struct Limits {
     uint64_t bytes = 0;  // of all jobs together
     int places = 0;      // jobs that receive, wait or run
@@ -82,6 +84,8 @@ class Admission {
 
   Usage usage() const;
   Usage usage(const std::string& tenant) const;
+  // Those that have a place, or whose results are not let go of.
+  int jobs() const;
 
  private:
   friend class Ticket;
@@ -92,15 +96,18 @@ class Admission {
   };
   // Needs of these: mutex_ held.
   std::array<Part, 2> PartsOf(const std::string& tenant) const;
+  int MostPlaces(const TenantLimits& own, const Usage& usage) const;
   absl::Status Take(const std::string& tenant, const Usage& part);
   absl::Status Grow(const Ticket& ticket, uint64_t bytes);
-  void GiveBack(const std::string& tenant, const Usage& part);
+  enum class Leaving { kNo, kYes };
+  void GiveBack(const std::string& tenant, const Usage& part, Leaving leaving = Leaving::kNo);
 
   mutable std::mutex mutex_;
   mutable std::condition_variable empty_;
   Limits limits_;                         // guarded by mutex_
   Usage usage_;                           // guarded by mutex_
   std::map<std::string, Usage> tenants_;  // guarded by mutex_; those that have something
+  int jobs_ = 0;                          // guarded by mutex_
   bool admitting_ = true;                 // guarded by mutex_
 };
 

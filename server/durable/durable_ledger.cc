@@ -212,14 +212,20 @@ absl::StatusOr<std::optional<EventRow>> DurableLedger::RecoverJob(JobStore& stor
   return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"));
 }
 
+// Also where the clock was ahead at the last one and goes right again.
+bool DurableLedger::CleanUpIsDue() const {
+  const Time now = Now();
+  return now >= next_clean_up_ || next_clean_up_ - now > options_.clean_up_interval;
+}
+
 void DurableLedger::Tick(std::stop_token stop) {
   std::unique_lock lock(tick_mutex_);
   while (!stop.stop_requested()) {
     tick_.wait_for(lock, stop, kTick, [] { return false; });
-    if (!retry_wanted_.exchange(false) && Now() < next_clean_up_) continue;
+    if (!retry_wanted_.exchange(false) && !CleanUpIsDue()) continue;
     loop_.Post([this] {
       for (const auto& task : std::exchange(retries_, {})) task();
-      if (Now() >= next_clean_up_) CleanUp();
+      if (CleanUpIsDue()) CleanUp();
       Schedule();
     });
   }

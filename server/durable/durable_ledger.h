@@ -269,6 +269,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
   // ---- Expiry; on the loop
+  bool CleanUpIsDue() const;
   void CleanUp();
   void ExpireUploads();
   void ExpireJobs();

@@ -18,7 +18,7 @@ void DurableLedger::CleanUp() {
 
 bool DurableLedger::ClockIsBelieved() {
   const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
-  lock_.Touch(Now());
+  if (believed) lock_.Touch(Now());  // else the next start would believe it
   if (!believed) {
     options_.on_warning(
         "the clock has leapt ahead by more than a day: nothing expires for an hour");

@@ -50,14 +50,6 @@ void Run::Cancel() {
   job_->Cancel();
 }
 
-void Run::Fail(absl::Status status) {
-  {
-    std::lock_guard lock(mutex_);
-    feed_error_ = std::move(status);
-  }
-  job_->Cancel();
-}
-
 std::optional<JobProgress> Run::TakeProgress() {
   std::lock_guard lock(mutex_);
   announced_ = false;
@@ -100,7 +92,6 @@ void Run::OnEnd(absl::StatusOr<JobResult> result) {
     ended_ = true;
     room = std::exchange(room_, nullptr);
     unannounced = progress_.has_value() && !announced_;
-    if (!result.ok() && !feed_error_.ok()) result = feed_error_;
   }
   // A copy of its own: the result goes to another thread.
   const absl::Status status(result.status().code(), result.status().message());

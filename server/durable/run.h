@@ -59,7 +59,7 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   // Whether anybody did that: a result that has come in the meantime is not wanted any more.
   bool cancelled() const { return cancelled_; }
   // The same, because its bytes cannot be had.
-  void Fail(absl::Status status);
+  void Fail(absl::Status status) { job_->EndWith(std::move(status)); }
 
   std::optional<JobProgress> TakeProgress();
 
@@ -82,7 +82,6 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   std::mutex mutex_;
   bool ended_ = false;                             // guarded by mutex_
   std::function<void(absl::Status)> room_;         // guarded by mutex_
-  absl::Status feed_error_;                        // guarded by mutex_
   std::optional<JobProgress> progress_;            // guarded by mutex_
   std::chrono::nanoseconds next_announcement_{0};  // guarded by mutex_
   bool announced_ = false;                         // guarded by mutex_: nobody took it yet

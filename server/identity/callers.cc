@@ -79,6 +79,7 @@ absl::Status Callers::ReloadNow() {
   BCCSKEL_ASSIGN_OR_RETURN(TokenTable table, TokenTable::ReadFile(path_));
   std::lock_guard lock(mutex_);
   table_ = std::make_shared<const TokenTable>(std::move(table));
+  ++generation_;
   return absl::OkStatus();
 }
 

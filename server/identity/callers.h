@@ -3,6 +3,8 @@
 
 #include <sys/stat.h>
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -33,6 +35,9 @@ class Callers {
   // What the tenants are granted; empty where no tokens are configured.
   std::map<std::string, TenantLimits> tenants() const;
 
+  // Grows with every file that is taken in.
+  uint64_t generation() const { return generation_; }
+
   enum class Reload { kNotNeeded, kDone };
   // Reads the file again, where it has changed since it was read last. A file with a mistake
   // changes nothing: the tokens that were accepted before still are.
@@ -47,6 +52,7 @@ class Callers {
   const std::string path_;  // empty: no tokens
   mutable std::mutex mutex_;
   std::shared_ptr<const TokenTable> table_;  // guarded by mutex_
+  std::atomic<uint64_t> generation_ = 0;
   std::mutex reload_mutex_;
   struct stat seen_ = {};  // guarded by reload_mutex_: the file when it was read last
 };

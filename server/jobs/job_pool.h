@@ -56,6 +56,8 @@ class JobPool : public JobRunner {
 
   ComputeQueue::Usage compute_usage() const { return compute_.usage(); }
   Admission::Usage admission_usage() const { return admission_.usage(); }
+  // That have not ended or are not read yet.
+  int admitted_jobs() const { return admission_.jobs(); }
   // Process ids of children that wait for volumes.
   std::vector<pid_t> idle_children() const {
     return children_ == nullptr ? std::vector<pid_t>() : children_->idle();

@@ -129,10 +129,12 @@ class Job {
   // No more bytes come. `expected` is the digest that the sender found, if it found one.
   // Needs: as Append(); called once, after the last Append().
   virtual void FinishVolume(std::optional<Sha256Digest> expected) = 0;
-  // Whatever the job is doing, it soon ends, with CANCELLED unless it has failed already, and gives
+  // Whatever the job is doing, it soon ends, with `why` unless it has failed already, and gives
   // back its memory, threads and place. Changes nothing once the job has ended; when both happen at
-  // the same moment, one of them comes first and OnEnd() says which.
-  virtual void Cancel() = 0;
+  // the same moment, one of them comes first and OnEnd() says which. The first of several counts.
+  // Needs: an error.
+  virtual void EndWith(absl::Status why) = 0;
+  void Cancel() { EndWith(absl::CancelledError("the job was cancelled")); }
 };
 
 // Where handlers get their jobs done. This interface is the place where durable jobs will enter.

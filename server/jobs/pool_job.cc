@@ -38,7 +38,11 @@ void PoolJob::FinishVolume(std::optional<Sha256Digest> expected) {
                           [self = shared_from_this(), expected] { self->DecodeRest(expected); });
 }
 
-void PoolJob::Cancel() {
+void PoolJob::EndWith(absl::Status why) {
+  {
+    std::lock_guard lock(mutex_);
+    if (why_.ok()) why_ = std::move(why);
+  }
   stop_.request_stop();
   {
     std::lock_guard lock(mutex_);
@@ -155,8 +159,8 @@ void PoolJob::End(absl::Status status) {
     std::lock_guard lock(mutex_);
     phase_ = Phase::kEnded;
     listener_ = nullptr;  // it holds the job
-    // The last stage may not have seen it in time.
-    if (stop_.stop_requested() && status.ok()) status = StopContext().StopStatus();
+    // The last stage may not have seen it in time; stages that have do not know why.
+    if (stop_.stop_requested() && (status.ok() || absl::IsCancelled(status))) status = why_;
   }
   const bool was_large = memory_->taken() > kWorthTrimming;
   work_->End(status, times_, memory_->Close());

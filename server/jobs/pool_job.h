@@ -23,7 +23,7 @@ namespace bccskel::server {
 //   kReceiving --Append, FinishVolume--> kDecoding --> kReceiving | kPaused
 //   kPaused --as soon as the work may run--> kWaiting --> kRunning --> kPaused | kEnded
 //
-// Cancel() asks the task to stop; where there is none (kReceiving, kPaused, kWaiting) it posts one
+// EndWith() asks the task to stop; where there is none (kReceiving, kPaused, kWaiting) it posts one
 // that ends the job.
 class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
  public:
@@ -48,7 +48,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   const std::string& name() const override { return facts_.name; }
   void Append(std::string bytes) override;
   void FinishVolume(std::optional<Sha256Digest> expected) override;
-  void Cancel() override;
+  void EndWith(absl::Status why) override;
 
  private:
   enum class Phase { kReceiving, kDecoding, kPaused, kWaiting, kRunning, kEnded };
@@ -79,6 +79,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   JobTimes times_;
 
   std::mutex mutex_;
+  absl::Status why_;                          // guarded by mutex_; set before the stop is requested
   Phase phase_ = Phase::kReceiving;           // guarded by mutex_
   ComputeQueue::Entry entry_ = 0;             // guarded by mutex_; valid in kWaiting
   Clock::time_point waiting_since_;           // guarded by mutex_; valid in kWaiting

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "server/admission/refusal.h"
 #include "server/logging/json_log.h"
+#include "server/service/lasting_calls.h"
 #include "server/status_mapping.h"
 
 namespace bccskel::server {
@@ -55,6 +56,14 @@ LogLevel LevelOf(const Method& method, const absl::Status& end) {
 
 CallFacts FactsOf(const grpc::CallbackServerContext& context) {
   return {.deadline = SteadyDeadline(context.deadline()), .trace = TraceOf(context)};
+}
+
+void CallFacts::LookAfter(const std::shared_ptr<LastingCall>& call) const {
+  if (lasting != nullptr) lasting->Add(call, *this);
+}
+
+void CallFacts::Leave(const LastingCall& call) const {
+  if (lasting != nullptr) lasting->Remove(call);
 }
 
 absl::Status CallFacts::CancelStatus() const {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@
 #include "server/identity/callers.h"
 
 namespace bccskel::server {
+
+class LastingCall;
+class LastingCalls;
 
 // A method of the interface.
 struct Method {
@@ -35,6 +39,14 @@ struct CallFacts {
   Role role = Role::kTenant;
   // Whether the server cuts calls off now; null: it never does. Outlives the call.
   const std::atomic<bool>* cut_off = nullptr;
+  std::string authorization = {};  // the header, empty where there was none; never shown to anybody
+  uint64_t tokens = 0;             // Callers::generation() that accepted it
+  // Who looks after streaming calls; null: nobody does. Outlives the call.
+  LastingCalls* lasting = nullptr;
+
+  // Has a streaming call looked after, where there is somebody, until it leaves.
+  void LookAfter(const std::shared_ptr<LastingCall>& call) const;
+  void Leave(const LastingCall& call) const;
 
   // Why gRPC says that the call is over.
   absl::Status CancelStatus() const;

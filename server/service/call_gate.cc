@@ -25,7 +25,10 @@ absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& con
   CallFacts facts = FactsOf(context);
   facts.method = method;
   facts.cut_off = &cut_off_;
+  facts.lasting = &lasting_;
+  facts.tokens = callers_.generation();  // first: a file that is read meanwhile is looked at again
   const auto authorization = AuthorizationOf(context);
+  facts.authorization = authorization.value_or(std::string_view());
   absl::StatusOr<Caller> caller = callers_.Identify(authorization);
   if (!caller.ok()) {
     facts.tenant.clear();

@@ -4,10 +4,12 @@
 #include <grpcpp/grpcpp.h>
 
 #include <atomic>
+#include <chrono>
 
 #include "absl/status/statusor.h"
 #include "server/identity/callers.h"
 #include "server/service/call_facts.h"
+#include "server/service/lasting_calls.h"
 
 namespace bccskel::server {
 
@@ -16,8 +18,10 @@ namespace bccskel::server {
 // Threads: safe.
 class CallGate {
  public:
-  // Needs: `callers` outlives the gate.
-  explicit CallGate(const Callers& callers) : callers_(callers) {}
+  // Callers who send nothing for `sender_timeout` are sent away; 0: never. Needs: `callers`
+  // outlives the gate.
+  explicit CallGate(const Callers& callers, std::chrono::milliseconds sender_timeout = {})
+      : callers_(callers), lasting_(callers, sender_timeout) {}
 
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
@@ -28,9 +32,12 @@ class CallGate {
 
   // From now on calls that gRPC cancels are the server's doing.
   void CutOff() { cut_off_ = true; }
+  // Called once a second.
+  void LookAfterCalls() { lasting_.LookAfter(); }
 
  private:
   const Callers& callers_;
+  mutable LastingCalls lasting_;
   std::atomic<bool> cut_off_ = false;
 };
 

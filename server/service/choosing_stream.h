@@ -35,12 +35,21 @@ class ChoosingStream final : public SkeletonizeStream {
   }
 
   void OnCancel() override {
+    if (const auto durable = CloseChoice()) return durable->OnCancel();
+    SkeletonizeStream::OnCancel();
+  }
+
+  void EndEarly(const absl::Status& why) override {
+    if (const auto durable = CloseChoice()) return durable->EndEarly(why);
+    SkeletonizeStream::EndEarly(why);
+  }
+
+  absl::Status CheckSender(TimePoint now, std::chrono::milliseconds limit) override {
     std::unique_lock lock(choice_);
-    cancelled_ = true;
     const std::shared_ptr<DurableSkeletonize> durable = durable_;
     lock.unlock();
-    if (durable != nullptr) return durable->OnCancel();
-    SkeletonizeStream::OnCancel();
+    if (durable != nullptr) return durable->CheckSender(now, limit);
+    return SkeletonizeStream::CheckSender(now, limit);
   }
 
   void OnDone() override {
@@ -50,9 +59,16 @@ class ChoosingStream final : public SkeletonizeStream {
   }
 
  private:
+  // What the choice was, if there was one; there is none later.
+  std::shared_ptr<DurableSkeletonize> CloseChoice() {
+    std::lock_guard lock(choice_);
+    closed_ = true;
+    return durable_;
+  }
+
   void GoDurable() {
     std::unique_lock lock(choice_);
-    if (cancelled_) return;  // and ended
+    if (closed_) return;  // and ended
     durable_ = std::make_shared<DurableSkeletonize>(DurableCall{facts(), ledger_}, writers_, *this);
     lock.unlock();
     durable_->Begin(request().config());
@@ -63,7 +79,7 @@ class ChoosingStream final : public SkeletonizeStream {
   bool first_ = true;  // read reactions only
 
   std::mutex choice_;
-  bool cancelled_ = false;  // guarded by choice_
+  bool closed_ = false;  // guarded by choice_: the call has ended
   // Set once, guarded by choice_; reads and writes come after that in any case.
   std::shared_ptr<DurableSkeletonize> durable_;
 };

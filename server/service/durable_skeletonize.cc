@@ -102,6 +102,11 @@ void DurableSkeletonize::OnTakenOver() {
 
 void DurableSkeletonize::OnReadDone(bool ok) {
   if (!ok) return HalfClose();
+  {
+    std::lock_guard lock(mutex_);
+    const uint64_t bytes = request_.has_chunk() ? request_.chunk().data().size() : 0;
+    sender_.Take(std::chrono::steady_clock::now(), bytes);
+  }
   const absl::Status status = sequence_.Take(request_);
   if (!status.ok()) return End(status);
   Take(request_);
@@ -215,7 +220,15 @@ void DurableSkeletonize::OnWriteDone(bool ok) {
 
 void DurableSkeletonize::ReadNext() {
   std::lock_guard lock(mutex_);
-  if (!ended_ && !error_.has_value()) stream_.StartRead(&request_);
+  if (ended_ || error_.has_value()) return;
+  if (!sequence_.finished()) sender_.Await(std::chrono::steady_clock::now());
+  stream_.StartRead(&request_);
+}
+
+absl::Status DurableSkeletonize::CheckSender(SenderClock::TimePoint now,
+                                             std::chrono::milliseconds limit) {
+  std::lock_guard lock(mutex_);
+  return sender_.Check(now, limit);
 }
 
 void DurableSkeletonize::End(const absl::Status& status, Leaving leaving) {

@@ -3,6 +3,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "server/durable/ledger.h"
 #include "server/service/durable_gate.h"
 #include "server/service/request_sequence.h"
+#include "server/service/sender_clock.h"
 #include "server/service/upload_writers.h"
 
 namespace bccskel::server {
@@ -48,6 +50,9 @@ class DurableSkeletonize final : public JobWatcher,
   void OnWriteDone(bool ok);
   void OnCancel();
   void OnDone();
+  // As LastingCall.
+  void EndEarly(const absl::Status& why) { End(why); }
+  absl::Status CheckSender(SenderClock::TimePoint now, std::chrono::milliseconds limit);
 
   void OnEvent(const JobEvent& event) override;
   void OnWatchEnd(const absl::Status& status) override;
@@ -86,6 +91,7 @@ class DurableSkeletonize final : public JobWatcher,
   std::shared_ptr<ResultReader> reader_;
 
   std::mutex mutex_;
+  SenderClock sender_;                               // guarded by mutex_
   bool cancel_with_stream_ = false;                  // set by Begin()
   bool volume_sent_ = false;                         // guarded by mutex_
   std::string upload_, job_;                         // guarded by mutex_ until accepted

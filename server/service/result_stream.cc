@@ -11,6 +11,7 @@
 #include "proto/wire/error_details.h"
 #include "server/durable/ledger.h"
 #include "server/service/durable_messages.h"
+#include "server/service/lasting_calls.h"
 #include "server/service/ledger_status.h"
 #include "server/service/refused_call.h"
 #include "server/status_mapping.h"
@@ -22,7 +23,9 @@ using Reactor = grpc::ServerWriteReactor<v1::ReadSkeletonResponse>;
 
 // A ReadSkeleton call: reads a record, writes it, reads the next. So a slow reader costs one
 // record.
-class ResultStream final : public Reactor, public std::enable_shared_from_this<ResultStream> {
+class ResultStream final : public Reactor,
+                           public LastingCall,
+                           public std::enable_shared_from_this<ResultStream> {
  public:
   ResultStream(DurableCall call, const v1::ReadSkeletonRequest& request)
       : call_(std::move(call)), job_(request.job()), piece_(request.piece_index()) {}
@@ -36,7 +39,10 @@ class ResultStream final : public Reactor, public std::enable_shared_from_this<R
                               self->reader_ = *std::move(reader);
                               self->ReadNext();
                             });
+    call_.facts.LookAfter(self_);
   }
+
+  void EndEarly(const absl::Status& why) override { End(why); }
 
   void OnWriteDone(bool ok) override {
     if (!ok) return End(absl::CancelledError("the caller is gone"));
@@ -100,6 +106,7 @@ void ResultStream::End(const absl::Status& status) {
 
 void ResultStream::OnDone() {
   const std::shared_ptr<ResultStream> self = std::move(self_);
+  call_.facts.Leave(*this);
   std::lock_guard lock(mutex_);
   call_.facts.LogEnded(job_, *end_);
 }

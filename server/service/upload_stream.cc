@@ -14,6 +14,7 @@
 #include "server/durable/message_codec.h"
 #include "server/service/durable_messages.h"
 #include "server/service/job_request.h"
+#include "server/service/lasting_calls.h"
 #include "server/service/ledger_status.h"
 #include "server/service/refused_call.h"
 #include "server/service/request_sequence.h"
@@ -36,6 +37,7 @@ absl::Status CheckVolumeBytes(uint64_t bytes, const JobPool::Limits& limits) {
 // cancelling and taking over come at any time, hence the mutex.
 class UploadStream final : public Reactor,
                            public UploadWriters::Writer,
+                           public LastingCall,
                            public std::enable_shared_from_this<UploadStream> {
  public:
   UploadStream(DurableCall call, UploadWriters& writers, const JobPool::Limits& limits,
@@ -49,7 +51,10 @@ class UploadStream final : public Reactor,
   void Begin() {
     self_ = shared_from_this();
     StartRead(&request_);
+    call_.facts.LookAfter(self_);
   }
+
+  void EndEarly(const absl::Status& why) override { End(why); }
 
   void OnReadDone(bool ok) override;
   void OnCancel() override;
@@ -233,6 +238,7 @@ void UploadStream::OnCancel() {
 
 void UploadStream::OnDone() {
   const std::shared_ptr<UploadStream> self = std::move(self_);
+  call_.facts.Leave(*this);
   std::lock_guard lock(mutex_);
   call_.facts.LogEnded(upload_, *end_);
 }

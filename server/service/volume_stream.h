@@ -16,6 +16,7 @@
 #include "server/service/call_gate.h"
 #include "server/service/refused_call.h"
 #include "server/service/request_sequence.h"
+#include "server/service/sender_clock.h"
 #include "server/status_mapping.h"
 
 namespace bccskel::server {
@@ -36,6 +37,7 @@ template <typename Call>
 class VolumeStream
     : public grpc::ServerBidiReactor<typename Call::Request, typename Call::Response>,
       public Call::Listener,
+      public LastingCall,
       public std::enable_shared_from_this<VolumeStream<Call>> {
  public:
   using Request = typename Call::Request;
@@ -49,13 +51,21 @@ class VolumeStream
   // From here on the stream owns itself, until gRPC is done with it and the job has ended.
   void Begin() {
     self_ = this->shared_from_this();
+    sender_.Await(Clock::now());
     this->StartRead(&request_);
+    facts_.LookAfter(self_);
   }
 
   void OnReadDone(bool ok) override;
   void OnWriteDone(bool ok) override;
   void OnCancel() override;
   void OnDone() override;
+
+  void EndEarly(const absl::Status& why) override { Fail(why); }
+  absl::Status CheckSender(TimePoint now, std::chrono::milliseconds limit) override {
+    std::lock_guard lock(mutex_);
+    return sender_.Check(now, limit);
+  }
 
   void OnBytesConsumed() override { ReadNext(); }
   void OnEnd(absl::StatusOr<Result> result) override;
@@ -80,9 +90,14 @@ class VolumeStream
   const VolumeLimits& limits() const { return limits_; }
   const CallFacts& facts() const { return facts_; }
   // What keeps the stream alive. Needs: gRPC is done with it.
-  std::shared_ptr<VolumeStream> LetGo() { return std::move(self_); }
+  std::shared_ptr<VolumeStream> LetGo() {
+    facts_.Leave(*this);
+    return std::move(self_);
+  }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void Take(Request& request);
   void HalfClose();
   absl::Status StartJob(const Request& request);
@@ -106,6 +121,7 @@ class VolumeStream
   RequestSequence sequence_;
 
   std::mutex mutex_;
+  SenderClock sender_;            // guarded by mutex_
   std::shared_ptr<Job> job_;      // guarded by mutex_
   typename Call::Outbox outbox_;  // guarded by mutex_
   Response response_;             // of the write in flight
@@ -120,6 +136,10 @@ class VolumeStream
 template <typename Call>
 void VolumeStream<Call>::OnReadDone(bool ok) {
   if (!ok) return HalfClose();
+  {
+    std::lock_guard lock(mutex_);
+    sender_.Take(Clock::now(), request_.has_chunk() ? request_.chunk().data().size() : 0);
+  }
   absl::Status status = sequence_.Take(request_);
   if (!status.ok()) return Fail(std::move(status));
   Take(request_);
@@ -172,16 +192,18 @@ absl::Status VolumeStream<Call>::StartJob(const Request& request) {
   job_ = job;
   outbox_.Accept(job->name());
   Advance();
-  const bool too_late = error_.has_value();
+  const std::optional<absl::Status> too_late = error_;
   lock.unlock();
-  if (too_late) job->Cancel();
+  if (too_late.has_value()) job->EndWith(*too_late);
   return absl::OkStatus();
 }
 
 template <typename Call>
 void VolumeStream<Call>::ReadNext() {
   std::lock_guard lock(mutex_);
-  if (!finished_) this->StartRead(&request_);
+  if (finished_) return;
+  if (!sequence_.finished()) sender_.Await(Clock::now());
+  this->StartRead(&request_);
 }
 
 template <typename Call>
@@ -217,11 +239,11 @@ void VolumeStream<Call>::Fail(absl::Status status) {
   {
     std::lock_guard lock(mutex_);
     if (finished_ || error_.has_value()) return;
-    error_ = std::move(status);
-    job = job_;
+    error_ = status;
+    if (!half_closed_) job = job_;  // else OnDone() knows whether it was one
     Advance();
   }
-  if (job != nullptr) job->Cancel();
+  if (job != nullptr) job->EndWith(std::move(status));
 }
 
 template <typename Call>
@@ -248,11 +270,14 @@ void VolumeStream<Call>::Advance() {
 template <typename Call>
 void VolumeStream<Call>::OnDone() {
   const std::shared_ptr<VolumeStream> self = LetGo();
-  std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   facts_.LogEnded(job_ == nullptr ? std::string() : job_->name(),
                   error_.value_or(absl::OkStatus()));
-  job_.reset();
+  const std::shared_ptr<Job> job = std::move(job_);
+  const absl::Status error = half_closed_ ? error_.value_or(absl::OkStatus()) : absl::OkStatus();
   outbox_ = typename Call::Outbox();
+  lock.unlock();
+  if (job != nullptr && !error.ok()) job->EndWith(error);
 }
 
 // Starts a call's handler. Needs: `runner`, and what `more` refers to, outlive the call.

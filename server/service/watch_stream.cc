@@ -12,6 +12,7 @@
 #include "server/durable/ledger.h"
 #include "server/service/durable_messages.h"
 #include "server/service/event_queue.h"
+#include "server/service/lasting_calls.h"
 #include "server/service/ledger_status.h"
 #include "server/service/refused_call.h"
 #include "server/status_mapping.h"
@@ -29,6 +30,7 @@ constexpr std::chrono::seconds kHeartbeat(10);
 // come on different threads; the mutex orders them.
 class WatchStream final : public Reactor,
                           public JobWatcher,
+                          public LastingCall,
                           public std::enable_shared_from_this<WatchStream> {
  public:
   WatchStream(DurableCall call, const v1::WatchJobRequest& request)
@@ -43,10 +45,13 @@ class WatchStream final : public Reactor,
     std::lock_guard lock(mutex_);
     handle_ = std::move(handle);
     AwaitSilence();
+    call_.facts.LookAfter(self_);
   }
 
   void OnEvent(const JobEvent& event) override;
   void OnWatchEnd(const absl::Status& status) override { End(LedgerError(status)); }
+
+  void EndEarly(const absl::Status& why) override { End(why); }
 
   void OnWriteDone(bool ok) override;
   void OnCancel() override { End(call_.facts.CancelStatus()); }
@@ -140,6 +145,7 @@ void WatchStream::OnAlarm() {
 
 void WatchStream::OnDone() {
   const std::shared_ptr<WatchStream> self = std::move(self_);
+  call_.facts.Leave(*this);
   std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
   std::lock_guard lock(mutex_);
   call_.facts.LogEnded(job_, *end_);

@@ -36,10 +36,10 @@ TEST(ServerConfig, ListensOnLoopbackByDefaultWithinThisMachine) {
 
 TEST(ServerConfig, TakesEveryFlag) {
   const ServerConfig config = Parsed(
-      {"--listen",     "unix:/run/x", "--threads",          "3",   "--max-jobs",         "2",
-       "--max-queue",  "0",           "--max-memory-bytes", "2GB", "--max-volume-bytes", "3MB",
-       "--max-bricks", "77",          "--lame-duck-ms",     "5",   "--drain-ms",         "6",
-       "--log-level",  "warning"});
+      {"--listen",     "unix:/run/x", "--threads",           "3",   "--max-jobs",         "2",
+       "--max-queue",  "0",           "--max-memory-bytes",  "2GB", "--max-volume-bytes", "3MB",
+       "--max-bricks", "77",          "--lame-duck-ms",      "5",   "--drain-ms",         "6",
+       "--log-level",  "warning",     "--sender-timeout-ms", "7"});
   EXPECT_THAT(config.listen, testing::ElementsAre("unix:/run/x"));
   EXPECT_EQ(config.limits.threads, 3);
   EXPECT_EQ(config.limits.max_jobs, 2);
@@ -47,6 +47,7 @@ TEST(ServerConfig, TakesEveryFlag) {
   EXPECT_EQ(config.limits.max_bytes, uint64_t{2} << 30);
   EXPECT_EQ(config.limits.max_volume_bytes, uint64_t{3} << 20);
   EXPECT_EQ(config.limits.volume.max_bricks, 77u);
+  EXPECT_EQ(config.sender_timeout, std::chrono::milliseconds(7));
   EXPECT_EQ(config.lame_duck, std::chrono::milliseconds(5));
   EXPECT_EQ(config.drain, std::chrono::milliseconds(6));
   EXPECT_EQ(config.log_level, "warning");

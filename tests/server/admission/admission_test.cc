@@ -111,6 +111,54 @@ TEST(Admission, ANamedTenantMayHaveMore) {
   EXPECT_TRUE(admission.Admit("large", 100).ok());
 }
 
+TEST(Admission, WithoutACapATenantTakesHalfOfThePlacesThatOthersLeave) {
+  Admission admission(
+      {.bytes = 100,
+       .places = 7,
+       .tenants = {.each = {}, .named = {{"capped", {.max_jobs = 7}}, {"a", {}}, {"b", {}}}}});
+  std::vector<Ticket> tickets;
+  const auto taken = [&](const std::string& tenant) {
+    absl::StatusOr<Ticket> ticket = admission.Admit(tenant, 1);
+    if (ticket.ok()) {
+      tickets.push_back(*std::move(ticket));
+      return true;
+    }
+    EXPECT_EQ(RefusalOf(ticket.status()), Refusal::kQueueFull);
+    return false;
+  };
+  for (int n = 0; n < 4; ++n) EXPECT_TRUE(taken("a")) << n;
+  EXPECT_FALSE(taken("a"));
+  EXPECT_TRUE(taken("b"));
+  EXPECT_TRUE(taken("b"));
+  EXPECT_FALSE(taken("b"));
+  EXPECT_TRUE(taken("capped")) << "a cap of its own is what a tenant may have";
+  EXPECT_FALSE(taken("capped"));
+}
+
+TEST(Admission, ATenantWithoutOthersMayHaveAllPlaces) {
+  Admission admission({.bytes = 100, .places = 3, .tenants = {.each = {}, .named = {{"a", {}}}}});
+  std::vector<Ticket> tickets;
+  for (int n = 0; n < 3; ++n) {
+    absl::StatusOr<Ticket> ticket = admission.Admit("a", 1);
+    ASSERT_TRUE(ticket.ok()) << ticket.status();
+    tickets.push_back(*std::move(ticket));
+  }
+}
+
+TEST(Admission, CountsJobsUntilTheirResultsAreLetGoOf) {
+  Admission admission({.bytes = 100, .places = 2});
+  EXPECT_EQ(admission.jobs(), 0);
+  {
+    Ticket unread = *admission.Admit(60);
+    unread.LeavePlace();
+    const Ticket moved = std::move(unread);
+    const Ticket at_work = *admission.Admit(10);
+    EXPECT_EQ(admission.usage().places, 1);
+    EXPECT_EQ(admission.jobs(), 2);
+  }
+  EXPECT_EQ(admission.jobs(), 0);
+}
+
 TEST(Admission, ATicketKnowsItsTenantWhenItGrowsAndGoes) {
   Admission admission(
       {.bytes = 100, .places = 10, .tenants = {.each = {.max_bytes = 40}, .named = {}}});

@@ -58,8 +58,8 @@ class FakeJob final : public Job, public std::enable_shared_from_this<FakeJob> {
   void FinishVolume(std::optional<Sha256Digest>) override {
     Post([this] { Compute(); });
   }
-  void Cancel() override {
-    Post([this] { End(absl::CancelledError("the job was cancelled")); });
+  void EndWith(absl::Status why) override {
+    Post([this, why = std::move(why)] { End(why); });
   }
 
  private:

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <set>
 #include <string>
 #include <thread>
@@ -349,11 +351,30 @@ TEST_F(LedgerJobsTest, LetsNothingExpireByAClockThatHasLeapt) {
   Wait(std::chrono::hours(24 * 365));
   Open();
   EXPECT_TRUE(GetJob("clinic", job).ok()) << "the clock was wrong when the server started";
+  Close();
+  Open();
+  EXPECT_TRUE(GetJob("clinic", job).ok()) << "another start does not make it right";
   Wait(-std::chrono::hours(24 * 365));
   Close();
   Open();
   EXPECT_EQ(GetJob("clinic", job)->state, JobState::kSucceeded);
   EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
+}
+
+TEST_F(LedgerJobsTest, CleansUpAgainAfterAReadingFarAhead) {
+  std::atomic<int> doubts = 0;
+  Close();
+  options_.believable_leap = std::chrono::hours(24);
+  options_.on_warning = [&](const std::string&) { ++doubts; };
+  Open();
+  const auto wait_for_doubt = [&](int number) {
+    while (doubts < number) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  Wait(std::chrono::hours(24 * 365));
+  wait_for_doubt(1);
+  Wait(-std::chrono::hours(24 * 365));
+  wait_for_doubt(2);  // the next clean-up, and not one in a year
+  Close();
 }
 
 TEST_F(LedgerJobsTest, FailsAJobWhoseResultDoesNotFitOnTheDisk) {

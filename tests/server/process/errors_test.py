@@ -2,6 +2,7 @@
 
 import unittest
 
+import server_process
 from durable_case import Code, DurableTest, durable, jobs, volume, volume_pb2, volumes
 
 # The stubs of durable_case made this possible.
@@ -35,6 +36,20 @@ class ErrorsTest(DurableTest):
         self.field_is_wrong("volume", lambda: self.create(""))
         self.field_is_wrong("config.upload", lambda: self.upload(volumes.UploadVolumeConfig(
             upload="uploads/a b", volume=self.declaration)))
+
+    def test_bytes_that_are_no_message_are_told_as_such_by_every_method_that_reads_one(self):
+        wrong = b"\x0a\xff"  # a field that is longer than what comes
+        called = 0
+        for descriptor in server_process.services():
+            for method in descriptor.methods:
+                if method.client_streaming:
+                    continue
+                called += 1
+                call = self.channel.unary_stream(f"/{descriptor.full_name}/{method.name}")
+                error = self.fails(Code.INVALID_ARGUMENT, "REQUEST_MALFORMED",
+                                   lambda: list(call(wrong, timeout=server_process.TIMEOUT_S)))
+                self.assertIn("cannot be parsed", error.details())
+        self.assertGreaterEqual(called, 10)
 
     def test_what_can_be_no_name_is_a_wrong_field(self):
         for name in ("", "jobs/" + "x" * 200):

@@ -163,6 +163,24 @@ class MetricsTest(unittest.TestCase):
             self.assertGreater(float(lines[name]), 0, name)
         self.assertTrue(any(name.startswith("bccskel_build_info{") for name in lines))
 
+    def test_a_volume_of_another_size_than_declared_counts_as_one(self):
+        with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
+            page = server.line_after("metrics at ")
+            with grpc.insecure_channel(server.address) as channel:
+                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                config, chunk, finish = example.requests(example.torus())
+                more = example.service.SkeletonizeRequest(chunk=example.volume_pb2.VolumeChunk(
+                    offset=len(chunk.chunk.data), data=b"x"))
+                for requests in ([config, chunk, more, finish], [config, finish]):
+                    with self.assertRaises(grpc.RpcError) as raised:
+                        list(stub.Skeletonize(iter(requests)))
+                    self.assertEqual(example.error_reason(raised.exception), "VOLUME_SIZE")
+                name = ('bccskel_jobs_total{code="INVALID_ARGUMENT",reason="VOLUME_SIZE",'
+                        'tenant="default"}')
+                lines = server_process.metrics_after_jobs(page, 2)
+        self.assertEqual(lines.get(name), "2",
+                         {name: value for name, value in lines.items() if "jobs_total" in name})
+
 
 class LoadTest(unittest.TestCase):
     def test_health_is_answered_and_sigterm_obeyed_while_all_threads_compute(self):
@@ -237,11 +255,36 @@ class StopTest(unittest.TestCase):
             with grpc.insecure_channel(  # who comes now is told, too, and not left without answer
                     server.address, [("grpc.use_local_subchannel_pool", 1)]) as later:
                 self.assertEqual([health(later, name) for name in services], [2] * len(services))
-                with self.assertRaises(grpc.RpcError) as raised:
-                    example.skeletonize(later, example.torus())
-            self.assertEqual(example.error_reason(raised.exception), "DRAINING")
+                # Balancers that have not asked yet still send calls here: they are served.
+                done = example.skeletonize(later, example.torus())
+                self.assertEqual(done.summary.certificate.skeleton.loops, 1)
             self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
             self.assertGreaterEqual(time.monotonic() - start, lame_duck_s)
+
+    def test_after_the_lame_duck_time_new_calls_are_refused_and_begun_ones_go_on(self):
+        with ServerProcess("--lame-duck-ms", "300") as server, \
+                grpc.insecure_channel(server.address) as channel:
+            requests, go_on = list(example.requests(example.torus())), threading.Event()
+
+            def held_back():
+                yield requests[0]
+                go_on.wait(server_process.TIMEOUT_S)
+                yield from requests[1:]
+
+            stub = example.service_grpc.SkeletonizationServiceStub(channel)
+            replies = stub.Skeletonize(held_back())
+            self.assertTrue(next(replies).HasField("accepted"))
+            server.process.send_signal(signal.SIGTERM)
+            reason = None
+            while reason is None:  # the test's time limit ends it
+                try:
+                    example.skeletonize(channel, example.torus())
+                except grpc.RpcError as error:
+                    reason = example.error_reason(error)
+            self.assertEqual(reason, "DRAINING")
+            go_on.set()
+            self.assertTrue(list(replies)[-1].HasField("summary"))
+            self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
 
 
 @unittest.skipUnless(CLI, "the command line is not built")

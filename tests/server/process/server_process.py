@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import urllib.request
 
 BINARY = os.environ["BCCSKEL_SERVER"]
@@ -66,6 +67,16 @@ def metrics(page):
     with urllib.request.urlopen(page, timeout=TIMEOUT_S) as answer:
         lines = answer.read().decode().splitlines()
     return dict(line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
+
+
+def metrics_after_jobs(page, number):
+    """The same, as soon as so many jobs have ended. The test's time limit ends it."""
+    while True:
+        lines = metrics(page)
+        if sum(float(value) for name, value in lines.items()
+               if name.startswith("bccskel_jobs_total")) >= number:
+            return lines
+        time.sleep(0.01)
 
 
 def run_to_end(*flags):

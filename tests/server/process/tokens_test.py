@@ -4,6 +4,7 @@ import importlib
 import json
 import pathlib
 import tempfile
+import threading
 import time
 import unittest
 import urllib.request
@@ -19,6 +20,8 @@ example = server_process.example()
 admin = importlib.import_module("bccskel.v1.admin_service_pb2")
 admin_grpc = importlib.import_module("bccskel.v1.admin_service_pb2_grpc")
 details = importlib.import_module("bccskel.v1.rpc_details_pb2")
+jobs = importlib.import_module("bccskel.v1.job_service_pb2")
+jobs_grpc = importlib.import_module("bccskel.v1.job_service_pb2_grpc")
 
 
 def new_token(tenant):
@@ -124,6 +127,41 @@ class TokensTest(unittest.TestCase):
                 time.sleep(0.05)
             self.assertEqual(self.outcome(server, token), grpc.StatusCode.OK)
             self.assertEqual(server.stop(), 0)
+
+    def test_calls_under_way_end_with_their_token_and_those_of_others_go_on(self):
+        with tempfile.TemporaryDirectory() as data, self.server("--data-dir", data) as server, \
+                grpc.insecure_channel(server.address) as channel:
+            stub = example.service_grpc.SkeletonizationServiceStub(channel)
+            go_on = threading.Event()
+            self.addCleanup(go_on.set)
+
+            def held_back(array):
+                requests = list(example.requests(array))
+                yield requests[0]
+                go_on.wait(server_process.TIMEOUT_S)
+                yield from requests[1:]
+
+            def begin(token, array):
+                call = stub.Skeletonize(held_back(array), metadata=bearer(token),
+                                        timeout=server_process.TIMEOUT_S)
+                return call, next(call).accepted.job
+
+            small, large = example.torus(), example.torus(200.0, 60.0)
+            revoked, _ = begin(self.acme, small)
+            durable, job = begin(self.acme, large)
+            watch = jobs_grpc.JobServiceStub(channel).WatchJob(
+                jobs.WatchJobRequest(job=job), metadata=bearer(self.acme),
+                timeout=server_process.TIMEOUT_S)
+            next(watch)
+            kept, _ = begin(self.lab, small)
+            self.write(self.lines[1:])
+            for call in (revoked, durable, watch):
+                with self.assertRaises(grpc.RpcError) as raised:
+                    list(call)
+                self.assertEqual((raised.exception.code(), reason_of(raised.exception)),
+                                 (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID"))
+            go_on.set()
+            self.assertTrue(list(kept)[-1].HasField("summary"))
 
     def test_tenants_are_told_apart_and_no_token_is_written_anywhere(self):
         trace = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"

@@ -28,7 +28,7 @@ class FakeJob : public Job {
     appended_.release();
   }
   void FinishVolume(std::optional<Sha256Digest>) override { finished_.release(); }
-  void Cancel() override { cancelled_.release(); }
+  void EndWith(absl::Status) override { cancelled_.release(); }
 
   JobListener& listener() { return *listener_; }
   void WaitForBytes() { appended_.acquire(); }
