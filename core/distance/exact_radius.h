@@ -36,6 +36,9 @@ class ExactRadius {
   // A background point as far away as At() said last.
   // Needs: this searches, and At() was asked for an object point.
   LatticePoint nearest() const { return last_.at; }
+  // Afterwards, which of equally near points nearest() says depends on the next point alone, not on
+  // those asked for before.
+  void ForgetNearest() { last_ = kOutside; }
   // From p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 

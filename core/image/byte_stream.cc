@@ -1,10 +1,11 @@
 #include "core/image/byte_stream.h"
 
-#include <zlib.h>
+#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -41,22 +42,17 @@ class PlainStream : public ByteStream {
   uint64_t offset_;
 };
 
+// ISA-L expands masks, which repeat much, in an eighth of zlib's time.
 class DeflateStream : public ByteStream {
  public:
   DeflateStream(std::shared_ptr<const ImageFile> file, uint64_t offset)
       : file_(std::move(file)), offset_(offset), input_(kInputBytes) {}
-  ~DeflateStream() override { inflateEnd(&zlib_); }
-
-  absl::Status Start() {
-    constexpr int kGzipOrZlib = 15 + 32;
-    if (inflateInit2(&zlib_, kGzipOrZlib) == Z_OK) return absl::OkStatus();
-    return absl::ResourceExhaustedError("not enough memory to expand a compressed stream");
-  }
 
   absl::StatusOr<size_t> Read(std::span<std::byte> into) override {
     size_t filled = 0;
     while (filled < into.size() && !ended_) {
       BCCSKEL_RETURN_IF_ERROR(Refill());
+      if (!begun_) Begin();
       BCCSKEL_ASSIGN_OR_RETURN(const size_t got, Expand(into.subspan(filled)));
       filled += got;
     }
@@ -79,45 +75,77 @@ class DeflateStream : public ByteStream {
 
  private:
   absl::Status Refill() {
-    if (zlib_.avail_in > 0) return absl::OkStatus();
+    if (state_->avail_in > 0) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const size_t got, file_->ReadAt(offset_, input_));
     offset_ += got;
-    zlib_.next_in = reinterpret_cast<Bytef*>(input_.data());
-    zlib_.avail_in = static_cast<uInt>(got);
+    state_->next_in = reinterpret_cast<uint8_t*>(input_.data());
+    state_->avail_in = static_cast<uint32_t>(got);
     return absl::OkStatus();
+  }
+
+  bool GzipFollows() const { return state_->avail_in > 0 && state_->next_in[0] == 0x1f; }
+
+  void Begin() {
+    isal_inflate_reset(state_.get());
+    state_->crc_flag = GzipFollows() ? ISAL_GZIP : ISAL_ZLIB;
+    begun_ = true;
   }
 
   absl::StatusOr<size_t> Expand(std::span<std::byte> into) {
     const auto room =
-        static_cast<uInt>(std::min<size_t>(into.size(), std::numeric_limits<uInt>::max()));
-    const bool no_more_input = zlib_.avail_in == 0;
-    zlib_.next_out = reinterpret_cast<Bytef*>(into.data());
-    zlib_.avail_out = room;
-    const int code = inflate(&zlib_, Z_NO_FLUSH);
-    const size_t got = room - zlib_.avail_out;
-    if (code == Z_STREAM_END) BCCSKEL_RETURN_IF_ERROR(EndMember());
-    if (code == Z_OK || code == Z_STREAM_END) return got;
-    if (code == Z_BUF_ERROR && no_more_input) {
+        static_cast<uint32_t>(std::min<size_t>(into.size(), std::numeric_limits<uint32_t>::max()));
+    const uint32_t given = state_->avail_in;
+    state_->next_out = reinterpret_cast<uint8_t*>(into.data());
+    state_->avail_out = room;
+    const int code = isal_inflate(state_.get());
+    const size_t got = room - state_->avail_out;
+    expanded_ += got;
+    if (code != ISAL_DECOMP_OK && code != ISAL_END_INPUT) {
       return absl::InvalidArgumentError(
-          absl::StrFormat("the compressed stream is cut after %d expanded bytes", zlib_.total_out));
+          absl::StrFormat("the compressed stream is damaged: %s", WrongBy(code)));
     }
-    if (code == Z_BUF_ERROR) return got;
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "the compressed stream is damaged: %s", zlib_.msg == nullptr ? "no reason" : zlib_.msg));
+    if (state_->block_state == ISAL_BLOCK_FINISH) {
+      BCCSKEL_RETURN_IF_ERROR(EndMember());
+    } else if (got == 0 && state_->avail_in == given) {  // nothing was left to give, or to take
+      return absl::InvalidArgumentError(
+          absl::StrFormat("the compressed stream is cut after %d expanded bytes", expanded_));
+    }
+    return got;
+  }
+
+  static const char* WrongBy(int code) {
+    switch (code) {
+      case ISAL_INVALID_BLOCK:
+        return "invalid block";
+      case ISAL_INVALID_SYMBOL:
+        return "invalid code";
+      case ISAL_INVALID_LOOKBACK:
+        return "invalid distance too far back";
+      case ISAL_INVALID_WRAPPER:
+        return "incorrect header";
+      case ISAL_UNSUPPORTED_METHOD:
+        return "unknown compression method";
+      case ISAL_INCORRECT_CHECKSUM:
+        return "incorrect data check";
+      default:
+        return "it needs what is not in it";
+    }
   }
 
   // Some writers put gzip members in a row; what else follows a stream is not ours.
   absl::Status EndMember() {
     BCCSKEL_RETURN_IF_ERROR(Refill());
-    const bool another = zlib_.avail_in >= 1 && zlib_.next_in[0] == 0x1f;
-    ended_ = !another || inflateReset(&zlib_) != Z_OK;
+    begun_ = false;
+    ended_ = !GzipFollows();
     return absl::OkStatus();
   }
 
   std::shared_ptr<const ImageFile> file_;
   uint64_t offset_;
   std::vector<std::byte> input_;
-  z_stream zlib_ = {};
+  std::unique_ptr<inflate_state> state_ = std::make_unique<inflate_state>();
+  uint64_t expanded_ = 0;
+  bool begun_ = false;
   bool ended_ = false;
 };
 
@@ -134,9 +162,7 @@ absl::StatusOr<std::unique_ptr<ByteStream>> ByteStream::Open(std::shared_ptr<con
   if (compression == Compression::kNone) {
     return std::make_unique<PlainStream>(std::move(file), offset);
   }
-  auto stream = std::make_unique<DeflateStream>(std::move(file), offset);
-  BCCSKEL_RETURN_IF_ERROR(stream->Start());
-  return stream;
+  return std::make_unique<DeflateStream>(std::move(file), offset);
 }
 
 }  // namespace bccskel

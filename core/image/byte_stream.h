@@ -24,7 +24,7 @@ inline constexpr uint64_t kMaxDeflateRatio = 1032;
 // kDeflate where the bytes begin as gzip does.
 Compression SniffGzip(std::span<const std::byte> front);
 
-// The bytes of a file from a place on, expanded, in order. Memory: 64 KiB and zlib's window.
+// The bytes of a file from a place on, expanded, in order. Memory: 150 KiB.
 class ByteStream {
  public:
   static absl::StatusOr<std::unique_ptr<ByteStream>> Open(std::shared_ptr<const ImageFile> file,

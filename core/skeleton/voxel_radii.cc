@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/distance/exact_radius.h"
+#include "core/distance/places.h"
 
 namespace bccskel {
 namespace {
@@ -23,18 +24,18 @@ constexpr double kOutsideSmall = 0.2;
 
 class VoxelRadii {
  public:
-  VoxelRadii(const Volume& object, int32_t voxel_units)
-      : object_(object),
-        voxel_(voxel_units),
+  VoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search)
+      : voxel_(voxel_units),
         scale_(AxisScaleOf(object.placement())),
-        untouched_(object) {}
+        search_(search),
+        bricks_(object) {}
 
   // A function of the point alone: the search begins anew, since a tie's answer depends on what was
   // found before.
-  float At(LatticePoint p) const {
-    ExactRadius search = untouched_;
-    if (search.At(p) == 0) return 0;
-    const Vector way = WayTo(p, search.nearest());
+  float At(LatticePoint p) {
+    search_.ForgetNearest();
+    if (search_.At(p) == 0) return 0;
+    const Vector way = WayTo(p, search_.nearest());
     const double near = NearSide(p, way);
     const double far = FarSide(p, way, near);
     return static_cast<float>((near + far) / 2);
@@ -59,8 +60,8 @@ class VoxelRadii {
   // How long a voxel is in this direction.
   double VoxelAlong(const Vector& way) const { return voxel_ * LengthOf(way) / Norm(way); }
 
-  bool IsObject(const Voxel& v) const {
-    return object_.Contains({voxel_ * v[0] + 1, voxel_ * v[1] + 1, voxel_ * v[2] + 1});
+  bool IsObject(const Voxel& v) {
+    return bricks_.Contains({voxel_ * v[0] + 1, voxel_ * v[1] + 1, voxel_ * v[2] + 1});
   }
   Voxel VoxelAt(const Vector& at) const {
     Voxel v;
@@ -70,7 +71,7 @@ class VoxelRadii {
 
   // The distance to the surface on the side of the nearest background point. Where it is round, the
   // nearest of the voxels around lies a little outside on average, the more the fewer there are.
-  double NearSide(LatticePoint p, const Vector& way) const {
+  double NearSide(LatticePoint p, const Vector& way) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
       if (std::max(std::abs(way[u]), std::abs(way[v])) > voxel_ / 2) continue;
@@ -91,7 +92,7 @@ class VoxelRadii {
 
   // Whether the surface there is a plane across the axis, wider than the terrace that a round
   // object of this radius has.
-  bool IsFlat(LatticePoint p, const Vector& way, size_t axis) const {
+  bool IsFlat(LatticePoint p, const Vector& way, size_t axis) {
     const Voxel outside = VoxelAt({p.x + way[0], p.y + way[1], p.z + way[2]});
     const int32_t inward = way[axis] > 0 ? -1 : 1;
     const double voxels = std::abs(way[axis]) / voxel_;
@@ -110,7 +111,7 @@ class VoxelRadii {
   }
 
   // The distance to the face where the chord leaves the object on the other side.
-  double FarSide(LatticePoint p, const Vector& way, double near) const {
+  double FarSide(LatticePoint p, const Vector& way, double near) {
     const double length = LengthOf(way), voxel = VoxelAlong(way), step = voxel / kStepsPerVoxel;
     const double begin = std::max(near - voxel, 0.0);
     const auto steps = static_cast<int>((near + kMostFarther * voxel - begin) / step);
@@ -122,10 +123,10 @@ class VoxelRadii {
     return near;
   }
 
-  const Volume& object_;
   const int32_t voxel_;
   const AxisScale scale_;
-  const ExactRadius untouched_;
+  ExactRadius search_;
+  NearbyBricks bricks_;
 };
 
 }  // namespace
@@ -145,10 +146,11 @@ absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec
     if (n == 0 || points[n]->point != points[n - 1]->point) firsts.push_back(n);
   }
   firsts.push_back(points.size());
-  const VoxelRadii radii(object, voxel_units);
+  const ExactRadius search(object);
   exec::Portions portions(firsts.size() - 1, 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
   context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
+    VoxelRadii radii(object, voxel_units, search);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
       for (size_t n = mine.begin; n < mine.end; ++n) {

@@ -82,6 +82,23 @@ TEST(ExactRadius, OfABackgroundPointIsZero) {
   EXPECT_EQ(radius.At({38, 38, 38}), 0);
 }
 
+// Many points of a cloud have several background points equally near.
+TEST(ExactRadius, ThatForgetsFindsTheSameNearestPointAsANewOne) {
+  const Volume object = Placed(test::RandomCloud(7, {40, 20, 20}, 0.9), {1, 1, 1});
+  const ExactRadius untouched(object);
+  ExactRadius forgets = untouched, remembers = untouched;
+  size_t otherwise = 0;
+  object.ForEachPoint([&](LatticePoint p) {
+    ExactRadius fresh = untouched;
+    forgets.ForgetNearest();
+    ASSERT_EQ(forgets.At(p), fresh.At(p));
+    ASSERT_EQ(forgets.nearest(), fresh.nearest());
+    remembers.At(p);
+    if (remembers.nearest() != fresh.nearest()) ++otherwise;
+  });
+  EXPECT_GT(otherwise, 0U);
+}
+
 TEST(ExactRadii, StopWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
