@@ -91,6 +91,7 @@ absl::Status BlobStore::ConfirmResult(const std::string& tenant, const std::stri
 
 absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant, const std::string& name,
                                                  const std::string& digest) const {
+  ConfirmResult(tenant, name).IgnoreError();  // if that fails, so does this
   return ResultFile::Open(PathOfResult(tenant, name), digest);
 }
 

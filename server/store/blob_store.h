@@ -41,6 +41,7 @@ class BlobStore {
 
   // Its name ends in kUnconfirmed until ConfirmResult(), which comes when the tables have it.
   absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
+  // Confirms it, too: readers may learn of it from the tables before their writer comes to that.
   // Errors: DATA_LOSS for a file that is missing or has another digest.
   absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& name,
                                         const std::string& digest) const;
