@@ -107,17 +107,23 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   if (run.ratio < kLeastRatio) return verdict;
   const double out = run.elongation - noise_, radius = set.RadiusOf(path[run.from]);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
-  verdict.value = BestRoot(set, path, run, WidthsBeside(set, path, run, reach, Directions::kFew));
+  Sections sections = SectionsAcross(set, path, run, reach);
+  verdict.value = BestRoot(set, path, run, sections);
   if (verdict.value >= kLeastFine) {
-    verdict.value =
-        BestRoot(set, path, run, WidthsBeside(set, path, run, reach, Directions::kMany));
+    for (Section& section : sections) TurnFinely(reach, section);
+    verdict.value = BestRoot(set, path, run, sections);
   }
   return verdict;
 }
 
 // The limb begins at the root that makes the most of it.
 double Significance::BestRoot(const ThinSet& set, std::span<const LatticePoint> path,
-                              const Run& run, const Widths& wider) const {
+                              const Run& run, const Sections& sections) const {
+  // How much farther the object goes on to the sides than the radius.
+  std::array<double, kPlaces> wider;
+  std::ranges::transform(sections, wider.begin(), [](const Section& section) {
+    return std::max(section.half_width - section.radius, 0.0);
+  });
   const double half_width_near_tip = wider[kNearTip] + set.RadiusOf(path[PlaceIn(run, kNearTip)]);
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
@@ -146,42 +152,43 @@ double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch
   return 1 - static_cast<double>(covered) / static_cast<double>(samples);
 }
 
-// How much farther the object goes on to the sides of the run than the radius, at each place.
-Significance::Widths Significance::WidthsBeside(const ThinSet& set,
-                                                std::span<const LatticePoint> path, const Run& run,
-                                                double reach, Directions directions) {
-  Widths wider;
+Significance::Sections Significance::SectionsAcross(const ThinSet& set,
+                                                    std::span<const LatticePoint> path,
+                                                    const Run& run, double reach) {
+  Sections sections;
   for (size_t place = 0; place < kPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
-    const double radius = set.RadiusOf(path[n]);
-    wider[place] = HalfWidth(WayAt(path, n, scale_), path[n], radius, reach, directions) - radius;
+    Section& section = sections[place];
+    section = {PlaceOf(path[n], scale_), WayAt(path, n, scale_), set.RadiusOf(path[n])};
+    const auto [u, v] = Across(section.way);
+    section.side = u;
+    for (const auto& [cosine, sine] : kTurns) {
+      Widen(Sum(Sum({0, 0, 0}, cosine, u), sine, v), reach, section);
+    }
   }
-  return wider;
+  return sections;
 }
 
-// Of the widest line across, the mean of its two sides: what lies at a limb's end has one side.
-double Significance::HalfWidth(const Coordinates& way, LatticePoint p, double radius, double reach,
-                               Directions directions) {
-  const Coordinates middle = PlaceOf(p, scale_);
-  const auto [u, v] = Across(way);
-  const double start = std::floor(radius);
-  Coordinates best = u;
-  double widest = 0;
-  const auto look = [&](const Coordinates& side) {
-    const double there = WayOut(middle, side, start, reach);
-    const double back = WayOut(middle, Sum({0, 0, 0}, -1, side), start, reach);
-    const bool wider = (there + back) / 2 > widest;
-    if (wider) widest = (there + back) / 2, best = side;
-    return wider;
-  };
-  for (const auto& [cosine, sine] : kTurns) look(Sum(Sum({0, 0, 0}, cosine, u), sine, v));
-  // A thin plate is left soon by lines that do not lie in it.
-  const double least = directions == Directions::kMany ? kLeastTurn : kFirstTurn;
-  for (double turn = kFirstTurn; turn > least; turn /= 2) {
-    const Coordinates from = best, across = Cross(way, from);
-    if (!look(Unit(Sum(from, turn, across)))) look(Unit(Sum(from, -turn, across)));
+// A thin plate is left soon by lines that do not lie in it.
+void Significance::TurnFinely(double reach, Section& section) {
+  for (double turn = kFirstTurn; turn > kLeastTurn; turn /= 2) {
+    const Coordinates from = section.side, across = Cross(section.way, from);
+    if (Widen(Unit(Sum(from, turn, across)), reach, section)) continue;
+    Widen(Unit(Sum(from, -turn, across)), reach, section);
   }
-  return std::max(widest, radius);
+}
+
+// The mean of the line's two sides counts: what lies at a limb's end has one side. Returns whether
+// this line is the widest so far.
+bool Significance::Widen(const Coordinates& side, double reach, Section& section) {
+  const double start = std::floor(section.radius);
+  const double there = WayOut(section.middle, side, start, reach);
+  const double back = WayOut(section.middle, Sum({0, 0, 0}, -1, side), start, reach);
+  const double half_width = (there + back) / 2;
+  if (half_width <= section.half_width) return false;
+  section.side = side;
+  section.half_width = half_width;
+  return true;
 }
 
 // How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`.

@@ -47,7 +47,7 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
 //        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
-// Cost:  48 points of a branch; 176 rays where it sticks out at all, up to 572 where it may stay.
+// Cost:  48 points of a branch; 176 rays where it sticks out at all, up to 396 where it may stay.
 // Threads: one thread per instance.
 class Significance {
  public:
@@ -69,18 +69,23 @@ class Significance {
     double value = 0;  // as if nothing of it were covered
   };
 
-  // Across a branch: 8, or also between the widest of them and its neighbors.
-  enum class Directions { kFew, kMany };
+  // Across a branch, in one place of its run.
+  struct Section {
+    Coordinates middle, way;  // `way` of the branch, of length 1
+    double radius = 0;
+    Coordinates side = {0, 0, 0};  // of the widest line, of length 1
+    double half_width = 0;         // along it, the mean of its two sides
+  };
+  using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
-  using Widths = std::array<double, kPlaces>;
-  Widths WidthsBeside(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
-                      double reach, Directions directions);
+  Sections SectionsAcross(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
+                          double reach);
+  void TurnFinely(double reach, Section& section);
+  bool Widen(const Coordinates& side, double reach, Section& section);
   double BestRoot(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
-                  const Widths& wider) const;
-  double HalfWidth(const Coordinates& way, LatticePoint p, double radius, double reach,
-                   Directions directions);
+                  const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
   bool InObject(const Coordinates& place) { return bricks_.Contains(PointNear(place, scale_)); }
 
