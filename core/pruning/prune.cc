@@ -6,6 +6,7 @@
 #include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
 #include "core/pruning/simple_points.h"
+#include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
@@ -59,7 +60,8 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = curves.space != nullptr ? *curves.space : object;
-  Significance significance(space, curves.surface_step);
+  const double noise = SurfaceNoise(space, curves.surface_step);
+  Significance significance(space, noise);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());
@@ -69,7 +71,7 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
     BCCSKEL_RETURN_IF_ERROR(
-        PlaceTips(set, object, space, radius, kept, curves.surface_step, context));
+        PlaceTips(set, object, space, radius, kept, noise, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);

@@ -9,7 +9,6 @@ namespace bccskel {
 namespace {
 
 constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
-constexpr double kNoiseInSteps = 3;
 constexpr double kWidthShare = 2;    // of what the object is wider than thick
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
 constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
@@ -63,8 +62,6 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 
 }  // namespace
 
-double NoiseOf(double step) { return kNoiseInSteps * step; }
-
 Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise) {
   const size_t last = path.size() - 1, stride = last / kMostSamples + 1;
   std::vector<std::pair<size_t, double>> samples;  // positions and radii
@@ -85,8 +82,8 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
   return best;
 }
 
-Significance::Significance(const Volume& object, double step)
-    : noise_(NoiseOf(step)), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+Significance::Significance(const Volume& object, double noise)
+    : noise_(noise), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   const LatticePoint end = branch.points[0];

@@ -24,9 +24,6 @@ struct Run {
   double ratio = 0;       // what of that is no noise, in radii at `from`
 };
 
-// What sampling may add to an elongation where the surface goes in steps of `step` lattice units.
-double NoiseOf(double step);
-
 // Shapes: `path` has at least two points, from the junction, or the middle of a path, to the end.
 // Long paths are looked at in 48 places.
 Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise);
@@ -53,8 +50,8 @@ class Significance {
  public:
   static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
 
-  // Needs: `object` outlives this.
-  Significance(const Volume& object, double step);
+  // Needs: `object` outlives this; `noise`, lattice units, as SurfaceNoise() has it.
+  Significance(const Volume& object, double noise);
 
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.

@@ -36,14 +36,14 @@ constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, double step, const exec::Context& context)
+            const PointSet& keep, double noise, const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
         depth_(space, radius, context),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
-        noise_(NoiseOf(step)) {}
+        noise_(noise) {}
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || set_.Degree(end) != 1) return;
@@ -278,11 +278,11 @@ class TipPlacer {
 }  // namespace
 
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, double step,
+                       const ExactRadius& radius, const PointSet& keep, double noise,
                        const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, step, context);
+  TipPlacer placer(set, object, space, radius, keep, noise, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

@@ -17,11 +17,10 @@ namespace bccskel {
 // A tip is never cut back behind where its limb begins (LargestRun()), grows by the radius there
 // and 6 units at most, and not into the ball of another branch. Points of `keep` are not cut off.
 // Needs:  `radius` belongs to `object`; `space` is the object, or that with points beyond its
-// border,
-//         which no tip grows into; the surface goes in steps of `step` lattice units.
+//         border, which no tip grows into; `noise`, lattice units, as SurfaceNoise() has it.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, double step,
+                       const ExactRadius& radius, const PointSet& keep, double noise,
                        const exec::Context& context);
 
 }  // namespace bccskel

@@ -190,6 +190,12 @@ TEST(Significance, KeepsThinSpinesWhereTheSurfaceIsRough) {
   EXPECT_EQ(EndsOf(rough), 6u);
 }
 
+// Horns a few units thick, which noise of the surface could be.
+TEST(Significance, KeepsSmallLimbsWhereTheSurfaceIsSmooth) {
+  const Volume smooth = Spiny(36, 5, 0.28);
+  EXPECT_EQ(EndsOf(smooth), 6u);
+}
+
 TEST(Significance, OfLimbsIsTheSameAtAnyResolution) {
   const auto levels_of = [](uint64_t points) {
     const Volume horse = *GenerateShape(Shape::kHorse, {.points = points});
@@ -224,7 +230,7 @@ double StrandBeside(int32_t apart) {
   const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
   const std::vector<float> radii(curves.PointCount(), 10.0f);
   const ThinSet set({curves, radii});
-  return Significance(solid, 1).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
+  return Significance(solid, 3).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
 }
 
 TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {

@@ -1,0 +1,72 @@
+#include "core/pruning/surface_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/volume/brick.h"
+#include "core/volume/brick_neighbors.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kSmooth = 0.01, kRough = 0.025;  // roughness
+constexpr double kLeastSteps = 1, kMostSteps = 3;
+
+constexpr uint64_t kFirstInRows = 0x0001'0001'0001'0001;
+constexpr uint64_t kLastInRows = kFirstInRows << 15;
+constexpr int kRow = 16, kLastRow = 48;  // bits
+
+// The six bricks beside a brick: +x, -x, +y, -y, +z, -z.
+using Beside = std::array<const BrickBits*, 6>;
+
+// Which points of layer k have an object point beside them, for each way.
+std::array<uint64_t, 6> PlanesBeside(const BrickBits& own, const Beside& beside, size_t k) {
+  const uint64_t word = own.words[k];
+  const auto in = [&](size_t way) { return beside[way]->words[k]; };
+  return {(word >> 1 & ~kLastInRows) | (in(0) & kFirstInRows) << 15,
+          (word << 1 & ~kFirstInRows) | (in(1) & kLastInRows) >> 15,
+          word >> kRow | in(2) << kLastRow,
+          word << kRow | in(3) >> kLastRow,
+          k + 1 < own.words.size() ? own.words[k + 1] : beside[4]->words.front(),
+          k > 0 ? own.words[k - 1] : beside[5]->words.back()};
+}
+
+struct SurfaceCount {
+  uint64_t points = 0;
+  uint64_t pits = 0;
+
+  void Add(uint64_t own, const std::array<uint64_t, 6>& p) {
+    points +=
+        static_cast<uint64_t>(std::popcount(own & ~(p[0] & p[1] & p[2] & p[3] & p[4] & p[5])));
+    const uint64_t ones_a = p[0] ^ p[1] ^ p[2], twos_a = (p[0] & p[1]) | (p[2] & (p[0] ^ p[1]));
+    const uint64_t ones_b = p[3] ^ p[4] ^ p[5], twos_b = (p[3] & p[4]) | (p[5] & (p[3] ^ p[4]));
+    const uint64_t four = (twos_a & twos_b) | ((twos_a ^ twos_b) & ones_a & ones_b);
+    pits += static_cast<uint64_t>(std::popcount(four & ~own));
+  }
+};
+
+}  // namespace
+
+double Roughness(const Volume& object) {
+  const std::span<const BrickBits> bricks = object.padded_bricks();
+  SurfaceCount count;
+  for (size_t n = 0; n < object.brick_count(); ++n) {
+    Beside beside;
+    for (size_t way = 0; way < 6; ++way) beside[way] = &bricks[object.neighbors()[n][8 + way]];
+    for (size_t k = 0; k < bricks[n].words.size(); ++k) {
+      count.Add(bricks[n].words[k], PlanesBeside(bricks[n], beside, k));
+    }
+  }
+  return count.points == 0 ? 0
+                           : static_cast<double>(count.pits) / static_cast<double>(count.points);
+}
+
+double SurfaceNoise(const Volume& object, double step) {
+  const double share = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
+  return step * (kLeastSteps + (kMostSteps - kLeastSteps) * share);
+}
+
+}  // namespace bccskel

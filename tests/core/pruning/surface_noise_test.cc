@@ -1,0 +1,68 @@
+#include "core/pruning/surface_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+
+#include "core/shapes/shapes.h"
+#include "tests/core/pruning/simple_noise.h"
+
+namespace bccskel {
+namespace {
+
+constexpr std::array<LatticePoint, 6> kAxes = {
+    {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}}};
+
+// As Roughness() is defined, point by point. Pits in bricks that are not stored do not count.
+double SlowRoughness(const Volume& object) {
+  const auto beside = [&](LatticePoint p) {
+    return std::ranges::count_if(kAxes, [&](LatticePoint way) { return object.Contains(p + way); });
+  };
+  uint64_t points = 0, pits = 0;
+  for (const BrickKey& key : object.keys()) {
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      const LatticePoint p = PointOf(key.coordinates(), bit);
+      if (object.Contains(p)) {
+        points += beside(p) < 6;
+      } else {
+        pits += beside(p) >= 4;
+      }
+    }
+  }
+  return points == 0 ? 0 : static_cast<double>(pits) / static_cast<double>(points);
+}
+
+TEST(Roughness, IsThatOfItsDefinition) {
+  std::mt19937_64 random(3);
+  for (const uint64_t sixteenths : {1u, 5u, 9u, 14u, 16u}) {
+    VolumeBuilder builder({37, 11, 19});
+    for (int32_t z = 0; z < 38; ++z) {
+      for (int32_t y = 0; y < 22; ++y) {
+        for (int32_t x = 0; x < 74; ++x) {
+          if (IsOnLattice({x, y, z}) && random() % 16 < sixteenths) builder.Add({x, y, z});
+        }
+      }
+    }
+    const Volume dust = *std::move(builder).Build();
+    EXPECT_EQ(Roughness(dust), SlowRoughness(dust)) << sixteenths;
+  }
+  EXPECT_EQ(Roughness(Volume()), 0);
+}
+
+TEST(SurfaceNoise, IsOneStepWhereSmoothAndThreeWhereRough) {
+  for (const Shape shape : {Shape::kHorse, Shape::kTorus, Shape::kBox}) {
+    for (const uint64_t points : {20'000u, 200'000u}) {
+      SCOPED_TRACE(testing::Message() << ShapeName(shape) << ' ' << points);
+      const Volume smooth = *GenerateShape(shape, {.points = points});
+      EXPECT_EQ(SurfaceNoise(smooth, 1), 1);
+      EXPECT_EQ(SurfaceNoise(smooth, 2.5), 2.5);
+      EXPECT_EQ(SurfaceNoise(test::WithSimpleNoise(smooth, 0.05, 7), 1), 3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
