@@ -10,6 +10,7 @@
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/firm_depth.h"
+#include "core/pruning/flat_end.h"
 #include "core/pruning/significance.h"
 
 namespace bccskel {
@@ -40,7 +41,9 @@ class TipPlacer {
       : set_(set),
         bricks_(object),
         radius_(radius),
-        depth_(space, radius, context),
+        searching_(radius.searches() ? radius : ExactRadius(space)),
+        depth_(space, searching_, context),
+        flat_(space, searching_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
         noise_(noise) {}
@@ -49,6 +52,7 @@ class TipPlacer {
     if (!set_.Contains(end) || set_.Degree(end) != 1) return;
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
+    if (CutFlat(branch)) return;
     const std::optional<LatticePoint> anchor = TakeAnchor(branch);
     if (!anchor.has_value() || branch.points.empty()) return;
     anchor_ = *anchor;
@@ -74,6 +78,16 @@ class TipPlacer {
     }
     root_ = path.size() < 2 ? path[0] : path[LargestRun(set_, path, noise_).from];
     root_radius_ = set_.RadiusOf(root_);
+  }
+
+  // In flat limbs distances say nothing of where they end.
+  bool CutFlat(const FreeBranch& branch) {
+    path_.assign(branch.points.rbegin(), branch.points.rend());
+    const auto root = std::ranges::find(path_, root_);
+    if (root != path_.end()) path_.erase(path_.begin(), root);
+    const std::optional<size_t> last = flat_.In(path_, set_);
+    if (last.has_value()) CutAfter(*last);
+    return last.has_value();
   }
 
   // Finds the anchor and leaves the points between the end and it.
@@ -261,7 +275,9 @@ class TipPlacer {
   ThinSet& set_;
   NearbyBricks bricks_;
   ExactRadius radius_;
+  const ExactRadius searching_;
   FirmDepth depth_;
+  FlatEnd flat_;
   const PointSet& keep_;
   const BallIndex balls_;
   const double noise_;
