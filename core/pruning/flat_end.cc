@@ -16,6 +16,7 @@ constexpr double kRoundRadii = 4;  // so far from the end a flat limb is wide, i
 constexpr double kMargin = 6;
 constexpr double kCutWidths = 1.75;
 constexpr double kAsWide = 0.9;     // of the largest width
+constexpr double kHalfAsWide = 0.5;
 constexpr double kLeastLimb = 0.5;  // of that: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kStride = 8;       // places in a width
@@ -32,15 +33,27 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                           {0.38268343, 0.92387953},
                                                           {-0.92387953, 0.38268343}}};
 
+// Where the limb is about as wide as anywhere.
+bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
+  size_t wide = 0, flat = 0;
+  for (const FlatEnd::Place& place : places) {
+    if (place.width < kHalfAsWide * widest) continue;
+    ++wide;
+    if (place.flatness > kFlatness) ++flat;
+  }
+  return 2 * flat > wide;
+}
+
 }  // namespace
 
-FlatEnd::FlatEnd(const Volume& object, const ExactRadius& radius)
-    : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius) {}
+FlatEnd::FlatEnd(const Volume& object, const ExactRadius& radius, FirmDepth& depth)
+    : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius), depth_(depth) {}
 
 std::optional<size_t> FlatEnd::In(std::span<const LatticePoint> path, const ThinSet& set) {
   const std::vector<Place> places = WidePlaces(path, set);
   if (places.empty()) return std::nullopt;
   const double widest = std::ranges::max(places, {}, &Place::width).width;
+  if (!IsFlat(places, widest)) return std::nullopt;
   const Place aim =
       *std::ranges::find_if(places, [&](const Place& p) { return p.width >= kAsWide * widest; });
   if (set.Between(path[0], path[aim.position]) < kLeastLimb * widest) return std::nullopt;
@@ -63,14 +76,14 @@ std::optional<size_t> FlatEnd::In(std::span<const LatticePoint> path, const Thin
 std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> path,
                                                 const ThinSet& set) {
   std::vector<Place> places;
-  bool flat = false;
+  bool flat = false;  // so far
   for (size_t n = path.size(); n-- > 0;) {
-    const double back = set.Between(path[n], path.back()), radius = set.RadiusOf(path[n]);
+    const double back = set.Between(path[n], path.back()), radius = depth_.At(path[n]);
     const double width = WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n), radius);
     if (back > kCutWidths * width + kMargin) break;
     flat = flat || width > kFlatness * radius;
     if (!flat && back > kRoundRadii * radius + kMargin) return {};
-    places.push_back({n, width});
+    places.push_back({n, width, width / radius});
     n -= std::min(n, static_cast<size_t>(width / kStride));
   }
   if (!flat) places.clear();

@@ -8,6 +8,7 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
+#include "core/pruning/firm_depth.h"
 #include "core/pruning/thin_set.h"
 #include "core/volume/volume.h"
 
@@ -26,19 +27,21 @@ namespace bccskel {
 // Threads: one thread per instance.
 class FlatEnd {
  public:
-  // Needs: `object`, to which `radius` belongs, outlives this.
-  FlatEnd(const Volume& object, const ExactRadius& radius);
+  struct Place {
+    size_t position = 0;
+    double width = 0;
+    double flatness = 0;  // the width over the depth
+  };
+
+  // Needs: `object`, to which `radius` and `depth` belong, and `depth` outlive this; `radius`
+  //        searches.
+  FlatEnd(const Volume& object, const ExactRadius& radius, FirmDepth& depth);
 
   // Position in the path of the last point to keep. None where the limb is not flat, or ends there.
   // Needs: a path of at least one point, from where the limb begins to its end, all in `set`.
   std::optional<size_t> In(std::span<const LatticePoint> path, const ThinSet& set);
 
  private:
-  struct Place {
-    size_t position = 0;
-    double width = 0;
-  };
-
   std::vector<Place> WidePlaces(std::span<const LatticePoint> path, const ThinSet& set);
   Coordinates NormalAt(std::span<const LatticePoint> path, size_t position);
   double WidthAt(const Coordinates& place, const Coordinates& normal, double radius);
@@ -51,6 +54,7 @@ class FlatEnd {
   const AxisScale scale_;
   NearbyBricks bricks_;
   ExactRadius radius_;
+  FirmDepth& depth_;
 };
 
 }  // namespace bccskel

@@ -43,7 +43,7 @@ class TipPlacer {
         radius_(radius),
         searching_(radius.searches() ? radius : ExactRadius(space)),
         depth_(space, searching_, context),
-        flat_(space, searching_),
+        flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
         noise_(noise) {}
