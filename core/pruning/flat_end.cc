@@ -8,19 +8,21 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.75;      // of a tip's merit, along the limb
-constexpr double kFlatness = 1.6;    // width by radius: less is round
+constexpr double kSlope = 0.75;       // of a tip's merit, along the limb
+constexpr double kFlatness = 1.6;     // width by radius: less is round
+constexpr double kFlatMargin = 3;     // so are limbs as thick as the steps of the surface
 constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
 constexpr double kMostMargin = 16;
 constexpr double kRoundRadii = 4;  // so far from the end a flat limb is wide, in radii
 constexpr double kMargin = 6;
 constexpr double kCutWidths = 1.75;
-constexpr double kAsWide = 0.9;     // of the largest width
+constexpr double kAsWide = 0.9;  // of the largest width
 constexpr double kHalfAsWide = 0.5;
 constexpr double kLeastLimb = 0.5;  // of that: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kStride = 8;       // places in a width
 constexpr double kStep = 1.5;       // lattice units
+constexpr double kMostOff = 2;      // farther off lies another sheet
 constexpr size_t kNormalReach = 4;  // points on either side
 
 // Eighths of a half turn: cosine and sine.
@@ -39,7 +41,7 @@ bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
   for (const FlatEnd::Place& place : places) {
     if (place.width < kHalfAsWide * widest) continue;
     ++wide;
-    if (place.flatness > kFlatness) ++flat;
+    if (place.flat) ++flat;
   }
   return 2 * flat > wide;
 }
@@ -79,11 +81,13 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
   bool flat = false;  // so far
   for (size_t n = path.size(); n-- > 0;) {
     const double back = set.Between(path[n], path.back()), radius = depth_.At(path[n]);
-    const double width = WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n), radius);
+    const double width =
+        WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n), kMostFlatness * radius + kMostMargin);
     if (back > kCutWidths * width + kMargin) break;
-    flat = flat || width > kFlatness * radius;
+    const bool is_flat = width > kFlatness * radius + kFlatMargin;
+    flat = flat || is_flat;
     if (!flat && back > kRoundRadii * radius + kMargin) return {};
-    places.push_back({n, width, width / radius});
+    places.push_back({n, width, is_flat});
     n -= std::min(n, static_cast<size_t>(width / kStride));
   }
   if (!flat) places.clear();
@@ -105,13 +109,13 @@ Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t positio
   return Unit(sum);
 }
 
-double FlatEnd::WidthAt(const Coordinates& place, const Coordinates& normal, double radius) {
+double FlatEnd::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {
+  double width = longest;
   const auto [u, v] = Across(normal);
-  double width = kMostFlatness * radius + kMostMargin;
   for (const auto& [cosine, sine] : kTurns) {
     const Coordinates way = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
     for (const double side : {1.0, -1.0}) {
-      width = WayToRim(place, Sum({0, 0, 0}, side, way), normal, radius, width);
+      width = WayToRim(place, Sum({0, 0, 0}, side, way), normal, width);
     }
   }
   return width;
@@ -119,11 +123,11 @@ double FlatEnd::WidthAt(const Coordinates& place, const Coordinates& normal, dou
 
 // `longest` where the rim is farther.
 double FlatEnd::WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
-                         double radius, double longest) {
+                         double longest) {
   for (double length = kStep; length < longest; length += kStep) {
     place = Sum(place, kStep, way);
     if (InObject(place)) continue;
-    const std::optional<Coordinates> near = InSheetNear(place, normal, radius);
+    const std::optional<Coordinates> near = InSheetNear(place, normal);
     if (!near.has_value()) return length;
     place = *near;
   }
@@ -131,9 +135,9 @@ double FlatEnd::WayToRim(Coordinates place, const Coordinates& way, const Coordi
 }
 
 // The place moved along the normal until it is in the object again, and one unit deeper.
-std::optional<Coordinates> FlatEnd::InSheetNear(const Coordinates& place, const Coordinates& normal,
-                                                double radius) {
-  for (double off = 1; off <= radius + 1; ++off) {
+std::optional<Coordinates> FlatEnd::InSheetNear(const Coordinates& place,
+                                                const Coordinates& normal) {
+  for (double off = 1; off <= kMostOff; ++off) {
     for (const double side : {1.0, -1.0}) {
       if (!InObject(Sum(place, side * off, normal))) continue;
       const Coordinates deeper = Sum(place, side * (off + 1), normal);

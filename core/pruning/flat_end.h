@@ -16,21 +16,21 @@ namespace bccskel {
 
 // Finds where the curve of a flat limb should end. In something flat the radius hardly changes up
 // to the rim, so thinning leads the curve into one of the limb's corners. In the limb's own plane
-// widths are what radii are in space: W, the distance to the rim within the sheet, is the same along
-// the limb and falls toward a corner.
-// Does:  the end is the place with the largest sum of W and 0.75 of the way along the limb, as for
+// widths are what radii are in space: W, the distance to the rim within the sheet, is the same
+// along the limb and falls toward a corner. Does:  the end is the place with the largest sum of W
+// and 0.75 of the way along the limb, as for
 //        tips in space (tips.h). The limb's direction is that of the way to the last place that is
-//        as wide as any. What is cut lies within 1.75 W and 6 units of the new end, and the limb has
-//        a length of at least W / 2 before it: corners of plates, which do not end limbs, stay.
+//        as wide as any. What is cut lies within 1.75 W and 6 units of the new end, and the limb
+//        has a length of at least W / 2 before it: corners of plates, which do not end limbs, stay.
 // W is the shortest of 16 ways across the normal, which is that to the nearest background. Such a
-// way follows a bent sheet: where it leaves the object it goes on where the object is above or below.
-// Threads: one thread per instance.
+// way follows a bent sheet: where it leaves the object it goes on where the object is above or
+// below. Threads: one thread per instance.
 class FlatEnd {
  public:
   struct Place {
     size_t position = 0;
     double width = 0;
-    double flatness = 0;  // the width over the depth
+    bool flat = false;  // much wider than deep
   };
 
   // Needs: `object`, to which `radius` and `depth` belong, and `depth` outlive this; `radius`
@@ -44,11 +44,10 @@ class FlatEnd {
  private:
   std::vector<Place> WidePlaces(std::span<const LatticePoint> path, const ThinSet& set);
   Coordinates NormalAt(std::span<const LatticePoint> path, size_t position);
-  double WidthAt(const Coordinates& place, const Coordinates& normal, double radius);
+  double WidthAt(const Coordinates& place, const Coordinates& normal, double longest);
   double WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
-                  double radius, double longest);
-  std::optional<Coordinates> InSheetNear(const Coordinates& place, const Coordinates& normal,
-                                         double radius);
+                  double longest);
+  std::optional<Coordinates> InSheetNear(const Coordinates& place, const Coordinates& normal);
   bool InObject(const Coordinates& place) { return bricks_.Contains(PointNear(place, scale_)); }
 
   const AxisScale scale_;
