@@ -8,7 +8,7 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.6;        // of a tip's merit, along the limb
+constexpr double kSlope = 0.5;        // of a tip's merit, along the limb
 constexpr double kFlatness = 1.6;     // width by radius: less is round
 constexpr double kFlatMargin = 3;     // so are limbs as thick as the steps of the surface
 constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
@@ -20,6 +20,7 @@ constexpr double kAsWide = 0.9;  // of the largest width
 constexpr double kHalfAsWide = 0.5;
 constexpr double kLeastLimb = 0.5;  // of that: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
+constexpr double kLeastStride = 1;
 constexpr double kStride = 8;       // places in a width
 constexpr double kStep = 1.5;       // lattice units
 constexpr double kMostOff = 2;      // farther off lies another sheet
@@ -78,6 +79,7 @@ std::optional<size_t> FlatEnd::In(std::span<const LatticePoint> path, const Thin
 std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> path,
                                                 const ThinSet& set) {
   std::vector<Place> places;
+  ways_.assign(path.size(), std::nullopt);
   bool flat = false;  // so far
   for (size_t n = path.size(); n-- > 0;) {
     const double back = set.Between(path[n], path.back()), radius = depth_.At(path[n]);
@@ -88,7 +90,7 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
     flat = flat || is_flat;
     if (!flat && back > kRoundRadii * radius + kMargin) return {};
     places.push_back({n, width, is_flat});
-    n -= std::min(n, static_cast<size_t>(width / kStride));
+    n -= std::min(n, static_cast<size_t>(std::max(width / kStride, kLeastStride)));
   }
   if (!flat) places.clear();
   return places;
@@ -100,13 +102,21 @@ Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t positio
   const size_t last = std::min(position + kNormalReach, path.size() - 1);
   Coordinates sum = {0, 0, 0};
   for (size_t n = first; n <= last; ++n) {
-    radius_.ForgetNearest();
-    radius_.At(path[n]);
-    const Coordinates way =
-        Unit(Sum(PlaceOf(radius_.nearest(), scale_), -1, PlaceOf(path[n], scale_)));
+    const Coordinates way = WayToBackground(path, n);
     sum = Sum(sum, Dot(sum, way) < 0 ? -1 : 1, way);
   }
   return Unit(sum);
+}
+
+// Of length 1.
+Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t position) {
+  std::optional<Coordinates>& way = ways_[position];
+  if (!way.has_value()) {
+    radius_.ForgetNearest();
+    radius_.At(path[position]);
+    way = Unit(Sum(PlaceOf(radius_.nearest(), scale_), -1, PlaceOf(path[position], scale_)));
+  }
+  return *way;
 }
 
 double FlatEnd::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {

@@ -18,7 +18,7 @@ namespace bccskel {
 // to the rim, so thinning leads the curve into one of the limb's corners. In the limb's own plane
 // widths are what radii are in space: W, the distance to the rim within the sheet, is the same
 // along the limb and falls toward a corner. Does:  the end is the place with the largest sum of W
-// and 0.6 of the way along the limb, much as for
+// and half of the way along the limb, much as for
 //        tips in space (tips.h). The limb's direction is that of the way to the last place that is
 //        as wide as any. What is cut lies within 1.75 W and 6 units of the new end, and the limb
 //        has a length of at least W / 2 before it: corners of plates, which do not end limbs, stay.
@@ -43,6 +43,7 @@ class FlatEnd {
 
  private:
   std::vector<Place> WidePlaces(std::span<const LatticePoint> path, const ThinSet& set);
+  Coordinates WayToBackground(std::span<const LatticePoint> path, size_t position);
   Coordinates NormalAt(std::span<const LatticePoint> path, size_t position);
   double WidthAt(const Coordinates& place, const Coordinates& normal, double longest);
   double WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
@@ -54,6 +55,7 @@ class FlatEnd {
   NearbyBricks bricks_;
   ExactRadius radius_;
   FirmDepth& depth_;
+  std::vector<std::optional<Coordinates>> ways_;  // to the background, where asked for
 };
 
 }  // namespace bccskel
