@@ -70,8 +70,7 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   }
   pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(
-        PlaceTips(set, object, space, radius, kept, noise, context));
+    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, space, radius, kept, noise, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   pruned.thin = set.ToVolume(thin);
