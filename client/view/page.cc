@@ -150,7 +150,6 @@ absl::StatusOr<std::string> PageOf(const PageContent& content) {
   Replace(page, "{{result}}", InScript(ShownOf(content.result.text)));
   Replace(page, "{{data}}",
           InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace)));
-  Replace(page, "{{controls}}", kOrbitControls);
   Replace(page, "{{three}}", kThree);
   Replace(page, "{{license}}", kThreeLicense);
   Replace(page, "{{style}}", kPageStyle);

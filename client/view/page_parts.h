@@ -11,9 +11,8 @@ extern const std::string_view kPageStyle;
 extern const std::string_view kViewerScripts;
 extern const std::string_view kThreeLicense;
 
-// three.js, as Debian packages it, and its controls.
+// three.js, as Debian packages it.
 extern const std::string_view kThree;
-extern const std::string_view kOrbitControls;
 
 }  // namespace bccskel::view
 

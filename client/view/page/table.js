@@ -1,0 +1,205 @@
+// ---- Columns ----
+
+const inUnit = (name) => unit ? `${name} (${unit})` : name;
+const numberColumn = (key, title) => ({ key, title, show: (row) =>
+  row[key] === undefined ? "" : figure(row[key]) });
+const kColumns = {
+  branches: [
+    { key: "id", title: "Branch", show: (b) => b.id },
+    { key: "component", title: "Component", show: (b) => b.component },
+    { key: "kinds", title: "Ends", text: true, show: (b) => b.kinds },
+    numberColumn("length", inUnit("Length")), numberColumn("mean", inUnit("Mean radius")),
+    numberColumn("min", inUnit("Min radius")), numberColumn("max", inUnit("Max radius")),
+    numberColumn("tortuosity", "Tortuosity"),
+    ...(levels.length ? [numberColumn("level", "Pruning level")] : []),
+    ...(colorings.strahler ? [numberColumn("strahler", "Strahler order")] : []),
+    ...(colorings.generation ? [numberColumn("generation", "Generation")] : []),
+  ],
+  components: [
+    { key: "shown", title: "Shown", text: true, show: (c) => hidden.has(c.id) ? "\u2610" : "\u2611" },
+    { key: "id", title: "Component", show: (c) => c.id },
+    { key: "branches", title: "Branches", show: (c) => digits(c.branches) },
+    { key: "nodes", title: "Nodes", show: (c) => digits(c.nodes) },
+    numberColumn("length", inUnit("Length")), numberColumn("max", inUnit("Max radius")),
+    { key: "only", title: "", text: true, show: () => "only" },
+  ],
+};
+
+// ---- Which rows, and in which order ----
+
+const table = { about: "branches", sort: { branches: ["id", 1], components: ["id", 1] }, rows: [],
+                at: 0, filter: "" };
+const kRow = 28;  // pixels, as style.css says
+
+// `12 end length>5`: numbers are ids, words are of the text, and all must hold.
+function filterOf(text, columns) {
+  const tests = text.toLowerCase().split(/\s+/).filter(Boolean).map((term) => {
+    const [, name, sign, limit] = term.match(/^([a-z]+)(<=|>=|<|>|=)(-?[\d.]+(?:e-?\d+)?)$/) ?? [];
+    const column = name && columns.find(({ key, title }) => key !== "only" &&
+      (key.startsWith(name) || title.toLowerCase().replace(/ /g, "").startsWith(name)));
+    if (column) {
+      const against = { "<": (v) => v < limit, ">": (v) => v > limit, "<=": (v) => v <= limit,
+                        ">=": (v) => v >= limit, "=": (v) => v === Number(limit) }[sign];
+      return (row) => row[column.key] !== undefined && against(Number(row[column.key]));
+    }
+    if (/^\d+$/.test(term)) return (row) => row.id === Number(term);
+    return (row) => (row.kinds ?? "").includes(term);
+  });
+  return (row) => tests.every((test) => test(row));
+}
+
+function listRows() {
+  const all = table.about === "branches" ? [...shown.branches.values()] : shown.components;
+  const [key, sign] = table.sort[table.about];
+  const value = key === "shown" ? (row) => Number(!hidden.has(row.id)) : (row) => row[key];
+  const compare = (a, b) => a < b ? -sign : a > b ? sign : 0;
+  // Those that have no value come last either way.
+  table.rows = all.filter(filterOf(table.filter, kColumns[table.about])).sort((a, b) => {
+    const [u, v] = [value(a), value(b)];
+    if (u === undefined || v === undefined) return (u === undefined) - (v === undefined) || a.id - b.id;
+    return compare(u, v) || a.id - b.id;
+  });
+  table.at = Math.max(0, Math.min(table.at, table.rows.length - 1));
+  showHeads();
+  element("found").textContent = table.rows.length === all.length ? ""
+    : `${digits(table.rows.length)} of ${digits(all.length)}`;
+  element("rows").setAttribute("aria-rowcount", table.rows.length + 1);
+  element("filler").style.height = `${kRow * table.rows.length}px`;
+  element("none").hidden = table.rows.length > 0;
+  element("none").textContent = all.length > 0 ? "Nothing matches the filter."
+    : table.about === "branches" ? "No branches are shown." : "The skeleton is empty.";
+  refreshRows();
+}
+
+// ---- What is seen ----
+
+function showHeads() {
+  const columns = kColumns[table.about], [key, sign] = table.sort[table.about];
+  element("rows").style.setProperty("--columns", columns.map(({ text, title }) =>
+    text ? "minmax(84px, 1fr)" : `minmax(${Math.max(70, 7.5 * title.length + 24)}px, 1fr)`).join(" "));
+  element("heads").innerHTML = columns.map((c) => `<span role="columnheader" ${c.text ? 'class="text"' : ""}
+    aria-sort="${c.key !== key ? "none" : sign > 0 ? "ascending" : "descending"}">${c.key === "only" ? ""
+    : `<button data-key="${c.key}">${c.title}</button>`}</span>`).join("");
+}
+
+const isOpen = () => !element("dock").classList.contains("closed");
+// Only the rows that are seen are elements.
+function refreshRows() {
+  if (!isOpen()) return;
+  const rows = element("rows"), columns = kColumns[table.about];
+  const first = Math.max(0, Math.floor(rows.scrollTop / kRow) - 4);
+  const last = Math.min(table.rows.length, first + Math.ceil(rows.clientHeight / kRow) + 8);
+  const marked = new Set(pinned());
+  element("body").style.transform = `translateY(${first * kRow}px)`;
+  element("body").innerHTML = table.rows.slice(first, last).map((row, n) => {
+    const place = first + n, chosen = table.about === "branches" ? marked.has(row) : !hidden.has(row.id);
+    return `<div role="row" id="row-${place}" data-place="${place}" aria-rowindex="${place + 2}"
+      aria-selected="${chosen}" class="${place === table.at ? "at" : ""}">${columns.map((c) =>
+      `<span role="gridcell" class="${c.text ? "text" : ""} ${c.key}">${c.show(row)}</span>`).join("")}</div>`;
+  }).join("");
+  rows.setAttribute("aria-activedescendant", `row-${table.at}`);
+}
+let rowsAsked = false;
+function refreshSoon() {
+  if (!rowsAsked) requestAnimationFrame(() => { rowsAsked = false; refreshRows(); });
+  rowsAsked = true;
+}
+
+function goToRow(place) {
+  table.at = Math.max(0, Math.min(place, table.rows.length - 1));
+  const rows = element("rows"), top = table.at * kRow, room = rows.clientHeight - kRow;
+  if (top < rows.scrollTop) rows.scrollTop = top;
+  if (top + kRow > rows.scrollTop + room) rows.scrollTop = top + kRow - room;
+  refreshRows();
+}
+function reveal(branch) {
+  const place = table.about === "branches" ? table.rows.indexOf(branch) : -1;
+  if (isOpen() && place >= 0) goToRow(place);
+}
+
+// ---- What one does with it ----
+
+function openDock(open) {
+  element("dock").classList.toggle("closed", !open);
+  element("dock-toggle").setAttribute("aria-expanded", open);
+  if (open) listRows();
+}
+function showTable(about) {
+  table.about = about;
+  table.at = 0;
+  for (const name of Object.keys(kColumns)) {
+    element(`tab-${name}`).setAttribute("aria-selected", name === about);
+  }
+  element("rows").scrollTop = 0;
+  element("rows").setAttribute("aria-label", about);
+  openDock(true);
+}
+function sortBy(key) {
+  const [before, sign] = table.sort[table.about];
+  table.sort[table.about] = [key, key === before ? -sign : 1];
+  listRows();
+  element("heads").querySelector(`[data-key="${key}"]`).focus();
+}
+function setHidden(components) {
+  hidden.clear();
+  for (const id of components) hidden.add(id);
+  order = hidden.size ? byLevel.filter((id) => !hidden.has(edgeComponent(id))) : byLevel;
+  tubes.arrange();
+  prune();
+}
+function useRow(place, alone) {
+  const row = table.rows[place];
+  if (!row) return;
+  table.at = place;
+  if (table.about === "branches") {
+    togglePin(row);
+    if (isPinned(row)) center(row);
+    return;
+  }
+  const others = shown.components.map(({ id }) => id).filter((id) => id !== row.id);
+  const lonely = others.every((id) => hidden.has(id)) && !hidden.has(row.id);
+  if (alone) setHidden(lonely ? [] : others);
+  else setHidden(hidden.has(row.id) ? [...hidden].filter((id) => id !== row.id) : [...hidden, row.id]);
+}
+function onRowKey(event) {
+  const page = Math.max(1, Math.floor(element("rows").clientHeight / kRow) - 2), { at, rows } = table;
+  const to = { ArrowDown: at + 1, ArrowUp: at - 1, PageDown: at + page, PageUp: at - page, Home: 0,
+               End: rows.length - 1 }[event.key];
+  if (event.target !== element("rows") || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (to !== undefined) {
+    goToRow(to);
+    if (table.about === "branches") mark(rows[table.at]);
+  } else if (event.key === "Enter" || event.key === " ") {
+    useRow(at, event.shiftKey);
+  } else {
+    return;
+  }
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+function listenToTable() {
+  const rows = element("rows"), placeOf = (event) => event.target.closest("[data-place]")?.dataset.place;
+  for (const name of Object.keys(kColumns)) {
+    element(`tab-${name}`).addEventListener("click", () => showTable(name));
+  }
+  element("dock-toggle").addEventListener("click", () => openDock(!isOpen()));
+  element("search").addEventListener("input", (event) => {
+    table.filter = event.target.value;
+    rows.scrollTop = 0;
+    openDock(true);
+  });
+  rows.addEventListener("scroll", refreshSoon);
+  rows.addEventListener("keydown", onRowKey);
+  rows.addEventListener("click", (event) => {
+    const { key } = event.target.dataset, place = placeOf(event);
+    if (key) sortBy(key);
+    else if (place) useRow(Number(place), event.target.classList.contains("only"));
+  });
+  rows.addEventListener("pointerover", (event) => {
+    const place = placeOf(event);
+    if (table.about === "branches") mark(place && table.rows[place]);
+  });
+  for (const type of ["pointerleave", "blur"]) rows.addEventListener(type, () => mark(null));
+  new ResizeObserver(refreshSoon).observe(rows);
+}
