@@ -51,7 +51,11 @@ class Browser:
 
     def __exit__(self, *_):
         self.send("Browser.close", session=None)
-        self.process.wait(timeout=60)
+        try:
+            self.process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
         os.close(self.command_out)
         os.close(self.reply_in)
         shutil.rmtree(self.profile, ignore_errors=True)
@@ -115,7 +119,7 @@ class Browser:
     def settle(self):
         """Until what was asked for has been drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        self.wait("!window.moving")
+        self.wait("!gliding && !asked && !pace.coarse")
 
     def resize(self, width, height, scale=1):
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height,

@@ -1,11 +1,10 @@
 // ---- Order of pruning ----
 
-const levelOf = (e) => e.pruning_level ?? Infinity;
-const levels = [...new Set(result.edges.map(levelOf))].filter(Number.isFinite)
-  .sort((a, b) => a - b);
+const levelOf = Float64Array.from(result.edges, (e) => e.pruning_level ?? Infinity);
+const levels = [...new Set(levelOf)].filter(Number.isFinite).sort((a, b) => a - b);
 // The branches that go last come first, so that those shown are always the first ones.
 const byLevel = result.edges.map((_, id) => id)
-  .sort((a, b) => levelOf(result.edges[b]) - levelOf(result.edges[a]) || a - b);
+  .sort((a, b) => levelOf[b] > levelOf[a] ? 1 : levelOf[b] < levelOf[a] ? -1 : a - b);
 
 const componentOf = (node) => result.nodes[node].component ?? 0;
 const edgeComponent = (id) => componentOf(result.edges[id].source);
@@ -23,9 +22,6 @@ const nodeDistance = (a, b) => {
   const [p, q] = [result.nodes[a].position, result.nodes[b].position];
   return Math.hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
 };
-const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
-const most = (numbers) => numbers.reduce((a, b) => Math.max(a, b), -Infinity);
-const finite = (v) => Number.isFinite(v) ? v : undefined;
 
 // ---- Branches ----
 
@@ -34,8 +30,7 @@ const finite = (v) => Number.isFinite(v) ? v : undefined;
 function prunedTo(step) {
   const threshold = step === 0 ? -Infinity : levels[step - 1];
   const degree = new Uint32Array(result.nodes.length);
-  const firstGone = byLevel.findIndex((id) => levelOf(result.edges[id]) <= threshold);
-  const left = firstGone < 0 ? byLevel : byLevel.slice(0, firstGone);
+  const left = [...result.edges.keys()].filter((id) => levelOf[id] > threshold);
   for (const id of left) {
     ++degree[result.edges[id].source];
     ++degree[result.edges[id].target];
@@ -61,7 +56,8 @@ function prunedTo(step) {
   for (const branch of branches.values()) measureBranch(branch, kindOf, isNode);
   const nodes = [];
   isNode.forEach((is, n) => { if (is) nodes.push(n); });
-  return withoutHidden({ step, nodes, degree, kindOf, branches, branchOf, threshold });
+  return withoutHidden({ step, threshold, gone: levelOf.length - left.length, nodes, degree, kindOf,
+                         branches, branchOf });
 }
 
 // Edges that meet in a node that is none any more are one branch.
@@ -82,35 +78,42 @@ function branchesOf(ids, isNode) {
     }
   }
   const branches = new Map();
-  for (const id of [...ids].sort((a, b) => a - b)) {
+  for (const id of ids) {
     const e = result.edges[id], first = firstOf(id);
-    if (!branches.has(first)) branches.set(first, { id: first, edges: [], ends: [] });
-    const branch = branches.get(first);
+    let branch = branches.get(first);
+    if (!branch) branches.set(first, branch = { id: first, edges: [], ends: [] });
     branch.edges.push(id);
-    branch.ends.push(...[e.source, e.target].filter((n) => isNode[n]));
+    if (isNode[e.source]) branch.ends.push(e.source);
+    if (isNode[e.target]) branch.ends.push(e.target);
   }
   return { branches, branchOf: firstOf };
 }
 
 // The figures of the branch table (client/export/branch_table.h).
 function measureBranch(branch, kindOf, isNode) {
-  const edges = branch.edges.map((id) => result.edges[id]), [first] = edges;
-  const [source, target] = branch.ends, kinds = branch.ends.map(kindOf);
-  const ends = kinds.filter((kind) => kind === "end").length, whole = edges.length === 1;
-  const length = edges.reduce((sum, e) => sum + e.length, 0);
-  const straight = nodeDistance(source, target);
+  const [source, target] = branch.ends, [kind, other] = [kindOf(source), kindOf(target)];
+  const ends = (kind === "end" ? 1 : 0) + (other === "end" ? 1 : 0), loop = kind === "loop";
   Object.assign(branch, {
-    component: componentOf(source), source, target, length, straight,
-    type: kinds[0] === "loop" ? 3 : ends === 2 ? 0 : ends === 1 ? 1 : 2,
-    kinds: kinds[0] === "loop" ? "loop" : kinds.map(words).join(" \u2013 "),
-    tortuosity: whole ? first.tortuosity : straight > 0 ? length / straight : undefined,
-    mean: (whole && first.mean_radius) || meanRadius(branch, isNode),
-    min: least(branch.edges.map((id) => radiusRanges[id].least)),
-    max: most(branch.edges.map((id) => radiusRanges[id].most)),
-    level: finite(least(edges.map(levelOf))),
-    generation: finite(least(edges.map((e) => e.generation ?? Infinity))),
-    strahler: finite(most(edges.map((e) => e.strahler ?? -Infinity))),
-  });
+    component: componentOf(source), source, target,
+    straight: nodeDistance(source, target), type: loop ? 3 : 2 - ends,
+    kinds: loop ? "loop" : `${words(kind)} \u2013 ${words(other)}`,
+    length: 0, min: Infinity, max: -Infinity, level: Infinity, generation: Infinity, strahler: -Infinity });
+  for (const id of branch.edges) {
+    const e = result.edges[id], { least, most } = radiusRanges[id];
+    branch.length += e.length;
+    branch.min = Math.min(branch.min, least);
+    branch.max = Math.max(branch.max, most);
+    branch.level = Math.min(branch.level, levelOf[id]);
+    branch.generation = Math.min(branch.generation, e.generation ?? Infinity);
+    branch.strahler = Math.max(branch.strahler, e.strahler ?? -Infinity);
+  }
+  for (const key of ["level", "generation", "strahler"]) {
+    if (!Number.isFinite(branch[key])) branch[key] = undefined;
+  }
+  const only = branch.edges.length === 1 ? result.edges[branch.id] : null;
+  branch.mean = only?.mean_radius ?? meanRadius(branch, isNode);
+  branch.tortuosity = only ? only.tortuosity
+    : branch.straight > 0 ? branch.length / branch.straight : undefined;
 }
 // Two edges that meet inside a branch have a point in common, which counts half for each.
 function meanRadius(branch, isNode) {
@@ -147,7 +150,7 @@ function withoutHidden(graph) {
   }
   graph.components = components.filter(Boolean);
   graph.nodes = graph.nodes.filter((n) => !hidden.has(componentOf(n)));
-  const firstGone = order.findIndex((id) => levelOf(result.edges[id]) <= graph.threshold);
+  const firstGone = order.findIndex((id) => levelOf[id] <= graph.threshold);
   graph.edges = firstGone < 0 ? order.length : firstGone;
   graph.length = 0;
   for (const { length } of graph.branches.values()) graph.length += length;
@@ -156,5 +159,5 @@ function withoutHidden(graph) {
 
 let shown = prunedTo(0);
 // The branch that an edge is a part of, if it is shown.
-const branchWith = (id) => result.edges[id] && levelOf(result.edges[id]) > shown.threshold
+const branchWith = (id) => levelOf[id] > shown.threshold
   ? shown.branches.get(shown.branchOf(id)) : undefined;

@@ -23,7 +23,7 @@ function prune() {
   shown = prunedTo(Number(element("prune").value));
   tubes.show(shown.edges);
   for (const mesh of Object.values(nodes)) mesh.show();
-  const gone = byLevel.filter((id) => levelOf(result.edges[id]) <= shown.threshold).length;
+  const { gone } = shown;
   element("level").textContent = gone === 0 ? "all branches"
     : `${digits(gone)} off, to level ${figure(shown.threshold)}`;
   forget();

@@ -182,7 +182,8 @@ function middleOf({ edges }) {
 function placeLabels() {
   const project = projector(), at = {};
   for (const label of element("labels").children) {
-    label.hidden = !project(label.place.x, label.place.y, label.place.z, at);
+    const place = label.place.toArray();
+    label.hidden = !project(...place, at) || isCutOff(place, 0);
     label.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
   }
 }

@@ -31,9 +31,12 @@ for (const id of result.edges.keys()) {
 }
 const nodePlaces = new Float32Array(result.nodes.flatMap((n) => toScene(n.position)));
 
-// Many curves must be thinner to be told apart.
+// Many curves and short ones must be thinner to be told apart.
 const sceneLength = result.edges.reduce((sum, e) => sum + e.length, 0) / edge;
-const kThickness = 0.0038 * Math.min(1, Math.max(0.2, Math.sqrt(6 / Math.max(sceneLength, 1e-9))));
+const middleLength = result.edges.map((e) => e.length).sort((a, b) => a - b)
+  [result.edges.length >> 1] / edge;
+const kThickness = 0.0038 * Math.min(
+  1, Math.max(0.2, Math.min(Math.sqrt(6 / Math.max(sceneLength, 1e-9)), 40 * (middleLength || 1))));
 const kSides = pointCount > 100000 ? 4 : pointCount > 15000 ? 5 : 8;
 const kStride = pointCount > 100000 ? 4 : pointCount > 15000 ? 2 : 1;
 
@@ -192,9 +195,10 @@ function nodeMeshes() {
   for (const { kind } of result.nodes) ++many[groupOf(kind)];
   many.end += many.junction;  // pruning makes ends of junctions
   for (const group of ["end", "junction", "other"]) {
-    const size = (group === "end" ? 1.8 : 2) * kThickness, coarse = many[group] > 2000;
+    const size = (group === "end" ? 1.8 : 2) * kThickness;
+    const rings = many[group] > 20000 ? 3 : many[group] > 2000 ? 6 : 12;
     const mesh = new THREE.InstancedMesh(
-      new THREE.SphereBufferGeometry(size, coarse ? 8 : 16, coarse ? 6 : 12),
+      new THREE.SphereBufferGeometry(size, rings + rings / 3, rings),
       new THREE.MeshPhongMaterial({ shininess: 60, specular: 0x333333 }), many[group]);
     mesh.frustumCulled = false;
     mesh.show = () => {

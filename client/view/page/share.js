@@ -85,7 +85,8 @@ function stateText() {
 const numbersOf = (text) => (text ?? "").split(/[._]/).filter(Boolean).map(Number);
 function grant(wish) {
   for (const [id, name] of [["peel", "peel"], ["prune", "prune"], ["strength", "glass"]]) {
-    element(id).value = wish.get(name) ?? element(id).defaultValue;
+    const value = parseFloat(wish.get(name));
+    element(id).value = Number.isFinite(value) ? value : element(id).defaultValue;
   }
   const off = (wish.get("off") ?? "").split(".");
   for (const name of ["object", "skeleton", "nodes"]) {

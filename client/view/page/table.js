@@ -3,10 +3,11 @@
 const inUnit = (name) => unit ? `${name} (${unit})` : name;
 const numberColumn = (key, title) => ({ key, title, show: (row) =>
   row[key] === undefined ? "" : figure(row[key]) });
+const many = result.nodes.some((n) => n.component > 0);
 const kColumns = {
   branches: [
     { key: "id", title: "Branch", show: (b) => b.id },
-    { key: "component", title: "Component", show: (b) => b.component },
+    ...(many ? [{ key: "component", title: "Component", show: (b) => b.component }] : []),
     { key: "kinds", title: "Ends", text: true, show: (b) => b.kinds },
     numberColumn("length", inUnit("Length")), numberColumn("mean", inUnit("Mean radius")),
     numberColumn("min", inUnit("Min radius")), numberColumn("max", inUnit("Max radius")),
@@ -75,29 +76,44 @@ function listRows() {
 
 function showHeads() {
   const columns = kColumns[table.about], [key, sign] = table.sort[table.about];
-  element("rows").style.setProperty("--columns", columns.map(({ text, title }) =>
-    text ? "minmax(84px, 1fr)" : `minmax(${Math.max(70, 7.5 * title.length + 24)}px, 1fr)`).join(" "));
+  const widths = columns.map(({ text, title }) => text ? 150 : Math.max(76, 6 * title.length + 36));
+  const { style } = element("rows");
+  style.setProperty("--columns", widths.map((width) => `minmax(${width}px, ${width}fr)`).join(" "));
+  style.setProperty("--width", `${widths.reduce((a, b) => a + b, 24)}px`);
   element("heads").innerHTML = columns.map((c) => `<span role="columnheader" ${c.text ? 'class="text"' : ""}
     aria-sort="${c.key !== key ? "none" : sign > 0 ? "ascending" : "descending"}">${c.key === "only" ? ""
     : `<button data-key="${c.key}">${c.title}</button>`}</span>`).join("");
 }
 
 const isOpen = () => !element("dock").classList.contains("closed");
-// Only the rows that are seen are elements.
+// Only the rows that are seen are elements, and they are used again: a click needs the one that was
+// pressed to be there still.
 function refreshRows() {
   if (!isOpen()) return;
-  const rows = element("rows"), columns = kColumns[table.about];
+  const rows = element("rows"), body = element("body"), columns = kColumns[table.about];
   const first = Math.max(0, Math.floor(rows.scrollTop / kRow) - 4);
   const last = Math.min(table.rows.length, first + Math.ceil(rows.clientHeight / kRow) + 8);
-  const marked = new Set(pinned());
-  element("body").style.transform = `translateY(${first * kRow}px)`;
-  element("body").innerHTML = table.rows.slice(first, last).map((row, n) => {
-    const place = first + n, chosen = table.about === "branches" ? marked.has(row) : !hidden.has(row.id);
-    return `<div role="row" id="row-${place}" data-place="${place}" aria-rowindex="${place + 2}"
-      aria-selected="${chosen}" class="${place === table.at ? "at" : ""}">${columns.map((c) =>
-      `<span role="gridcell" class="${c.text ? "text" : ""} ${c.key}">${c.show(row)}</span>`).join("")}</div>`;
-  }).join("");
+  const chosen = new Set(pinned());
+  body.style.transform = `translateY(${first * kRow}px)`;
+  while (body.children.length > last - first) body.lastChild.remove();
+  while (body.children.length < last - first) body.append(document.createElement("div"));
+  for (const [n, line] of [...body.children].entries()) {
+    const place = first + n, row = table.rows[place];
+    if (line.about !== table.about) makeCells(line, columns);
+    line.id = `row-${place}`;
+    line.place = place;
+    line.ariaRowIndex = place + 2;
+    line.ariaSelected = row.edges ? chosen.has(row) : !hidden.has(row.id);
+    line.className = place === table.at ? "at" : "";
+    columns.forEach((column, at) => { line.children[at].textContent = column.show(row); });
+  }
   rows.setAttribute("aria-activedescendant", `row-${table.at}`);
+}
+function makeCells(line, columns) {
+  line.about = table.about;
+  line.role = "row";
+  line.innerHTML = columns.map(({ key, text }) =>
+    `<span role="gridcell" class="${key} ${text ? "text" : ""}"></span>`).join("");
 }
 let rowsAsked = false;
 function refreshSoon() {
@@ -179,7 +195,7 @@ function onRowKey(event) {
 }
 
 function listenToTable() {
-  const rows = element("rows"), placeOf = (event) => event.target.closest("[data-place]")?.dataset.place;
+  const rows = element("rows"), placeOf = ({ target }) => target.closest("#body > div")?.place;
   for (const name of Object.keys(kColumns)) {
     element(`tab-${name}`).addEventListener("click", () => showTable(name));
   }
@@ -194,11 +210,11 @@ function listenToTable() {
   rows.addEventListener("click", (event) => {
     const { key } = event.target.dataset, place = placeOf(event);
     if (key) sortBy(key);
-    else if (place) useRow(Number(place), event.target.classList.contains("only"));
+    else if (place !== undefined) useRow(place, event.target.classList.contains("only"));
   });
   rows.addEventListener("pointerover", (event) => {
     const place = placeOf(event);
-    if (table.about === "branches") mark(place && table.rows[place]);
+    if (table.about === "branches") mark(table.rows[place]);
   });
   for (const type of ["pointerleave", "blur"]) rows.addEventListener(type, () => mark(null));
   new ResizeObserver(refreshSoon).observe(rows);
