@@ -8,6 +8,7 @@ namespace bccskel::view {
 // The files of the folder `page`.
 extern const std::string_view kPageFrame;  // with {{style}}, {{license}}, {{three}}, ... to fill in
 extern const std::string_view kPageStyle;
+extern const std::string_view kLoaderScript;
 extern const std::string_view kViewerScripts;
 extern const std::string_view kThreeLicense;
 

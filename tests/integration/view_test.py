@@ -219,7 +219,7 @@ class ViewTest(PageTestCase):
     def test_what_fails_is_said_in_words(self):
         self.open_sample(view_samples.forest(1))
         page = self.folder / "s.html"
-        page.write_text(page.read_text().replace('"sha256":', '"other":'))
+        page.write_text(page.read_text().replace('"layers":', '"others":'))
         self.browser.open(str(page))
         self.assertEqual(self.browser.run("document.documentElement.dataset.state"), "failed")
         self.assertTrue(self.browser.text("#message").startswith("This page could not be built: "))

@@ -1,14 +1,8 @@
 "use strict";
 
-// Shows what the two JSON elements hold: `data` the surfaces, packed by packed_numbers.h, and
-// `result` the skeleton, as client/export/skeleton.schema.json says.
 // The scripts share one scope and run in the order that ../CMakeLists.txt lists.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const result = JSON.parse(document.getElementById("result").textContent);
 const unit = { unknown: "", um: "\u00b5m" }[result.unit] ?? result.unit ?? "";
-const root = document.documentElement;
-const element = (id) => document.getElementById(id);
 
 // ---- Figures ----
 
@@ -19,25 +13,10 @@ const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const words = (kind) => escaped(kind.replace("_", " "));
 
-// ---- What went wrong ----
-
-function complain(text) {
-  element("message").textContent = text;
-  element("message").hidden = false;
-}
-function fail(error) {
-  root.dataset.state = "failed";
-  complain(`This page could not be built: ${error?.message ?? error}.`);
-}
-window.addEventListener("error", (event) => fail(event.error ?? event.message));
-window.addEventListener("unhandledrejection", (event) => fail(event.reason));
-
 // ---- Packed numbers ----
 
 async function unpack(text, count) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const packed = new Uint8Array(await new Response(inflated).arrayBuffer());
+  const packed = await inflate(text);
   const numbers = new Uint32Array(count);
   for (let n = 0, at = 0, value = 0; n < count; ++n) {
     let zigzag = 0, unit = 1, byte;
