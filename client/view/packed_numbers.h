@@ -14,8 +14,7 @@ namespace bccskel::view {
 // Errors: RESOURCE_EXHAUSTED when the compressor finds no memory.
 absl::StatusOr<std::string> PackText(std::string_view text);
 
-// Numbers as text of bytes, packed as above: the difference of each to the one before, zigzag, in bytes of
-// seven bits.
+// Packed as above: the difference of each number to the one before, zigzag, in bytes of seven bits.
 absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers);
 
 }  // namespace bccskel::view

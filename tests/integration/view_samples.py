@@ -35,7 +35,8 @@ def forest(count, columns=10):
     for n in range(count):
         x, y, first = 12 * (n % columns), 6 * (n // columns), 4 * n
         nodes += [node(first, "junction", [x, y, 0], n, radius=2),
-                  node(first + 1, "end", [x - 4, y, 0], n), node(first + 2, "end", [x + 4, y, 0], n),
+                  node(first + 1, "end", [x - 4, y, 0], n),
+                  node(first + 2, "end", [x + 4, y, 0], n),
                   node(first + 3, "end", [x, y + 2, 0], n)]
         edges += [edge(nodes, first, first + 1, [2, 2, 2, 2, 1]),
                   edge(nodes, first + 2, first, [1, 1, 1, 1, 2]),

@@ -97,7 +97,8 @@ function measureBranch(branch, kindOf, isNode) {
     component: componentOf(source), source, target,
     straight: nodeDistance(source, target), type: loop ? 3 : 2 - ends,
     kinds: loop ? "loop" : `${words(kind)} \u2013 ${words(other)}`,
-    length: 0, min: Infinity, max: -Infinity, level: Infinity, generation: Infinity, strahler: -Infinity });
+    length: 0, min: Infinity, max: -Infinity, level: Infinity, generation: Infinity,
+    strahler: -Infinity });
   for (const id of branch.edges) {
     const e = result.edges[id], { least, most } = radiusRanges[id];
     branch.length += e.length;

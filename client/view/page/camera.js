@@ -3,7 +3,7 @@
 // Around `target` by `turn` and over it by `climb` (radians), at a distance in edges of the scene.
 const view = { turn: 0, climb: 0, distance: 1, target: new THREE.Vector3(), flat: false };
 const upright = new THREE.Quaternion();  // from the frame that `turn` and `climb` are of
-let firstView = null;
+const wholeBox = new THREE.Box3();
 const kHalfField = Math.tan(16 * Math.PI / 180);
 const halfHeight = () => view.distance * kHalfField;
 
@@ -11,14 +11,18 @@ function copyOf({ turn, climb, distance, target, flat }) {
   return { turn, climb, distance, target: target.clone(), flat };
 }
 
+const cameraTurn = (turn, climb) => new THREE.Quaternion()
+  .setFromEuler(new THREE.Euler(-climb, turn, 0, "YXZ")).premultiply(upright);
+
 function placeCamera() {
   const { turn, climb, distance, target, flat } = view;
-  camera.quaternion.setFromEuler(new THREE.Euler(-climb, turn, 0, "YXZ")).premultiply(upright);
+  camera.quaternion.copy(cameraTurn(turn, climb));
   camera.position.set(0, 0, distance).applyQuaternion(camera.quaternion).add(target);
   camera.updateMatrixWorld();
   const aspect = drawn.width / Math.max(drawn.height, 1);
   // Everything is within two edges of the target, unless that was moved far away.
-  const far = distance + 4 + 2 * target.length(), near = flat ? -far : Math.max(far / 5000, distance - 4);
+  const far = distance + 4 + 2 * target.length();
+  const near = flat ? -far : Math.max(far / 5000, distance - 4);
   const up = flat ? halfHeight() : near * kHalfField;
   camera.projectionMatrix[flat ? "makeOrthographic" : "makePerspective"](
     -up * aspect, up * aspect, up, -up, near, far);
@@ -39,10 +43,22 @@ function startView(box) {
   }
   upright.setFromRotationMatrix(new THREE.Matrix4().makeBasis(
     new THREE.Vector3().crossVectors(up, toward), up, toward));
-  const aspect = Math.min(1, stage.clientWidth / Math.max(stage.clientHeight, 1));
-  Object.assign(view, { turn: 0.52, climb: 0.26, distance: Math.max(1.55 * size.length(), 1e-3) / aspect,
-                        target: box.getCenter(new THREE.Vector3()) });
-  firstView = copyOf(view);
+  wholeBox.copy(box);
+  Object.assign(view, wholeView());
+}
+// From the same side as at first, as near as the whole object may be seen.
+function wholeView() {
+  const turn = 0.52, climb = 0.26, target = wholeBox.getCenter(new THREE.Vector3());
+  const toCamera = cameraTurn(turn, climb).inverse();
+  const aspect = stage.clientWidth / Math.max(stage.clientHeight, 1), { min, max } = wholeBox;
+  let distance = 1e-3;
+  for (let corner = 0; corner < 8; ++corner) {
+    const p = new THREE.Vector3(...["x", "y", "z"].map((axis, bit) =>
+      (corner >> bit & 1 ? max : min)[axis])).sub(target).applyQuaternion(toCamera);
+    const needed = Math.max(Math.abs(p.y), Math.abs(p.x) / aspect) / kHalfField;
+    distance = Math.max(distance, p.z + needed);
+  }
+  return { turn, climb, target, distance: 1.12 * distance };
 }
 
 // ---- Movements ----
@@ -96,7 +112,7 @@ function zoomAt(x, y, nearer) {
   const part = 1 - distance / view.distance;
   pan((x - drawn.width / 2) * part, (y - drawn.height / 2) * part);
 }
-const reset = () => glideTo({ ...copyOf(firstView), flat: view.flat });
+const reset = () => glideTo(wholeView());
 function lookAlong(axis, sign) {
   const from = new THREE.Vector3().setComponent(axis, sign).applyQuaternion(
     upright.clone().inverse());
@@ -154,7 +170,7 @@ function listenToPointers() {
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    const lines = event.deltaMode === 1 ? 16 : 1;
-    zoomAt(event.offsetX, event.offsetY, Math.exp(Math.max(-240, Math.min(240, event.deltaY * lines)) / 600));
+    const pixels = event.deltaY * (event.deltaMode === 1 ? 16 : 1);  // or lines
+    zoomAt(event.offsetX, event.offsetY, Math.exp(Math.max(-240, Math.min(240, pixels)) / 600));
   }, { passive: false });
 }

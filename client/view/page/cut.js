@@ -31,8 +31,8 @@ function cutPlace() {
 }
 // Of a point of the skeleton at a place in a list of coordinates.
 function isCutOff(points, at) {
-  const { normal, constant } = skeletonPlane;
-  return normal.x * points[at] + normal.y * points[at + 1] + normal.z * points[at + 2] + constant < 0;
+  const { normal: { x, y, z }, constant } = skeletonPlane;
+  return x * points[at] + y * points[at + 1] + z * points[at + 2] + constant < 0;
 }
 
 function showCut() {

@@ -102,7 +102,8 @@ function showLegend() {
   for (const group of Object.keys(nodes)) {
     const dot = document.querySelector(`#legend .${group}`);
     dot.style.background = css(theme[group]);
-    dot.parentElement.hidden = !result.nodes.some(({ kind }) => groupOf(kind) === group && kind !== "loop");
+    dot.parentElement.hidden = !result.nodes.some(
+      ({ kind }) => groupOf(kind) === group && kind !== "loop");
   }
 }
 
@@ -164,7 +165,8 @@ function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const writes = event.target.matches("input, select");
   if (event.key === "Escape" && writes) return event.target.blur();
-  if (writes || (event.target.matches("button, summary") && [" ", "Enter"].includes(event.key))) return;
+  const presses = event.target.matches("button, summary") && [" ", "Enter"].includes(event.key);
+  if (writes || presses) return;
   const act = keys[event.key.toLowerCase()];
   if (!act) return;
   event.preventDefault();
@@ -205,9 +207,9 @@ function listen() {
 
 function showPanels() {
   document.title = element("title").textContent = data.title;
-  const world = result.world && result.world !== "unknown" ? [result.world] : [];
-  element("points").textContent =
-    [counted(result.object_points, "point", "points"), ...world, ...(unit ? [unit] : [])].join(" \u00b7 ");
+  const world = result.world !== "unknown" && result.world;
+  element("points").textContent = [counted(result.object_points, "point", "points"), world, unit]
+    .filter(Boolean).join(" \u00b7 ");
   for (const [id, { name }] of Object.entries(colorings)) {
     element("color").append(new Option(name, id));
   }
@@ -217,7 +219,8 @@ function showPanels() {
   for (const part of document.querySelectorAll(".of-object")) part.hidden = !data.layers.length;
   element("pruning").hidden = levels.length === 0;
   element("prune").max = levels.length;
-  if (stage.clientWidth < 640) toggleSide();
+  element("save-1x").disabled = element("save-2x").disabled = renderer === null;
+  if (window.innerWidth <= 760) toggleSide();  // as style.css says
   showCertificate();
 }
 
@@ -226,8 +229,10 @@ function boxOfAll() {
   if (!layers.length) box.setFromArray(curvePoints);
   if (sheets) box.union(sheets.geometry.boundingBox);
   if (box.isEmpty()) {
-    result.nodes.forEach((node, n) => box.union(new THREE.Sphere(
-      new THREE.Vector3().fromArray(nodePlaces, 3 * n), node.radius / edge).getBoundingBox(new THREE.Box3())));
+    for (const [n, { radius }] of result.nodes.entries()) {
+      const ball = new THREE.Sphere(new THREE.Vector3().fromArray(nodePlaces, 3 * n), radius / edge);
+      box.union(ball.getBoundingBox(new THREE.Box3()));
+    }
   }
   return box.isEmpty() ? box.expandByPoint(new THREE.Vector3(0.5, 0.5, 0.5)) : box;
 }

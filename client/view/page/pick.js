@@ -43,9 +43,11 @@ function edgeUnder(x, y) {
       const p = 3 * n;
       const here = project(curvePoints[p], curvePoints[p + 1], curvePoints[p + 2], b);
       if (here && !isCutOff(curvePoints, p)) {
-        const [u, v] = last ? [b.x - a.x, b.y - a.y] : [0, 0];
-        const part = u || v ? Math.max(0, Math.min(1, ((b.x - x) * u + (b.y - y) * v) / (u * u + v * v))) : 0;
-        const away = Math.hypot(b.x - part * u - x, b.y - part * v - y);
+        // The way back to the point before, and how far along it one is nearest.
+        const [u, v] = last ? [a.x - b.x, a.y - b.y] : [0, 0], square = u * u + v * v;
+        const along = square > 0 ? ((x - b.x) * u + (y - b.y) * v) / square : 0;
+        const part = Math.max(0, Math.min(1, along));
+        const away = Math.hypot(b.x + part * u - x, b.y + part * v - y);
         if (away < reach) {
           reach = away;
           found = { id, n: n - curveStart[id] - (part > 0.5 ? 1 : 0) };
@@ -72,7 +74,7 @@ function aboutNode(n) {
 function aboutBranch({ id, n }) {
   const branch = branchWith(id), e = result.edges[id];
   const rows = [["length", measure(branch.length)], ["mean radius", measure(branch.mean)],
-                ["least, most", `${figure(branch.min)}, ${measure(branch.max)}`],
+                ["min, max radius", `${figure(branch.min)}, ${measure(branch.max)}`],
                 ["radius here", measure(e.radii[n])]];
   if (branch.tortuosity !== undefined) rows.push(["tortuosity", figure(branch.tortuosity)]);
   if (shown.components.length > 1) rows.push(["component", branch.component]);
@@ -103,7 +105,8 @@ function tell(found, x, y) {
   tip.hidden = false;
   tip.innerHTML = `<b>${found.title}</b> ${found.detail || ""}<table>${found.rows.map(
     ([name, value]) => `<tr><th>${name}</th><td>${value}</td></tr>`).join("")}</table>`;
-  const within = (at, size, room) => at + 20 + size + 8 > room ? Math.max(8, at - 20 - size) : at + 20;
+  const within = (at, size, room) =>
+    at + 20 + size + 8 > room ? Math.max(8, at - 20 - size) : at + 20;
   tip.style.left = `${within(x, tip.offsetWidth, drawn.width)}px`;
   tip.style.top = `${within(y, tip.offsetHeight, drawn.height)}px`;
   ball.visible = true;

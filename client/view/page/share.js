@@ -18,8 +18,8 @@ function branchCsv() {
                 "coord_dst_y", "coord_dst_z", "pruning_level",
                 ...(ordered ? ["generation", "strahler"] : [])];
   const rows = table.rows.map((b) => [
-    b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean, b.min,
-    b.max, ...result.nodes[b.source].position, ...result.nodes[b.target].position, b.level,
+    b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
+    b.min, b.max, ...result.nodes[b.source].position, ...result.nodes[b.target].position, b.level,
     ...(ordered ? [b.generation, b.strahler] : [])]);
   return [head, ...rows].map((row) => row.join()).join("\n") + "\n";
 }
@@ -123,6 +123,9 @@ function say(text) {
   toastEnds = setTimeout(() => { element("toast").hidden = true; }, 4000);
 }
 async function copyLink() {
+  if (location.protocol === "about:") {
+    return say("Here the page has no address; open it as a file.");
+  }
   const address = `${location.href.split("#")[0]}#${stateText()}`;
   try {
     history.replaceState(null, "", address);

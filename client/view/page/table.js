@@ -17,7 +17,8 @@ const kColumns = {
     ...(colorings.generation ? [numberColumn("generation", "Generation")] : []),
   ],
   components: [
-    { key: "shown", title: "Shown", text: true, show: (c) => hidden.has(c.id) ? "\u2610" : "\u2611" },
+    { key: "shown", title: "Shown", text: true,
+      show: (c) => hidden.has(c.id) ? "\u2610" : "\u2611" },
     { key: "id", title: "Component", show: (c) => c.id },
     { key: "branches", title: "Branches", show: (c) => digits(c.branches) },
     { key: "nodes", title: "Nodes", show: (c) => digits(c.nodes) },
@@ -57,8 +58,7 @@ function listRows() {
   // Those that have no value come last either way.
   table.rows = all.filter(filterOf(table.filter, kColumns[table.about])).sort((a, b) => {
     const [u, v] = [value(a), value(b)];
-    if (u === undefined || v === undefined) return (u === undefined) - (v === undefined) || a.id - b.id;
-    return compare(u, v) || a.id - b.id;
+    return (u === undefined) - (v === undefined) || compare(u, v) || a.id - b.id;
   });
   table.at = Math.max(0, Math.min(table.at, table.rows.length - 1));
   showHeads();
@@ -80,9 +80,10 @@ function showHeads() {
   const { style } = element("rows");
   style.setProperty("--columns", widths.map((width) => `minmax(${width}px, ${width}fr)`).join(" "));
   style.setProperty("--width", `${widths.reduce((a, b) => a + b, 24)}px`);
-  element("heads").innerHTML = columns.map((c) => `<span role="columnheader" ${c.text ? 'class="text"' : ""}
-    aria-sort="${c.key !== key ? "none" : sign > 0 ? "ascending" : "descending"}">${c.key === "only" ? ""
-    : `<button data-key="${c.key}">${c.title}</button>`}</span>`).join("");
+  element("heads").innerHTML = columns.map((c) => `<span role="columnheader"
+    class="${c.text ? "text" : ""}" aria-sort="${c.key !== key ? "none"
+    : sign > 0 ? "ascending" : "descending"}">${c.title &&
+    `<button data-key="${c.key}">${c.title}</button>`}</span>`).join("");
 }
 
 const isOpen = () => !element("dock").classList.contains("closed");
@@ -175,10 +176,12 @@ function useRow(place, alone) {
   const others = shown.components.map(({ id }) => id).filter((id) => id !== row.id);
   const lonely = others.every((id) => hidden.has(id)) && !hidden.has(row.id);
   if (alone) setHidden(lonely ? [] : others);
-  else setHidden(hidden.has(row.id) ? [...hidden].filter((id) => id !== row.id) : [...hidden, row.id]);
+  else if (hidden.has(row.id)) setHidden([...hidden].filter((id) => id !== row.id));
+  else setHidden([...hidden, row.id]);
 }
 function onRowKey(event) {
-  const page = Math.max(1, Math.floor(element("rows").clientHeight / kRow) - 2), { at, rows } = table;
+  const { at, rows } = table;
+  const page = Math.max(1, Math.floor(element("rows").clientHeight / kRow) - 2);
   const to = { ArrowDown: at + 1, ArrowUp: at - 1, PageDown: at + page, PageUp: at - page, Home: 0,
                End: rows.length - 1 }[event.key];
   if (event.target !== element("rows") || event.ctrlKey || event.metaKey || event.altKey) return;
