@@ -119,7 +119,7 @@ class Browser:
     def settle(self):
         """Until what was asked for has been drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        self.wait("!gliding && !asked && !pace.coarse")
+        self.wait("!gliding && !asked")
 
     def resize(self, width, height, scale=1):
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height,
@@ -183,4 +183,6 @@ class Browser:
         return self.run(f"document.querySelector({json.dumps(selector)}).textContent")
 
     def picture(self):
+        """As PNG, with all pixels: pictures of a movement may have fewer."""
+        self.wait("!gliding && !asked && !pace.coarse")
         return base64.b64decode(self.send("Page.captureScreenshot", format="png")["data"])

@@ -78,7 +78,7 @@ class ViewTest(PageTestCase):
                     f"1,1,0,0,{cavities},{cavities}")
 
     def test_the_peeled_object_is_seen(self):
-        self.page("tree", 200000)
+        self.page("tree", 50000)
         pictures = []
         for address in ("", "#peel=2", "#theme=dark", "#prune=20", "#cut=y_0.5", "#cut=y_0.5_back",
                         "#off=object", "#off=skeleton", "#off=nodes", "#glass=1", "#color=branch",
@@ -238,7 +238,7 @@ class ViewTest(PageTestCase):
         self.assertIn("5, 6, 7 mm", page.text("#tip"))
 
     def test_a_huge_result_is_shown(self):
-        page = self.open_sample(view_samples.forest(50000, columns=250))
+        page = self.open_sample(view_samples.forest(50000, columns=250), "#off=skeleton.nodes")
         self.assertTrue(page.text("#counts").startswith("200,000 nodes, 150,000 branches"))
         page.click("#dock-toggle")
         self.assertLess(page.run("document.querySelectorAll('#body > div').length"), 40)

@@ -379,7 +379,7 @@ class SavingTest(ToolsTestCase):
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertEqual(struct.unpack(">II", data[16:24]), (ratio * width, ratio * height))
             self.assertGreater(len(data), 5000 * ratio)  # a blank one is smaller
-        page.settle()
+        page.picture()
         self.assertEqual(page.run("[canvas.width, canvas.height]"), [width, height])
 
 

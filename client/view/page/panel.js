@@ -230,8 +230,8 @@ function boxOfAll() {
   if (sheets) box.union(sheets.geometry.boundingBox);
   if (box.isEmpty()) {
     for (const [n, { radius }] of result.nodes.entries()) {
-      const ball = new THREE.Sphere(new THREE.Vector3().fromArray(nodePlaces, 3 * n), radius / edge);
-      box.union(ball.getBoundingBox(new THREE.Box3()));
+      const place = new THREE.Vector3().fromArray(nodePlaces, 3 * n);
+      box.union(new THREE.Sphere(place, radius / edge).getBoundingBox(new THREE.Box3()));
     }
   }
   return box.isEmpty() ? box.expandByPoint(new THREE.Vector3(0.5, 0.5, 0.5)) : box;
