@@ -141,15 +141,15 @@ class Browser:
             self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1,
                       modifiers=modifiers)
 
-    def drag(self, start, end, button="left"):
+    def drag(self, *places, button="left"):
         mask = {"left": 1, "right": 2}[button]
-        self.move(*start)
-        self.send("Input.dispatchMouseEvent", type="mousePressed", x=start[0], y=start[1],
-                  button=button, buttons=mask, clickCount=1)
-        for part in (0.25, 0.5, 0.75, 1):
-            at = [a + part * (b - a) for a, b in zip(start, end)]
-            self.move(*at, buttons=mask)
-        self.send("Input.dispatchMouseEvent", type="mouseReleased", x=end[0], y=end[1],
+        (x, y), (last_x, last_y) = places[0], places[-1]
+        self.move(x, y)
+        self.send("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button=button,
+                  buttons=mask, clickCount=1)
+        for place in places[1:]:
+            self.move(*place, buttons=mask)
+        self.send("Input.dispatchMouseEvent", type="mouseReleased", x=last_x, y=last_y,
                   button=button, clickCount=1)
 
     def scroll(self, x, y, by):

@@ -52,6 +52,15 @@ def lasso():
         edge(nodes, 0, 1, [1, 1, 1], pruning_level=1)], "um")
 
 
+def fork():
+    """A stem with two twigs that are pruned at 1."""
+    nodes = [node(0, "junction", [0, 0, 0]), node(1, "end", [0, -3, 0]), node(2, "end", [1, 1, 0]),
+             node(3, "end", [-1, 1, 0])]
+    return document(nodes, [edge(nodes, 0, 1, [1, 1, 1]),
+                            edge(nodes, 0, 2, [1, 1, 1], pruning_level=1),
+                            edge(nodes, 0, 3, [1, 1, 1], pruning_level=1)])
+
+
 def write(path, sample):
     path.write_text(json.dumps(sample))
     return path

@@ -1,5 +1,6 @@
 """Pages that `bccskel view` and `-o x.html` make: what they show, and where they work."""
 
+import html
 import json
 import os
 import re
@@ -89,6 +90,23 @@ class ViewTest(PageTestCase):
         for picture in pictures:
             self.assertGreater(len(picture), 30000)  # a blank page is smaller
 
+    def test_through_the_cut_one_sees_the_inside(self):
+        self.page("ball")
+        page = self.open("#cut=z_0.5&off=skeleton.nodes")
+        page.click('[data-look="+z"]')
+        page.settle()
+        page.run("cutFrame.visible = false")
+        middle, corner = page.run("""(() => {
+          draw();
+          const gl = renderer.getContext(), color = (x, y) => {
+            const pixel = new Uint8Array(4);
+            gl.readPixels(x, y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+            return pixel.join();
+          };
+          return [color(canvas.width >> 1, canvas.height >> 1), color(1, 1)];
+        })()""")
+        self.assertNotEqual(middle, corner)
+
     def test_a_surface_skeleton_is_seen_as_a_sheet(self):
         volume = self.generate("box")
         pictures = set()
@@ -129,6 +147,12 @@ class ViewTest(PageTestCase):
         self.assertRegex(page.text("#counts"), "^1 node, 1 branch, length [0-9.]+ \u00b5m$")
         page.click("#dock-toggle")
         self.assertEqual(page.text("#row-0 .kinds"), "loop")
+
+    def test_a_junction_that_one_branch_is_left_of_is_an_end(self):
+        page = self.open_sample(view_samples.fork(), "#prune=1")
+        page.click("#dock-toggle")
+        self.assertEqual(page.text("#row-0 .kinds"), "end \u2013 end")
+        self.assertIn("\n0,0,0,1,0,", page.run("branchCsv()"))  # branch_type 0
 
     def test_figures_are_in_the_unit_of_the_result(self):
         page = self.open_sample(view_samples.forest(3))
@@ -236,12 +260,27 @@ class ViewTest(PageTestCase):
         page.settle()
         self.assertIn("isolated 0", page.text("#tip"))
         self.assertIn("5, 6, 7 mm", page.text("#tip"))
+        self.assertRegex(page.text("#scale"), "^[12] mm$")  # its ball has a radius of 3 mm
 
     def test_a_huge_result_is_shown(self):
         page = self.open_sample(view_samples.forest(50000, columns=250), "#off=skeleton.nodes")
         self.assertTrue(page.text("#counts").startswith("200,000 nodes, 150,000 branches"))
         page.click("#dock-toggle")
         self.assertLess(page.run("document.querySelectorAll('#body > div').length"), 40)
+
+    def test_the_page_works_inside_of_another_as_in_a_notebook(self):
+        self.open_sample(view_samples.forest(2))
+        text = html.escape((self.folder / "s.html").read_text())
+        outer = self.folder / "notebook.html"
+        outer.write_text(f"""<html data-state="ready"><iframe srcdoc="{text}"
+            style="width: 900px; height: 600px"></iframe></html>""")
+        self.browser.open(outer)
+        inner = "document.querySelector('iframe').contentDocument"
+        self.browser.wait(f"{inner}.documentElement.dataset.state === 'ready'")
+        for button in ("dock-toggle", "copy-link"):
+            self.browser.run(f"{inner}.getElementById('{button}').click()")
+        self.assertIn("no address", self.browser.run(f"{inner}.getElementById('toast').textContent"))
+        self.assertEqual(self.browser.run(f"{inner}.querySelectorAll('#body > div').length"), 6)
 
     def test_what_fails_is_said_in_words(self):
         self.open_sample(view_samples.forest(1))

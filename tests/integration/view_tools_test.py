@@ -87,13 +87,20 @@ class PinTest(ToolsTestCase):
         self.assertEqual(self.pins(), [])
         self.assertTrue(page.run("document.getElementById('pins').hidden"))
 
-    def test_a_drag_turns_and_pins_nothing(self):
+    def test_drags_turn_and_pan_and_pin_nothing(self):
         page = self.open_sample(view_samples.forest(3))
-        turn, (x, y) = page.run("view.turn"), self.place(1)
-        page.drag((x, y), (x + 80, y + 20))
-        page.settle()
-        self.assertNotEqual(page.run("view.turn"), turn)
+        turn, target, (x, y) = page.run("view.turn"), page.run("view.target"), self.place(1)
+        page.drag((x, y), (x + 80, y + 20), (x, y))
         self.assertEqual(self.pins(), [])
+        page.drag((x, y), (x + 80, y + 20))
+        self.assertNotEqual(page.run("view.turn"), turn)
+        self.assertEqual(page.run("view.target"), target)
+        page.settle()
+        x, y = self.place(1)
+        page.drag((x, y), (x + 40, y + 30), button="right")
+        page.settle()
+        for now, then in zip(self.place(1), (x + 40, y + 30)):
+            self.assertAlmostEqual(now, then, delta=8)  # it is not at the target's distance
 
     def test_a_pin_follows_its_branch_when_pruning_joins_it_to_another(self):
         page = self.open_sample(view_samples.forest(3))
@@ -173,6 +180,7 @@ class TableTest(ToolsTestCase):
     def test_few_rows_are_elements_and_any_can_be_scrolled_to(self):
         page = self.open_sample(view_samples.forest(1700, columns=40))
         page.click("#dock-toggle")
+        page.settle()
         page.run("document.getElementById('rows').scrollTop = 28 * 3000")
         page.settle()
         ids = list(map(int, self.column("id")))
@@ -196,6 +204,10 @@ class TableTest(ToolsTestCase):
         self.assertEqual(page.text("#counts"), "4 nodes, 3 branches, length 10 mm")
         page.click("#tab-branches")
         self.assertEqual(self.column("id"), ["6", "7", "8"])
+        self.assertEqual(page.run("""[...result.edges.keys()].filter((id) =>
+            tubes.geometry.index.array.slice(0, tubes.geometry.drawRange.count)
+              .some((at) => at >= kSides * ringStart[id] && at < kSides * ringStart[id + 1]))"""),
+                         [6, 7, 8])
         self.slide("prune", 3)
         self.assertEqual(self.column("id"), ["6"])
         self.assertEqual(page.text("#counts"), "2 nodes, 1 branch, length 8 mm")
@@ -330,6 +342,7 @@ class ViewpointTest(ToolsTestCase):
         self.open_sample(view_samples.forest(2),
                          "#view=1_x&pins=99.-1.a&cut=q_7&hide=77&prune=zz&color=no")
         self.assertEqual(self.browser.text("#counts"), "8 nodes, 6 branches, length 20 mm")
+        self.assertEqual(self.browser.run("[pins, cut.axis]"), [[], None])
 
 
 class SavingTest(ToolsTestCase):

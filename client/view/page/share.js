@@ -100,7 +100,7 @@ function grant(wish) {
   const only = new Set(numbersOf(wish.get("only")));
   setHidden(wish.has("only") ? shown.components.map(({ id }) => id).filter((id) => !only.has(id))
                              : numbersOf(wish.get("hide")));
-  setPins(numbersOf(wish.get("pins")).filter((id) => result.edges[id]));
+  setPins(numbersOf(wish.get("pins")).filter((id) => id in result.edges));
   const [axis, part, ...more] = (wish.get("cut") ?? "").split("_");
   element("cut-all").checked = more.includes("all");
   setCut({ axis: axisColors[axis] ? axis : null, flipped: more.includes("back"),

@@ -103,8 +103,8 @@ function refreshRows() {
     if (line.about !== table.about) makeCells(line, columns);
     line.id = `row-${place}`;
     line.place = place;
-    line.ariaRowIndex = place + 2;
-    line.ariaSelected = row.edges ? chosen.has(row) : !hidden.has(row.id);
+    line.setAttribute("aria-rowindex", place + 2);
+    line.setAttribute("aria-selected", row.edges ? chosen.has(row) : !hidden.has(row.id));
     line.className = place === table.at ? "at" : "";
     columns.forEach((column, at) => { line.children[at].textContent = column.show(row); });
   }
@@ -112,7 +112,7 @@ function refreshRows() {
 }
 function makeCells(line, columns) {
   line.about = table.about;
-  line.role = "row";
+  line.setAttribute("role", "row");
   line.innerHTML = columns.map(({ key, text }) =>
     `<span role="gridcell" class="${key} ${text ? "text" : ""}"></span>`).join("");
 }
