@@ -87,6 +87,16 @@ class PinTest(ToolsTestCase):
         self.assertEqual(self.pins(), [])
         self.assertTrue(page.run("document.getElementById('pins').hidden"))
 
+    def test_a_pin_can_be_taken_off_in_a_narrow_window(self):
+        self.browser.resize(360, 640)
+        page = self.open_sample(view_samples.forest(3))
+        page.press(*self.place(4))
+        self.assertEqual(self.pins(), ["4"])
+        self.assertLessEqual(page.run(
+            "document.querySelector('#pinned .off').getBoundingClientRect().right"), 360)
+        page.click("#pinned .off")
+        self.assertEqual(self.pins(), [])
+
     def test_drags_turn_and_pan_and_pin_nothing(self):
         page = self.open_sample(view_samples.forest(3))
         turn, target, (x, y) = page.run("view.turn"), page.run("view.target"), self.place(1)
