@@ -26,15 +26,18 @@ std::string DifferencesOf(std::span<const uint32_t> numbers) {
 
 }  // namespace
 
-absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers) {
-  const std::string bytes = DifferencesOf(numbers);
-  uLongf size = compressBound(bytes.size());
+absl::StatusOr<std::string> PackText(std::string_view text) {
+  uLongf size = compressBound(text.size());
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
+                             reinterpret_cast<const Bytef*>(text.data()), text.size(), 6);
   if (code != Z_OK) return absl::ResourceExhaustedError("zlib found no memory for a page");
   packed.resize(size);
   return absl::Base64Escape(packed);
+}
+
+absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers) {
+  return PackText(DifferencesOf(numbers));
 }
 
 }  // namespace bccskel::view

@@ -4,14 +4,17 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "absl/status/statusor.h"
 
 namespace bccskel::view {
 
-// Numbers as text that a page can hold and a browser unpacks by itself: the difference of each to
-// the one before, zigzag, in bytes of seven bits; deflated (zlib) and in base64.
+// Text that a page can hold and a browser unpacks by itself: deflated (zlib) and in base64.
 // Errors: RESOURCE_EXHAUSTED when the compressor finds no memory.
+absl::StatusOr<std::string> PackText(std::string_view text);
+
+// Packed as above: the difference of each number to the one before, zigzag, in bytes of seven bits.
 absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers);
 
 }  // namespace bccskel::view

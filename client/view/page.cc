@@ -144,14 +144,16 @@ void Replace(std::string& page, std::string_view mark, std::string_view by) {
 
 absl::StatusOr<std::string> PageOf(const PageContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(const Json data, DataOf(content));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result.text)));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
   // From the end to the start, so that no mark is looked for in what was put in.
+  Replace(page, "{{loader}}", kLoaderScript);
   Replace(page, "{{viewer}}", kViewerScripts);
-  Replace(page, "{{result}}", InScript(ShownOf(content.result.text)));
+  Replace(page, "{{three}}", three);
+  Replace(page, "{{result}}", result);
   Replace(page, "{{data}}",
           InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace)));
-  Replace(page, "{{controls}}", kOrbitControls);
-  Replace(page, "{{three}}", kThree);
   Replace(page, "{{license}}", kThreeLicense);
   Replace(page, "{{style}}", kPageStyle);
   return page;

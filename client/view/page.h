@@ -16,7 +16,7 @@ struct PageContent {
 };
 
 // A self-contained page that a browser opens without a network: the object as tinted glass, its
-// skeleton, a slider that peels it and one that prunes it. Equal skeletons give equal bytes.
+// skeleton and their tools. Equal skeletons give equal bytes.
 // Surfaces are quantized to 16 bits across the object; the skeleton is the document itself, its
 // sheets as a surface, without its timings and, where there are smooth curves, without the lattice
 // points below them. Errors: RESOURCE_EXHAUSTED.

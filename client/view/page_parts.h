@@ -8,12 +8,12 @@ namespace bccskel::view {
 // The files of the folder `page`.
 extern const std::string_view kPageFrame;  // with {{style}}, {{license}}, {{three}}, ... to fill in
 extern const std::string_view kPageStyle;
+extern const std::string_view kLoaderScript;
 extern const std::string_view kViewerScripts;
 extern const std::string_view kThreeLicense;
 
-// three.js, as Debian packages it, and its controls.
+// three.js, as Debian packages it.
 extern const std::string_view kThree;
-extern const std::string_view kOrbitControls;
 
 }  // namespace bccskel::view
 

@@ -1,21 +1,22 @@
 "use strict";
 
-// Shows what the two JSON elements hold: `data` the surfaces, packed by packed_numbers.h, and
-// `result` the skeleton, as client/export/skeleton.schema.json says.
-// The scripts share one scope and run in the order data, skeleton, scene, panel.
+// The scripts share one scope and run in the order that ../CMakeLists.txt lists.
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const result = JSON.parse(document.getElementById("result").textContent);
-const unit = result.unit && result.unit !== "unknown" ? result.unit : "";
-const root = document.documentElement;
-const element = (id) => document.getElementById(id);
-window.addEventListener("error", () => { root.dataset.state = "failed"; });
-window.addEventListener("unhandledrejection", () => { root.dataset.state = "failed"; });
+const unit = { unknown: "", um: "\u00b5m" }[result.unit] ?? result.unit ?? "";
+
+// ---- Figures ----
+
+const figure = (v) => Number(v.toPrecision(4)).toString();
+const measure = (v) => `${figure(v)} ${unit}`.trim();
+const digits = (n) => n.toLocaleString("en-US");
+const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
+const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+const words = (kind) => escaped(kind.replace("_", " "));
+
+// ---- Packed numbers ----
 
 async function unpack(text, count) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const packed = new Uint8Array(await new Response(inflated).arrayBuffer());
+  const packed = await inflate(text);
   const numbers = new Uint32Array(count);
   for (let n = 0, at = 0, value = 0; n < count; ++n) {
     let zigzag = 0, unit = 1, byte;
@@ -32,6 +33,7 @@ async function unpack(text, count) {
 // The scene is the world, moved and scaled so that the cube around everything has edges of 1.
 const edge = 65535 * data.step;
 const toScene = (p) => p.map((v, axis) => (v - data.low[axis]) / edge);
+const toWorld = (v, axis) => v * edge + data.low[axis];
 
 async function surfaceGeometry(layer) {
   const [steps, corners] = await Promise.all(

@@ -4,16 +4,20 @@
 // left.
 const glassVertex = `
 varying vec3 v_normal; varying vec3 v_view;
+#include <clipping_planes_pars_vertex>
 void main() {
-  vec4 at = modelViewMatrix * vec4(position, 1.0);
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   v_normal = normalMatrix * normal;
-  v_view = -at.xyz;
-  gl_Position = projectionMatrix * at;
+  v_view = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, 1.0) : -mvPosition.xyz;
+  #include <clipping_planes_vertex>
+  gl_Position = projectionMatrix * mvPosition;
 }`;
 const glassFragment = `
 uniform vec3 tint; uniform float strength; uniform float body;
 varying vec3 v_normal; varying vec3 v_view;
+#include <clipping_planes_pars_fragment>
 void main() {
+  #include <clipping_planes_fragment>
   vec3 n = normalize(v_normal), v = normalize(v_view), lamp = vec3(-0.45, 0.65, 0.61);
   if (dot(n, v) < 0.0) n = -n;
   float rim = 1.0 - dot(n, v), light = max(0.0, dot(n, lamp));
@@ -32,22 +36,31 @@ class Glass {
                       body: { value: body } };
     this.color = new THREE.Mesh(undefined, new THREE.ShaderMaterial(
       { uniforms: this.uniforms, vertexShader: glassVertex, fragmentShader: glassFragment,
-        transparent: true, depthWrite: false }));
+        transparent: true, depthWrite: false, clipping: true }));
     this.depth.renderOrder = order;
     this.color.renderOrder = order + 1;
     this.group = new THREE.Group().add(this.depth, this.color);
     this.group.visible = false;
+    this.materials = [this.depth.material, this.color.material];
   }
   wrap(geometry) { this.depth.geometry = this.color.geometry = geometry; }
 }
 
 // ---- The scene ----
 
-const canvas = element("scene");
-const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-const scene = new THREE.Scene();
-const camera = new THREE.PerspectiveCamera(32, 1, 0.01, 50);
-const controls = new THREE.OrbitControls(camera, canvas);
+const canvas = element("scene"), stage = element("stage");
+// Without WebGL there are the figures still: everything but the picture works.
+function makeRenderer() {
+  try {
+    return new THREE.WebGLRenderer({ canvas, antialias: true });
+  } catch {
+    complain("This browser shows no 3D graphics: WebGL is switched off or not supported. " +
+             "The table of branches and its export work without it.");
+    return null;
+  }
+}
+const renderer = makeRenderer();
+const scene = new THREE.Scene(), camera = new THREE.Camera();
 const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
 lamp.position.set(-0.45, 0.65, 0.61);
 camera.add(lamp);
@@ -55,12 +68,18 @@ scene.add(camera, new THREE.AmbientLight(0xffffff, 0.5));
 
 const core = new Glass(1, 1), ghost = new Glass(3, 0);
 ghost.depth.visible = false;
-const tubes = tubeMesh(), nodes = nodeMeshes();
-const marker = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 40, 28), new THREE.MeshPhongMaterial(
+const tubes = new Tubes(), nodes = nodeMeshes();
+const hoverMark = new Marks(tubes, 1.1), pinMark = new Marks(tubes, 0.5);
+// The largest ball of the object around a point of the skeleton.
+const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 40, 28), new THREE.MeshPhongMaterial(
   { transparent: true, opacity: 0.35, depthWrite: false }));
-marker.visible = false;
-marker.renderOrder = 0.5;  // behind the glass, before its depth
-scene.add(core.group, ghost.group, tubes, ...Object.values(nodes), marker);
+ball.visible = false;
+ball.renderOrder = 0.5;  // behind the glass, before its depth
+scene.add(core.group, ghost.group, tubes.mesh, ...Object.values(nodes), pinMark.mesh,
+          hoverMark.mesh, ball);
+let sheets = null;  // a mesh, where the skeleton has any
+
+// ---- Drawing ----
 
 // Where pictures take long, those of a movement are drawn with fewer pixels, and the last one again
 // with all.
@@ -73,65 +92,52 @@ function keepPace(now) {
   if (!pace.coarse) return;
   pace.settling = setTimeout(() => {
     Object.assign(pace, { last: -Infinity, coarse: false });
-    draw();
+    redraw();
   }, 400);
 }
 
+// Nothing is drawn unless something has asked for it.
 let asked = false;
 function redraw() {
-  if (!asked) requestAnimationFrame((now) => { keepPace(now); draw(); });
+  if (asked) return;
   asked = true;
+  requestAnimationFrame((now) => {
+    asked = false;
+    const moving = glide(now);
+    keepPace(now);
+    draw();
+    if (moving) redraw();
+  });
 }
-function draw() {
-  asked = false;
-  const width = window.innerWidth, height = window.innerHeight;
-  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2) * (pace.coarse ? 0.4 : 1));
-  renderer.setSize(width, height, false);
-  camera.aspect = width / height;
-  // A little up, off the sliders.
-  camera.setViewOffset(width, height, 0, Math.min(36, 0.04 * height), width, height);
-  camera.updateProjectionMatrix();
-  renderer.render(scene, camera);
+
+const drawn = { width: 0, height: 0, ratio: 0 };  // of the canvas as it is
+function fitCanvas(ratio) {
+  const { clientWidth: width, clientHeight: height } = stage;
+  if (drawn.width === width && drawn.height === height && drawn.ratio === ratio) return;
+  Object.assign(drawn, { width, height, ratio });
+  renderer?.setPixelRatio(ratio);
+  renderer?.setSize(width, height, false);
+}
+function draw(ratio = Math.min(window.devicePixelRatio || 1, 2) * (pace.coarse ? 0.4 : 1)) {
+  fitCanvas(ratio);
+  placeCamera();
+  renderer?.render(scene, camera);
   drawAxes();
   drawScale();
+  placeLabels();
 }
 
-// A three-quarter view on the broadest side; up is +y, or +z when y is the thinnest axis.
-function startView(box) {
-  const size = box.getSize(new THREE.Vector3()), center = box.getCenter(new THREE.Vector3());
-  let toward = new THREE.Vector3(0, 0, 1), up = new THREE.Vector3(0, 1, 0);
-  if (size.z > size.x || size.z > size.y) {
-    if (size.x <= size.y) {
-      toward.set(1, 0, 0);
-    } else {
-      toward.set(0, -1, 0);
-      up.set(0, 0, 1);
-    }
-  }
-  const right = new THREE.Vector3().crossVectors(up, toward);
-  const from = toward.multiplyScalar(0.84).addScaledVector(right, 0.48).addScaledVector(up, 0.26);
-  const aspect = Math.min(1, window.innerWidth / window.innerHeight);
-  camera.up.copy(up);
-  const distance = Math.max(1.55 * size.length(), 1e-3) / aspect;
-  camera.position.copy(center).addScaledVector(from.normalize(), distance);
-  controls.target.copy(center);
-  controls.update();
-  controls.saveState();
-}
-
-// Around the object by `right` and over it by `up` (radians), or nearer by a factor.
-function moveCamera(right, up, nearer) {
-  const way = camera.position.clone().sub(controls.target);
-  way.applyAxisAngle(camera.up, right);
-  const climb = Math.PI / 2 - way.angleTo(camera.up);
-  const most = Math.PI / 2 - 0.05;
-  const side = new THREE.Vector3().crossVectors(camera.up, way).normalize();
-  way.applyAxisAngle(side, climb - Math.max(-most, Math.min(most, climb + up)));
-  camera.position.copy(controls.target).add(way.multiplyScalar(nearer));
-  controls.update();
+canvas.addEventListener("webglcontextlost", () => {
+  complain("The graphics driver has stopped; the picture returns when it does.");
+});
+canvas.addEventListener("webglcontextrestored", () => {
+  element("message").hidden = true;
   redraw();
-}
+});
 
+// ---- Axes and scale ----
+
+const axisColors = { x: "#e11d48", y: "#16a34a", z: "#3b82f6" };
 function drawAxes() {
   const pen = element("axes").getContext("2d"), middle = 80, reach = 56;
   pen.clearRect(0, 0, 160, 160);
@@ -141,8 +147,8 @@ function drawAxes() {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   const turn = camera.quaternion.clone().inverse();
-  const axes = [["x", "#e11d48", 1, 0, 0], ["y", "#16a34a", 0, 1, 0], ["z", "#3b82f6", 0, 0, 1]]
-    .map(([name, color, ...v]) => ({ name, color, v: new THREE.Vector3(...v).applyQuaternion(turn) }));
+  const axes = Object.entries(axisColors).map(([name, color], axis) => (
+    { name, color, v: new THREE.Vector3().setComponent(axis, 1).applyQuaternion(turn) }));
   for (const { name, color, v } of axes.sort((a, b) => a.v.z - b.v.z)) {
     pen.strokeStyle = pen.fillStyle = color;
     pen.beginPath();
@@ -154,11 +160,14 @@ function drawAxes() {
 }
 
 // A bar as long as a round number of world units at the distance of what the camera turns around.
+function scaleBar() {
+  const pixel = 2 * halfHeight() / Math.max(drawn.height, 1) * edge, room = 140 * pixel;
+  const power = 10 ** Math.floor(Math.log10(room));
+  const round = [5, 2, 1].find((n) => n * power <= room) * power;
+  return { width: round / pixel, text: measure(Number(round.toPrecision(2))) };
+}
 function drawScale() {
-  const distance = camera.position.distanceTo(controls.target);
-  const pixel = 2 * distance * Math.tan(camera.fov * Math.PI / 360) / window.innerHeight * edge;
-  const power = 10 ** Math.floor(Math.log10(140 * pixel));
-  const round = [5, 2, 1].find((n) => n * power <= 140 * pixel) * power;
-  element("bar").style.width = `${round / pixel}px`;
-  element("scale").textContent = `${Number(round.toPrecision(2))} ${unit}`.trim();
+  const { width, text } = scaleBar();
+  element("bar").style.width = `${width}px`;
+  element("scale").textContent = text;
 }
