@@ -53,7 +53,9 @@ inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 102
 
 // A lattice point next to the place: the nearest where spacings are equal. It may lie outside of
 // the extent. Needs: no coordinate of the place below -2000.
-inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {
+inline LatticePoint PointNear(const Coordinates& place, AxisScale scale) {
+  // Divisions by known ones are none.
+  if (scale == kIsotropic) scale = kIsotropic;
   std::array<std::array<int32_t, 3>, 2> best;
   std::array<double, 2> squares = {0, 0};
   for (int32_t odd : {0, 1}) {
@@ -69,17 +71,17 @@ inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) 
   return {x, y, z};
 }
 
-// Finds bricks of points that lie close together, most of them in the same two bricks.
+// Finds bricks of points that lie close together.
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
   explicit NearbyBricks(const Volume& object) : object_(object) {}
 
   std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
-    LastBrick& last = last_[static_cast<size_t>(brick.sublattice)];
+    Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
-    if (last.key != key) last = {key, object_.Find(key)};
-    return last.brick;
+    if (found.key != key) found = {key, object_.Find(key)};
+    return found.brick;
   }
 
   // As Volume::Contains(). Needs: a lattice point.
@@ -91,13 +93,19 @@ class NearbyBricks {
   }
 
  private:
-  struct LastBrick {
-    std::optional<BrickKey> key;
+  struct Found {
+    BrickKey key;  // the default is that of no brick
     std::optional<BrickIndex> brick;
   };
 
+  // Bricks of a box of 128 x 64 x 64 lattice units have different places.
+  static size_t PlaceFor(const BrickCoordinates& brick) {
+    return static_cast<size_t>((brick.bx & 3) | (brick.by & 7) << 2 | (brick.bz & 3) << 5 |
+                               static_cast<int>(brick.sublattice) << 7);
+  }
+
   const Volume& object_;
-  std::array<LastBrick, 2> last_;  // by sublattice
+  std::array<Found, 256> found_;
 };
 
 }  // namespace bccskel
