@@ -53,22 +53,24 @@ inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 102
 
 // A lattice point next to the place: the nearest where spacings are equal. It may lie outside of
 // the extent. Needs: no coordinate of the place below -2000.
-inline LatticePoint PointNear(const Coordinates& place, AxisScale scale) {
-  // Divisions by known ones are none.
-  if (scale == kIsotropic) scale = kIsotropic;
-  std::array<std::array<int32_t, 3>, 2> best;
-  std::array<double, 2> squares = {0, 0};
-  for (int32_t odd : {0, 1}) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double at = place[axis] / scale[axis];
-      const int32_t near = 2 * Rounded((at - odd) / 2) + odd;
-      const double off = scale[axis] * (near - at);
-      best[static_cast<size_t>(odd)][axis] = near;
-      squares[static_cast<size_t>(odd)] += off * off;
+inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {
+  const auto near = [&place](const AxisScale& unit) -> LatticePoint {
+    std::array<std::array<int32_t, 3>, 2> best;
+    std::array<double, 2> squares = {0, 0};
+    for (int32_t odd : {0, 1}) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double at = place[axis] / unit[axis];
+        const int32_t point = 2 * Rounded((at - odd) / 2) + odd;
+        const double off = unit[axis] * (point - at);
+        best[static_cast<size_t>(odd)][axis] = point;
+        squares[static_cast<size_t>(odd)] += off * off;
+      }
     }
-  }
-  const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
-  return {x, y, z};
+    const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
+    return {x, y, z};
+  };
+  // Divisions by known ones are none.
+  return scale == kIsotropic ? near(kIsotropic) : near(scale);
 }
 
 // Finds bricks of points that lie close together.
