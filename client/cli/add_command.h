@@ -7,7 +7,9 @@
 namespace bccskel::cli {
 
 // Adds a command whose options are added when it is given: all commands have hundreds, which take
-// as long as the skeleton of a small object. Needs: `arguments` outlives `app`.
+// as long as the skeleton of a small object. Option groups among them have a
+// parse_complete_callback(): CLI11 calls callback() only of those that were there before.
+// Needs: `arguments` outlives `app`.
 template <typename Arguments>
 CLI::App& AddCommand(CLI::App& app, const char* name, const char* description, Arguments& arguments,
                      void (*add_options)(CLI::App&, Arguments&)) {

@@ -123,7 +123,7 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   CLI::Option_group& server = *command.add_option_group("Server", "A server that computes instead");
   CLI::Option* address = AddServer(server, arguments.server);
   arguments.place = Place::kHere;
-  server.callback([&server, &arguments] {
+  server.parse_complete_callback([&server, &arguments] {
     if (server.count_all() > 0) arguments.place = Place::kServer;
   });
   command

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace bccskel::exporting {
 namespace {
@@ -15,7 +16,11 @@ std::string Shortest(double number) {
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
 
-std::string Written(double number) { return Text().Add(number).Take(); }
+std::string Written(double number) {
+  Text text;
+  text.Add(number);
+  return std::move(text).Take();
+}
 
 TEST(TextTest, WholeNumbersAndHalvesAreWrittenInTheShortestForm) {
   for (int halves = -50'000; halves <= 50'000; ++halves) {
