@@ -49,8 +49,8 @@ uint64_t GatherBits(const uint8_t* flags) {
   return (bytes * 0x0102040810204080U) >> 56;
 }
 
-// Flags first and bits after: the compiler turns the first loop into vector instructions, best where
-// it knows their number.
+// Flags first and bits after: the compiler turns the first loop into vector instructions, best
+// where it knows their number.
 template <typename T, typename Test>
 uint64_t WordOf(const T* values, size_t count, const Test& test) {
   std::array<uint8_t, 64> flags;
