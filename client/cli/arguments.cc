@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "client/cli/add_command.h"
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/complaints.h"
@@ -84,20 +85,16 @@ void AddProgress(CLI::App& command, SkeletonizeArguments& arguments) {
       ->option_text("SECONDS");
 }
 
-CLI::App& AddVoxelize(CLI::App& app, VoxelizeArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("voxelize", "Turn a mesh or an image into bcc lattice points");
+void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments) {
   AddInput(command, "INPUT", arguments.input, "Mesh or image file");
   AddVolumeOutput(command, arguments.output);
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("submit", "Send a volume to a server for its skeleton");
+void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
   arguments.accepted = AcceptedInput::kVolumeOnly;
   AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
   AddOutputs(command, arguments.outputs);
@@ -114,12 +111,9 @@ CLI::App& AddSubmit(CLI::App& app, SkeletonizeArguments& arguments) {
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("skeletonize", "Make the skeleton of an object in one go");
+void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   AddInput(command, "INPUT", arguments.input, "Mesh, volume or image file");
   AddOutputs(command, arguments.outputs);
   AddSwcStep(command, arguments.swc);
@@ -129,7 +123,7 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   CLI::Option_group& server = *command.add_option_group("Server", "A server that computes instead");
   CLI::Option* address = AddServer(server, arguments.server);
   arguments.place = Place::kHere;
-  server.callback([&server, &arguments] {
+  server.parse_complete_callback([&server, &arguments] {
     if (server.count_all() > 0) arguments.place = Place::kServer;
   });
   command
@@ -141,25 +135,43 @@ CLI::App& AddSkeletonize(CLI::App& app, SkeletonizeArguments& arguments) {
   AddThreads(command, arguments.common, kThreadsBoth);
   AddProgress(command, arguments);
   AddCommon(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddInfo(CLI::App& app, InfoArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("info", "Describe a mesh, a volume or an image");
+void AddInfo(CLI::App& command, InfoArguments& arguments) {
   AddInput(command, "FILE", arguments.file, "Mesh, volume or image file");
   AddImage(command, arguments.image);
   AddThreads(command, arguments.common, kThreadsHere);
   AddCommon(command, arguments.common);
-  return command;
 }
 
-// What commands that show a result share with those that make one.
-CLI::App& WithGrid(CLI::App& command, ResultArguments& source, CommonArguments& common) {
-  AddGrid(command, source.grid);
-  AddImage(command, source.image);
-  AddThreads(command, common, kThreadsHere);
-  AddCommon(command, common);
-  return command;
+// The options of a command that shows a result, with those it shares with commands that make one.
+template <typename Arguments, void (*kAddOwn)(CLI::App&, Arguments&)>
+void AddWithGrid(CLI::App& command, Arguments& arguments) {
+  kAddOwn(command, arguments);
+  AddGrid(command, arguments.source.grid);
+  AddImage(command, arguments.source.image);
+  AddThreads(command, arguments.common, kThreadsHere);
+  AddCommon(command, arguments.common);
+}
+
+void AddLabelsHere(CLI::App& command, LabelsArguments& arguments) {
+  AddLabels(command, arguments);
+  AddThreads(command, arguments.common, kThreadsHere);
+  AddCommon(command, arguments.common);
+}
+
+void AddGenerateHere(CLI::App& command, GenerateArguments& arguments) {
+  AddGenerate(command, arguments);
+  AddCommon(command, arguments.common);
+}
+
+CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
+  CLI::App& bench =
+      *app.add_subcommand("bench", "Measure the speed of this machine or of a server");
+  bench.require_subcommand(1);
+  AddCommand(bench, "core", "Time and memory from a volume in memory to its skeleton in memory",
+             arguments, AddBenchCore);
+  return bench;
 }
 
 // All commands, each with what it fills in.
@@ -178,28 +190,40 @@ struct CommandLine {
   BenchServerArguments bench_server_arguments;
   ProbeArguments probe_arguments;
   TopArguments top_arguments;
-  CLI::App& voxelize = AddVoxelize(app, voxelize_arguments);
-  CLI::App& submit = AddSubmit(app, submit_arguments);
-  CLI::App& skeletonize = AddSkeletonize(app, skeletonize_arguments);
-  CLI::App& labels = AddLabels(app, labels_arguments);
-  CLI::App& info = AddInfo(app, info_arguments);
+  CLI::App& voxelize =
+      AddCommand(app, "voxelize", "Turn a mesh or an image into bcc lattice points",
+                 voxelize_arguments, AddVoxelize);
+  CLI::App& submit = AddCommand(app, "submit", "Send a volume to a server for its skeleton",
+                                submit_arguments, AddSubmit);
+  CLI::App& skeletonize = AddCommand(app, "skeletonize", "Make the skeleton of an object in one go",
+                                     skeletonize_arguments, AddSkeletonize);
+  CLI::App& labels =
+      AddCommand(app, "labels", "Make a skeleton of every label of an image, on this machine",
+                 labels_arguments, AddLabelsHere);
+  CLI::App& info =
+      AddCommand(app, "info", "Describe a mesh, a volume or an image", info_arguments, AddInfo);
   CLI::App& view =
-      WithGrid(AddView(app, view_arguments), view_arguments.source, view_arguments.common);
-  CLI::App& render =
-      WithGrid(AddRender(app, render_arguments), render_arguments.source, render_arguments.common);
-  CLI::App& reconstruct = WithGrid(AddReconstruct(app, reconstruct_arguments),
-                                   reconstruct_arguments.source, reconstruct_arguments.common);
-  CLI::App& generate = AddGenerate(app, generate_arguments);
+      AddCommand(app, "view", "Make a page to look at a result in a browser, without a network",
+                 view_arguments, AddWithGrid<ViewArguments, AddView>);
+  CLI::App& render = AddCommand(app, "render", "Draw a picture of a result", render_arguments,
+                                AddWithGrid<RenderArguments, AddRender>);
+  CLI::App& reconstruct =
+      AddCommand(app, "reconstruct", "Make a volume of a result's balls and compare it",
+                 reconstruct_arguments, AddWithGrid<ReconstructArguments, AddReconstruct>);
+  CLI::App& generate =
+      AddCommand(app, "generate", "Make a test object", generate_arguments, AddGenerateHere);
   CLI::App& bench = AddBench(app, bench_core_arguments);
-  CLI::App& bench_server = AddBenchServer(bench, bench_server_arguments);
-  CLI::App& probe = AddProbe(app, probe_arguments);
-  CLI::App& top = AddTop(app, top_arguments);
+  CLI::App& bench_server =
+      AddCommand(bench, "server",
+                 "Latency and throughput of a server, for numbers of clients and sizes of volume",
+                 bench_server_arguments, AddBenchServer);
+  CLI::App& probe =
+      AddCommand(app, "probe", "Ask a server whether it takes calls", probe_arguments, AddProbe);
+  CLI::App& top = AddCommand(app, "top", "Watch the queue and the throughput of a server",
+                             top_arguments, AddTop);
   const JobCommands jobs{app};
 
   CommandLine() {
-    AddThreads(labels, labels_arguments.common, kThreadsHere);
-    AddCommon(labels, labels_arguments.common);
-    AddCommon(generate, generate_arguments.common);
     app.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);

@@ -48,21 +48,15 @@ void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
 
 }  // namespace
 
-CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
-  CLI::App& bench =
-      *app.add_subcommand("bench", "Measure the speed of this machine or of a server");
-  bench.require_subcommand(1);
-  CLI::App& core = *bench.add_subcommand(
-      "core", "Time and memory from a volume in memory to its skeleton in memory");
-  AddObject(core, arguments);
-  AddEngine(core, arguments);
-  core.add_option("--repeat", arguments.repeat, "Warm runs, after a cold one (default 11)")
+void AddBenchCore(CLI::App& command, BenchCoreArguments& arguments) {
+  AddObject(command, arguments);
+  AddEngine(command, arguments);
+  command.add_option("--repeat", arguments.repeat, "Warm runs, after a cold one (default 11)")
       ->check(CLI::Range(1, 100'000))
       ->option_text("N");
-  core.add_flag_callback(
+  command.add_flag_callback(
       "--json", [&arguments] { arguments.common.summary = SummaryStyle::kJson; },
       "Print the summary as one JSON object");
-  return bench;
 }
 
 uint64_t ReadBenchPoints(const std::string& given) {

@@ -14,8 +14,8 @@ class Option;
 
 namespace bccskel::cli {
 
-// Adds `bench core` to the command line and returns `bench`.
-CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments);
+// Adds the options of `bench core`.
+void AddBenchCore(CLI::App& command, BenchCoreArguments& arguments);
 
 // What all benchmarks take.
 uint64_t ReadBenchPoints(const std::string& given);  // throws CLI::ValidationError

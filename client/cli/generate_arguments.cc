@@ -19,8 +19,7 @@ std::string ShapeNames() {
 
 }  // namespace
 
-CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("generate", "Make a test object");
+void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
   command
       .add_option_function<std::string>(
           "SHAPE",
@@ -42,7 +41,6 @@ CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments) {
       .add_option("--noise", arguments.options.noise,
                   "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")
       ->option_text("X");
-  return command;
 }
 
 }  // namespace bccskel::cli

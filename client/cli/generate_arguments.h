@@ -9,8 +9,8 @@ class App;
 
 namespace bccskel::cli {
 
-// Adds `generate`, without the options that it shares with other commands.
-CLI::App& AddGenerate(CLI::App& app, GenerateArguments& arguments);
+// Adds the options of `generate`, without those that it shares with other commands.
+void AddGenerate(CLI::App& command, GenerateArguments& arguments);
 
 }  // namespace bccskel::cli
 

@@ -212,7 +212,7 @@ void AddImage(CLI::App& command, ImageArguments& arguments) {
   CLI::Option_group& group = *command.add_option_group(kGroup, "How an image becomes an object");
   AddMaskOptions(group, arguments);
   AddImageLayout(group, arguments);
-  group.callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
+  group.parse_complete_callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
 }
 
 void AddLabelImage(CLI::App& command, ImageArguments& arguments) {

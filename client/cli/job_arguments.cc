@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "client/cli/add_command.h"
 #include "client/cli/choice_option.h"
 #include "client/cli/server_arguments.h"
 #include "client/cli/swc_argument.h"
@@ -17,15 +18,12 @@ void AddJson(CLI::App& command, CommonArguments& common) {
       "Print the summary as one JSON object");
 }
 
-CLI::App& AddJobCommand(CLI::App& app, const char* name, const char* description,
-                        JobArguments& arguments) {
-  CLI::App& command = *app.add_subcommand(name, description);
+void AddJob(CLI::App& command, JobArguments& arguments) {
   command.add_option("JOB", arguments.job, "The job's name, as submit --detach prints it")
       ->required()
       ->option_text(" ");
   AddServer(command, arguments.server);
   AddJson(command, arguments.common);
-  return command;
 }
 
 void AddWaiting(CLI::App& command, WaitingArguments& waiting) {
@@ -48,33 +46,25 @@ void AddWaiting(CLI::App& command, WaitingArguments& waiting) {
       ->option_text("SECONDS");
 }
 
-CLI::App& AddJobs(CLI::App& app, JobsArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("jobs", "List the jobs that a server keeps");
+void AddJobs(CLI::App& command, JobsArguments& arguments) {
   AddServer(command, arguments.server);
   command.add_option("--limit", arguments.limit, "The newest ones only (default 50)")
       ->check(CLI::Range(1, 1'000'000))
       ->option_text("N");
   AddJson(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddWatch(CLI::App& app, WatchArguments& arguments) {
-  CLI::App& command = AddJobCommand(app, "watch", "Wait for a job's end", arguments.job);
+void AddWatch(CLI::App& command, WatchArguments& arguments) {
+  AddJob(command, arguments.job);
   AddWaiting(command, arguments.waiting);
-  return command;
 }
 
-CLI::App& AddCancel(CLI::App& app, CancelArguments& arguments) {
-  return AddJobCommand(app, "cancel", "End a job that waits or runs", arguments.job);
-}
+void AddCancel(CLI::App& command, CancelArguments& arguments) { AddJob(command, arguments.job); }
 
-CLI::App& AddDelete(CLI::App& app, DeleteArguments& arguments) {
-  return AddJobCommand(app, "delete", "Erase a job and its result from the server", arguments.job);
-}
+void AddDelete(CLI::App& command, DeleteArguments& arguments) { AddJob(command, arguments.job); }
 
-CLI::App& AddFetch(CLI::App& app, FetchArguments& arguments) {
-  CLI::App& command =
-      AddJobCommand(app, "fetch", "Wait for a job's end and write its result", arguments.job);
+void AddFetch(CLI::App& command, FetchArguments& arguments) {
+  AddJob(command, arguments.job);
   command
       .add_option("-o,--output", arguments.outputs,
                   "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
@@ -88,17 +78,19 @@ CLI::App& AddFetch(CLI::App& app, FetchArguments& arguments) {
                   "The volume that was submitted, which .svg and .html show")
       ->option_text("FILE");
   AddWaiting(command, arguments.waiting);
-  return command;
 }
 
 }  // namespace
 
 JobCommands::JobCommands(CLI::App& app)
-    : jobs_(AddJobs(app, jobs_arguments_)),
-      watch_(AddWatch(app, watch_arguments_)),
-      cancel_(AddCancel(app, cancel_arguments_)),
-      delete_(AddDelete(app, delete_arguments_)),
-      fetch_(AddFetch(app, fetch_arguments_)) {}
+    : jobs_(AddCommand(app, "jobs", "List the jobs that a server keeps", jobs_arguments_, AddJobs)),
+      watch_(AddCommand(app, "watch", "Wait for a job's end", watch_arguments_, AddWatch)),
+      cancel_(
+          AddCommand(app, "cancel", "End a job that waits or runs", cancel_arguments_, AddCancel)),
+      delete_(AddCommand(app, "delete", "Erase a job and its result from the server",
+                         delete_arguments_, AddDelete)),
+      fetch_(AddCommand(app, "fetch", "Wait for a job's end and write its result", fetch_arguments_,
+                        AddFetch)) {}
 
 std::optional<Arguments> JobCommands::Chosen() const {
   if (jobs_.parsed()) return jobs_arguments_;

@@ -12,9 +12,7 @@ void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
   AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
 }
 
-CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("labels", "Make a skeleton of every label of an image, on this machine");
+void AddLabels(CLI::App& command, LabelsArguments& arguments) {
   command.add_option("IMAGE", arguments.input, "Image file of labels")
       ->required()
       ->option_text(" ");
@@ -32,7 +30,6 @@ CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments) {
   AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   command.add_flag_callback(
       "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
-  return command;
 }
 
 }  // namespace bccskel::cli

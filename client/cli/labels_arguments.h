@@ -12,8 +12,8 @@ namespace bccskel::cli {
 // Adds --min-voxels.
 void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
 
-// Adds `labels` without the options that all commands know.
-CLI::App& AddLabels(CLI::App& app, LabelsArguments& arguments);
+// Adds the options of `labels` without those that all commands know.
+void AddLabels(CLI::App& command, LabelsArguments& arguments);
 
 }  // namespace bccskel::cli
 

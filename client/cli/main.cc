@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -32,8 +34,17 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
 // Debian's build of gRPC's locks looks for deadlocks at every one of them.
 void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
 
+// What a stage gives back is there for the next: left alone, the allocator returns large blocks to
+// the system, which clears their pages anew.
+void KeepFreeMemory() {
+  constexpr int kMostInHeap = 32 << 20;  // the largest that it takes
+  mallopt(M_MMAP_THRESHOLD, kMostInHeap);
+  mallopt(M_TRIM_THRESHOLD, 2 * kMostInHeap);
+}
+
 ExitCode Main(int argc, char** argv) {
   TakeLocksAsTheyCome();
+  KeepFreeMemory();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of Print()

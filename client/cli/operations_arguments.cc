@@ -33,8 +33,7 @@ void AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& 
 
 }  // namespace
 
-CLI::App& AddProbe(CLI::App& app, ProbeArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("probe", "Ask a server whether it takes calls");
+void AddProbe(CLI::App& command, ProbeArguments& arguments) {
   AddServer(command, arguments.server);
   command
       .add_option("--service", arguments.service,
@@ -42,22 +41,17 @@ CLI::App& AddProbe(CLI::App& app, ProbeArguments& arguments) {
       ->option_text("NAME");
   AddSeconds(command, "--timeout", arguments.timeout, "Give up after this time (default 5)");
   AddJson(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddTop(CLI::App& app, TopArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("top", "Watch the queue and the throughput of a server");
+void AddTop(CLI::App& command, TopArguments& arguments) {
   AddServer(command, arguments.server);
   command.add_flag_callback(
       "--once", [&arguments] { arguments.repeat = TopRepeat::kOnce; }, "Show it once");
   AddSeconds(command, "--interval", arguments.interval, "Between two looks (default 1)");
   AddJson(command, arguments.common);
-  return command;
 }
 
-CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments) {
-  CLI::App& command = *bench.add_subcommand(
-      "server", "Latency and throughput of a server, for numbers of clients and sizes of volume");
+void AddBenchServer(CLI::App& command, BenchServerArguments& arguments) {
   AddServer(command, arguments.server);
   command
       .add_option("--clients", arguments.clients,
@@ -86,7 +80,6 @@ CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments) {
                              {"openexr", VolumeEncoding::kOpenExr}});
   AddSeconds(command, "--seconds", arguments.duration, "For each combination (default 5)");
   AddJson(command, arguments.common);
-  return command;
 }
 
 }  // namespace bccskel::cli

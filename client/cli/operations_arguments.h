@@ -9,11 +9,10 @@ class App;
 
 namespace bccskel::cli {
 
-// Add the commands for those who run a server.
-CLI::App& AddProbe(CLI::App& app, ProbeArguments& arguments);
-CLI::App& AddTop(CLI::App& app, TopArguments& arguments);
-// Adds `server` to `bench`.
-CLI::App& AddBenchServer(CLI::App& bench, BenchServerArguments& arguments);
+// Add the options of the commands for those who run a server.
+void AddProbe(CLI::App& command, ProbeArguments& arguments);
+void AddTop(CLI::App& command, TopArguments& arguments);
+void AddBenchServer(CLI::App& command, BenchServerArguments& arguments);
 
 }  // namespace bccskel::cli
 

@@ -66,28 +66,20 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
 
 }  // namespace
 
-CLI::App& AddView(CLI::App& app, ViewArguments& arguments) {
-  CLI::App& command = *app.add_subcommand(
-      "view", "Make a page to look at a result in a browser, without a network");
+void AddView(CLI::App& command, ViewArguments& arguments) {
   AddSource(command, arguments.source);
   AddOutput(command, arguments.output, "Page", {".html"});
-  return command;
 }
 
-CLI::App& AddRender(CLI::App& app, RenderArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("render", "Draw a picture of a result");
+void AddRender(CLI::App& command, RenderArguments& arguments) {
   AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Picture", {".png"});
   AddPicture(command, arguments.picture);
-  return command;
 }
 
-CLI::App& AddReconstruct(CLI::App& app, ReconstructArguments& arguments) {
-  CLI::App& command =
-      *app.add_subcommand("reconstruct", "Make a volume of a result's balls and compare it");
+void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
   AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
-  return command;
 }
 
 }  // namespace bccskel::cli

@@ -9,11 +9,11 @@ class App;
 
 namespace bccskel::cli {
 
-// Add a command that reads a result, without the options that it shares with commands of other
-// kinds (grid, threads, summary).
-CLI::App& AddView(CLI::App& app, ViewArguments& arguments);
-CLI::App& AddRender(CLI::App& app, RenderArguments& arguments);
-CLI::App& AddReconstruct(CLI::App& app, ReconstructArguments& arguments);
+// Add the options of commands that read a result, without those that they share with commands of
+// other kinds (grid, threads, summary).
+void AddView(CLI::App& command, ViewArguments& arguments);
+void AddRender(CLI::App& command, RenderArguments& arguments);
+void AddReconstruct(CLI::App& command, ReconstructArguments& arguments);
 
 }  // namespace bccskel::cli
 

@@ -42,8 +42,28 @@ class Text {
   template <typename Number>
   requires(std::integral<Number> || std::floating_point<Number>) void Append(Number number) {
     std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    char* end = nullptr;
+    if constexpr (std::floating_point<Number>) end = WriteHalf(number, digits.data());
+    if (end == nullptr) {
+      end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    }
     text_.append(digits.data(), static_cast<size_t>(end - digits.data()));
+  }
+  // What std::to_chars() writes in ten times the time, of whole numbers and halves, as which most
+  // coordinates come. Null for other numbers.
+  static char* WriteHalf(double number, char* to) {
+    constexpr double kLargest = 9999;  // exponents are as short for larger ones
+    const double size = number < 0 ? -number : number;
+    if (!(size > 0 && size <= kLargest)) return nullptr;
+    const auto halves = static_cast<int>(2 * size);
+    if (halves != 2 * size) return nullptr;
+    if (number < 0) *to++ = '-';
+    to = std::to_chars(to, to + 4, halves / 2).ptr;
+    if (halves % 2 != 0) {
+      *to++ = '.';
+      *to++ = '5';
+    }
+    return to;
   }
 
   std::string text_;

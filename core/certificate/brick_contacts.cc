@@ -1,5 +1,7 @@
 #include "core/certificate/brick_contacts.h"
 
+#include <algorithm>
+
 #include "core/volume/brick_neighbors.h"
 
 namespace bccskel {
@@ -12,40 +14,52 @@ BrickAddress NeighborAddress(Sublattice sublattice, Direction d, int bit) {
   return AddressOf(PointOf(SomeBrick(sublattice), bit) + d.offset());
 }
 
-BrickBits PointsTouching(Sublattice sublattice, Direction d, BrickCoordinates other) {
-  BrickBits points;
+using BricksAround = std::array<BrickCoordinates, kNeighborCount>;
+
+BricksAround BricksAroundSome(Sublattice sublattice) {
+  BricksAround around;
+  for (int position = 0; position < kNeighborCount; ++position) {
+    around[static_cast<size_t>(position)] = NeighborBrick(SomeBrick(sublattice), position);
+  }
+  return around;
+}
+
+// By position: the points whose neighbor in direction `d` lies in the brick there.
+std::array<BrickBits, kNeighborCount> PointsTouching(Sublattice sublattice, Direction d,
+                                                     const BricksAround& around) {
+  std::array<BrickBits, kNeighborCount> points;
+  auto at = around.begin();
   for (int bit = 0; bit < kBrickPoints; ++bit) {
-    if (NeighborAddress(sublattice, d, bit).brick == other) points.Set(bit);
+    const BrickCoordinates other = NeighborAddress(sublattice, d, bit).brick;
+    if (other == SomeBrick(sublattice)) continue;
+    if (*at != other) at = std::ranges::find(around, other);
+    points[static_cast<size_t>(at - around.begin())].Set(bit);
   }
   return points;
 }
 
-PositionMask PositionsBeside(Sublattice sublattice, int position) {
-  const BrickCoordinates brick = NeighborBrick(SomeBrick(sublattice), position);
+PositionMask PositionsBeside(const BricksAround& around, size_t position) {
   PositionMask beside = 0;
-  for (int other = 0; other < kNeighborCount; ++other) {
-    for (int step = 0; step < kNeighborCount; ++step) {
-      const bool touches =
-          NeighborBrick(brick, step) == NeighborBrick(SomeBrick(sublattice), other);
-      beside |= (touches ? 1u : 0u) << other;
-    }
+  for (int step = 0; step < kNeighborCount; ++step) {
+    const auto other = std::ranges::find(around, NeighborBrick(around[position], step));
+    if (other != around.end()) beside |= 1u << (other - around.begin());
   }
   return beside;
 }
 
 BrickContacts ComputeContacts(Sublattice sublattice) {
   BrickContacts contacts;
-  for (int position = 0; position < kNeighborCount; ++position) {
-    const auto p = static_cast<size_t>(position);
-    const BrickCoordinates other = NeighborBrick(SomeBrick(sublattice), position);
-    for (int d = 0; d < kNeighborCount; ++d) {
-      const BrickBits points = PointsTouching(sublattice, Direction(d), other);
+  const BricksAround around = BricksAroundSome(sublattice);
+  for (int d = 0; d < kNeighborCount; ++d) {
+    const auto touching = PointsTouching(sublattice, Direction(d), around);
+    for (size_t p = 0; p < touching.size(); ++p) {
+      const BrickBits& points = touching[p];
       if (points.Empty()) continue;
-      contacts.along[static_cast<size_t>(d)].push_back({position, points});
+      contacts.along[static_cast<size_t>(d)].push_back({static_cast<int>(p), points});
       for (size_t k = 0; k < 8; ++k) contacts.points_at[p].words[k] |= points.words[k];
     }
-    contacts.beside[p] = PositionsBeside(sublattice, position);
   }
+  for (size_t p = 0; p < around.size(); ++p) contacts.beside[p] = PositionsBeside(around, p);
   return contacts;
 }
 

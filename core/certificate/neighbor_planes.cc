@@ -103,6 +103,13 @@ NeighborPlanes FindNeighborPlanes(Sublattice sublattice, const BrickSurroundings
   HWY_DYNAMIC_DISPATCH(FindNeighborPlanesTarget)(sublattice, bricks, planes);
   return planes;
 }
+NeighborPlanes NeighborPlanesOf(const Volume& object, BrickIndex brick) {
+  const auto bricks = object.padded_bricks();
+  BrickSurroundings surroundings = {bricks[brick], {}};
+  const BrickNeighborhood& neighbors = object.neighbors()[brick];
+  for (size_t n = 0; n < neighbors.size(); ++n) surroundings.around[n] = bricks[neighbors[n]];
+  return FindNeighborPlanes(object.keys()[brick].coordinates().sublattice, surroundings);
+}
 PositionMask FindTouchedBricks(Sublattice sublattice, std::span<const BrickBits> bricks,
                                BrickIndex n, const BrickNeighborhood& neighbors) {
   return HWY_DYNAMIC_DISPATCH(FindTouchedBricksTarget)(sublattice, bricks, n, neighbors);

@@ -8,6 +8,7 @@
 #include "core/lattice/directions.h"
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
+#include "core/volume/volume.h"
 
 namespace bccskel {
 
@@ -24,6 +25,13 @@ struct BrickSurroundings {
 using NeighborPlanes = std::array<BrickBits, kNeighborCount>;
 
 NeighborPlanes FindNeighborPlanes(Sublattice sublattice, const BrickSurroundings& bricks);
+NeighborPlanes NeighborPlanesOf(const Volume& object, BrickIndex brick);
+
+inline NeighborMask NeighborsAt(int bit, const NeighborPlanes& planes) {
+  unsigned mask = 0;
+  for (size_t n = 0; n < planes.size(); ++n) mask |= (planes[n].Test(bit) ? 1u : 0u) << n;
+  return static_cast<NeighborMask>(mask);
+}
 
 // The bricks around brick `n`, which is of `sublattice`, that hold a neighbor of one of its points.
 // Shapes: `bricks` has all that `neighbors`, the neighborhood of n, names.

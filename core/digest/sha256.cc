@@ -1,44 +1,27 @@
 #include "core/digest/sha256.h"
 
-#include <openssl/evp.h>
-
-#include <cstdlib>
+// The calls that OpenSSL 3 calls old do not first load its configuration and its algorithms, which
+// takes as long as the skeleton of a small object.
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 
 namespace bccskel {
-namespace {
-
-// OpenSSL fails here only when it has no memory or no SHA-256 at all; a digest that is not one must
-// never be handed out, and the process cannot do its work without it.
-void Require(bool done) {
-  if (!done) std::abort();
-}
-
-struct FreeContext {
-  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-};
-
-}  // namespace
 
 class Sha256::State {
  public:
-  State() : context_(EVP_MD_CTX_new()) {
-    Require(context_ != nullptr);
-    Start();
-  }
-  void Start() { Require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1); }
+  State() { SHA256_Init(&context_); }
   void Add(std::span<const std::byte> bytes) {
-    Require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+    SHA256_Update(&context_, bytes.data(), bytes.size());
   }
   Sha256Digest Finish() {
     Sha256Digest digest;
-    unsigned int length = 0;
-    Require(EVP_DigestFinal_ex(context_.get(), digest.bytes.data(), &length) == 1);
-    Require(length == digest.bytes.size());
+    SHA256_Final(digest.bytes.data(), &context_);
+    SHA256_Init(&context_);
     return digest;
   }
 
  private:
-  std::unique_ptr<EVP_MD_CTX, FreeContext> context_;
+  SHA256_CTX context_;
 };
 
 std::string Sha256Digest::Hex() const {
@@ -59,11 +42,7 @@ Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
 void Sha256::Add(std::span<const std::byte> bytes) { state_->Add(bytes); }
 
-Sha256Digest Sha256::Finish() {
-  const Sha256Digest digest = state_->Finish();
-  state_->Start();
-  return digest;
-}
+Sha256Digest Sha256::Finish() { return state_->Finish(); }
 
 Sha256Digest Sha256Of(std::span<const std::byte> bytes) {
   Sha256 sha;

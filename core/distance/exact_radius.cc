@@ -44,6 +44,7 @@ ExactRadius::ExactRadius(const Volume& object, const DistanceField& field)
 ExactRadius::ExactRadius(const Volume& object, const DistanceField* field)
     : object_(object),
       field_(field),
+      near_bricks_(object),
       scale_(AxisScaleOf(object.placement())),
       squares_({Square(scale_[0]), Square(scale_[1]), Square(scale_[2])}),
       squared_y_(scale_[1]),
@@ -58,10 +59,10 @@ std::span<const BrickBits> ExactRadius::Bricks() const {
 }
 
 float ExactRadius::At(LatticePoint p) {
-  if (!object_.Contains(p)) return 0;
+  if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
   if (!searches()) {
     const BrickAddress address = AddressOf(p);
-    const BrickIndex brick = *object_.Find(BrickKey(address.brick));
+    const BrickIndex brick = *near_bricks_.Find(address.brick);
     return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));

@@ -11,6 +11,7 @@
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/nearest_background.h"
+#include "core/distance/places.h"
 #include "core/exec/context.h"
 #include "core/volume/volume.h"
 
@@ -60,6 +61,7 @@ class ExactRadius {
   std::shared_ptr<const BorderBricks> border_;  // null where it is not
   std::vector<BrickBits> changed_bricks_;       // padded; empty where nothing was taken
   std::vector<NearBox> near_groups_;            // room for all
+  NearbyBricks near_bricks_;
   AxisScale scale_;
   std::array<float, 3> squares_;  // of a lattice coordinate along each axis
   SquaredWays<1> squared_y_;

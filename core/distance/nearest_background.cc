@@ -71,13 +71,17 @@ HWY_INLINE hn::Vec<Floats> SquaresToBoxes(const Boxes& boxes, size_t n, const Po
   return hn::Mul(sum, hn::Set(f32, 0.99999f));
 }
 
+// Bit n: lane n is set.
+HWY_INLINE uint32_t BitsOf(hn::Mask<Floats> mask) {
+  const Floats f32;
+  uint32_t bits = 0;
+  hn::StoreMaskBits(f32, mask, reinterpret_cast<uint8_t*>(&bits));
+  return bits & ((uint32_t{1} << hn::Lanes(f32)) - 1);
+}
+
 // Bit n: lane n is less than the limit.
 HWY_INLINE uint32_t LanesBelow(hn::Vec<Floats> values, float limit) {
-  const Floats f32;
-  const auto below = hn::Lt(values, hn::Set(f32, limit));
-  uint32_t bits = 0;
-  hn::StoreMaskBits(f32, below, reinterpret_cast<uint8_t*>(&bits));
-  return bits & ((uint32_t{1} << hn::Lanes(f32)) - 1);
+  return BitsOf(hn::Lt(values, hn::Set(Floats(), limit)));
 }
 
 size_t FindNearBoxesTarget(const Boxes& boxes, const PointSearch& search, float below,
@@ -123,13 +127,18 @@ HWY_INLINE hn::Vec<Floats> SquaresOfRows(const SeenFrom& seen, float square_x,
 
 constexpr size_t kRows = kBrickPoints / kBrickX;
 
-HWY_NOINLINE void TakeNearest(const SeenFrom& seen, const float* squares, const BrickBits& object,
-                              LatticePoint low, NearestPoint& nearest) {
-  size_t row = 0;
-  for (size_t n = 1; n < kRows; ++n) row = squares[n] < squares[row] ? n : row;
+HWY_NOINLINE void TakeNearest(const SeenFrom& seen, const float* squares, float least,
+                              const BrickBits& object, LatticePoint low, NearestPoint& nearest) {
+  const Floats f32;
+  size_t first = 0;
+  uint32_t lanes;
+  while ((lanes = BitsOf(hn::Eq(hn::Load(f32, squares + first), hn::Set(f32, least)))) == 0) {
+    first += hn::Lanes(f32);
+  }
+  const size_t row = first + static_cast<size_t>(std::countr_zero(lanes));
   const auto bits = static_cast<uint32_t>(~object.words[row >> 2] >> (16 * (row & 3)) & 0xffff);
   const auto j = static_cast<int32_t>(row & 3), k = static_cast<int32_t>(row >> 2);
-  nearest = {low + LatticePoint{2 * NearestBit(bits, seen.place), 2 * j, 2 * k}, squares[row]};
+  nearest = {low + LatticePoint{2 * NearestBit(bits, seen.place), 2 * j, 2 * k}, least};
 }
 
 HWY_INLINE void SearchBrick(const SeenFrom& seen, float square_x, const BrickBits& object,
@@ -143,7 +152,7 @@ HWY_INLINE void SearchBrick(const SeenFrom& seen, float square_x, const BrickBit
     least = hn::Min(least, squared);
   }
   if (hn::AllFalse(f32, hn::Lt(least, hn::Set(f32, nearest.squared)))) return;
-  TakeNearest(seen, squares, object, low, nearest);
+  TakeNearest(seen, squares, hn::GetLane(hn::MinOfLanes(f32, least)), object, low, nearest);
 }
 
 void FindNearestTarget(const BorderBricks& border, size_t group, std::span<const BrickBits> object,

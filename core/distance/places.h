@@ -54,32 +54,36 @@ inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 102
 // A lattice point next to the place: the nearest where spacings are equal. It may lie outside of
 // the extent. Needs: no coordinate of the place below -2000.
 inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {
-  std::array<std::array<int32_t, 3>, 2> best;
-  std::array<double, 2> squares = {0, 0};
-  for (int32_t odd : {0, 1}) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double at = place[axis] / scale[axis];
-      const int32_t near = 2 * Rounded((at - odd) / 2) + odd;
-      const double off = scale[axis] * (near - at);
-      best[static_cast<size_t>(odd)][axis] = near;
-      squares[static_cast<size_t>(odd)] += off * off;
+  const auto near = [&place](const AxisScale& unit) -> LatticePoint {
+    std::array<std::array<int32_t, 3>, 2> best;
+    std::array<double, 2> squares = {0, 0};
+    for (int32_t odd : {0, 1}) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double at = place[axis] / unit[axis];
+        const int32_t point = 2 * Rounded((at - odd) / 2) + odd;
+        const double off = unit[axis] * (point - at);
+        best[static_cast<size_t>(odd)][axis] = point;
+        squares[static_cast<size_t>(odd)] += off * off;
+      }
     }
-  }
-  const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
-  return {x, y, z};
+    const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
+    return {x, y, z};
+  };
+  // Divisions by known ones are none.
+  return scale == kIsotropic ? near(kIsotropic) : near(scale);
 }
 
-// Finds bricks of points that lie close together, most of them in the same two bricks.
+// Finds bricks of points that lie close together.
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
   explicit NearbyBricks(const Volume& object) : object_(object) {}
 
   std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
-    LastBrick& last = last_[static_cast<size_t>(brick.sublattice)];
+    Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
-    if (last.key != key) last = {key, object_.Find(key)};
-    return last.brick;
+    if (found.key != key) found = {key, object_.Find(key)};
+    return found.brick;
   }
 
   // As Volume::Contains(). Needs: a lattice point.
@@ -91,13 +95,19 @@ class NearbyBricks {
   }
 
  private:
-  struct LastBrick {
-    std::optional<BrickKey> key;
+  struct Found {
+    BrickKey key;  // the default is that of no brick
     std::optional<BrickIndex> brick;
   };
 
+  // Bricks of a box of 128 x 64 x 64 lattice units have different places.
+  static size_t PlaceFor(const BrickCoordinates& brick) {
+    return static_cast<size_t>((brick.bx & 3) | (brick.by & 7) << 2 | (brick.bz & 3) << 5 |
+                               static_cast<int>(brick.sublattice) << 7);
+  }
+
   const Volume& object_;
-  std::array<LastBrick, 2> last_;  // by sublattice
+  std::array<Found, 256> found_;
 };
 
 }  // namespace bccskel

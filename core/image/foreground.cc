@@ -49,11 +49,17 @@ uint64_t GatherBits(const uint8_t* flags) {
   return (bytes * 0x0102040810204080U) >> 56;
 }
 
-// Flags first and bits after: the compiler turns the first loop into vector instructions.
+// Flags first and bits after: the compiler turns the first loop into vector instructions, best
+// where it knows their number.
 template <typename T, typename Test>
 uint64_t WordOf(const T* values, size_t count, const Test& test) {
-  std::array<uint8_t, 64> flags = {};
-  for (size_t n = 0; n < count; ++n) flags[n] = test(values[n]) ? 1 : 0;
+  std::array<uint8_t, 64> flags;
+  if (count == flags.size()) {
+    for (size_t n = 0; n < flags.size(); ++n) flags[n] = test(values[n]) ? 1 : 0;
+  } else {
+    flags = {};
+    for (size_t n = 0; n < count; ++n) flags[n] = test(values[n]) ? 1 : 0;
+  }
   uint64_t word = 0;
   for (size_t n = 0; n < 8; ++n) word |= GatherBits(flags.data() + 8 * n) << (8 * n);
   return word;

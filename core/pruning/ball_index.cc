@@ -22,7 +22,15 @@ BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale) : scale_(scale)
   set.ForEachPoint([&](LatticePoint p) {
     const float radius = set.RadiusOf(p);
     const size_t level = std::min(LevelOf(radius), kLevels - 1);
-    levels_[level][CubeOf(PlaceOf(p, scale_), level)].push_back({p, radius});
+    const LatticePoint cube = CubeOf(PlaceOf(p, scale_), level);
+    uint32_t* first = levels_[level].Find(cube);
+    const auto here = static_cast<uint32_t>(balls_.size());
+    balls_.push_back({p, radius, first != nullptr ? *first : kLast});
+    if (first != nullptr) {
+      *first = here;
+    } else {
+      levels_[level].Set(cube, here);
+    }
   });
 }
 
@@ -46,8 +54,10 @@ bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set,
     for (int32_t z = low.z; z <= high.z; ++z) {
       for (int32_t y = low.y; y <= high.y; ++y) {
         for (int32_t x = low.x; x <= high.x; ++x) {
-          const auto found = cubes.find({x, y, z});
-          if (found != cubes.end() && std::ranges::any_of(found->second, covers)) return true;
+          const uint32_t* first = cubes.Find({x, y, z});
+          for (uint32_t n = first != nullptr ? *first : kLast; n != kLast; n = balls_[n].next) {
+            if (covers(balls_[n])) return true;
+          }
         }
       }
     }

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
-#include <unordered_map>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
@@ -27,15 +29,18 @@ class BallIndex {
 
  private:
   static constexpr size_t kLevels = 32;
+  static constexpr uint32_t kLast = std::numeric_limits<uint32_t>::max();
   struct Ball {
     LatticePoint center;
     float radius;
+    uint32_t next;  // of the same cube, kLast at its end
   };
-  using Cubes = std::unordered_map<LatticePoint, std::vector<Ball>, LatticePointHash>;
+  using Cubes = PointTable<uint32_t>;  // the first ball of each
 
   static LatticePoint CubeOf(const Coordinates& place, size_t level);
 
   AxisScale scale_;
+  std::vector<Ball> balls_;
   std::array<Cubes, kLevels> levels_;
 };
 

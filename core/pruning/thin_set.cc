@@ -3,34 +3,25 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/certificate/neighbor_planes.h"
 #include "core/exec/stop_poll.h"
 
 namespace bccskel {
 
 ThinSet::ThinSet(const ThinCurves& curves, const exec::Context& context)
     : scale_(AxisScaleOf(curves.thin.placement())) {
+  const Volume& thin = curves.thin;
   StopPoll poll(context);
   points_.Reserve(curves.radii.size());
   size_t n = 0;
-  curves.thin.ForEachPoint([&](LatticePoint p) {
-    if (poll.Stopped()) return;
-    points_.Set(p, {curves.radii[n], curves.births.empty() ? 0 : curves.births[n], 0});
-    ++n;
-  });
-  curves.thin.ForEachPoint([&](LatticePoint p) {
-    if (!poll.Stopped()) LinkForward(p);
-  });
-}
-
-void ThinSet::LinkForward(LatticePoint p) {
-  Entry& entry = *points_.Find(p);
-  for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit), back = d.Opposite();
-    if (back.bit() < bit) continue;
-    Entry* other = points_.Find(p + d.offset());
-    if (other == nullptr) continue;
-    entry.neighbors = static_cast<NeighborMask>(entry.neighbors | d.mask());
-    other->neighbors = static_cast<NeighborMask>(other->neighbors | back.mask());
+  for (BrickIndex brick = 0; brick < thin.brick_count() && !poll.Stopped(); ++brick) {
+    const BrickCoordinates at = thin.keys()[brick].coordinates();
+    const NeighborPlanes planes = NeighborPlanesOf(thin, brick);
+    thin.bricks()[brick].ForEachSetBit([&](int bit) {
+      const int32_t birth = curves.births.empty() ? 0 : curves.births[n];
+      points_.Set(PointOf(at, bit), {curves.radii[n], birth, NeighborsAt(bit, planes)});
+      ++n;
+    });
   }
 }
 

@@ -88,8 +88,6 @@ class ThinSet {
     int32_t birth = 0;
     NeighborMask neighbors = 0;
   };
-  // Each pair of neighbors is found from one of them.
-  void LinkForward(LatticePoint p);
 
   AxisScale scale_;
   PointTable<Entry> points_;

@@ -73,46 +73,47 @@ class DiscCenters {
   NearbyBricks bricks_;
 };
 
-// The smooth curve of one edge, place by place: shares of a long edge cost what their points cost.
-class SmoothEdge {
+// A part of the smooth curve of one edge: shares of a long edge cost what their points cost.
+class SmoothPart {
  public:
-  SmoothEdge(const DiscCenters& centers, const SkeletonGraph& graph, const SkeletonEdge& edge)
-      : centers_(centers), points_(graph.PointsOf(edge)), shape_(ShapeOf(graph, edge)) {}
-
-  CurveShape shape() const { return shape_; }
-  Coordinates At(size_t n) const {
-    const auto place_at = [this](size_t k) { return centers_.PlaceOf(points_[k].point); };
-    return MeanAt(place_at, points_.size(), n, shape_);
+  // The places from `begin` to `end` of the edge.
+  SmoothPart(const DiscCenters& centers, std::span<const SkeletonPoint> points, CurveShape shape,
+             size_t begin, size_t end)
+      : begin_(begin) {
+    const auto place_at = [&](size_t k) { return centers.PlaceOf(points[k].point); };
+    const size_t once = points.size() - 1;
+    for (size_t n = begin; n < end + 2 * kTangentReach; ++n) {  // so many places farther on
+      const size_t k = shape == CurveShape::kClosed
+                           ? (n + once - std::min(once, kTangentReach)) % once
+                           : std::min(std::max(n, kTangentReach) - kTangentReach, once);
+      places_.push_back(MeanAt(place_at, points.size(), k, shape));
+    }
   }
+
+  const Coordinates& At(size_t n) const { return places_[n - begin_ + kTangentReach]; }
   // The way of the curve, of length 1; none where it stands still.
   Coordinates WayAt(size_t n) const {
-    size_t before = n - std::min(n, kTangentReach);
-    size_t after = std::min(n + kTangentReach, points_.size() - 1);
-    if (shape_ == CurveShape::kClosed) {
-      const size_t once = points_.size() - 1;
-      before = (n + once - std::min(once, kTangentReach)) % once;
-      after = (n + kTangentReach) % once;
-    }
-    const Coordinates way = Sum(At(after), -1, At(before));
+    const Coordinates way = Sum(At(n + kTangentReach), -1, At(n - kTangentReach));
     const double length = std::sqrt(Dot(way, way));
     return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
   }
 
  private:
-  const DiscCenters& centers_;
-  const std::span<const SkeletonPoint> points_;
-  const CurveShape shape_;
+  const size_t begin_;
+  std::vector<Coordinates> places_;  // from kTangentReach before `begin_` on
 };
 
 // Those of the edge's points that are among `mine`. The first and the last point of an open curve
 // are its nodes' and stay.
 void CenterEdge(DiscCenters& centers, const SkeletonEdge& edge, exec::Share mine, StopPoll& poll,
                 SkeletonGraph& graph) {
-  const SmoothEdge curve(centers, graph, edge);
-  const size_t skip = curve.shape() == CurveShape::kClosed ? 0 : 1;
-  const size_t first = edge.first_point, end = first + edge.point_count;
-  for (size_t at = std::max(mine.begin, first + skip);
-       at < mine.end && at + skip < end && !poll.Stopped(); ++at) {
+  const CurveShape shape = ShapeOf(graph, edge);
+  const size_t skip = shape == CurveShape::kClosed ? 0 : 1, first = edge.first_point;
+  const size_t begin = std::max(mine.begin, first + skip);
+  const size_t end = std::min(mine.end, first + edge.point_count - skip);
+  if (begin >= end) return;
+  const SmoothPart curve(centers, graph.PointsOf(edge), shape, begin - first, end - first);
+  for (size_t at = begin; at < end && !poll.Stopped(); ++at) {
     const Coordinates way = curve.WayAt(at - first);
     if (Dot(way, way) == 0) continue;
     SkeletonPoint& p = graph.points[at];

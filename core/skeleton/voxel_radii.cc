@@ -26,6 +26,7 @@ class VoxelRadii {
  public:
   VoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search)
       : voxel_(voxel_units),
+        per_unit_(1.0 / voxel_units),
         scale_(AxisScaleOf(object.placement())),
         search_(search),
         bricks_(object) {}
@@ -65,7 +66,7 @@ class VoxelRadii {
   }
   Voxel VoxelAt(const Vector& at) const {
     Voxel v;
-    for (size_t a = 0; a < 3; ++a) v[a] = static_cast<int32_t>(std::floor(at[a] / voxel_));
+    for (size_t a = 0; a < 3; ++a) v[a] = static_cast<int32_t>(std::floor(at[a] * per_unit_));
     return v;
   }
 
@@ -124,6 +125,7 @@ class VoxelRadii {
   }
 
   const int32_t voxel_;
+  const double per_unit_;  // voxels in one, exact for the powers of two that voxels have
   const AxisScale scale_;
   ExactRadius search_;
   NearbyBricks bricks_;

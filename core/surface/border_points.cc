@@ -5,14 +5,6 @@
 namespace bccskel {
 namespace {
 
-NeighborPlanes PlanesAround(const Volume& object, BrickIndex brick) {
-  const auto bricks = object.padded_bricks();
-  BrickSurroundings surroundings = {bricks[brick], {}};
-  const BrickNeighborhood& neighbors = object.neighbors()[brick];
-  for (size_t n = 0; n < neighbors.size(); ++n) surroundings.around[n] = bricks[neighbors[n]];
-  return FindNeighborPlanes(object.keys()[brick].coordinates().sublattice, surroundings);
-}
-
 // The points that lack a neighbor.
 BrickBits BorderOf(const BrickBits& points, const NeighborPlanes& planes) {
   BrickBits border;
@@ -25,9 +17,7 @@ BrickBits BorderOf(const BrickBits& points, const NeighborPlanes& planes) {
 }
 
 NeighborMask BackgroundAt(int bit, const NeighborPlanes& planes) {
-  unsigned background = 0;
-  for (size_t n = 0; n < planes.size(); ++n) background |= planes[n].Test(bit) ? 0u : 1u << n;
-  return static_cast<NeighborMask>(background);
+  return static_cast<NeighborMask>(kAllNeighbors ^ NeighborsAt(bit, planes));
 }
 
 // How many set bits come before `bit`.
@@ -53,7 +43,7 @@ absl::StatusOr<BorderPoints> BorderPoints::Find(const Volume& object,
 
 void BorderPoints::AddBrick(BrickIndex brick) {
   const BrickCoordinates coordinates = object_->keys()[brick].coordinates();
-  const NeighborPlanes planes = PlanesAround(*object_, brick);
+  const NeighborPlanes planes = NeighborPlanesOf(*object_, brick);
   border_.push_back(BorderOf(object_->bricks()[brick], planes));
   first_of_brick_.push_back(points_.size());
   border_.back().ForEachSetBit([&](int bit) {

@@ -66,14 +66,41 @@ NeighborAddress NeighborAt(const ThinningState& state, BrickIndex brick, int bit
   return {state.neighbors[brick][static_cast<size_t>(hop.position)], hop.bit};
 }
 
-NeighborMask ThinningState::NeighborsOf(BrickIndex brick, int bit) const {
-  NeighborMask mask = 0;
-  for (int n = 0; n < kNeighborCount; ++n) {
-    const Direction d(n);
-    const NeighborAddress at = NeighborAt(*this, brick, bit, d);
-    if (object[at.brick].Test(at.bit)) mask |= d.mask();
+// Most diagonal neighbors lie in one brick, pairs of them side by side in a word.
+unsigned ThinningState::DiagonalNeighborsOf(BrickIndex brick, int bit) const {
+  const int back = SublatticeOf(brick) == Sublattice::kEven ? 1 : 0;
+  const int i = (bit & 15) - back, j = ((bit >> 4) & 3) - back, k = (bit >> 6) - back;
+  unsigned mask = 0;
+  if (i >= 0 && j >= 0 && k >= 0 && i + 1 < kBrickX && j + 1 < kBrickY && k + 1 < kBrickZ) {
+    const BrickBits& other = object[neighbors[brick][0]];
+    for (int z : {0, 1}) {
+      const uint64_t pairs = other.words[static_cast<size_t>(k + z)] >> (16 * j + i);
+      mask |= static_cast<unsigned>((pairs & 3) | (pairs >> 14 & 12)) << (4 * z);
+    }
+    return mask;
+  }
+  for (int n = 0; n < 8; ++n) {
+    const NeighborAddress at = NeighborAt(*this, brick, bit, Direction(n));
+    mask |= (object[at.brick].Test(at.bit) ? 1u : 0u) << n;
   }
   return mask;
+}
+
+NeighborMask ThinningState::NeighborsOf(BrickIndex brick, int bit) const {
+  constexpr std::array<int, 3> kCells = {kBrickX, kBrickY, kBrickZ}, kUnits = {1, 16, 64};
+  const std::array<int, 3> cell = {bit & 15, (bit >> 4) & 3, bit >> 6};
+  const auto test = [&](bool inside, size_t position, int there, int beyond) {
+    return inside ? object[brick].Test(there) : object[neighbors[brick][position]].Test(beyond);
+  };
+  unsigned mask = DiagonalNeighborsOf(brick, bit);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const int unit = kUnits[axis], across = (kCells[axis] - 1) * unit;
+    const size_t up = 8 + 2 * axis, down = up + 1;
+    const bool above = test(cell[axis] + 1 < kCells[axis], up, bit + unit, bit - across);
+    const bool below = test(cell[axis] > 0, down, bit - unit, bit + across);
+    mask |= (above ? 1u : 0u) << up | (below ? 1u : 0u) << down;
+  }
+  return static_cast<NeighborMask>(mask);
 }
 
 Volume ThinningState::ToVolume(const Volume& source) && {

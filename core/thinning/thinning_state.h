@@ -35,6 +35,8 @@ struct ThinningState {
   // The neighbors of a point that are object points.
   NeighborMask NeighborsOf(BrickIndex brick, int bit) const;
 
+  unsigned DiagonalNeighborsOf(BrickIndex brick, int bit) const;
+
   // What is left, with the extent and placement of the volume it came from.
   Volume ToVolume(const Volume& source) &&;
 };
