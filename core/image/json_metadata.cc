@@ -75,7 +75,8 @@ absl::StatusOr<std::vector<double>> NumbersOf(std::string_view what, const Json&
 }
 
 absl::Status BadValue(std::string_view what, const Json& value, std::string_view why) {
-  // Strings may hold what is not UTF-8.
+  if (value.is_string()) return BadField(what, value.get<std::string>(), why);
+  // A string inside may hold what is not UTF-8.
   return BadField(what, value.dump(-1, ' ', true, Json::error_handler_t::replace), why);
 }
 
