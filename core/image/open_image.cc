@@ -14,6 +14,7 @@
 #include "core/exec/status_macros.h"
 #include "core/image/header_text.h"
 #include "core/image/image_headers.h"
+#include "core/image/precomputed_image.h"
 #include "core/image/stored_image.h"
 #include "core/image/tiff_source.h"
 #include "core/image/zarr_image.h"
@@ -91,7 +92,7 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
   if (options.level.has_value()) {
-    return absl::InvalidArgumentError("--level chooses in OME-Zarr folders only");
+    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
   if (!options.raw.has_value() && IsTiff(front.bytes)) {
@@ -115,8 +116,9 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
     return absl::InvalidArgumentError("is a folder; raw voxels are read from files");
   }
   if (IsZarrFolder(path)) return OpenZarr(path, options);
+  if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
   return absl::InvalidArgumentError(
-      "is a folder, but not one of OME-Zarr: it has neither .zattrs nor .zarray");
+      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info)");
 }
 
 // Every error names the image, and no exception leaves.

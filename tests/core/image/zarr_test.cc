@@ -216,7 +216,8 @@ TEST(Zarr, RefusesGroupsThatAreNotRead) {
     return ErrorOf(folder);
   };
   EXPECT_EQ(error_of(Multiscales(kAxes + "," + kDatasets)), "read");
-  EXPECT_THAT(error_of(R"({"multiscales":[{"version":"0.5"}]})"), HasSubstr("version '0.5' is not read"));
+  EXPECT_THAT(error_of(R"({"multiscales":[{"version":"0.5"}]})"),
+              HasSubstr("version '0.5' is not read"));
   EXPECT_THAT(error_of(Multiscales(kAxes)), HasSubstr("datasets"));
   for (const char* path : {"../x", "/etc", "a/../../b", ""}) {
     EXPECT_THAT(error_of(Multiscales(kAxes + R"(,"datasets":[{"path":")" + path + R"("}])")),
