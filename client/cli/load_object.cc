@@ -56,6 +56,9 @@ absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const Voxel
   return result;
 }
 
-std::string_view FileName(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+std::string_view FileName(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);  // of a folder
+  return path.substr(path.rfind('/') + 1);
+}
 
 }  // namespace bccskel::cli

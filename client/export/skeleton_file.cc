@@ -15,6 +15,7 @@
 #include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/picture/svg.h"
+#include "client/export/precomputed.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
 #include "client/view/page.h"
@@ -29,7 +30,7 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
+constexpr std::array<Ending, 13> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               // in front of .json, which it ends in
                                               {".mrk.json", SkeletonFormat::kMarkups},
                                               {".vtp", SkeletonFormat::kVtp},
@@ -41,7 +42,8 @@ constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".exr", SkeletonFormat::kVolume},
                                               {".bccb", SkeletonFormat::kVolume},
                                               {".svg", SkeletonFormat::kSvg},
-                                              {".html", SkeletonFormat::kHtml}}};
+                                              {".html", SkeletonFormat::kHtml},
+                                              {".precomputed", SkeletonFormat::kPrecomputed}}};
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -93,7 +95,7 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
   return view::PageOf({subject.title, result, peeling});
 }
 
-// Needs: a format that is made in memory, so any but kVolume.
+// Needs: a format that is one file made in memory, so neither kVolume nor kPrecomputed.
 absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
   const SkeletonGraph& graph = subject.result.graph;
   const auto context = [&] {
@@ -126,6 +128,7 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
     case SkeletonFormat::kHtml:
       return WithoutNote(PageText(subject));
     case SkeletonFormat::kVolume:
+    case SkeletonFormat::kPrecomputed:
       break;
   }
   return absl::InternalError("this format is not made in memory");
@@ -136,6 +139,7 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
   std::string lower;
   std::ranges::transform(path, std::back_inserter(lower), LowerCase);
+  if (lower.ends_with(".precomputed/")) lower.pop_back();
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;
   }
@@ -152,6 +156,12 @@ std::string SkeletonFormatEndings() {
   return endings;
 }
 
+absl::Status CheckOutput(const std::string& path) {
+  const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
+  const bool folder = format.ok() && *format == SkeletonFormat::kPrecomputed;
+  return folder ? CheckPrecomputedFolder(path) : CheckWritable(path);
+}
+
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   if (format == SkeletonFormat::kVolume) {
@@ -159,6 +169,11 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
     return std::string();
   }
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.result.graph));
+  if (format == SkeletonFormat::kPrecomputed) {
+    return WritePrecomputed(path, subject.result.graph,
+                            {.labels = {}, .world = subject.world, .sampling = subject.swc},
+                            subject.context.stop);
+  }
   BCCSKEL_ASSIGN_OR_RETURN(const Document document, Compose(format, subject));
   BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes, subject.context.stop));
   return document.note;

@@ -7,6 +7,7 @@ import math
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -34,6 +35,36 @@ except ImportError:
 
 SHAPES = ("ball", "torus", "tree", "knot", "hollow-ball")
 ENDINGS = ("json", "swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb", "svg", "html", "exr")
+
+
+def read_precomputed(folder, segment):
+    """(vertices, edges, radii) of Neuroglancer's skeletons, in nanometers."""
+    info = json.loads((pathlib.Path(folder) / "info").read_text())
+    assert info["@type"] == "neuroglancer_skeletons" and "sharding" not in info
+    assert info["transform"] == [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
+    assert info["vertex_attributes"] == [
+        {"id": "radius", "data_type": "float32", "num_components": 1}]
+    data = (pathlib.Path(folder) / str(segment)).read_bytes()
+    count, lines = struct.unpack_from("<II", data)
+    numbers = struct.unpack_from(f"<{3 * count}f{2 * lines}I{count}f", data, 8)
+    assert len(data) == 8 + 4 * len(numbers)
+    ends = numbers[3 * count:3 * count + 2 * lines]
+    return ([numbers[3 * n:3 * n + 3] for n in range(count)],
+            list(zip(ends[::2], ends[1::2])), numbers[3 * count + 2 * lines:])
+
+
+def pieces_of(count, edges):
+    """How many components a graph has."""
+    above = list(range(count))
+
+    def top(n):
+        while above[n] != n:
+            n = above[n]
+        return n
+
+    for source, target in edges:
+        above[top(source)] = top(target)
+    return sum(above[n] == n for n in range(count))
 
 
 class FormatsTest(harness.TestCase):
@@ -202,6 +233,55 @@ class FormatsTest(harness.TestCase):
                     places.append(places[0])
                 length = sum(map(math.dist, places, places[1:]))
                 self.assertAlmostEqual(length, edge["length"], delta=0.1 * edge["length"])
+
+    def test_precomputed_skeletons_hold_the_same_graph(self):
+        for shape in ("torus", "tree", "knot"):
+            with self.subTest(shape=shape):
+                self.folder = self.folders / shape
+                words = ("skeletonize", self.path("v.bccb"), "--local", "--json", "-o")
+                summary = json.loads(self.succeed(*words, self.path("s.precomputed/")))
+                self.assertIn("does not say its unit", summary["outputs"][0]["note"])
+                document = json.loads((self.folder / "s.json").read_text())
+                vertices, edges, radii = read_precomputed(self.path("s.precomputed"), 1)
+                betti = document["certificate"]["skeleton"]
+                pieces = pieces_of(len(vertices), edges)
+                self.assertEqual(pieces, betti["components"])
+                self.assertEqual(len(edges) - len(vertices) + pieces, betti["loops"])
+                length = sum(math.dist(vertices[a], vertices[b]) for a, b in edges)
+                total = document["totals"]["length"]
+                self.assertAlmostEqual(length, total, delta=0.02 * total)
+                for node, vertex, radius in zip(document["nodes"], vertices, radii):
+                    self.assertAlmostEqual(radius, node["radius"], places=3)
+                    if node["kind"] != "loop":
+                        self.assertLess(math.dist(vertex, node["position"]), 1e-3)
+
+    def test_precomputed_skeletons_are_in_nanometers(self):
+        (self.folder / "v.nrrd").write_bytes(
+            b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 3 3\n"
+            b"space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+            b"space origin: (5,6,7)\nspace units: \"um\" \"um\" \"um\"\nencoding: raw\n\n" +
+            bytes([1]) * 72 + bytes([9]) * 36)
+        self.succeed("skeletonize", self.path("v.nrrd"), "--local", "--label", 1,
+                     "-o", self.path("w.precomputed"), "-o", self.path("w.json"))
+        vertices, edges, radii = read_precomputed(self.path("w.precomputed"), 1)
+        nodes = json.loads((self.folder / "w.json").read_text())["nodes"]
+        self.assertGreater(len(edges), 0)
+        for vertex, radius, node in zip(vertices, radii, nodes):
+            self.assertLess(math.dist(vertex, [1000 * c for c in node["position"]]), 0.01)
+            self.assertAlmostEqual(radius, 1000 * node["radius"], places=3)
+        # Every label is a segment; what is there of others stays.
+        self.succeed("labels", self.path("v.nrrd"), "--labels", "9",
+                     "-o", self.path("w.precomputed"))
+        self.assertEqual(read_precomputed(self.path("w.precomputed"), 1)[0], vertices)
+        self.assertGreater(min(v[2] for v in read_precomputed(self.path("w.precomputed"), 9)[0]),
+                           max(v[2] for v in vertices))
+
+    def test_precomputed_skeletons_do_not_replace_the_info_of_a_volume(self):
+        (self.folder / "x.precomputed").mkdir()
+        (self.folder / "x.precomputed" / "info").write_text('{"@type":"other"}')
+        self.fail_with(8, "describes no skeletons", "skeletonize",
+                       self.folders / "ball" / "v.bccb", "--local",
+                       "-o", self.path("x.precomputed"))
 
     def test_the_world_and_the_unit_are_those_of_the_input(self):
         (self.folder / "v.nhdr").write_text(
