@@ -196,7 +196,8 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
   choose("--channel", arguments.open.channel,
          "Of a TIFF file or OME-Zarr folder with several, from 0");
   choose("--time", arguments.open.time, "Point of time of one with several, from 0");
-  choose("--level", arguments.open.level, "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
+  choose("--level", arguments.open.level,
+         "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
   AddRaw(command, arguments);
 }
 
