@@ -172,6 +172,7 @@ struct CommandLine {
   InfoArguments info_arguments;
   ViewArguments view_arguments;
   RenderArguments render_arguments;
+  ConvertArguments convert_arguments;
   ReconstructArguments reconstruct_arguments;
   GenerateArguments generate_arguments;
   BenchCoreArguments bench_core_arguments;
@@ -189,6 +190,7 @@ struct CommandLine {
       WithGrid(AddRender(app, render_arguments), render_arguments.source, render_arguments.common);
   CLI::App& reconstruct = WithGrid(AddReconstruct(app, reconstruct_arguments),
                                    reconstruct_arguments.source, reconstruct_arguments.common);
+  CLI::App& convert = AddConvert(app, convert_arguments);
   CLI::App& generate = AddGenerate(app, generate_arguments);
   CLI::App& bench = AddBench(app, bench_core_arguments);
   CLI::App& bench_server = AddBenchServer(bench, bench_server_arguments);
@@ -200,6 +202,7 @@ struct CommandLine {
     AddThreads(labels, labels_arguments.common, kThreadsHere);
     AddCommon(labels, labels_arguments.common);
     AddCommon(generate, generate_arguments.common);
+    AddCommon(convert, convert_arguments.common);
     app.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
@@ -219,6 +222,7 @@ struct CommandLine {
     if (info.parsed()) return info_arguments;
     if (view.parsed()) return view_arguments;
     if (render.parsed()) return render_arguments;
+    if (convert.parsed()) return convert_arguments;
     if (reconstruct.parsed()) return reconstruct_arguments;
     if (generate.parsed()) return generate_arguments;
     if (probe.parsed()) return probe_arguments;

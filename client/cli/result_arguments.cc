@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "absl/strings/str_join.h"
+#include "client/cli/root_argument.h"
+#include "client/cli/swc_argument.h"
+#include "client/export/skeleton_file.h"
 
 namespace bccskel::cli {
 namespace {
@@ -79,6 +82,30 @@ CLI::App& AddRender(CLI::App& app, RenderArguments& arguments) {
   AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Picture", {".png"});
   AddPicture(command, arguments.picture);
+  return command;
+}
+
+CLI::App& AddConvert(CLI::App& app, ConvertArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("convert", "Write a result in other formats");
+  command.add_option("RESULT", arguments.result, "JSON file of skeletonize or submit")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: .swc, .vtp, .graphml, .obj, .csv, .mrk.json, .glb or .precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) {
+        const bool fits = exporting::HoldsGraph(path);
+        return fits ? ""
+                    : path +
+                          ": convert writes .swc, .vtp, .graphml, .obj, .csv, .mrk.json, "
+                          ".glb and .precomputed; view and render make pictures";
+      })
+      ->option_text("FILE (required)");
+  AddRoot(command, arguments.root);
+  AddSwcStep(command, arguments.swc);
   return command;
 }
 

@@ -13,6 +13,7 @@ namespace bccskel::cli {
 // kinds (grid, threads, summary).
 CLI::App& AddView(CLI::App& app, ViewArguments& arguments);
 CLI::App& AddRender(CLI::App& app, RenderArguments& arguments);
+CLI::App& AddConvert(CLI::App& app, ConvertArguments& arguments);
 CLI::App& AddReconstruct(CLI::App& app, ReconstructArguments& arguments);
 
 }  // namespace bccskel::cli

@@ -1,9 +1,11 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 #define BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 
+#include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/export/graph_context.h"
 #include "client/export/subject.h"
 
 namespace bccskel::exporting {
@@ -30,6 +32,17 @@ absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
 // The endings, for messages: ".swc, .vtp, ...".
 std::string SkeletonFormatEndings();
 
+// A graph and what is known of it: what all formats but pictures, JSON and volumes are made from.
+struct GraphSubject {
+  const SkeletonGraph& graph;
+  GraphContext context = {};
+  World world = {};
+  CurveSampling swc = {};  // of SWC and precomputed files
+};
+
+// Whether WriteGraphFile() can write a file of this name.
+bool HoldsGraph(const std::string& path);
+
 // Whether WriteSkeletonFile() can begin to write there, without a trace. Any ending is taken.
 // Errors: those of CheckWritable() and CheckPrecomputedFolder().
 absl::Status CheckOutput(const std::string& path);
@@ -40,6 +53,11 @@ absl::Status CheckOutput(const std::string& path);
 // INVALID_ARGUMENT (ending; coordinates too large for a double), those of
 //         WriteFileAtomically(), and for kHtml those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
+
+// The same bytes of a graph alone.
+// Errors: as above; INVALID_ARGUMENT for formats that need the object or the whole result.
+absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
+                                           const std::stop_token& stop);
 
 }  // namespace bccskel::exporting
 

@@ -14,6 +14,7 @@ import unittest
 import xml.etree.ElementTree
 
 import harness
+import numpy
 
 try:
     import networkx
@@ -254,6 +255,68 @@ class FormatsTest(harness.TestCase):
                     self.assertAlmostEqual(radius, node["radius"], places=3)
                     if node["kind"] != "loop":
                         self.assertLess(math.dist(vertex, node["position"]), 1e-3)
+
+    def test_convert_writes_the_bytes_of_skeletonize(self):
+        endings = ("swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb")
+        for shape in SHAPES:
+            self.folder = self.folders / shape
+            outputs = [word for e in endings for word in ("-o", self.path(f"c.{e}"))]
+            self.succeed("convert", self.path("s.json"), *outputs)
+            for ending in endings:
+                with self.subTest(shape=shape, ending=ending):
+                    self.assertEqual((self.folder / f"c.{ending}").read_bytes(),
+                                     (self.folder / f"s.{ending}").read_bytes())
+
+    def test_convert_knows_placements_roots_and_preparation(self):
+        mask = numpy.zeros((20, 24, 40), "u1")
+        mask[4:16, 4:20, 4:36] = mask[8:12, 8:12, 0:40] = 1
+        mask[9, 9, 20] = mask[10:14, 15, 20] = 0
+        header = (f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 24 20\nspace: LPS\n"
+                  f"space directions: (0.12,0.16,0) (-0.24,0.18,0) (0,0,0.7)\n"
+                  f"space origin: (-1e3,0.1,77.7)\nspace units: \"mm\" \"mm\" \"mm\"\n"
+                  f"encoding: raw\n\n")
+        (self.folder / "v.nrrd").write_bytes(header.encode() + mask.tobytes())
+        endings = ("swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb")
+        for number, words in enumerate((
+                ("--fill-cavities", "--denoise", 1), ("--kind", "surface"),
+                ("--kind", "isthmus-curve", "--pruning", "length", "--pruning-threshold", 1e-5),
+                ("--method", "directional", "--distance", "chamfer"))):
+            options = ("--root", "thickest-end", "--swc-step", 0.25)
+            theirs = [w for e in (*endings, "json") for w in ("-o", self.path(f"a{number}.{e}"))]
+            mine = [w for e in endings for w in ("-o", self.path(f"b{number}.{e}"))]
+            # Filling cavities warns.
+            made = harness.bccskel("skeletonize", self.path("v.nrrd"), "--local", *words, *options,
+                                   *theirs, "-o", self.path(f"a{number}.precomputed"))
+            self.assertEqual(made.returncode, 0, made.stderr)
+            self.succeed("convert", self.path(f"a{number}.json"), *options, *mine,
+                         "-o", self.path(f"b{number}.precomputed"))
+            for ending in (*endings, "precomputed/1", "precomputed/info"):
+                with self.subTest(words=words, ending=ending):
+                    self.assertEqual((self.folder / f"b{number}.{ending}").read_bytes(),
+                                     (self.folder / f"a{number}.{ending}").read_bytes())
+
+    def test_convert_refuses_what_is_no_result(self):
+        good = json.loads((self.folders / "tree" / "s.json").read_text())
+        output = ("-o", self.path("x.swc"))
+
+        def refused(message, change):
+            document = json.loads(json.dumps(good))
+            change(document)
+            (self.folder / "bad.json").write_text(json.dumps(document))
+            self.fail_with(3, message, "convert", self.path("bad.json"), *output)
+
+        refused("nodes is not there", lambda d: d.pop("nodes"))
+        refused("placement is not there", lambda d: d.pop("placement"))
+        refused("not on the lattice", lambda d: d["nodes"][0]["position"].__setitem__(0, 1e300))
+        refused("not on the lattice", lambda d: d["edges"][0]["points"][0].__setitem__(0, 0.123))
+        refused("a kind of node", lambda d: d["nodes"][0].update(kind="x"))
+        refused("loops is not a count", lambda d: d["nodes"][0].update(loops=-1))
+        refused("shifts is not", lambda d: d["edges"][0].update(shifts=[[1, 2, 40000]]))
+        refused("births is not", lambda d: d["edges"][0].update(births=[1]))
+        refused("pruning_level is not", lambda d: d["edges"][0].update(pruning_level="x"))
+        refused("preparing is not", lambda d: d.update(preparing=[{"step": "x"}]))
+        self.fail_with(2, "convert writes .swc", "convert", self.folders / "tree" / "s.json",
+                       "-o", self.path("x.html"))
 
     def test_precomputed_skeletons_are_in_nanometers(self):
         (self.folder / "v.nrrd").write_bytes(
