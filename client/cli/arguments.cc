@@ -160,6 +160,11 @@ void AddLabelsHere(CLI::App& command, LabelsArguments& arguments) {
   AddCommon(command, arguments.common);
 }
 
+void AddConvertHere(CLI::App& command, ConvertArguments& arguments) {
+  AddConvert(command, arguments);
+  AddCommon(command, arguments.common);
+}
+
 void AddGenerateHere(CLI::App& command, GenerateArguments& arguments) {
   AddGenerate(command, arguments);
   AddCommon(command, arguments.common);
@@ -184,6 +189,7 @@ struct CommandLine {
   InfoArguments info_arguments;
   ViewArguments view_arguments;
   RenderArguments render_arguments;
+  ConvertArguments convert_arguments;
   ReconstructArguments reconstruct_arguments;
   GenerateArguments generate_arguments;
   BenchCoreArguments bench_core_arguments;
@@ -210,6 +216,8 @@ struct CommandLine {
   CLI::App& reconstruct =
       AddCommand(app, "reconstruct", "Make a volume of a result's balls and compare it",
                  reconstruct_arguments, AddWithGrid<ReconstructArguments, AddReconstruct>);
+  CLI::App& convert = AddCommand(app, "convert", "Write a result in other formats",
+                                 convert_arguments, AddConvertHere);
   CLI::App& generate =
       AddCommand(app, "generate", "Make a test object", generate_arguments, AddGenerateHere);
   CLI::App& bench = AddBench(app, bench_core_arguments);
@@ -243,6 +251,7 @@ struct CommandLine {
     if (info.parsed()) return info_arguments;
     if (view.parsed()) return view_arguments;
     if (render.parsed()) return render_arguments;
+    if (convert.parsed()) return convert_arguments;
     if (reconstruct.parsed()) return reconstruct_arguments;
     if (generate.parsed()) return generate_arguments;
     if (probe.parsed()) return probe_arguments;

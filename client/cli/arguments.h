@@ -103,6 +103,14 @@ struct ViewArguments {
   std::string output;
 };
 
+struct ConvertArguments {
+  CommonArguments common;
+  std::string result;
+  std::vector<std::string> outputs;
+  std::optional<RootChoice> root;
+  exporting::CurveSampling swc;
+};
+
 struct RenderArguments {
   CommonArguments common;
   ResultArguments source;
@@ -206,11 +214,11 @@ struct BenchCoreArguments {
   std::string instruction_set;           // empty: the best
 };
 
-using Arguments =
-    std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsArguments, InfoArguments,
-                 ViewArguments, RenderArguments, ReconstructArguments, GenerateArguments,
-                 BenchCoreArguments, BenchServerArguments, ProbeArguments, TopArguments,
-                 JobsArguments, WatchArguments, CancelArguments, DeleteArguments, FetchArguments>;
+using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsArguments,
+                               InfoArguments, ViewArguments, ConvertArguments, RenderArguments,
+                               ReconstructArguments, GenerateArguments, BenchCoreArguments,
+                               BenchServerArguments, ProbeArguments, TopArguments, JobsArguments,
+                               WatchArguments, CancelArguments, DeleteArguments, FetchArguments>;
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

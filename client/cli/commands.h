@@ -15,6 +15,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop);

@@ -193,8 +193,11 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
     AddCount<uint32_t>(
         command, name, [&chosen](uint32_t number) { chosen = number; }, description);
   };
-  choose("--channel", arguments.open.channel, "Of a TIFF file with several, counted from 0");
-  choose("--time", arguments.open.time, "Point of time of a TIFF file with several, from 0");
+  choose("--channel", arguments.open.channel,
+         "Of a TIFF file or OME-Zarr folder with several, from 0");
+  choose("--time", arguments.open.time, "Point of time of one with several, from 0");
+  choose("--level", arguments.open.level,
+         "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
   AddRaw(command, arguments);
 }
 

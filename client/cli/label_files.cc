@@ -36,9 +36,10 @@ absl::Status CheckLabelOutput(const std::string& path) {
         path + ": pictures show one object; use skeletonize --label for one label");
   }
   if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
-  return absl::InvalidArgumentError(path + ": this format holds one label; write " + kLabelPlace +
-                                    " where its number shall stand, or put all labels into a .vtp, "
-                                    ".graphml, .json, .csv, .glb or .mrk.json file");
+  return absl::InvalidArgumentError(
+      path + ": this format holds one label; write " + kLabelPlace +
+      " where its number shall stand, or put all labels into a .vtp, "
+      ".graphml, .json, .csv, .glb or .mrk.json file or a .precomputed folder");
 }
 
 LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,

@@ -19,7 +19,8 @@ void AddLabels(CLI::App& command, LabelsArguments& arguments) {
   command
       .add_option("-o,--output", arguments.outputs,
                   "Output file: with {label} in its path one file per label, in any format but "
-                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb or .mrk.json; "
+                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or "
+                  ".precomputed; "
                   "may be given several times")
       ->required()
       ->allow_extra_args(false)

@@ -21,11 +21,12 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   const std::string name = LowerCase(path);
   if (HasMeshFileName(name)) return InputKind::kMesh;
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
-  if (HasImageFileName(name)) return InputKind::kImage;
+  if (IsImagePath(path)) return InputKind::kImage;
   return absl::InvalidArgumentError(
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, each also with .gz), "
-      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, ...)");
+      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, OME-Zarr "
+      "folders, ...)");
 }
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image) {
@@ -55,6 +56,9 @@ absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const Voxel
   return result;
 }
 
-std::string_view FileName(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+std::string_view FileName(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);  // of a folder
+  return path.substr(path.rfind('/') + 1);
+}
 
 }  // namespace bccskel::cli

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/cli/label_files.h"
-#include "client/export/atomic_file.h"
+#include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
@@ -32,7 +32,7 @@ absl::Status CheckOutputs(const Arguments& arguments) {
   for (const std::string& path : paths) {
     // Which folders a label's number names is not known yet.
     if (path.rfind('/') != path.npos && path.find(kLabelPlace) < path.rfind('/')) continue;
-    BCCSKEL_RETURN_IF_ERROR(exporting::CheckWritable(path));
+    BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
   }
   return absl::OkStatus();
 }

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "absl/strings/str_join.h"
+#include "client/cli/root_argument.h"
+#include "client/cli/swc_argument.h"
+#include "client/export/skeleton_file.h"
 
 namespace bccskel::cli {
 namespace {
@@ -75,6 +78,28 @@ void AddRender(CLI::App& command, RenderArguments& arguments) {
   AddSourceWithObject(command, arguments.source);
   AddOutput(command, arguments.output, "Picture", {".png"});
   AddPicture(command, arguments.picture);
+}
+
+void AddConvert(CLI::App& command, ConvertArguments& arguments) {
+  command.add_option("RESULT", arguments.result, "JSON file of skeletonize or submit")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: .swc, .vtp, .graphml, .obj, .csv, .mrk.json, .glb or .precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) {
+        const bool fits = exporting::HoldsGraph(path);
+        return fits ? ""
+                    : path +
+                          ": convert writes .swc, .vtp, .graphml, .obj, .csv, .mrk.json, "
+                          ".glb and .precomputed; view and render make pictures";
+      })
+      ->option_text("FILE (required)");
+  AddRoot(command, arguments.root);
+  AddSwcStep(command, arguments.swc);
 }
 
 void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {

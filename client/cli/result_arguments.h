@@ -13,6 +13,7 @@ namespace bccskel::cli {
 // other kinds (grid, threads, summary).
 void AddView(CLI::App& command, ViewArguments& arguments);
 void AddRender(CLI::App& command, RenderArguments& arguments);
+void AddConvert(CLI::App& command, ConvertArguments& arguments);
 void AddReconstruct(CLI::App& command, ReconstructArguments& arguments);
 
 }  // namespace bccskel::cli

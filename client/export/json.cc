@@ -67,6 +67,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
 struct EdgeContext {
   const std::optional<TreeOrder>& order;
   bool has_births;
+  bool has_shifts;
 };
 
 void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
@@ -80,6 +81,12 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
   if (context.has_births) {
     text.Add(",\"births\":");
     AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(p.birth); });
+  }
+  if (context.has_shifts) {
+    text.Add(",\"shifts\":");
+    AddList(text, ",", points, [&](const SkeletonPoint& p) {
+      text.Add('[', p.shift[0], ',', p.shift[1], ',', p.shift[2], ']');
+    });
   }
   text.Add(",\"curve\":");
   const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
@@ -182,7 +189,7 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
     AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
             order);
   });
-  const EdgeContext edges = {order, graph.HasBirths()};
+  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts()};
   text.Add(",\n\"edges\":");
   AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, edges); });
   text.Add(",\n\"sheets\":");

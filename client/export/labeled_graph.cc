@@ -8,6 +8,7 @@
 #include "client/export/graphml.h"
 #include "client/export/json.h"
 #include "client/export/markups.h"
+#include "client/export/precomputed.h"
 #include "client/export/vtp.h"
 #include "core/exec/status_macros.h"
 
@@ -57,10 +58,17 @@ std::string LabeledSkeletons::Markups() const {
   return WriteMarkups(graph_, Context(), world_).text;
 }
 
+absl::Status LabeledSkeletons::WritePrecomputedFolder(const std::string& path,
+                                                      const std::stop_token& stop) const {
+  return WritePrecomputed(path, graph_, {.labels = labels_, .world = world_, .sampling = {}}, stop)
+      .status();
+}
+
 bool HoldsManyLabels(SkeletonFormat format) {
   return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
          format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv ||
-         format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups;
+         format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups ||
+         format == SkeletonFormat::kPrecomputed;
 }
 
 absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
@@ -83,6 +91,8 @@ absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& s
                                GlbBytes(skeletons.graph(), skeletons.Context()));
       return WriteFileAtomically(path, glb, stop);
     }
+    case SkeletonFormat::kPrecomputed:
+      return skeletons.WritePrecomputedFolder(path, stop);
     default:
       return absl::InvalidArgumentError(path + ": this format holds one label");
   }

@@ -31,6 +31,8 @@ class LabeledSkeletons {
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
   std::string Markups() const;
+  // Errors: those of WritePrecomputed().
+  absl::Status WritePrecomputedFolder(const std::string& path, const std::stop_token& stop) const;
 
  private:
   SkeletonGraph graph_;
@@ -41,7 +43,7 @@ class LabeledSkeletons {
   std::string json_;
 };
 
-// .vtp, .graphml, .json, .csv, .glb and .mrk.json.
+// .vtp, .graphml, .json, .csv, .glb, .mrk.json and .precomputed.
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().

@@ -15,6 +15,7 @@
 #include "client/export/markups.h"
 #include "client/export/obj.h"
 #include "client/export/picture/svg.h"
+#include "client/export/precomputed.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
 #include "client/view/page.h"
@@ -29,7 +30,7 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
+constexpr std::array<Ending, 13> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               // in front of .json, which it ends in
                                               {".mrk.json", SkeletonFormat::kMarkups},
                                               {".vtp", SkeletonFormat::kVtp},
@@ -41,7 +42,8 @@ constexpr std::array<Ending, 12> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".exr", SkeletonFormat::kVolume},
                                               {".bccb", SkeletonFormat::kVolume},
                                               {".svg", SkeletonFormat::kSvg},
-                                              {".html", SkeletonFormat::kHtml}}};
+                                              {".html", SkeletonFormat::kHtml},
+                                              {".precomputed", SkeletonFormat::kPrecomputed}}};
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -93,42 +95,40 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
   return view::PageOf({subject.title, result, peeling});
 }
 
-// Needs: a format that is made in memory, so any but kVolume.
-absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) {
-  const SkeletonGraph& graph = subject.result.graph;
-  const auto context = [&] {
-    return GraphContext{.facts = MethodFactsOf(subject.result, subject.world),
-                        .order = OrderOf(subject)};
-  };
+// Nothing for a format that needs more than a graph.
+std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
+                                                     const GraphSubject& subject) {
+  const auto& [graph, context, world, sampling] = subject;
   switch (format) {
     case SkeletonFormat::kSwc: {
-      SwcDocument swc = WriteSwc(graph, OrderOf(subject), {subject.swc, subject.world});
+      SwcDocument swc = WriteSwc(graph, context.order, {sampling, world});
       return Document{std::move(swc.text), std::move(swc.note)};
     }
     case SkeletonFormat::kVtp:
-      return WithoutNote(VtpText(graph, context()));
+      return WithoutNote(VtpText(graph, context));
     case SkeletonFormat::kGraphMl:
-      return WithoutNote(GraphMlText(graph, context()));
+      return WithoutNote(GraphMlText(graph, context));
     case SkeletonFormat::kObj:
       return WithoutNote(ObjText(graph));
-    case SkeletonFormat::kJson:
-      return WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world));
     case SkeletonFormat::kCsv:
-      return WithoutNote(BranchTableText(graph, context()));
+      return WithoutNote(BranchTableText(graph, context));
     case SkeletonFormat::kMarkups: {
-      MarkupsDocument markups = WriteMarkups(graph, context(), subject.world);
+      MarkupsDocument markups = WriteMarkups(graph, context, world);
       return Document{std::move(markups.text), std::move(markups.note)};
     }
     case SkeletonFormat::kGlb:
-      return WithoutNote(GlbBytes(graph, context()));
-    case SkeletonFormat::kSvg:
-      return WithoutNote(SvgText(subject));
-    case SkeletonFormat::kHtml:
-      return WithoutNote(PageText(subject));
-    case SkeletonFormat::kVolume:
-      break;
+      return WithoutNote(GlbBytes(graph, context));
+    default:
+      return std::nullopt;
   }
-  return absl::InternalError("this format is not made in memory");
+}
+
+absl::StatusOr<std::string> WriteDocument(const std::string& path,
+                                          const absl::StatusOr<Document>& document,
+                                          const std::stop_token& stop) {
+  BCCSKEL_RETURN_IF_ERROR(document.status());
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document->bytes, stop));
+  return document->note;
 }
 
 }  // namespace
@@ -136,6 +136,7 @@ absl::StatusOr<Document> Compose(SkeletonFormat format, const Subject& subject) 
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
   std::string lower;
   std::ranges::transform(path, std::back_inserter(lower), LowerCase);
+  if (lower.ends_with(".precomputed/")) lower.pop_back();
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;
   }
@@ -152,16 +153,59 @@ std::string SkeletonFormatEndings() {
   return endings;
 }
 
+bool HoldsGraph(const std::string& path) {
+  const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
+  return format.ok() && *format != SkeletonFormat::kJson && *format != SkeletonFormat::kVolume &&
+         *format != SkeletonFormat::kSvg && *format != SkeletonFormat::kHtml;
+}
+
+absl::Status CheckOutput(const std::string& path) {
+  const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
+  const bool folder = format.ok() && *format == SkeletonFormat::kPrecomputed;
+  return folder ? CheckPrecomputedFolder(path) : CheckWritable(path);
+}
+
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   if (format == SkeletonFormat::kVolume) {
     BCCSKEL_RETURN_IF_ERROR(WriteVolumeFile(path, subject.result.thin));
     return std::string();
   }
-  BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.result.graph));
-  BCCSKEL_ASSIGN_OR_RETURN(const Document document, Compose(format, subject));
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document.bytes, subject.context.stop));
-  return document.note;
+  const SkeletonGraph& graph = subject.result.graph;
+  const std::stop_token& stop = subject.context.stop;
+  if (format == SkeletonFormat::kJson || format == SkeletonFormat::kSvg ||
+      format == SkeletonFormat::kHtml) {
+    BCCSKEL_RETURN_IF_ERROR(CheckFinite(graph));
+    if (format == SkeletonFormat::kSvg)
+      return WriteDocument(path, WithoutNote(SvgText(subject)), stop);
+    if (format == SkeletonFormat::kHtml)
+      return WriteDocument(path, WithoutNote(PageText(subject)), stop);
+    return WriteDocument(
+        path, WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world)), stop);
+  }
+  return WriteGraphFile(path,
+                        {.graph = graph,
+                         .context = {.labels = {},
+                                     .facts = MethodFactsOf(subject.result, subject.world),
+                                     .order = OrderOf(subject)},
+                         .world = subject.world,
+                         .swc = subject.swc},
+                        stop);
+}
+
+absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
+                                           const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
+  BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.graph));
+  if (format == SkeletonFormat::kPrecomputed) {
+    return WritePrecomputed(path, subject.graph,
+                            {.labels = {}, .world = subject.world, .sampling = subject.swc}, stop);
+  }
+  const auto document = ComposeGraph(format, subject);
+  if (document.has_value()) return WriteDocument(path, *document, stop);
+  return absl::InvalidArgumentError(path +
+                                    ": this format needs more than the graph of a result; write it "
+                                    "with skeletonize, or with view and render");
 }
 
 }  // namespace bccskel::exporting

@@ -1,9 +1,11 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 #define BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 
+#include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/export/graph_context.h"
 #include "client/export/subject.h"
 
 namespace bccskel::exporting {
@@ -19,22 +21,43 @@ enum class SkeletonFormat {
   kGlb,
   kVolume,
   kSvg,
-  kHtml
+  kHtml,
+  kPrecomputed
 };
 
-// The format that a file's ending asks for, in capitals or not.
-// Errors: INVALID_ARGUMENT with the endings there are.
+// The format that a file's ending asks for, in capitals or not; of a folder also with a slash
+// behind. Errors: INVALID_ARGUMENT with the endings there are.
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
 
 // The endings, for messages: ".swc, .vtp, ...".
 std::string SkeletonFormatEndings();
 
-// Writes one file; either all of it appears or nothing. Equal subjects give equal bytes.
-// Returns what the format could not hold, a sentence for the user; empty if it held everything.
-// Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
-// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), those of
+// A graph and what is known of it: what all formats but pictures, JSON and volumes are made from.
+struct GraphSubject {
+  const SkeletonGraph& graph;
+  GraphContext context = {};
+  World world = {};
+  CurveSampling swc = {};  // of SWC and precomputed files
+};
+
+// Whether WriteGraphFile() can write a file of this name.
+bool HoldsGraph(const std::string& path);
+
+// Whether WriteSkeletonFile() can begin to write there, without a trace. Any ending is taken.
+// Errors: those of CheckWritable() and CheckPrecomputedFolder().
+absl::Status CheckOutput(const std::string& path);
+
+// Writes one file, or for kPrecomputed a folder of them; either all of it appears or nothing. Equal
+// subjects give equal bytes. Returns what the format could not hold, a sentence for the user; empty
+// if it held everything. Needs:  for kVolume (.exr, .bccb), a result with its thin volume. Errors:
+// INVALID_ARGUMENT (ending; coordinates too large for a double), those of
 //         WriteFileAtomically(), and for kHtml those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
+
+// The same bytes of a graph alone.
+// Errors: as above; INVALID_ARGUMENT for formats that need the object or the whole result.
+absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
+                                           const std::stop_token& stop);
 
 }  // namespace bccskel::exporting
 

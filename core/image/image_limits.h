@@ -16,6 +16,11 @@ struct ImageLimits {
   uint64_t max_header_bytes = uint64_t{1} << 20;
   // Slices that lie scattered over a file are gathered this many bytes at a time, or one by one.
   uint64_t max_slab_bytes = uint64_t{64} << 20;
+  // Of images in chunks: of one expanded chunk, of the slices that are gathered at a time, and how
+  // many chunks there may be.
+  uint64_t max_chunk_bytes = uint64_t{1} << 30;
+  uint64_t max_chunk_slab_bytes = uint64_t{1} << 30;
+  uint64_t max_chunks = uint64_t{1} << 24;
 };
 
 }  // namespace bccskel

@@ -24,9 +24,11 @@ struct ImageOptions {
   std::optional<RawLayout> raw;
   // Replaces the spacing that the file tells, or does not tell.
   std::optional<std::array<double, 3>> spacing;
-  // Of a TIFF file with several; counted from 0.
+  // Of a TIFF file or OME-Zarr folder with several; counted from 0.
   std::optional<int64_t> channel;
   std::optional<int64_t> time;
+  // Of a pyramid (OME-Zarr, precomputed): 0, the default, is the finest.
+  std::optional<int64_t> level;
   ImageLimits limits;
 };
 

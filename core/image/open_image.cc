@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <functional>
 #include <new>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/image/header_text.h"
 #include "core/image/image_headers.h"
+#include "core/image/precomputed_image.h"
 #include "core/image/stored_image.h"
 #include "core/image/tiff_source.h"
+#include "core/image/zarr_image.h"
 
 namespace bccskel {
 namespace {
@@ -86,13 +91,16 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
+  if (options.level.has_value()) {
+    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
+  }
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
   if (!options.raw.has_value() && IsTiff(front.bytes)) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
     return OpenTiff(std::move(file), options);
   }
   if (options.channel.has_value() || options.time.has_value()) {
-    return absl::InvalidArgumentError("--channel and --time choose in TIFF files only");
+    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
   }
   BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseStored(front, options));
   if (options.spacing.has_value()) {
@@ -102,17 +110,39 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   return OpenStoredImage(std::move(image), options.limits);
 }
 
-absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(std::shared_ptr<const ImageFile> file,
-                                                       const ImageOptions& options) {
-  const std::string name = file->name();
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
+                                                        const ImageOptions& options) {
+  if (options.raw.has_value()) {
+    return absl::InvalidArgumentError("is a folder; raw voxels are read from files");
+  }
+  if (IsZarrFolder(path)) return OpenZarr(path, options);
+  if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
+  return absl::InvalidArgumentError(
+      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info)");
+}
+
+// Every error names the image, and no exception leaves.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(
+    const std::string& name,
+    const std::function<absl::StatusOr<std::unique_ptr<ImageSource>>()>& open) {
   try {
-    auto source = OpenFile(std::move(file), options);
+    auto source = open();
     if (source.ok()) return source;
     return absl::Status(source.status().code(),
                         absl::StrFormat("image '%s': %s", name, source.status().message()));
   } catch (const std::bad_alloc&) {
     return absl::ResourceExhaustedError(absl::StrFormat("image '%s': not enough memory", name));
   }
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamedFile(std::shared_ptr<const ImageFile> file,
+                                                           const ImageOptions& options) {
+  return OpenNamed(file->name(), [&] { return OpenFile(file, options); });
+}
+
+bool IsFolder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
 }
 
 // The header of a pair that is named by its voxels: "brain.hdr" for "brain.img".
@@ -128,7 +158,8 @@ std::optional<std::string> HeaderBeside(const std::string& path) {
 
 }  // namespace
 
-bool HasImageFileName(std::string_view path) {
+bool IsImagePath(std::string_view path) {
+  if (IsFolder(std::string(path))) return true;
   std::string name = LowerCase(path);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return std::ranges::any_of(kEndings,
@@ -137,22 +168,25 @@ bool HasImageFileName(std::string_view path) {
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options) {
+  if (IsFolder(path)) {
+    return OpenNamed(path, [&] { return OpenFolder(path, options); });
+  }
   const std::optional<std::string> header =
       options.raw.has_value() ? std::nullopt : HeaderBeside(path);
   if (header.has_value()) {
     auto file = ImageFile::Open(*header);
     if (!absl::IsNotFound(file.status())) {
       BCCSKEL_RETURN_IF_ERROR(file.status());
-      return OpenNamed(*std::move(file), options);
+      return OpenNamedFile(*std::move(file), options);
     }
   }
   BCCSKEL_ASSIGN_OR_RETURN(auto file, ImageFile::Open(path));
-  return OpenNamed(std::move(file), options);
+  return OpenNamedFile(std::move(file), options);
 }
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
                                                             const ImageOptions& options) {
-  return OpenNamed(ImageFile::OfBytes(std::move(name), std::move(bytes)), options);
+  return OpenNamedFile(ImageFile::OfBytes(std::move(name), std::move(bytes)), options);
 }
 
 }  // namespace bccskel

@@ -6,6 +6,7 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/image/header_text.h"
+#include "core/image/image_choice.h"
 
 namespace bccskel {
 namespace {
@@ -31,20 +32,10 @@ absl::StatusOr<TiffStack> Select(const std::vector<PageAxis>& axes, int64_t page
     if (axis.letter == 'Z') {
       stack.slices = axis.length;
       stack.page_step = step;
-    } else if (axis.length > 1 || (axis.letter == 'C' ? options.channel : options.time)) {
-      const bool channel = axis.letter == 'C';
-      const std::optional<int64_t> chosen = channel ? options.channel : options.time;
-      const char* const name = channel ? "channel" : "time";
-      if (!chosen.has_value()) {
-        return absl::InvalidArgumentError(
-            absl::StrFormat("the image has %d %ss; choose one with --%s 0 to %d", axis.length, name,
-                            name, axis.length - 1));
-      }
-      if (*chosen < 0 || *chosen >= axis.length) {
-        return absl::InvalidArgumentError(absl::StrFormat(
-            "%s %d is not there: the image has %d, counted from 0", name, *chosen, axis.length));
-      }
-      stack.first_page += *chosen * step;
+    } else {
+      BCCSKEL_ASSIGN_OR_RETURN(const int64_t chosen,
+                               ChosenAlong(axis.letter, axis.length, options));
+      stack.first_page += chosen * step;
     }
     step *= axis.length;
   }

@@ -10,7 +10,7 @@ import harness
 
 CLI = harness.SOURCES / "client/cli"
 SERVER_PAGE = harness.SOURCES / "server/bccskel-server.1"
-COMMANDS = ("voxelize", "submit", "skeletonize", "labels", "info", "view", "render", "reconstruct",
+COMMANDS = ("voxelize", "submit", "skeletonize", "labels", "info", "view", "render", "convert", "reconstruct",
             "generate", "jobs", "watch", "cancel", "fetch", "delete", "bench core",
             "bench server", "probe", "top")
 

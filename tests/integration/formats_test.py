@@ -7,12 +7,14 @@ import math
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import harness
+import numpy
 
 try:
     import networkx
@@ -34,6 +36,36 @@ except ImportError:
 
 SHAPES = ("ball", "torus", "tree", "knot", "hollow-ball")
 ENDINGS = ("json", "swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb", "svg", "html", "exr")
+
+
+def read_precomputed(folder, segment):
+    """(vertices, edges, radii) of Neuroglancer's skeletons, in nanometers."""
+    info = json.loads((pathlib.Path(folder) / "info").read_text())
+    assert info["@type"] == "neuroglancer_skeletons" and "sharding" not in info
+    assert info["transform"] == [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
+    assert info["vertex_attributes"] == [
+        {"id": "radius", "data_type": "float32", "num_components": 1}]
+    data = (pathlib.Path(folder) / str(segment)).read_bytes()
+    count, lines = struct.unpack_from("<II", data)
+    numbers = struct.unpack_from(f"<{3 * count}f{2 * lines}I{count}f", data, 8)
+    assert len(data) == 8 + 4 * len(numbers)
+    ends = numbers[3 * count:3 * count + 2 * lines]
+    return ([numbers[3 * n:3 * n + 3] for n in range(count)],
+            list(zip(ends[::2], ends[1::2])), numbers[3 * count + 2 * lines:])
+
+
+def pieces_of(count, edges):
+    """How many components a graph has."""
+    above = list(range(count))
+
+    def top(n):
+        while above[n] != n:
+            n = above[n]
+        return n
+
+    for source, target in edges:
+        above[top(source)] = top(target)
+    return sum(above[n] == n for n in range(count))
 
 
 class FormatsTest(harness.TestCase):
@@ -202,6 +234,117 @@ class FormatsTest(harness.TestCase):
                     places.append(places[0])
                 length = sum(map(math.dist, places, places[1:]))
                 self.assertAlmostEqual(length, edge["length"], delta=0.1 * edge["length"])
+
+    def test_precomputed_skeletons_hold_the_same_graph(self):
+        for shape in ("torus", "tree", "knot"):
+            with self.subTest(shape=shape):
+                self.folder = self.folders / shape
+                words = ("skeletonize", self.path("v.bccb"), "--local", "--json", "-o")
+                summary = json.loads(self.succeed(*words, self.path("s.precomputed/")))
+                self.assertIn("does not say its unit", summary["outputs"][0]["note"])
+                document = json.loads((self.folder / "s.json").read_text())
+                vertices, edges, radii = read_precomputed(self.path("s.precomputed"), 1)
+                betti = document["certificate"]["skeleton"]
+                pieces = pieces_of(len(vertices), edges)
+                self.assertEqual(pieces, betti["components"])
+                self.assertEqual(len(edges) - len(vertices) + pieces, betti["loops"])
+                length = sum(math.dist(vertices[a], vertices[b]) for a, b in edges)
+                total = document["totals"]["length"]
+                self.assertAlmostEqual(length, total, delta=0.02 * total)
+                for node, vertex, radius in zip(document["nodes"], vertices, radii):
+                    self.assertAlmostEqual(radius, node["radius"], places=3)
+                    if node["kind"] != "loop":
+                        self.assertLess(math.dist(vertex, node["position"]), 1e-3)
+
+    def test_convert_writes_the_bytes_of_skeletonize(self):
+        endings = ("swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb")
+        for shape in SHAPES:
+            self.folder = self.folders / shape
+            outputs = [word for e in endings for word in ("-o", self.path(f"c.{e}"))]
+            self.succeed("convert", self.path("s.json"), *outputs)
+            for ending in endings:
+                with self.subTest(shape=shape, ending=ending):
+                    self.assertEqual((self.folder / f"c.{ending}").read_bytes(),
+                                     (self.folder / f"s.{ending}").read_bytes())
+
+    def test_convert_knows_placements_roots_and_preparation(self):
+        mask = numpy.zeros((20, 24, 40), "u1")
+        mask[4:16, 4:20, 4:36] = mask[8:12, 8:12, 0:40] = 1
+        mask[9, 9, 20] = mask[10:14, 15, 20] = 0
+        header = (f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 24 20\nspace: LPS\n"
+                  f"space directions: (0.12,0.16,0) (-0.24,0.18,0) (0,0,0.7)\n"
+                  f"space origin: (-1e3,0.1,77.7)\nspace units: \"mm\" \"mm\" \"mm\"\n"
+                  f"encoding: raw\n\n")
+        (self.folder / "v.nrrd").write_bytes(header.encode() + mask.tobytes())
+        endings = ("swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb")
+        for number, words in enumerate((
+                ("--fill-cavities", "--denoise", 1), ("--kind", "surface"),
+                ("--kind", "isthmus-curve", "--pruning", "length", "--pruning-threshold", 1e-5),
+                ("--method", "directional", "--distance", "chamfer"))):
+            options = ("--root", "thickest-end", "--swc-step", 0.25)
+            theirs = [w for e in (*endings, "json") for w in ("-o", self.path(f"a{number}.{e}"))]
+            mine = [w for e in endings for w in ("-o", self.path(f"b{number}.{e}"))]
+            # Filling cavities warns.
+            made = harness.bccskel("skeletonize", self.path("v.nrrd"), "--local", *words, *options,
+                                   *theirs, "-o", self.path(f"a{number}.precomputed"))
+            self.assertEqual(made.returncode, 0, made.stderr)
+            self.succeed("convert", self.path(f"a{number}.json"), *options, *mine,
+                         "-o", self.path(f"b{number}.precomputed"))
+            for ending in (*endings, "precomputed/1", "precomputed/info"):
+                with self.subTest(words=words, ending=ending):
+                    self.assertEqual((self.folder / f"b{number}.{ending}").read_bytes(),
+                                     (self.folder / f"a{number}.{ending}").read_bytes())
+
+    def test_convert_refuses_what_is_no_result(self):
+        good = json.loads((self.folders / "tree" / "s.json").read_text())
+        output = ("-o", self.path("x.swc"))
+
+        def refused(message, change):
+            document = json.loads(json.dumps(good))
+            change(document)
+            (self.folder / "bad.json").write_text(json.dumps(document))
+            self.fail_with(3, message, "convert", self.path("bad.json"), *output)
+
+        refused("nodes is not there", lambda d: d.pop("nodes"))
+        refused("placement is not there", lambda d: d.pop("placement"))
+        refused("not on the lattice", lambda d: d["nodes"][0]["position"].__setitem__(0, 1e300))
+        refused("not on the lattice", lambda d: d["edges"][0]["points"][0].__setitem__(0, 0.123))
+        refused("a kind of node", lambda d: d["nodes"][0].update(kind="x"))
+        refused("loops is not a count", lambda d: d["nodes"][0].update(loops=-1))
+        refused("shifts is not", lambda d: d["edges"][0].update(shifts=[[1, 2, 40000]]))
+        refused("births is not", lambda d: d["edges"][0].update(births=[1]))
+        refused("pruning_level is not", lambda d: d["edges"][0].update(pruning_level="x"))
+        refused("preparing is not", lambda d: d.update(preparing=[{"step": "x"}]))
+        self.fail_with(2, "convert writes .swc", "convert", self.folders / "tree" / "s.json",
+                       "-o", self.path("x.html"))
+
+    def test_precomputed_skeletons_are_in_nanometers(self):
+        (self.folder / "v.nrrd").write_bytes(
+            b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 3 3\n"
+            b"space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+            b"space origin: (5,6,7)\nspace units: \"um\" \"um\" \"um\"\nencoding: raw\n\n" +
+            bytes([1]) * 72 + bytes([9]) * 36)
+        self.succeed("skeletonize", self.path("v.nrrd"), "--local", "--label", 1,
+                     "-o", self.path("w.precomputed"), "-o", self.path("w.json"))
+        vertices, edges, radii = read_precomputed(self.path("w.precomputed"), 1)
+        nodes = json.loads((self.folder / "w.json").read_text())["nodes"]
+        self.assertGreater(len(edges), 0)
+        for vertex, radius, node in zip(vertices, radii, nodes):
+            self.assertLess(math.dist(vertex, [1000 * c for c in node["position"]]), 0.01)
+            self.assertAlmostEqual(radius, 1000 * node["radius"], places=3)
+        # Every label is a segment; what is there of others stays.
+        self.succeed("labels", self.path("v.nrrd"), "--labels", "9",
+                     "-o", self.path("w.precomputed"))
+        self.assertEqual(read_precomputed(self.path("w.precomputed"), 1)[0], vertices)
+        self.assertGreater(min(v[2] for v in read_precomputed(self.path("w.precomputed"), 9)[0]),
+                           max(v[2] for v in vertices))
+
+    def test_precomputed_skeletons_do_not_replace_the_info_of_a_volume(self):
+        (self.folder / "x.precomputed").mkdir()
+        (self.folder / "x.precomputed" / "info").write_text('{"@type":"other"}')
+        self.fail_with(8, "describes no skeletons", "skeletonize",
+                       self.folders / "ball" / "v.bccb", "--local",
+                       "-o", self.path("x.precomputed"))
 
     def test_the_world_and_the_unit_are_those_of_the_input(self):
         (self.folder / "v.nhdr").write_text(

@@ -89,6 +89,38 @@ class ImagesTest(harness.TestCase):
         placed = self.skeletonize(packed, *layout, "--voxel-size", "3,2,0.5")
         self.assertEqual(placed["image"]["spacing"], [3, 2, 0.5])
 
+    def test_folders_of_chunks_give_the_same_skeleton_as_a_file(self):
+        mask = ring()
+        numpy.save(self.path("mask.npy"), mask)
+        zarr, volume = self.folder / "mask.ome.zarr", self.folder / "volume"
+        (zarr / "0").mkdir(parents=True)
+        (zarr / ".zattrs").write_text(json.dumps({"multiscales": [{
+            "version": "0.4", "axes": [{"name": n, "type": "space"} for n in "zyx"],
+            "datasets": [{"path": "0"}]}]}))
+        (zarr / "0" / ".zarray").write_text(json.dumps({
+            "zarr_format": 2, "shape": mask.shape, "chunks": (4, 8, 9), "dtype": "|u1",
+            "fill_value": 0, "order": "C", "compressor": {"id": "gzip"}, "filters": None}))
+        (volume / "full").mkdir(parents=True)
+        (volume / "info").write_text(json.dumps({
+            "@type": "neuroglancer_multiscale_volume", "type": "segmentation",
+            "data_type": "uint8", "num_channels": 1, "scales": [{
+                "key": "full", "size": mask.shape[::-1], "resolution": [1, 1, 1],
+                "chunk_sizes": [[9, 8, 4]], "encoding": "raw"}]}))
+        for n, slab in enumerate((mask[:4], mask[4:])):
+            padded = numpy.zeros((4, 8, 9), "u1")
+            padded[:len(slab)] = slab
+            (zarr / "0" / f"{n}.0.0").write_bytes(gzip.compress(padded.tobytes()))
+            (volume / "full" / f"0-9_0-8_{4 * n}-{4 * n + len(slab)}").write_bytes(slab.tobytes())
+        one, other = self.skeletonize(self.path("mask.npy")), self.skeletonize(str(zarr) + "/")
+        self.assertEqual(other["image"]["format"], "OME-Zarr")
+        self.assertEqual(one["sha256"], other["sha256"])
+        self.assertEqual(one["certificate"], self.skeletonize(volume)["certificate"])
+        values = json.loads(self.succeed("info", volume, "--json"))["image"]["values"]
+        self.assertEqual(values["labels"], [{"label": 5, "voxels": int((mask == 5).sum())}])
+        self.fail_with(3, "level 1 is not there", "info", zarr, "--level", 1)
+        self.fail_with(3, "--level chooses in OME-Zarr and precomputed folders only", "info",
+                       self.path("mask.npy"), "--level", 0)
+
     def test_rules_choose_the_object(self):
         ring_file = self.write_ring()
         for rule, loops in ((("--label", "4,5"), 1), (("--label", 4, "--label", 5), 1),

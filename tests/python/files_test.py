@@ -115,6 +115,27 @@ class FilesTest(harness.TestCase):
         numpy.testing.assert_allclose(skeleton.nodes[:, ::-1],
                                       [node["position"] for node in theirs["nodes"]])
 
+    def test_folders_of_chunks_are_read(self):
+        mask = crossing_bars().astype("u1")
+        folder = self.folder / "mask.ome.zarr"
+        (folder / "0").mkdir(parents=True)
+        (folder / ".zattrs").write_text(json.dumps({"multiscales": [{
+            "version": "0.4",
+            "axes": [{"name": n, "type": "space", "unit": "micrometer"} for n in "zyx"],
+            "datasets": [{"path": "0", "coordinateTransformations": [
+                {"type": "scale", "scale": [3, 2, 1]}]}]}]}))
+        (folder / "0" / ".zarray").write_text(json.dumps({
+            "zarr_format": 2, "shape": mask.shape, "chunks": mask.shape, "dtype": "|u1",
+            "fill_value": 0, "order": "C", "compressor": None, "filters": None}))
+        (folder / "0" / "0.0.0").write_bytes(mask.tobytes())
+        image = bccskel.read(folder, level=0)
+        self.assertTrue((image.array == mask).all())
+        self.assertEqual((image.spacing, image.unit), ((3, 2, 1), "um"))
+        with self.assertRaisesRegex(ValueError, "level 1 is not there"):
+            bccskel.read(folder, level=1)
+        bccskel.skeletonize(image).save(self.folder / "out.precomputed")
+        self.assertTrue((self.folder / "out.precomputed" / "1").stat().st_size > 8)
+
     def test_raw_voxels_are_read(self):
         values = numpy.arange(24, dtype=">u2").reshape(2, 3, 4)
         (self.folder / "a.bin").write_bytes(b"head" + values.tobytes())

@@ -1,6 +1,6 @@
 # fish completion for bccskel. A test compares it with --help.
 
-set -l commands voxelize submit skeletonize labels info view render reconstruct generate bench jobs watch cancel fetch delete probe top
+set -l commands voxelize submit skeletonize labels info view render convert reconstruct generate bench jobs watch cancel fetch delete probe top
 set -l shapes ball torus tubes blob horse tree knot box hollow-ball
 
 function __bccskel_option --description 'An option of some commands: commands, then as complete'
@@ -16,6 +16,7 @@ complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a labels 
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a info -d 'Describe a mesh, a volume or an image'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a view -d 'Make a page to look at a result'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a render -d 'Draw a picture of a result'
+complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a convert -d 'Write a result in other formats'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a reconstruct -d 'Make a volume of the balls of a result'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a generate -d 'Make a test object'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a bench -d 'Measure the speed of this machine or of a server'
@@ -27,8 +28,8 @@ complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a delete 
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a probe -d 'Ask a server whether it takes calls'
 complete -c bccskel -n "not __fish_seen_subcommand_from $commands" -f -a top -d 'Watch the queue and the throughput of a server'
 
-__bccskel_option 'voxelize submit skeletonize labels view render reconstruct generate fetch' -r -s o -l output -d 'Output file'
-__bccskel_option 'voxelize submit skeletonize labels info view render reconstruct generate bench jobs watch cancel fetch delete probe top' -f -l json -d 'Print the summary as JSON'
+__bccskel_option 'voxelize submit skeletonize labels view render convert reconstruct generate fetch' -r -s o -l output -d 'Output file'
+__bccskel_option 'voxelize submit skeletonize labels info view render convert reconstruct generate bench jobs watch cancel fetch delete probe top' -f -l json -d 'Print the summary as JSON'
 __bccskel_option 'voxelize submit skeletonize labels info view render reconstruct bench' -x -l threads -d 'Threads to use'
 __bccskel_option 'voxelize skeletonize view render reconstruct generate bench' -x -l points -d 'Lattice points'
 __bccskel_option 'voxelize skeletonize view render reconstruct' -x -l spacing -d 'Edge of the cubic cell'
@@ -43,13 +44,14 @@ __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l sampling -a 'exact nearest trilinear' -d 'How voxels become lattice points'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l density -d 'Lattice points for each voxel'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l voxel-size -d 'Spacing of the voxels'
-__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l channel -d 'Channel of a TIFF file, from 0'
-__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l time -d 'Point of time of a TIFF file, from 0'
+__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l channel -d 'Channel of a TIFF file or OME-Zarr folder, from 0'
+__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l time -d 'Point of time of one, from 0'
+__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l level -d 'Level of an OME-Zarr or precomputed pyramid'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-size -d 'Raw voxels along each axis'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-type -a 'u8 i8 u16 i16 u32 i32 u64 i64 f32 f64' -d 'Type of raw voxels'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-order -a 'little big' -d 'Byte order of raw voxels'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-header -d 'Bytes in front of raw voxels'
-__bccskel_option 'submit skeletonize labels fetch' -x -l swc-step -d 'Distance of points of SWC'
+__bccskel_option 'submit skeletonize labels convert fetch' -x -l swc-step -d 'Distance of points of SWC'
 __bccskel_option labels -x -l min-voxels -d 'Leave out smaller labels'
 __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe top' -x -l server -a '127.0.0.1:50051 unix:' -d 'Where the server is'
 __bccskel_option 'submit skeletonize bench jobs watch cancel fetch delete probe top' -r -l tls-ca -d 'Use TLS; who may sign the certificate'
@@ -76,7 +78,7 @@ __bccskel_option 'submit skeletonize labels' -x -l cut-loops -d 'Fill tunnels th
 __bccskel_option 'submit skeletonize labels' -x -l min-component -d 'Drop components of fewer points'
 __bccskel_option 'submit skeletonize labels' -x -l min-component-volume -d 'Drop components of a smaller volume'
 __bccskel_option 'submit skeletonize labels' -f -l keep-largest -d 'Drop all components but the largest'
-__bccskel_option 'submit skeletonize labels' -x -l root -a 'thickest-end' -d 'Order the skeleton as trees from here'
+__bccskel_option 'submit skeletonize labels convert' -x -l root -a 'thickest-end' -d 'Order the skeleton as trees from here'
 __bccskel_option 'submit skeletonize labels' -x -l method -a 'directional directional-alternating symmetric' -d 'How points are chosen for removal'
 __bccskel_option 'submit skeletonize labels' -x -l kind -a 'curve surface kernel isthmus-curve' -d 'What to keep'
 __bccskel_option 'submit skeletonize labels' -x -l distance -a 'chamfer chamfer-optimal euclidean' -d 'How the distances that make the shells are measured'

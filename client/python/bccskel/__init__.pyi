@@ -65,6 +65,7 @@ class _FileOptions(TypedDict, total=False):
     voxel_size: tuple[float, float, float]
     channel: int
     time: int
+    level: int
     raw_size: tuple[int, int, int]
     raw_type: str
     raw_order: Literal["little", "big"]

@@ -168,10 +168,12 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
 
 def read(path: Union[str, os.PathLike], **options: Any) -> Union[Image, Mesh]:
     """An image (NIfTI, NRRD, TIFF, MetaImage, npy, vol, ...) or a mesh (OBJ, STL, PLY, OFF) from a
-    file, as the command line reads it; also compressed by gzip.
+    file, as the command line reads it; also compressed by gzip. A folder is read as OME-Zarr 0.4, a
+    Zarr array or a Neuroglancer precomputed volume.
 
-    options, of images: channel and time (of TIFF), voxel_size=(z, y, x), and raw_size=(z, y, x),
-        raw_type, raw_order and raw_header for files without a header.
+    options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
+        voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
+        without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for what is no such file.
 
@@ -191,7 +193,7 @@ def read(path: Union[str, os.PathLike], **options: Any) -> Union[Image, Mesh]:
         return Mesh(vertices, faces, pathlib.Path(name).name)
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
-                         ".raw, ...) and meshes (.obj, .stl, .ply, .off)")
+                         ".raw, ...), folders of OME-Zarr, and meshes (.obj, .stl, .ply, .off)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
     return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,

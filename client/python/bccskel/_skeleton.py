@@ -301,8 +301,8 @@ class Skeleton:
 
     def save(self, path: Union[str, os.PathLike], swc_step: Optional[float] = None) -> None:
         """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .csv (a table of
-        branches), .glb (tubes), .mrk.json (3D Slicer), .exr or .bccb (lattice points), .svg or .html
-        (a page). It has the coordinates x, y, z.
+        branches), .glb (tubes), .mrk.json (3D Slicer), .exr or .bccb (lattice points), .svg, .html
+        (a page) or .precomputed (a folder for Neuroglancer, in nanometers). It has the coordinates x, y, z.
 
         `swc_step` is the distance of SWC's points along the smooth curve, by default twice the
         smallest spacing; 0 writes the lattice points, not smoothed.
@@ -372,7 +372,7 @@ def _in_notebook() -> bool:
 
 def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]) -> None:
     """Writes the skeletons of labels of one image into one file, .vtp, .graphml, .json, .csv, .glb or
-    .mrk.json, as `bccskel labels` does.
+    .mrk.json, or a .precomputed folder, as `bccskel labels` does.
 
     Raises ValueError for another ending, OSError where it cannot be written.
     """

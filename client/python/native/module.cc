@@ -240,7 +240,7 @@ void AddFunctions(py::module_& module) {
     return cli::IsFlag(SetOf(set), name);
   });
   module.def("is_mesh", &HasMeshFileName);
-  module.def("is_image", &HasImageFileName);
+  module.def("is_image", &IsImagePath);
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);
   module.def("skeletonize_labels", &Labels);

@@ -42,6 +42,7 @@ TEST_F(SkeletonFileTest, TheEndingChoosesTheFormatInCapitalsOrNot) {
   EXPECT_EQ(*SkeletonFormatOf("a.exr"), SkeletonFormat::kVolume);
   EXPECT_EQ(*SkeletonFormatOf("a.bccb"), SkeletonFormat::kVolume);
   EXPECT_EQ(*SkeletonFormatOf("a.mrk.json"), SkeletonFormat::kMarkups);
+  EXPECT_EQ(*SkeletonFormatOf("a.precomputed/"), SkeletonFormat::kPrecomputed);
   EXPECT_EQ(*SkeletonFormatOf("amrk.json"), SkeletonFormat::kJson);
   const auto unknown = SkeletonFormatOf("a.docx");
   EXPECT_TRUE(absl::IsInvalidArgument(unknown.status()));

@@ -174,8 +174,56 @@ def write_teem(folder):
             subprocess.run(saved, input=made.stdout, check=True, stderr=subprocess.DEVNULL)
 
 
+def write_zarr(folder):
+    import numcodecs
+    import zarr
+    # Two chunks or more along each axis, the last ones cut by the border.
+    chunks = (3, 2, 4)
+    codecs = {"none": None, "zstd": numcodecs.Zstd(), "gzip": numcodecs.GZip(),
+              "zlib": numcodecs.Zlib(), "lz4": numcodecs.LZ4()}
+    codecs.update({f"blosc_{name}": numcodecs.Blosc(name, shuffle=numcodecs.Blosc.AUTOSHUFFLE)
+                   for name in ("lz4", "lz4hc", "zstd", "zlib", "blosclz")})
+
+    def write(name, code, endian="<", **options):
+        array = voxels(code)
+        if code != "b1":
+            array = array.astype(endian + code)
+        stored = zarr.open(folder.add(name, code), "w", shape=SIZE[::-1], dtype=array.dtype,
+                           **{"chunks": chunks, **options})
+        stored[...] = array
+
+    for code in INTEGERS + FLOATS:
+        for endian in "<>":
+            for order in "CF":
+                for separator in "./":
+                    name = f"{code}{'lb'[endian == '>']}{order}{'ds'[separator == '/']}"
+                    write(f"{name}.zarr", code, endian, order=order,
+                          dimension_separator=separator)
+    for name, codec in codecs.items():
+        write(f"{name}.zarr", "u2", compressor=codec)
+    write("bool.zarr", "b1")
+    write("large_chunks.zarr", "i2", chunks=(64, 8, 9))
+    # Chunks of one value are left out.
+    image = zarr.open(folder.add("filled.zarr", "u2"), "w", shape=SIZE[::-1], chunks=chunks,
+                      dtype="u2", fill_value=int(voxels("u2")[3, 4, 4]), write_empty_chunks=False)
+    image[...] = voxels("u2")
+    placed = ((0.5, 0, 0), (0, 0.25, 0), (0, 0, 2), (-3, 2, 40))
+    for order in "CF":
+        group = zarr.open_group(folder.add(f"placed_{order}.ome.zarr", "u2", placed), "w")
+        group.create_dataset("full", data=voxels("u2")[None, None], chunks=(1, 1, *chunks),
+                             order=order, dimension_separator="/")
+        space = [{"name": name, "type": "space", "unit": "micrometer"} for name in "zyx"]
+        group.attrs["multiscales"] = [{
+            "version": "0.4",
+            "axes": [{"name": "t", "type": "time"}, {"name": "c", "type": "channel"}, *space],
+            "datasets": [{"path": "full", "coordinateTransformations": [
+                {"type": "scale", "scale": [1, 1, 1, 0.125, 0.25]},
+                {"type": "translation", "translation": [0, 0, 20, 1, -1.5]}]}],
+            "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 2, 2, 2]}]}]
+
+
 PROGRAMS = {"numpy": write_numpy, "nibabel": write_nibabel, "tifffile": write_tifffile,
-            "vtk": write_vtk, "teem": write_teem}
+            "vtk": write_vtk, "teem": write_teem, "zarr": write_zarr}
 
 if __name__ == "__main__":
     target = Folder(sys.argv[2])

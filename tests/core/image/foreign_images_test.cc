@@ -92,7 +92,7 @@ TEST_P(ForeignImages, AreReadAsTheyWereMade) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, ForeignImages,
-                         ::testing::Values("numpy", "nibabel", "tifffile", "vtk", "teem"),
+                         ::testing::Values("numpy", "nibabel", "tifffile", "vtk", "teem", "zarr"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -158,7 +158,7 @@ TEST(HostileVolumes, AreAllStated) {
   std::set<std::string> stated, present;
   for (const End& end : kEnds) stated.insert(end.file);
   for (const auto& entry : std::filesystem::directory_iterator(kHostile)) {
-    if (HasImageFileName(entry.path().string())) present.insert(entry.path().filename());
+    if (IsImagePath(entry.path().string())) present.insert(entry.path().filename());
   }
   EXPECT_EQ(stated, present);
 }

@@ -254,14 +254,14 @@ TEST(OpenImage, RefusesFoldersAndMissingFilesByName) {
   EXPECT_THAT(std::string(missing.message()), HasSubstr("/no/such/file.nii"));
 }
 
-TEST(HasImageFileName, KnowsEndingsWhateverTheirCase) {
+TEST(IsImagePath, KnowsEndingsWhateverTheirCase) {
   for (const char* name :
        {"a.nii", "b/c.NII.GZ", "x.nrrd", "x.nrrd.gz", "x.tif", "x.tif.gz", "x.mha", "x.mha.gz",
         "x.inr.gz", "x.npy", "x.npy.gz", "x.vol", "x.vol.gz", "x.hdr", "x.img", "x.img.gz"}) {
-    EXPECT_TRUE(HasImageFileName(name)) << name;
+    EXPECT_TRUE(IsImagePath(name)) << name;
   }
   for (const char* name : {"a.off", "nii", "x.exr", "x.gz", "x.npz"}) {
-    EXPECT_FALSE(HasImageFileName(name)) << name;
+    EXPECT_FALSE(IsImagePath(name)) << name;
   }
 }
 

@@ -1,0 +1,31 @@
+#ifndef BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
+#define BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/prepare/prepare.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel::view {
+
+// The graph of a JSON result, on its lattice, and how it was made.
+struct ResultGraph {
+  SkeletonGraph graph;
+  std::string method;
+  std::string algorithm_version;
+  std::string world;  // "unknown" where the input did not tell
+  std::string unit;
+  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<PreparingStep> preparing;
+};
+
+// Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, as older
+//         versions wrote it, and for places that are not on its lattice.
+absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path);
+
+}  // namespace bccskel::view
+
+#endif  // BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
