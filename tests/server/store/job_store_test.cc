@@ -7,7 +7,7 @@
 #include "server/store/file_io.h"
 #include "server/store/schema.h"
 #include "server/store/sqlite_database.h"
-#include "server/store/sqlite_job_store.h"
+#include "server/store/sql_job_store.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {
@@ -303,9 +303,7 @@ TEST(SchemaTest, StatesTheVersionThatItWrites) {
   const TemporaryFolder folder;
   ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
   auto database = *SqliteDatabase::Open(folder / "jobs.db");
-  SqliteQuery query(*database, "PRAGMA user_version");
-  ASSERT_TRUE(*query.Next());
-  EXPECT_EQ(query.Number(), SchemaVersion());
+  EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), SchemaVersion());
 }
 
 }  // namespace
