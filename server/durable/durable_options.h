@@ -11,9 +11,14 @@
 namespace bccskel::server {
 
 struct DurableOptions {
-  // Made where it does not exist; one process at a time owns it. Empty: nothing is durable, and
+  // Made where it does not exist. Empty: nothing is durable, and
   // there is no ledger.
   std::string data_directory;
+  // A PostgreSQL database, when several servers share it and the directory. Empty: a file of SQLite
+  // in the directory, which is then this process's alone.
+  std::string job_store;
+  // A server of which nothing was heard for so long has lost its jobs to others.
+  std::chrono::milliseconds lease = std::chrono::seconds(6);
 
   // Uploads count with their declared size. 0: no limit.
   uint64_t max_disk_bytes = 0;

@@ -28,6 +28,7 @@ class RunQueue {
   // The tenant has had a turn.
   void CountTurn(const std::string& tenant);
 
+  void Clear() { *this = RunQueue(); }
   int size() const { return size_; }
 
  private:

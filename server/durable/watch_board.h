@@ -39,6 +39,7 @@ class WatchBoard {
   void Add(int64_t job, std::shared_ptr<Watch> watch);
   // After a completed event the job's watches are over.
   void Tell(int64_t job, const JobEvent& event);
+  bool Has(int64_t job) const { return watches_.contains(job); }
   // Newest progress of a running job.
   std::optional<JobProgress> ProgressOf(int64_t job) const;
   void EndAll(const absl::Status& status);

@@ -34,7 +34,7 @@ class JobStore {
   virtual absl::Status Health() const = 0;
   virtual int damaged_rows() const = 0;  // found since it was opened. Threads: safe.
 
-  // Errors: a file that is gone, as Health() says; ABORTED when this server was fenced off.
+  // Errors: a file that is gone, as Health() says; UNAVAILABLE when this server was fenced off.
   virtual absl::Status Begin() = 0;
   // After an error nothing since Begin() has happened.
   virtual absl::Status Commit() = 0;
@@ -110,6 +110,10 @@ class JobStore {
   // From now on transactions are this server's, and fail once it was fenced off. Needs: a name that
   // no server ever had, of hexadecimal digits.
   virtual absl::Status Join(const std::string& server) = 0;
+  virtual absl::Status Leave() = 0;
+  // Whether a transaction has failed since, because this server was fenced off: it has to join
+  // anew.
+  virtual bool fenced() const = 0;
   // One more sign of life of this server.
   virtual absl::Status Beat() = 0;
   virtual absl::StatusOr<std::vector<Member>> Members() = 0;

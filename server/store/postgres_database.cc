@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kBetweenAttempts(250);
 
 // Who hangs within a transaction, or waits for one who does, must not stop the fleet.
 constexpr char kSession[] =
-    "SET idle_in_transaction_session_timeout = '5s'; SET lock_timeout = '10s';"
+    "SET idle_in_transaction_session_timeout = '4s'; SET lock_timeout = '10s';"
     "SET statement_timeout = '60s'; SET synchronous_commit = on;";
 
 std::string BigEndian(int64_t number) {

@@ -18,7 +18,7 @@ namespace bccskel::server {
 
 // A PostgreSQL database that the servers of a fleet share. One of them writes at a time: a
 // transaction begins when it has an advisory lock, which PostgreSQL takes from who does nothing in
-// it for five seconds.
+// it for four seconds.
 // A connection that is lost is made anew by the next transaction.
 class PostgresDatabase final : public SqlDatabase {
  public:

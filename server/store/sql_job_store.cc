@@ -33,7 +33,12 @@ class SqlJobStore final : public JobStore {
   }
   int damaged_rows() const override { return damaged_rows_; }
 
-  absl::Status Begin() override { return database_->Begin(server_); }
+  absl::Status Begin() override {
+    const absl::Status begun = database_->Begin(server_);
+    if (!absl::IsAborted(begun)) return begun;
+    fenced_ = true;
+    return absl::UnavailableError(begun.message());
+  }
   absl::Status Commit() override { return Run("COMMIT"); }
   // A database may take a transaction back by itself.
   void Rollback() override {
@@ -242,11 +247,16 @@ class SqlJobStore final : public JobStore {
   bool shared() const override { return database_->shared(); }
   absl::Status Join(const std::string& server) override {
     if (!shared()) return absl::OkStatus();
-    server_.clear();
     BCCSKEL_RETURN_IF_ERROR(Run("INSERT INTO servers(server, beats) VALUES($1, 0)", server));
     server_ = server;
+    fenced_ = false;
     return absl::OkStatus();
   }
+  absl::Status Leave() override {
+    if (!shared()) return absl::OkStatus();
+    return Run("DELETE FROM servers WHERE server = $1", server_);
+  }
+  bool fenced() const override { return fenced_; }
   absl::Status Beat() override {
     if (!shared()) return absl::OkStatus();
     return Run("UPDATE servers SET beats = beats + 1 WHERE server = $1", server_);
@@ -372,6 +382,7 @@ class SqlJobStore final : public JobStore {
 
   const std::unique_ptr<SqlDatabase> database_;
   std::string server_;  // empty before it has joined
+  bool fenced_ = false;
   std::atomic<int> damaged_rows_ = 0;
 };
 
