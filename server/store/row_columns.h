@@ -203,6 +203,17 @@ int64_t CheckOf(const Row& row) {
   return ChecksumOf(TableOf(row), ValuesOf(row));
 }
 
+// The same of what was read: the bytes as they are, the kinds as they should be.
+template <typename Row>
+int64_t CheckOf(const SqlRow& from, const Row& row) {
+  std::vector<SqlValue> values = ValuesOf(Row());
+  for (size_t n = 0; n < values.size(); ++n) {
+    values[n].number = from.values()[n].number;
+    values[n].bytes = from.values()[n].bytes;
+  }
+  return ChecksumOf(TableOf(row), values);
+}
+
 // What is read of a row.
 #define BCCSKEL_SELECT(table, columns) "SELECT " columns ", row_check FROM " table " "
 #define BCCSKEL_SELECT_UPLOAD BCCSKEL_SELECT("uploads", BCCSKEL_UPLOAD_COLUMNS)

@@ -28,6 +28,7 @@ struct SqlValue {
 class SqlRow {
  public:
   explicit SqlRow(std::vector<SqlValue> values) : values_(std::move(values)) {}
+  const std::vector<SqlValue>& values() const { return values_; }
   int64_t Number() { return values_[next_++].number; }
   std::string Text() { return std::move(values_[next_++].bytes); }
 

@@ -352,8 +352,9 @@ class SqlJobStore final : public JobStore {
     std::vector<Row> rows;
     for (SqlRow& from : found) {
       Row& row = rows.emplace_back();
+      const int64_t check = CheckOf(from, row);
       Read(from, row);
-      if (from.Number() == CheckOf(row)) continue;
+      if (from.Number() == check) continue;
       ++damaged_rows_;
       if (damaged == Damaged::kFails) return DamagedRow();
       rows.pop_back();
