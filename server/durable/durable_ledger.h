@@ -295,6 +295,8 @@ class DurableLedger final : public Ledger, public RunObserver {
   void Sync();
   void Follow(const JobRow& job);
   void FollowDeleted(int64_t job);
+  // All events of the job to who watches it here.
+  void TellStored(int64_t job);
   void Beat();
   absl::Status CountFiles(JobStore& store);
   void SweepShared();
@@ -345,7 +347,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   };
   std::map<std::string, Sign> members_;  // others of the fleet
   std::chrono::steady_clock::time_point last_beat_, last_look_;
-  int64_t last_change_ = 0;
+  int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
   Time next_clean_up_{};

@@ -68,11 +68,15 @@ void DurableLedger::Follow(const JobRow& job) {
   const bool ran = known && found->second.row.state == JobState::kRunning;
   if (known || !IsTerminal(job.state)) Apply(Step{.job = job, .event = std::nullopt});
   if (ran && job.state != JobState::kRunning) QueueWaiting();
-  if (!watches_.Has(job.number)) return;
-  const auto events = loop_.store().EventsAfter(job.number, 0);
-  for (const EventRow& event : events.ok() ? *events : std::vector<EventRow>()) {
-    watches_.Tell(job.number, EventOf(event));
-  }
+  TellStored(job.number);
+}
+
+void DurableLedger::TellStored(int64_t job) {
+  if (!shared_ || !watches_.Has(job)) return;
+  const auto events = loop_.store().EventsAfter(job, 0);
+  if (!events.ok()) return watches_.End(job, absl::UnavailableError("its events cannot be read"));
+  if (events->empty()) return watches_.End(job, absl::NotFoundError("the job was deleted"));
+  for (const EventRow& event : *events) watches_.Tell(job, EventOf(event));
 }
 
 // It was cancelled first, but that is not to be read any more.

@@ -42,6 +42,7 @@ class WatchBoard {
   bool Has(int64_t job) const { return watches_.contains(job); }
   // Newest progress of a running job.
   std::optional<JobProgress> ProgressOf(int64_t job) const;
+  void End(int64_t job, const absl::Status& status);
   void EndAll(const absl::Status& status);
 
  private:

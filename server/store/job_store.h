@@ -120,7 +120,7 @@ class JobStore {
   // Needs: a transaction. Takes the member away, unless it has given a sign of life since. Yields
   // whether it was there: then it writes nothing any more.
   virtual absl::StatusOr<bool> Fence(const Member& member) = 0;
-  // What has become of jobs since a change; 0 for unfinished ones as they are.
+  // What has become of jobs since a change; from -1 on the unfinished ones as they are.
   virtual absl::StatusOr<JobChanges> ChangesAfter(int64_t number) = 0;
   // A job with the same options, of the same volume, that another server runs.
   virtual absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,

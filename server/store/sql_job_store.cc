@@ -288,7 +288,7 @@ class SqlJobStore final : public JobStore {
     if (changes.last == number) return changes;
     BCCSKEL_ASSIGN_OR_RETURN(
         changes.jobs, Whole<JobRow>(BCCSKEL_SELECT_JOB
-                                    "WHERE changed > $1 AND (state < 3 OR $1 > 0) ORDER BY changed",
+                                    "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed",
                                     number));
     BCCSKEL_ASSIGN_OR_RETURN(auto gone,
                              Query("SELECT number FROM deleted_jobs WHERE changed > $1", number));

@@ -344,12 +344,15 @@ TEST_P(FleetStoreTest, OneWritesAtATime) {
 }
 
 TEST_P(FleetStoreTest, TellsWhatOthersHaveChanged) {
+  const JobChanges none = *other_->ChangesAfter(-1);
+  EXPECT_THAT(none.jobs, IsEmpty());
   JobRow job = Job("clinic", "jobs/1");
   job.number = Insert(job);
   JobRow ended = Job("clinic", "jobs/2");
   ended.state = JobState::kFailed;
   ended.number = Insert(ended);
-  const JobChanges all = *other_->ChangesAfter(0);
+  EXPECT_THAT(other_->ChangesAfter(none.last)->jobs, testing::SizeIs(2));
+  const JobChanges all = *other_->ChangesAfter(-1);
   EXPECT_THAT(all.jobs, ElementsAre(Field(&JobRow::name, "jobs/1")));
   EXPECT_EQ(other_->ChangesAfter(all.last)->last, all.last);
   job.state = JobState::kCancelled;
