@@ -129,6 +129,7 @@ struct DurableLedger::Claiming {
   enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
   int64_t job = 0;
   std::optional<VolumeRow> volume;
+  std::shared_ptr<Run> fed;  // the run that is to have its bytes
   std::function<void()> then;
   Outcome outcome = Outcome::kOthers;
   std::vector<Step> steps;
@@ -137,7 +138,11 @@ struct DurableLedger::Claiming {
 void DurableLedger::Claim(int64_t job, const VolumeRow* volume, std::function<void()> then) {
   const auto claiming = std::make_shared<Claiming>();
   claiming->job = job;
+  const auto active = active_.find(job);
   if (volume != nullptr) claiming->volume = *volume;
+  if (volume != nullptr && active != active_.end() && active->second.run != nullptr) {
+    claiming->fed = runs_.at(active->second.run).run;
+  }
   claiming->then = std::move(then);
   loop_.Post([this, claiming](JobStore& store) { return ClaimStored(store, *claiming); },
              [this, claiming](const absl::Status& status) {
@@ -184,6 +189,8 @@ void DurableLedger::Claimed(const Claiming& claiming) {
     if (claiming.then) claiming.then();
     return Schedule();
   }
+  // Others that joined the run would wait for its bytes for ever: they are queued again.
+  if (claiming.fed != nullptr) claiming.fed->Cancel();
   Detach(claiming.job);
   Sync();
   const auto active = active_.find(claiming.job);
