@@ -71,10 +71,6 @@ CREATE TABLE removals(
   row_check BIGINT NOT NULL DEFAULT 0, PRIMARY KEY(kind, tenant, name));
 CREATE TABLE servers(
   server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
-CREATE UNLOGGED TABLE progress(
-  job BIGINT PRIMARY KEY REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,
-  time BIGINT NOT NULL, shell BIGINT NOT NULL, last_shell BIGINT NOT NULL, points BIGINT NOT NULL,
-  removed BIGINT NOT NULL, remaining BIGINT NOT NULL, elapsed BIGINT NOT NULL);
 )",
 };
 
