@@ -274,7 +274,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   void RunFailed(Run* run, const absl::Status& error);
   void ReceivingFailed(int64_t job, const absl::Status& error);
   void ForgetRun(Run* run);
-  void VolumeKnown(Run* run, const std::string& digest);
+  void VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest);
   void JoinEqual(Run* run);
   // The stored result, read to its end: a damaged one is dropped, and there is none.
   void WithWholeResult(const std::string& tenant, const std::string& key,

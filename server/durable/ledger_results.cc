@@ -17,12 +17,13 @@ struct DurableLedger::Storing {
 
 void DurableLedger::OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) {
   loop_.Post([this, run = std::move(run), digest = std::move(volume_digest)] {
-    VolumeKnown(run.get(), digest);
+    VolumeKnown(run, digest);
   });
 }
 
-void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
-  const auto found = runs_.find(run);
+// The run is held: another one at its address would be given its result.
+void DurableLedger::VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest) {
+  const auto found = runs_.find(run.get());
   if (found == runs_.end() || found->second.ending) return;
   ActiveRun& active = found->second;
   active.volume_digest = digest;
@@ -38,8 +39,8 @@ void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
       },
       [this, run, tenant = active.tenant, key](const absl::Status&) {
         WithWholeResult(tenant, key, [this, run](const std::optional<ResultRow>& result) {
-          if (result.has_value()) return GiveStoredResult(run, result->number);
-          JoinEqual(run);
+          if (result.has_value()) return GiveStoredResult(run.get(), result->number);
+          JoinEqual(run.get());
         });
       });
 }

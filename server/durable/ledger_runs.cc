@@ -121,7 +121,7 @@ DurableLedger::Begun DurableLedger::StartRun(const JobRow& job, const VolumeRow&
   active.crashes = job.crashes;
   Attach(active, job.number);
   // The attempt is counted before it begins.
-  Claim(job.number, &volume, [this, pointer = run.get(), volume] { Feed(pointer, volume); });
+  Claim(job.number, &volume, [this, run, volume] { Feed(run.get(), volume); });
   return Begun::kYes;
 }
 
