@@ -55,8 +55,8 @@ class Context {
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
   int usable_threads() const { return share ? std::min(share(), threads()) : threads(); }
-  // How many workers share `bricks` bricks; at least 1, at most usable_threads(). `work` is what is done
-  // with a brick between two meetings, compared with a directional pass.
+  // How many workers share `bricks` bricks; at least 1, at most usable_threads(). `work` is what is
+  // done with a brick between two meetings, compared with a directional pass.
   int WorkersFor(size_t bricks, size_t work = 1) const {
     const size_t shares = bricks * work / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
     const auto most = static_cast<size_t>(usable_threads());

@@ -6,8 +6,6 @@
 
 #include "core/exec/status_macros.h"
 #include "server/store/row_columns.h"
-#include "server/store/schema.h"
-#include "server/store/sqlite_database.h"
 
 namespace bccskel::server {
 namespace {
@@ -287,9 +285,10 @@ class SqlJobStore final : public JobStore {
     changes.last = std::max(number, last.front().Number());
     if (changes.last == number) return changes;
     BCCSKEL_ASSIGN_OR_RETURN(
-        changes.jobs, Whole<JobRow>(BCCSKEL_SELECT_JOB
-                                    "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed",
-                                    number));
+        changes.jobs,
+        Whole<JobRow>(BCCSKEL_SELECT_JOB
+                      "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed",
+                      number));
     BCCSKEL_ASSIGN_OR_RETURN(auto gone,
                              Query("SELECT number FROM deleted_jobs WHERE changed > $1", number));
     for (SqlRow& row : gone) changes.deleted.push_back(row.Number());
@@ -391,14 +390,6 @@ class SqlJobStore final : public JobStore {
 
 std::unique_ptr<JobStore> MakeSqlJobStore(std::unique_ptr<SqlDatabase> database) {
   return std::make_unique<SqlJobStore>(std::move(database));
-}
-
-absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqliteDatabase> database, SqliteDatabase::Open(path));
-  BCCSKEL_RETURN_IF_ERROR(Migrate(*database));
-  // So that the tables have their room before the disk is full; where it is already, without.
-  database->Forget().IgnoreError();
-  return MakeSqlJobStore(std::move(database));
 }
 
 }  // namespace bccskel::server
