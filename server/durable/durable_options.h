@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "server/admission/tenant_limits.h"
 #include "server/durable/records.h"
 
 namespace bccskel::server {
@@ -39,6 +40,9 @@ struct DurableOptions {
   int max_unfinished_jobs = 10'000;  // all tenants together
   int max_runs = 4;                  // at the runner at the same time, besides one-call jobs
   uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
+
+  // Weights and caps as they are now. Called on the ledger's thread; must not block.
+  std::function<TenantTable()> tenants = [] { return TenantTable(); };
 
   std::string algorithm_version;  // results of another one are not found again
   // Told of every state that a job comes into, once that is on disk. Called on the ledger's thread;

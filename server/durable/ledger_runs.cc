@@ -21,7 +21,9 @@ void DurableLedger::Schedule() {
 
 std::map<std::string, int> DurableLedger::RunsOfTenants() const {
   std::map<std::string, int> runs;
-  for (const auto& [pointer, run] : runs_) ++runs[run.tenant];
+  for (const auto& [pointer, run] : runs_) {
+    if (!run.volume.empty()) ++runs[run.tenant];  // it has come
+  }
   if (!shared_) return runs;
   for (const auto& [number, job] : active_) {
     const bool elsewhere = job.row.state == JobState::kRunning && job.run == nullptr;
@@ -42,7 +44,8 @@ DurableLedger::Begun DurableLedger::BeginNext() {
   if (CountRunsFromFiles(0) >= options_.max_runs) return Begun::kNothingNow;
   const bool one_is_suspect = CountRunsFromFiles(1) > 0;
   const std::optional<int64_t> first = queue_.First(
-      RunsOfTenants(), one_is_suspect ? RunQueue::Suspects::kWait : RunQueue::Suspects::kWelcome);
+      RunsOfTenants(), one_is_suspect ? RunQueue::Suspects::kWait : RunQueue::Suspects::kWelcome,
+      options_.tenants());
   if (!first.has_value()) return Begun::kNothingNow;
   const JobRow job = active_.at(*first).row;
   return BeginJob(job);
