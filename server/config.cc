@@ -64,6 +64,10 @@ std::vector<Setting> DurableSettings(DurableOptions& durable) {
       PathSetting("data-dir", durable.data_directory,
                   "Folder for uploads, jobs and results that outlive this process; without it "
                   "nothing does"),
+      TextSetting(
+          "job-store", "URL", durable.job_store,
+          "PostgreSQL database of all servers that share the folder, as postgresql://USER@HOST/"
+          "DB; without it the folder has a file of SQLite, and one server"),
       SizeSetting("max-disk-bytes", durable.max_disk_bytes, 0,
                   "Space in it for all tenants together, such as 100GB; 0: no limit"),
       SizeSetting("max-tenant-disk-bytes", durable.max_tenant_disk_bytes, 0,
@@ -162,6 +166,12 @@ absl::Status CheckTokens(const ServerConfig& config) {
       "else protects that network"));
 }
 
+absl::Status CheckJobStore(const ServerConfig& config) {
+  const DurableOptions& durable = config.durable;
+  if (durable.job_store.empty() || !durable.data_directory.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError("--job-store needs --data-dir, the folder that servers share");
+}
+
 absl::Status CheckMetricsAddress(const ServerConfig& config) {
   if (!absl::StartsWith(config.metrics_listen, "unix:")) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -169,8 +179,8 @@ absl::Status CheckMetricsAddress(const ServerConfig& config) {
 }
 
 void CheckTogether(const ServerConfig& config, Settling& settling) {
-  for (const absl::Status& status :
-       {CheckTlsFiles(config.tls), CheckTokens(config), CheckMetricsAddress(config)}) {
+  for (const absl::Status& status : {CheckTlsFiles(config.tls), CheckTokens(config),
+                                     CheckMetricsAddress(config), CheckJobStore(config)}) {
     if (!status.ok()) settling.problems.emplace_back(status.message());
   }
 }

@@ -152,6 +152,7 @@ absl::Status Server::OpenData() {
     DurableOptions options = config_.durable;
     options.max_job_bytes = config_.limits.max_bytes;
     options.max_runs = config_.limits.max_jobs;
+    options.tenants = [this] { return TenantTable{.each = {}, .named = callers_->tenants()}; };
     options.algorithm_version = std::string(kAlgorithmVersion);
     metrics_.ExpectDurableJobs();
     options.on_job_state = [this](const JobRow& job) {

@@ -21,3 +21,5 @@ unset(CMAKE_MESSAGE_LOG_LEVEL)
 foreach(package IN LISTS bccskel_packages)
   find_package(${package} REQUIRED)
 endforeach()
+# Servers that share a database; without it each has its own in SQLite.
+find_package(PostgreSQL)

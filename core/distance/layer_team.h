@@ -36,7 +36,7 @@ class LayerTeam {
     if (size_ == 1 || alone_) return !context_.ShouldStop();
     if (worker == 0) {
       stopped_ = context_.ShouldStop();
-      leave_ = patience_.Lost();
+      leave_ = patience_.Lost() || context_.usable_threads() == 1;
     }
     Meet(worker);
     if (stopped_ || (leave_ && worker != 0)) return false;

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_EXEC_CONTEXT_H_
 #define BCCSKEL_CORE_EXEC_CONTEXT_H_
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,11 @@ class Context {
   // not depend on it.
   std::function<void()> interlude = nullptr;
 
+  // How many of its threads the job should use now, at least 1; null means all. Asked where a stage
+  // shares its work out, and by teams that go from step to step: down to 1, they go on as worker 0.
+  // Results do not depend on it.
+  std::function<int()> share = nullptr;
+
   // A directional pass gives a worker at least this many bricks: on smaller shares the workers
   // would spend more time waiting for each other, and for bricks in each other's caches, than
   // thinning. Found by measuring: from 1,000 bricks on two threads were not slower where nothing
@@ -48,11 +54,12 @@ class Context {
   double patience = 0.2;
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
-  // How many workers share `bricks` bricks; at least 1, at most threads(). `work` is what is done
-  // with a brick between two meetings, compared with a directional pass.
+  int usable_threads() const { return share ? std::min(share(), threads()) : threads(); }
+  // How many workers share `bricks` bricks; at least 1, at most usable_threads(). `work` is what is
+  // done with a brick between two meetings, compared with a directional pass.
   int WorkersFor(size_t bricks, size_t work = 1) const {
     const size_t shares = bricks * work / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
-    const auto most = static_cast<size_t>(threads());
+    const auto most = static_cast<size_t>(usable_threads());
     return static_cast<int>(shares < 1 ? 1 : (shares < most ? shares : most));
   }
 
@@ -72,7 +79,7 @@ class Context {
 
   // Work of which any worker can do all, such as taking Portions: whoever of the first `workers`
   // comes in time takes part.
-  void Offer(const std::function<void(int)>& work) const { Offer(threads(), work); }
+  void Offer(const std::function<void(int)>& work) const { Offer(usable_threads(), work); }
   void Offer(int workers, const std::function<void(int)>& work) const {
     if (workers == 1) return work(0);
     team->Offer([&](int worker) {

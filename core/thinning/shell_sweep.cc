@@ -66,7 +66,9 @@ class ShellSweep {
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
           if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
-        if (index == 0) alone_ = patience_.Lost();
+        if (index == 0 && meets(0)) {
+          alone_ = patience_.Lost() || context_.usable_threads() == 1;
+        }
         Meet(index);  // the new object is complete, and so are the sums
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;

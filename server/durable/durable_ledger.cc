@@ -8,7 +8,7 @@
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
 #include "server/jobs/random_name.h"
-#include "server/store/sqlite_job_store.h"
+#include "server/store/sql_job_store.h"
 
 namespace bccskel::server {
 namespace {
@@ -36,6 +36,12 @@ absl::Status CheckTables(const std::string& tables, const DurableOptions& option
   return files.empty() ? absl::OkStatus() : UnknownData(options.data_directory, files.size());
 }
 
+absl::StatusOr<std::unique_ptr<JobStore>> OpenOwn(const DurableOptions& options) {
+  const std::string tables = options.data_directory + "/jobs.db";
+  BCCSKEL_RETURN_IF_ERROR(CheckTables(tables, options));
+  return OpenSqliteJobStore(tables);
+}
+
 // When the server before this one was there last.
 std::optional<Time> LastSeen(const std::string& folder) {
   const auto facts = FactsOf(folder + "/lock");
@@ -47,12 +53,16 @@ std::optional<Time> LastSeen(const std::string& folder) {
 
 absl::StatusOr<std::unique_ptr<Ledger>> Ledger::Open(const DurableOptions& options,
                                                      JobRunner& runner, const JobCodec& codec) {
+  const bool shared = !options.job_store.empty();
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(options.data_directory));
-  BCCSKEL_ASSIGN_OR_RETURN(FolderLock lock, FolderLock::Take(options.data_directory));
-  const std::string tables = options.data_directory + "/jobs.db";
-  BCCSKEL_RETURN_IF_ERROR(CheckTables(tables, options));
-  auto reserve = std::make_unique<DiskReserve>(options.data_directory + "/reserve");
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store, OpenSqliteJobStore(tables));
+  BCCSKEL_ASSIGN_OR_RETURN(FolderLock lock, FolderLock::Take(options.data_directory,
+                                                             shared ? FolderLock::With::kOthers
+                                                                    : FolderLock::With::kNobody));
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store,
+                           shared ? OpenPostgresJobStore(options.job_store) : OpenOwn(options));
+  // What a shared store needs is on another disk.
+  auto reserve =
+      shared ? nullptr : std::make_unique<DiskReserve>(options.data_directory + "/reserve");
   auto ledger = std::make_unique<DurableLedger>(options, runner, codec, std::move(lock),
                                                 std::move(store), std::move(reserve));
   BCCSKEL_RETURN_IF_ERROR(ledger->Recover());
@@ -65,6 +75,7 @@ DurableLedger::DurableLedger(const DurableOptions& options, JobRunner& runner,
     : options_(options),
       runner_(runner),
       codec_(codec),
+      shared_(store->shared()),
       lock_(std::move(lock)),
       blobs_(options.data_directory),
       quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
@@ -84,6 +95,7 @@ DurableLedger::~DurableLedger() {
     for (const auto& [run, active] : runs_) run->Cancel();
   });
   operations_.WaitForAll();
+  OnLoop([this] { loop_.store().Leave().IgnoreError(); });
   OnLoop([this] { watches_.EndAll(absl::UnavailableError("the server stops")); });
 }
 
@@ -100,6 +112,7 @@ absl::Status DurableLedger::Recover() {
   std::promise<absl::Status> recovered;
   loop_.Post([this](JobStore& store) { return RecoverStore(store); },
              [this, &recovered](absl::Status status) {
+               if (status.ok()) Sync();
                if (status.ok()) CleanUp();
                if (status.ok()) Schedule();
                recovered.set_value(std::move(status));
@@ -111,6 +124,8 @@ absl::Status DurableLedger::Recover() {
 }
 
 absl::Status DurableLedger::RecoverStore(JobStore& store) {
+  if (shared_) return JoinFleet(store);
+  BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, KnownFiles(store));
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> files, blobs_.Files());
   BCCSKEL_RETURN_IF_ERROR(TakeOver(store, files, known));
@@ -123,24 +138,18 @@ absl::StatusOr<std::set<std::string>> DurableLedger::KnownFiles(JobStore& store)
   std::set<std::string> known;
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
   for (const UploadRow& row : uploads) {
-    if (!row.volume.empty()) continue;
-    known.merge(blobs_.PathsOfUpload(row.tenant, row.name));
-    quota_.Count(row.tenant, row.size_bytes);
+    if (row.volume.empty()) known.merge(blobs_.PathsOfUpload(row.tenant, row.name, row.file));
   }
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
-  for (const VolumeRow& row : volumes) {
-    // Several volumes may have the same bytes.
-    if (known.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest)).second) {
-      quota_.Count(row.tenant, row.size_bytes);
-    }
-  }
+  for (const VolumeRow& row : volumes) known.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest));
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.AllResults());
   for (const ResultRow& row : results) {
     if (row.file.empty()) continue;
+    const std::string path = blobs_.PathOfResult(row.tenant, row.file);
+    known.insert(path);
+    if (shared_) known.insert(path + kUnconfirmed);
     // A crash may have come in between; what is lost shows when it is missed.
-    blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();
-    known.insert(blobs_.PathOfResult(row.tenant, row.file));
-    quota_.Count(row.tenant, row.bytes);
+    if (!shared_) blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();
   }
   return known;
 }
@@ -222,8 +231,9 @@ void DurableLedger::Tick(std::stop_token stop) {
   std::unique_lock lock(tick_mutex_);
   while (!stop.stop_requested()) {
     tick_.wait_for(lock, stop, kTick, [] { return false; });
-    if (!retry_wanted_.exchange(false) && !CleanUpIsDue()) continue;
+    if (!retry_wanted_.exchange(false) && !CleanUpIsDue() && !shared_) continue;
     loop_.Post([this] {
+      if (shared_ && !stopping_) LookAfterFleet();
       for (const auto& task : std::exchange(retries_, {})) task();
       if (CleanUpIsDue()) CleanUp();
       Schedule();
@@ -276,6 +286,8 @@ void DurableLedger::Apply(const Step& step) {
       Detach(row.number);
       queue_.Add(row);
     }
+    const bool runs_elsewhere = row.state == JobState::kRunning && row.owner != journal_.owner();
+    if (runs_elsewhere) Detach(row.number);
   }
   if (!step.event.has_value()) return;
   options_.on_job_state(row);
@@ -291,7 +303,9 @@ void DurableLedger::Apply(const Erased& erased) {
   for (const ResultRow& row : erased.results) {
     if (!row.file.empty()) RemoveResult(row, blobs_, quota_);
   }
-  for (const VolumeRow& row : erased.blobs) {
+  // Others may store the same bytes again at any time, but for the time of a transaction: then the
+  // files go with those that were to be removed.
+  for (const VolumeRow& row : shared_ ? std::vector<VolumeRow>() : erased.blobs) {
     // The same bytes may have come again in the meantime.
     const auto others = loop_.store().FindVolumesOf(row.tenant, row.blob_digest);
     if (!others.ok() || std::ranges::any_of(*others, [&](const VolumeRow& other) {
@@ -318,7 +332,7 @@ void DurableLedger::Erase(std::function<absl::Status(JobStore& store, Erased& er
         BCCSKEL_RETURN_IF_ERROR(change(store, *erased));
         using Kind = RemovalRow::Kind;
         for (const UploadRow& row : erased->uploads) {
-          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kUpload, row.tenant, row.name}));
+          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(row)));
         }
         for (const VolumeRow& row : erased->blobs) {
           BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kBlob, row.tenant, row.blob_digest}));

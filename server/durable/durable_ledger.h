@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <map>
@@ -43,6 +44,10 @@ namespace bccskel::server {
 // durable_ledger.cc opens and closes; ledger_uploads.cc, ledger_finish.cc, ledger_volumes.cc and
 // ledger_jobs.cc answer callers; ledger_runs.cc and ledger_results.cc compute; ledger_expiry.cc
 // cleans up.
+//
+// Several processes may share the store and the folder. Each then remembers the unfinished jobs of
+// all, as of a moment ago; changes find out in the store how things are. ledger_fleet.cc follows
+// what others do, and takes over from those that are gone.
 class DurableLedger final : public Ledger, public RunObserver {
  public:
   DurableLedger(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,
@@ -123,10 +128,12 @@ class DurableLedger final : public Ledger, public RunObserver {
   struct Finishing;
   struct Creating;
   struct Storing;
+  struct Claiming;
+  struct Moving;
 
   // ---- Opening and closing
   absl::Status RecoverStore(JobStore& store);
-  // The paths of all files that the tables name; counts their sizes.
+  // The paths of all files that the tables name, results that are not confirmed yet among them.
   absl::StatusOr<std::set<std::string>> KnownFiles(JobStore& store);
   absl::Status TakeOver(JobStore& store, const std::set<std::string>& files,
                         const std::set<std::string>& known);
@@ -176,17 +183,26 @@ class DurableLedger final : public Ledger, public RunObserver {
 
   // ---- Uploads
   Session FindSession(const std::string& tenant, const std::string& upload) const;
+  // The session of an unfinished upload; another server's is taken over. Errors: NOT_FOUND;
+  // FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
+  void WithSession(const std::string& tenant, const std::string& upload, Done<Session> done);
+  absl::Status PrepareMove(JobStore& store, Moving& moving);
+  void MoveUpload(const std::shared_ptr<Moving>& moving);
+  absl::Status StoreMove(JobStore& store, Moving& moving) const;
+  void EndMove(const std::shared_ptr<Moving>& moving, absl::Status status);
+  // Another server has taken the upload over.
+  absl::Status Superseded(const Session& session);
+  void ForgetSession(const UploadRow& row);
   void AddSession(const Session& session);
   // Removes the files, too; the bytes stay counted.
   void DropSession(const UploadRow& row);
+  static RemovalRow RemovalOf(const UploadRow& row);
   absl::Status PrepareUpload(const NewUpload& upload, Opening& opening);
   absl::Status StoreUpload(JobStore& store, Opening& opening);
   absl::Status CheckSameUpload(JobStore& store, const Opening& opening) const;
   absl::Status StoreReceivingJob(JobStore& store, Opening& opening);
   void UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status);
   void OpenFile(const std::shared_ptr<Opening>& opening);
-  absl::Status NotWritable(JobStore& store, const std::string& tenant,
-                           const std::string& upload) const;
   void AppendNow(const Session& session, std::string bytes, std::optional<uint32_t> crc32c,
                  const Done<uint64_t>& done);
   absl::StatusOr<UploadRow> FindUploadRow(JobStore& store, const std::string& tenant,
@@ -236,6 +252,10 @@ class DurableLedger final : public Ledger, public RunObserver {
   // it.
   void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
                   std::function<void()> then);
+  // Brings a waiting job to run here. `volume`: that is fed to it; null for a job that joins a run.
+  void Claim(int64_t job, const VolumeRow* volume, std::function<void()> then);
+  absl::Status ClaimStored(JobStore& store, Claiming& claiming);
+  void Claimed(const Claiming& claiming);
   void Schedule();
   enum class Begun { kYes, kNothingNow };
   Begun BeginNext();
@@ -254,7 +274,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   void RunFailed(Run* run, const absl::Status& error);
   void ReceivingFailed(int64_t job, const absl::Status& error);
   void ForgetRun(Run* run);
-  void VolumeKnown(Run* run, const std::string& digest);
+  void VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest);
   void JoinEqual(Run* run);
   // The stored result, read to its end: a damaged one is dropped, and there is none.
   void WithWholeResult(const std::string& tenant, const std::string& key,
@@ -268,9 +288,28 @@ class DurableLedger final : public Ledger, public RunObserver {
   void OnRunProgress(std::shared_ptr<Run> run) override;
   void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
+  // ---- The fleet; on the loop. Where nobody shares the store, nothing happens.
+  absl::Status JoinFleet(JobStore& store);
+  void LookAfterFleet();
+  // Follows what others have changed.
+  void Sync();
+  void Follow(const JobRow& job);
+  void FollowDeleted(int64_t job);
+  // All events of the job to who watches it here.
+  void TellStored(int64_t job);
+  void Beat();
+  absl::Status CountFiles(JobStore& store);
+  void SweepShared();
+  void LookAtMembers();
+  void TakeOverFrom(const Member& member);
+  // After this server was fenced off: what it ran is others' now.
+  void Rejoin();
+  void QueueWaiting();
+
   // ---- Expiry; on the loop
   bool CleanUpIsDue() const;
   void CleanUp();
+  std::vector<UploadRow> UnusedUploads(Time oldest);
   void ExpireUploads();
   void ExpireJobs();
   void ExpireVolumes();
@@ -281,6 +320,7 @@ class DurableLedger final : public Ledger, public RunObserver {
   const DurableOptions options_;
   JobRunner& runner_;
   const JobCodec& codec_;
+  const bool shared_;  // with other servers
   FolderLock lock_;
   const BlobStore blobs_;
   DiskQuota quota_;
@@ -290,6 +330,7 @@ class DurableLedger final : public Ledger, public RunObserver {
 
   mutable std::mutex sessions_mutex_;
   std::map<UploadKey, Session> sessions_;  // guarded by sessions_mutex_
+  std::set<UploadKey> opening_;            // guarded by sessions_mutex_
 
   // These belong to the loop.
   JobJournal journal_;
@@ -298,6 +339,16 @@ class DurableLedger final : public Ledger, public RunObserver {
   std::map<int64_t, ActiveJob> active_;
   std::map<Run*, ActiveRun> runs_;
   std::vector<std::function<void()>> retries_;
+  std::set<int64_t>
+      waits_for_equal_;  // jobs in the queue's turn, while an equal one runs elsewhere
+  struct Sign {
+    int64_t beats = 0;
+    std::chrono::steady_clock::time_point since;
+  };
+  std::map<std::string, Sign> members_;  // others of the fleet
+  std::chrono::steady_clock::time_point last_beat_, last_look_;
+  int64_t last_change_ = -1;
+  int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
   Time next_clean_up_{};
   ClockGuard clock_;

@@ -6,14 +6,20 @@
 #include <functional>
 #include <string>
 
+#include "server/admission/tenant_limits.h"
 #include "server/durable/records.h"
 
 namespace bccskel::server {
 
 struct DurableOptions {
-  // Made where it does not exist; one process at a time owns it. Empty: nothing is durable, and
+  // Made where it does not exist. Empty: nothing is durable, and
   // there is no ledger.
   std::string data_directory;
+  // A PostgreSQL database, when several servers share it and the directory. Empty: a file of SQLite
+  // in the directory, which is then this process's alone.
+  std::string job_store;
+  // A server of which nothing was heard for so long has lost its jobs to others.
+  std::chrono::milliseconds lease = std::chrono::seconds(6);
 
   // Uploads count with their declared size. 0: no limit.
   uint64_t max_disk_bytes = 0;
@@ -34,6 +40,9 @@ struct DurableOptions {
   int max_unfinished_jobs = 10'000;  // all tenants together
   int max_runs = 4;                  // at the runner at the same time, besides one-call jobs
   uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
+
+  // Weights and caps as they are now. Called on the ledger's thread; must not block.
+  std::function<TenantTable()> tenants = [] { return TenantTable(); };
 
   std::string algorithm_version;  // results of another one are not found again
   // Told of every state that a job comes into, once that is on disk. Called on the ledger's thread;

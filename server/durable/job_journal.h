@@ -41,10 +41,13 @@ class JobJournal {
   uint64_t NextSequence(int64_t job, uint64_t stored);
   void Forget(int64_t job) { sequences_.erase(job); }
 
+  const std::string& owner() const { return owner_; }
+  void SetOwner(std::string owner) { owner_ = std::move(owner); }
+
  private:
   absl::StatusOr<EventRow> AddEvent(JobStore& store, const JobRow& job, Time time);
 
-  const std::string owner_;
+  std::string owner_;
   const std::function<Time()> now_;
   std::map<int64_t, uint64_t> sequences_;  // the last one of each unfinished job
 };

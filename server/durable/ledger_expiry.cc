@@ -1,4 +1,5 @@
 #include <utility>
+#include <vector>
 
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
@@ -11,6 +12,7 @@ void DurableLedger::CleanUp() {
              [this](const absl::Status&) { loop_.store().Forget().IgnoreError(); },
              GroupCommit::Room::kReserve);
   if (!ClockIsBelieved()) return;
+  SweepShared();
   ExpireUploads();
   ExpireJobs();
   ExpireVolumes();
@@ -26,16 +28,21 @@ bool DurableLedger::ClockIsBelieved() {
   return believed;
 }
 
-void DurableLedger::ExpireUploads() {
-  const Time oldest = Now() - options_.keep_uploads;
-  std::vector<UploadRow> expired;
-  {
-    std::lock_guard lock(sessions_mutex_);
-    for (const auto& [key, session] : sessions_) {
-      if (session->used() < oldest) expired.push_back(session->row());
+// Others' are known by their files.
+std::vector<UploadRow> DurableLedger::UnusedUploads(Time oldest) {
+  std::vector<UploadRow> unused;
+  const auto uploads = loop_.store().AllUploads();
+  for (const UploadRow& row : uploads.ok() ? *uploads : std::vector<UploadRow>()) {
+    if (row.volume.empty() && InfoOf(row).expires < oldest + options_.keep_uploads) {
+      unused.push_back(row);
     }
   }
-  for (const UploadRow& row : expired) {
+  return unused;
+}
+
+void DurableLedger::ExpireUploads() {
+  const Time oldest = Now() - options_.keep_uploads;
+  for (const UploadRow& row : UnusedUploads(oldest)) {
     EndUpload(row.tenant, row.name, JobState::kFailed,
               absl::DeadlineExceededError("its upload was not finished in time"),
               [token = operations_.Begin()](const absl::Status&) {});
@@ -93,6 +100,8 @@ absl::Status DurableLedger::RemoveFiles(JobStore& store) {
       BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindUpload(row.tenant, row.name));
       const bool wanted = again.has_value() && again->volume.empty();
       if (!wanted) removed = blobs_.RemoveUpload(row.tenant, row.name);
+    } else if (row.kind == RemovalRow::Kind::kUploadFile) {
+      removed = blobs_.RemoveUpload(row.tenant, {}, row.name);
     } else if (row.kind == RemovalRow::Kind::kBlob) {
       BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
       if (again.empty()) removed = blobs_.RemoveBlob(row.tenant, row.name);

@@ -25,7 +25,17 @@ void DurableLedger::FinishUpload(const std::string& tenant, const std::string& u
                                  Done<VolumeInfo> done) {
   done = Track(std::move(done));
   const Session session = FindSession(tenant, upload);
-  if (session == nullptr) return FinishAgain(tenant, upload, std::move(done));
+  if (session == nullptr) {
+    return WithSession(tenant, upload,
+                       [this, tenant, upload, size_bytes, sha256,
+                        done = std::move(done)](const absl::StatusOr<Session>& found) {
+                         if (found.ok())
+                           return FinishUpload(tenant, upload, size_bytes, sha256, done);
+                         if (!absl::IsFailedPrecondition(found.status()))
+                           return done(found.status());
+                         FinishAgain(tenant, upload, done);
+                       });
+  }
   absl::Status status = session->BeginFinish(size_bytes);
   if (!status.ok()) return Answer<VolumeInfo>(std::move(done), std::move(status));
   const auto finishing = std::make_shared<Finishing>();
@@ -51,6 +61,9 @@ void DurableLedger::Seal(const std::shared_ptr<Finishing>& finishing) {
   const absl::StatusOr<Sha256Digest> digest = session.file().Seal();
   if (!digest.ok()) {
     session.EndWriting(Now());
+    if (shared_ && absl::IsNotFound(digest.status())) {
+      return finishing->done(Superseded(finishing->session));
+    }
     return finishing->done(digest.status());
   }
   if (finishing->expected.has_value() && *finishing->expected != *digest) {
@@ -81,6 +94,7 @@ absl::Status DurableLedger::StoreVolume(JobStore& store, Finishing& finishing) {
   finishing.step.reset();
   BCCSKEL_ASSIGN_OR_RETURN(UploadRow upload,
                            FindUploadRow(store, volume.tenant, finishing.session->row().name));
+  if (upload.file != finishing.session->row().file) return Superseded(finishing.session);
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> others,
                            store.FindVolumesOf(volume.tenant, volume.blob_digest));
   for (const VolumeRow& other : others) {
@@ -89,13 +103,13 @@ absl::Status DurableLedger::StoreVolume(JobStore& store, Finishing& finishing) {
     volume.volume_digest = other.volume_digest;
     volume.created = other.created;
   }
-  BCCSKEL_RETURN_IF_ERROR(blobs_.PublishBlob(volume.tenant, upload.name, volume.blob_digest));
+  BCCSKEL_RETURN_IF_ERROR(
+      blobs_.PublishBlob(volume.tenant, upload.name, volume.blob_digest, upload.file));
   BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
   upload.volume = volume.name;
   upload.used = volume.used;
   BCCSKEL_RETURN_IF_ERROR(store.UpdateUpload(upload));
-  BCCSKEL_RETURN_IF_ERROR(
-      store.InsertRemoval({RemovalRow::Kind::kUpload, upload.tenant, upload.name}));
+  BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(upload)));
   return upload.job.empty() ? absl::OkStatus() : StoreVolumeOfJob(store, finishing);
 }
 
@@ -104,7 +118,13 @@ absl::Status DurableLedger::StoreVolumeOfJob(JobStore& store, Finishing& finishi
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(upload.tenant, upload.job));
   if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
   job->volume = finishing.volume.name;
-  const bool runs = runs_.count(finishing.along.get()) > 0;
+  bool runs = runs_.count(finishing.along.get()) > 0;
+  if (shared_ && runs) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const bool elsewhere,
+        store.RunsElsewhere(*job, finishing.volume.volume_digest, journal_.owner()));
+    runs = !elsewhere;
+  }
   BCCSKEL_ASSIGN_OR_RETURN(
       const auto event, journal_.Enter(store, *job, runs ? JobState::kRunning : JobState::kQueued));
   finishing.step = Step{.job = *job, .event = event};
@@ -122,7 +142,8 @@ void DurableLedger::VolumeStored(Finishing& finishing, absl::Status status) {
   if (!finishing.new_blob) quota_.GiveBack(session.row().tenant, session.row().size_bytes);
   if (finishing.step.has_value()) Apply(*finishing.step);
   const auto run = runs_.find(finishing.along.get());
-  if (run != runs_.end()) {
+  const bool waits = finishing.step.has_value() && finishing.step->job.state == JobState::kQueued;
+  if (run != runs_.end() && !waits) {
     run->second.volume = finishing.volume.name;
     finishing.along->FinishVolume();
   } else if (finishing.step.has_value() && finishing.step->job.state == JobState::kRunning) {

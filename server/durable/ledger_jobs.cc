@@ -344,6 +344,7 @@ std::unique_ptr<WatchHandle> DurableLedger::WatchJob(const std::string& tenant,
         for (const EventRow& event : found->events) watch->Tell(EventOf(event));
         if (IsTerminal(found->job.state)) return watch->End(absl::OkStatus());
         watches_.Add(found->job.number, watch);
+        TellStored(found->job.number);  // what others have added since, and was followed already
       });
   return std::make_unique<BoardWatch>(watch);
 }

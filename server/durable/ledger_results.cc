@@ -8,7 +8,7 @@ namespace bccskel::server {
 
 // A result on its way into the store.
 struct DurableLedger::Storing {
-  Run* run = nullptr;
+  std::shared_ptr<Run> run;
   ResultRow row;
   int64_t number = 0;  // of the result with this key
   std::vector<Step> steps;
@@ -17,12 +17,13 @@ struct DurableLedger::Storing {
 
 void DurableLedger::OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) {
   loop_.Post([this, run = std::move(run), digest = std::move(volume_digest)] {
-    VolumeKnown(run.get(), digest);
+    VolumeKnown(run, digest);
   });
 }
 
-void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
-  const auto found = runs_.find(run);
+// The run is held: another one at its address would be given its result.
+void DurableLedger::VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest) {
+  const auto found = runs_.find(run.get());
   if (found == runs_.end() || found->second.ending) return;
   ActiveRun& active = found->second;
   active.volume_digest = digest;
@@ -38,8 +39,8 @@ void DurableLedger::VolumeKnown(Run* run, const std::string& digest) {
       },
       [this, run, tenant = active.tenant, key](const absl::Status&) {
         WithWholeResult(tenant, key, [this, run](const std::optional<ResultRow>& result) {
-          if (result.has_value()) return GiveStoredResult(run, result->number);
-          JoinEqual(run);
+          if (result.has_value()) return GiveStoredResult(run.get(), result->number);
+          JoinEqual(run.get());
         });
       });
 }
@@ -167,13 +168,13 @@ void DurableLedger::RunEnded(Run* run, const absl::StatusOr<ResultRow>& result) 
 
 void DurableLedger::StoreResult(Run* run, const ResultRow& row) {
   const auto storing = std::make_shared<Storing>();
-  storing->run = run;
+  storing->run = runs_.at(run).run;
   storing->row = row;
   loop_.Post(
       [this, storing](JobStore& store) { return StoreResultOf(store, *storing); },
       [this, storing, row](const absl::Status& status) {
         if (!status.ok()) {
-          return RetryLater([this, run = storing->run, row] { StoreResult(run, row); });
+          return RetryLater([this, run = storing->run, row] { StoreResult(run.get(), row); });
         }
         if (storing->needless) {
           RemoveResult(row, blobs_, quota_);
@@ -181,15 +182,18 @@ void DurableLedger::StoreResult(Run* run, const ResultRow& row) {
           blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();  // else at the next start
         }
         for (const Step& step : storing->steps) Apply(step);
-        ForgetRun(storing->run);
+        ForgetRun(storing->run.get());
         Schedule();
       },
       GroupCommit::Room::kReserve);
 }
 
 absl::Status DurableLedger::StoreResultOf(JobStore& store, Storing& storing) {
-  const ActiveRun& active = runs_.at(storing.run);
   storing.steps.clear();
+  const auto found = runs_.find(storing.run.get());
+  storing.needless = found == runs_.end();  // it was taken over by others
+  if (storing.needless) return absl::OkStatus();
+  const ActiveRun& active = found->second;
   storing.row.key = ResultKey(active.volume_digest, active.options);
   BCCSKEL_ASSIGN_OR_RETURN(storing.number, store.InsertResult(storing.row));
   for (const int64_t job : active.jobs) {

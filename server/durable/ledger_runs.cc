@@ -14,13 +14,21 @@ std::string DurableLedger::ResultKey(const std::string& volume_digest,
 }
 
 void DurableLedger::Schedule() {
-  while (!stopping_ && BeginNext() == Begun::kYes) {
+  // Others of the fleet begin what this one would not end.
+  while (!stopping_ && (admitting_ || !shared_) && BeginNext() == Begun::kYes) {
   }
 }
 
 std::map<std::string, int> DurableLedger::RunsOfTenants() const {
   std::map<std::string, int> runs;
-  for (const auto& [pointer, run] : runs_) ++runs[run.tenant];
+  for (const auto& [pointer, run] : runs_) {
+    if (!run.volume.empty()) ++runs[run.tenant];  // it has come
+  }
+  if (!shared_) return runs;
+  for (const auto& [number, job] : active_) {
+    const bool elsewhere = job.row.state == JobState::kRunning && job.run == nullptr;
+    if (elsewhere) ++runs[job.row.tenant];
+  }
   return runs;
 }
 
@@ -36,7 +44,8 @@ DurableLedger::Begun DurableLedger::BeginNext() {
   if (CountRunsFromFiles(0) >= options_.max_runs) return Begun::kNothingNow;
   const bool one_is_suspect = CountRunsFromFiles(1) > 0;
   const std::optional<int64_t> first = queue_.First(
-      RunsOfTenants(), one_is_suspect ? RunQueue::Suspects::kWait : RunQueue::Suspects::kWelcome);
+      RunsOfTenants(), one_is_suspect ? RunQueue::Suspects::kWait : RunQueue::Suspects::kWelcome,
+      options_.tenants());
   if (!first.has_value()) return Begun::kNothingNow;
   const JobRow job = active_.at(*first).row;
   return BeginJob(job);
@@ -76,7 +85,7 @@ DurableLedger::Begun DurableLedger::BeginJob(const JobRow& job) {
   }
   if (ActiveRun* equal = EqualRun(job, **volume); equal != nullptr) {
     Attach(*equal, job.number);
-    EnterState({job.number}, JobState::kRunning, absl::OkStatus(), 0, nullptr);
+    Claim(job.number, nullptr, nullptr);
     return Begun::kYes;
   }
   return StartRun(job, **volume);
@@ -115,9 +124,87 @@ DurableLedger::Begun DurableLedger::StartRun(const JobRow& job, const VolumeRow&
   active.crashes = job.crashes;
   Attach(active, job.number);
   // The attempt is counted before it begins.
-  EnterState({job.number}, JobState::kRunning, absl::OkStatus(), 0,
-             [this, pointer = run.get(), volume] { Feed(pointer, volume); });
+  Claim(job.number, &volume, [this, run, volume] { Feed(run.get(), volume); });
   return Begun::kYes;
+}
+
+struct DurableLedger::Claiming {
+  enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
+  int64_t job = 0;
+  std::optional<VolumeRow> volume;
+  std::shared_ptr<Run> fed;  // the run that is to have its bytes
+  std::function<void()> then;
+  Outcome outcome = Outcome::kOthers;
+  std::vector<Step> steps;
+};
+
+void DurableLedger::Claim(int64_t job, const VolumeRow* volume, std::function<void()> then) {
+  const auto claiming = std::make_shared<Claiming>();
+  claiming->job = job;
+  const auto active = active_.find(job);
+  if (volume != nullptr) claiming->volume = *volume;
+  if (volume != nullptr && active != active_.end() && active->second.run != nullptr) {
+    claiming->fed = runs_.at(active->second.run).run;
+  }
+  claiming->then = std::move(then);
+  loop_.Post([this, claiming](JobStore& store) { return ClaimStored(store, *claiming); },
+             [this, claiming](const absl::Status& status) {
+               if (status.ok()) return Claimed(*claiming);
+               RetryLater([this, claiming] {
+                 const VolumeRow* const fed = claiming->volume ? &*claiming->volume : nullptr;
+                 Claim(claiming->job, fed, claiming->then);
+               });
+             },
+             GroupCommit::Room::kReserve);
+}
+
+absl::Status DurableLedger::ClaimStored(JobStore& store, Claiming& claiming) {
+  using Outcome = Claiming::Outcome;
+  claiming.steps.clear();
+  claiming.outcome = Outcome::kOthers;
+  const auto active = active_.find(claiming.job);
+  if (active == active_.end() || active->second.run == nullptr) return absl::OkStatus();
+  const JobRow& known = active->second.row;
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(known.tenant, known.name));
+  if (!job.has_value()) return absl::OkStatus();
+  // A commit that seemed to have failed may have happened.
+  const bool is_mine = job->state == JobState::kRunning && job->owner == journal_.owner();
+  if (!is_mine && job->state != JobState::kQueued) return absl::OkStatus();
+  if (claiming.volume.has_value() && shared_) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const bool elsewhere,
+        store.RunsElsewhere(*job, claiming.volume->volume_digest, journal_.owner()));
+    if (elsewhere && !is_mine) claiming.outcome = Outcome::kEqualRunsElsewhere;
+    if (elsewhere && !is_mine) return absl::OkStatus();
+  }
+  claiming.outcome = Outcome::kMine;
+  std::optional<EventRow> event;
+  if (!is_mine) {
+    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, *job, JobState::kRunning));
+  }
+  claiming.steps.push_back({.job = *job, .event = event});
+  return absl::OkStatus();
+}
+
+void DurableLedger::Claimed(const Claiming& claiming) {
+  for (const Step& step : claiming.steps) Apply(step);
+  if (claiming.outcome == Claiming::Outcome::kMine) {
+    if (claiming.then) claiming.then();
+    return Schedule();
+  }
+  // Others that joined the run would wait for its bytes for ever: they are queued again.
+  if (claiming.fed != nullptr) claiming.fed->Cancel();
+  Detach(claiming.job);
+  Sync();
+  const auto active = active_.find(claiming.job);
+  const bool waits = active != active_.end() && active->second.row.state == JobState::kQueued;
+  if (waits && claiming.outcome == Claiming::Outcome::kEqualRunsElsewhere) {
+    waits_for_equal_.insert(claiming.job);
+    queue_.Remove(active->second.row);
+  } else if (waits) {
+    waits_for_equal_.insert(claiming.job);  // the store could not tell whose it is
+  }
+  Schedule();
 }
 
 DurableLedger::ActiveRun& DurableLedger::AddRun(std::shared_ptr<Run> run, const JobRow& job,
@@ -172,6 +259,7 @@ absl::Status DurableLedger::EnterState(JobStore& store, int64_t number, JobState
   const JobRow& known = active->second.row;
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(known.tenant, known.name));
   if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
+  if (job->state == JobState::kRunning && job->owner != journal_.owner()) return absl::OkStatus();
   job->result = result;
   BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
   if (event.has_value()) steps.push_back({.job = *job, .event = event});

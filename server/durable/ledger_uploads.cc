@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -31,15 +32,24 @@ DurableLedger::Session DurableLedger::FindSession(const std::string& tenant,
 
 void DurableLedger::AddSession(const Session& session) {
   std::lock_guard lock(sessions_mutex_);
-  sessions_[{session->row().tenant, session->row().name}] = session;
+  const UploadKey key = {session->row().tenant, session->row().name};
+  sessions_[key] = session;
+  opening_.erase(key);
 }
 
 void DurableLedger::DropSession(const UploadRow& row) {
   {
     std::lock_guard lock(sessions_mutex_);
     sessions_.erase({row.tenant, row.name});
+    opening_.erase({row.tenant, row.name});
   }
-  blobs_.RemoveUpload(row.tenant, row.name).IgnoreError();  // else swept at the next start
+  // Else swept at the next start.
+  blobs_.RemoveUpload(row.tenant, row.name, row.file).IgnoreError();
+}
+
+RemovalRow DurableLedger::RemovalOf(const UploadRow& row) {
+  if (row.file.empty()) return {RemovalRow::Kind::kUpload, row.tenant, row.name};
+  return {RemovalRow::Kind::kUploadFile, row.tenant, row.file};
 }
 
 void DurableLedger::CreateUpload(const std::string& tenant, const NewUpload& upload,
@@ -49,6 +59,7 @@ void DurableLedger::CreateUpload(const std::string& tenant, const NewUpload& upl
   opening->row.name = upload.name.empty() ? RandomName("uploads") : upload.name;
   opening->row.declaration = upload.declaration;
   opening->row.used = Now();
+  if (shared_) opening->row.file = RandomId();
   opening->done = Track(std::move(done));
   if (absl::Status status = PrepareUpload(upload, *opening); !status.ok()) {
     return Answer<UploadInfo>(std::move(opening->done), std::move(status));
@@ -83,11 +94,19 @@ absl::Status DurableLedger::StoreUpload(JobStore& store, Opening& opening) {
   BCCSKEL_ASSIGN_OR_RETURN(opening.existing,
                            store.FindUpload(opening.row.tenant, opening.row.name));
   if (opening.existing.has_value()) return CheckSameUpload(store, opening);
+  if (shared_ && (options_.max_disk_bytes > 0 || options_.max_tenant_disk_bytes > 0)) {
+    BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
+    opening.counted = false;
+  }
   if (!opening.counted) {
     BCCSKEL_RETURN_IF_ERROR(quota_.Take(opening.row.tenant, opening.row.size_bytes));
     opening.counted = true;
   }
   BCCSKEL_RETURN_IF_ERROR(store.InsertUpload(opening.row));
+  {
+    std::lock_guard lock(sessions_mutex_);
+    opening_.insert({opening.row.tenant, opening.row.name});
+  }
   return opening.job.has_value() ? StoreReceivingJob(store, opening) : absl::OkStatus();
 }
 
@@ -120,6 +139,7 @@ void DurableLedger::UploadStored(const std::shared_ptr<Opening>& opening, absl::
     return opening->done(InfoOf(*opening->existing));
   }
   if (!status.ok()) {
+    ForgetSession(opening->row);
     if (opening->counted) quota_.GiveBack(opening->row.tenant, opening->row.size_bytes);
     if (opening->run != nullptr) opening->run->Cancel();
     return opening->done(std::move(status));
@@ -133,7 +153,7 @@ void DurableLedger::UploadStored(const std::shared_ptr<Opening>& opening, absl::
 }
 
 void DurableLedger::OpenFile(const std::shared_ptr<Opening>& opening) {
-  auto file = blobs_.OpenUpload(opening->row.tenant, opening->row.name);
+  auto file = blobs_.OpenUpload(opening->row.tenant, opening->row.name, opening->row.file);
   if (!file.ok()) {
     const absl::Status error = file.status();
     return EndUpload(opening->row.tenant, opening->row.name, JobState::kFailed, error,
@@ -150,9 +170,12 @@ void DurableLedger::Append(const std::string& tenant, const std::string& upload,
   done = Track(std::move(done));
   const Session session = FindSession(tenant, upload);
   if (session == nullptr) {
-    return loop_.Post(
-        [this, tenant, upload](JobStore& store) { return NotWritable(store, tenant, upload); },
-        [done = std::move(done)](absl::Status status) { done(std::move(status)); });
+    return WithSession(tenant, upload,
+                       [this, tenant, upload, offset, bytes = std::move(bytes), crc32c,
+                        done = std::move(done)](const absl::StatusOr<Session>& found) {
+                         if (!found.ok()) return done(found.status());
+                         Append(tenant, upload, offset, bytes, crc32c, done);
+                       });
   }
   absl::Status status = session->BeginAppend(offset, bytes.size());
   if (!status.ok()) return Answer<uint64_t>(std::move(done), std::move(status));
@@ -160,17 +183,6 @@ void DurableLedger::Append(const std::string& tenant, const std::string& upload,
               [this, session, bytes = std::move(bytes), crc32c, done = std::move(done)]() mutable {
                 AppendNow(session, std::move(bytes), crc32c, done);
               });
-}
-
-absl::Status DurableLedger::NotWritable(JobStore& store, const std::string& tenant,
-                                        const std::string& upload) const {
-  BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
-  if (row.volume.empty()) {  // its file is being opened
-    return WithFault(absl::AbortedError(absl::StrCat(upload, " is being opened just now")),
-                     {.reason = "SECOND_WRITER"});
-  }
-  return WithFault(absl::FailedPreconditionError(absl::StrCat(upload, " is finished")),
-                   {.reason = "UPLOAD_FINISHED"});
 }
 
 void DurableLedger::AppendNow(const Session& session, std::string bytes,
@@ -183,6 +195,7 @@ void DurableLedger::AppendNow(const Session& session, std::string bytes,
                   {.reason = "CHUNK_CHECKSUM", .field = "chunk.crc32c"});
   }
   if (status.ok()) status = session->file().Append(bytes);
+  if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
   const std::shared_ptr<Run> along = session->along();
   if (!status.ok() || along == nullptr) {
     session->EndWriting(Now());
@@ -210,6 +223,9 @@ void DurableLedger::GetUpload(const std::string& tenant, const std::string& uplo
   Read<UploadInfo>(
       [this, tenant, upload](JobStore& store) -> absl::StatusOr<UploadInfo> {
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        // Who asks may go on here with what another server has taken over meanwhile.
+        const Session session = FindSession(tenant, upload);
+        if (session != nullptr && session->row().file != row.file) ForgetSession(session->row());
         return InfoOf(row);
       },
       std::move(done));
@@ -252,7 +268,8 @@ absl::StatusOr<UploadRow> DurableLedger::FindUploadRow(JobStore& store, const st
 }
 
 UploadInfo DurableLedger::InfoOf(const UploadRow& row) const {
-  const Session session = FindSession(row.tenant, row.name);
+  Session session = FindSession(row.tenant, row.name);
+  if (session != nullptr && session->row().file != row.file) session = nullptr;
   UploadInfo info = {.name = row.name,
                      .declaration = row.declaration,
                      .size_bytes = row.size_bytes,
@@ -263,6 +280,10 @@ UploadInfo DurableLedger::InfoOf(const UploadRow& row) const {
   if (session != nullptr && row.volume.empty()) {
     info.committed_bytes = session->committed();
     info.expires = session->used() + options_.keep_uploads;
+  } else if (shared_ && row.volume.empty()) {
+    info.committed_bytes = blobs_.SizeOfUpload(row.tenant, row.name, row.file);
+    const auto facts = blobs_.FactsOfUpload(row.tenant, row.name, row.file);
+    if (facts.ok()) info.expires = std::max(row.used, facts->written) + options_.keep_uploads;
   }
   return info;
 }

@@ -40,13 +40,16 @@ void RunQueue::Remove(const JobRow& job) {
 }
 
 std::optional<int64_t> RunQueue::First(const std::map<std::string, int>& at_work_of,
-                                       Suspects suspects) const {
-  std::pair<int, uint64_t> best = {std::numeric_limits<int>::max(), 0};
+                                       Suspects suspects, const TenantTable& tenants) const {
+  std::pair<double, uint64_t> best = {std::numeric_limits<double>::max(), 0};
   std::optional<int64_t> first;
   for (const auto& [name, tenant] : tenants_) {
-    const auto at_work = at_work_of.find(name);
-    const std::pair<int, uint64_t> share = {at_work == at_work_of.end() ? 0 : at_work->second,
-                                            tenant.last_turn};
+    const auto found = at_work_of.find(name);
+    const int at_work = found == at_work_of.end() ? 0 : found->second;
+    const TenantLimits& limits = tenants.Of(name);
+    if (limits.max_running > 0 && at_work >= limits.max_running) continue;
+    const std::pair<double, uint64_t> share = {double{1} * at_work / limits.weight,
+                                               tenant.last_turn};
     if (first.has_value() && best <= share) continue;
     const std::optional<int64_t> job = FirstOf(tenant, suspects);
     if (!job.has_value()) continue;

@@ -46,6 +46,13 @@ std::optional<JobProgress> WatchBoard::ProgressOf(int64_t job) const {
   return std::get<JobProgress>(found->second.what);
 }
 
+void WatchBoard::End(int64_t job, const absl::Status& status) {
+  const auto found = watches_.find(job);
+  if (found == watches_.end()) return;
+  for (const auto& watch : found->second) watch->End(status);
+  watches_.erase(found);
+}
+
 void WatchBoard::EndAll(const absl::Status& status) {
   for (const auto& [job, watches] : watches_) {
     for (const auto& watch : watches) watch->End(status);

@@ -39,8 +39,10 @@ class WatchBoard {
   void Add(int64_t job, std::shared_ptr<Watch> watch);
   // After a completed event the job's watches are over.
   void Tell(int64_t job, const JobEvent& event);
+  bool Has(int64_t job) const { return watches_.contains(job); }
   // Newest progress of a running job.
   std::optional<JobProgress> ProgressOf(int64_t job) const;
+  void End(int64_t job, const absl::Status& status);
   void EndAll(const absl::Status& status);
 
  private:

@@ -67,7 +67,7 @@ ComputeQueue::Usage ComputeQueue::usage() const {
   std::lock_guard lock(mutex_);
   return {.waiting = static_cast<int>(queue_.size()),
           .running = running_,
-          .busy_threads = std::min(given_threads_, threads_)};
+          .busy_threads = std::min<int>(given_threads_, threads_)};
 }
 
 void ComputeQueue::Serve(std::stop_token stop) {

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_JOBS_COMPUTE_QUEUE_H_
 #define BCCSKEL_SERVER_JOBS_COMPUTE_QUEUE_H_
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -21,8 +22,8 @@ namespace bccskel::server {
 // Hands out a fixed number of threads to jobs, in the order of a FairQueue. A job alone gets as
 // many as it can use. Where several came lately, large or small, they share those that are free:
 // one thread each does more for all than all threads for one after the other. A job that comes
-// while one has all threads starts beside it on one thread; the team of the other shrinks when it
-// is kept waiting (exec::Context::patience). Results do not depend on the number of threads.
+// while one has all threads starts beside it on one thread, which the other leaves to it (share()).
+// Results do not depend on the number of threads.
 //
 // A job at work gives way to small ones that wait: to those that take one thread and have at most
 // half of its bricks. They run on its thread while it rests; afterwards it gives way to their
@@ -96,9 +97,10 @@ class ComputeQueue {
   FairQueue<Waiting> queue_;  // guarded by mutex_
   // No job in queue_ that takes one thread has fewer bricks. Changed with mutex_ held.
   std::atomic<uint64_t> least_waiting_ = kNoBricks;
-  int running_ = 0;        // guarded by mutex_, as are all below
-  int given_threads_ = 0;  // to running jobs; may be more than there are
-  int crowd_ = 0;          // most jobs that waited or ran together lately
+  int running_ = 0;  // guarded by mutex_, as are those below
+  // To running jobs; may be more than there are. Changed with mutex_ held.
+  std::atomic<int> given_threads_ = 0;
+  int crowd_ = 0;  // most jobs that waited or ran together lately
   Clock::time_point crowd_until_;
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
 };
@@ -107,6 +109,11 @@ class ComputeQueue {
 class ComputeQueue::Turn {
  public:
   int threads() const { return threads_; }
+  // Those of them that others have not been given since; at least 1. Threads: safe.
+  int share() const {
+    const int others = queue_.given_threads_ - threads_;
+    return std::clamp(queue_.threads_ - others, 1, threads_);
+  }
 
   // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
   // may be run in between. Costs next to nothing where none wait that are small enough.

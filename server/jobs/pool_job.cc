@@ -148,6 +148,7 @@ absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(ComputeQueue::Turn& turn) {
   exec::WorkerTeam team(turn.threads());
   exec::Context context = StopContext();
   context.team = &team;
+  context.share = [&turn] { return turn.share(); };
   context.interlude = [&turn] { turn.GiveWay(); };
   return work_->Run(std::move(context), memory_, [job = weak_from_this()] {
     if (const auto self = job.lock()) self->Wake();

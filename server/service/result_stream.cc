@@ -65,6 +65,7 @@ class ResultStream final : public Reactor,
   std::shared_ptr<ResultReader> reader_;
   v1::ReadSkeletonResponse response_;
   uint32_t piece_;
+  bool first_ = true;
   bool complete_ = false;  // the summary was written
 
   std::mutex mutex_;
@@ -84,7 +85,10 @@ absl::Status ResultStream::Write(const ResultRecord& record) {
   ++piece_;
   complete_ = response_.has_summary();
   grpc::WriteOptions options;
-  if (!complete_) options.set_buffer_hint();  // more follows at once
+  // More follows at once. But the first message goes with the initial metadata, and gRPC 1.51 tells
+  // that those are written only when they are: with the hint they wait for what never comes.
+  if (!complete_ && !first_) options.set_buffer_hint();
+  first_ = false;
   std::lock_guard lock(mutex_);
   if (!end_.has_value()) StartWrite(&response_, options);
   return absl::OkStatus();

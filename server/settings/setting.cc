@@ -106,13 +106,18 @@ Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::st
                 [&target] { return Quoted(target); });
 }
 
-Setting PathSetting(std::string name, std::string& target, std::string description) {
+Setting TextSetting(std::string name, std::string value, std::string& target,
+                    std::string description) {
   const auto parse = [&target](const std::string& text) {
     target = text;
     return absl::OkStatus();
   };
-  return Single(std::move(name), "PATH", std::move(description), parse,
+  return Single(std::move(name), std::move(value), std::move(description), parse,
                 [&target] { return Quoted(target); });
+}
+
+Setting PathSetting(std::string name, std::string& target, std::string description) {
+  return TextSetting(std::move(name), "PATH", target, std::move(description));
 }
 
 Setting AddressSetting(std::string name, std::string& target, std::string description) {

@@ -31,6 +31,8 @@ Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,
 Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string description);
 Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::string> choices,
                       std::string description);
+Setting TextSetting(std::string name, std::string value, std::string& target,
+                    std::string description);
 Setting PathSetting(std::string name, std::string& target, std::string description);
 Setting AddressSetting(std::string name, std::string& target, std::string description);
 Setting AddressesSetting(std::string name, std::vector<std::string>& target,

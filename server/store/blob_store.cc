@@ -22,8 +22,9 @@ std::string BlobStore::FolderOf(const std::string& tenant, const char* kind) con
   return absl::StrCat(folder_, "/tenants/", SafeName(tenant), "/", kind);
 }
 
-std::string BlobStore::UploadPath(const std::string& tenant, const std::string& upload) const {
-  return absl::StrCat(FolderOf(tenant, "uploads"), "/", SafeName(upload));
+std::string BlobStore::UploadPath(const std::string& tenant, const std::string& upload,
+                                  const std::string& file) const {
+  return absl::StrCat(FolderOf(tenant, "uploads"), "/", file.empty() ? SafeName(upload) : file);
 }
 
 std::string BlobStore::PathOfBlob(const std::string& tenant, const std::string& digest) const {
@@ -34,27 +35,47 @@ std::string BlobStore::PathOfResult(const std::string& tenant, const std::string
   return absl::StrCat(FolderOf(tenant, "results"), "/", name);
 }
 
-std::set<std::string> BlobStore::PathsOfUpload(const std::string& tenant,
-                                               const std::string& upload) const {
-  const std::string path = UploadPath(tenant, upload);
+std::set<std::string> BlobStore::PathsOfUpload(const std::string& tenant, const std::string& upload,
+                                               const std::string& file) const {
+  const std::string path = UploadPath(tenant, upload, file);
   return {UploadFile::BytesPath(path), UploadFile::ChunksPath(path)};
 }
 
 absl::StatusOr<std::unique_ptr<UploadFile>> BlobStore::OpenUpload(const std::string& tenant,
-                                                                  const std::string& upload) const {
+                                                                  const std::string& upload,
+                                                                  const std::string& file) const {
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "uploads")));
-  return UploadFile::Open(UploadPath(tenant, upload));
+  return UploadFile::Open(UploadPath(tenant, upload, file));
 }
 
-absl::Status BlobStore::RemoveUpload(const std::string& tenant, const std::string& upload) const {
-  return UploadFile::Remove(UploadPath(tenant, upload));
+absl::StatusOr<std::unique_ptr<UploadFile>> BlobStore::CopyUpload(const std::string& tenant,
+                                                                  const std::string& upload,
+                                                                  const std::string& from,
+                                                                  const std::string& to) const {
+  return UploadFile::Copy(UploadPath(tenant, upload, from), UploadPath(tenant, upload, to));
+}
+
+uint64_t BlobStore::SizeOfUpload(const std::string& tenant, const std::string& upload,
+                                 const std::string& file) const {
+  return UploadFile::SizeOf(UploadPath(tenant, upload, file));
+}
+
+absl::StatusOr<FileFacts> BlobStore::FactsOfUpload(const std::string& tenant,
+                                                   const std::string& upload,
+                                                   const std::string& file) const {
+  return FactsOf(UploadFile::BytesPath(UploadPath(tenant, upload, file)));
+}
+
+absl::Status BlobStore::RemoveUpload(const std::string& tenant, const std::string& upload,
+                                     const std::string& file) const {
+  return UploadFile::Remove(UploadPath(tenant, upload, file));
 }
 
 absl::Status BlobStore::PublishBlob(const std::string& tenant, const std::string& upload,
-                                    const std::string& digest) const {
+                                    const std::string& digest, const std::string& file) const {
   BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "blobs")));
   const std::string blob = PathOfBlob(tenant, digest);
-  const std::string bytes = UploadFile::BytesPath(UploadPath(tenant, upload));
+  const std::string bytes = UploadFile::BytesPath(UploadPath(tenant, upload, file));
   // A file of this name may be there and damaged: it is replaced.
   const std::string fresh = blob + kUnconfirmed;
   BCCSKEL_RETURN_IF_ERROR(RemoveFile(fresh));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
@@ -58,6 +59,13 @@ void DiskQuota::GiveBack(const std::string& tenant, uint64_t bytes) {
   if (found == used_of_.end()) return;
   found->second -= std::min(bytes, found->second);
   if (found->second == 0) used_of_.erase(found);
+}
+
+void DiskQuota::Replace(std::map<std::string, uint64_t> used) {
+  std::lock_guard lock(mutex_);
+  used_of_ = std::move(used);
+  used_ = 0;
+  for (const auto& [tenant, bytes] : used_of_) used_ += bytes;
 }
 
 uint64_t DiskQuota::used() const {

@@ -22,6 +22,8 @@ class DiskQuota {
   // What is there already counts, whatever the limits are now.
   void Count(const std::string& tenant, uint64_t bytes);
   void GiveBack(const std::string& tenant, uint64_t bytes);
+  // What others have counted, instead of what was counted here.
+  void Replace(std::map<std::string, uint64_t> used);
   uint64_t used() const;
   uint64_t available() const;  // for all; the largest number where there is no limit
 

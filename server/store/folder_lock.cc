@@ -3,6 +3,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -15,9 +16,10 @@ constexpr size_t kMostBytes = 256;
 
 }  // namespace
 
-absl::StatusOr<FolderLock> FolderLock::Take(const std::string& folder) {
+absl::StatusOr<FolderLock> FolderLock::Take(const std::string& folder, With with) {
   BCCSKEL_ASSIGN_OR_RETURN(File file, File::OpenToWrite(folder + "/lock"));
-  if (flock(file.fd(), LOCK_EX | LOCK_NB) != 0) {
+  const int kind = with == With::kNobody ? LOCK_EX : LOCK_SH;
+  if (flock(file.fd(), kind | LOCK_NB) != 0 && (kind == LOCK_EX || errno == EWOULDBLOCK)) {
     return absl::AlreadyExistsError(absl::StrCat("another server owns the data directory ", folder,
                                                  " (it holds ", file.path(), ")"));
   }

@@ -10,12 +10,14 @@
 
 namespace bccskel::server {
 
-// The right to a data folder: one process has it at a time, until it ends, however it ends. Works
-// on file systems where flock() does; do not share the folder over a network.
+// The right to a data folder: one process has it at a time, or several that share it, until they
+// end, however they end. Works on file systems where flock() does. Those who share need it only to
+// keep out who wants the folder alone: they do without it where there is no flock().
 class FolderLock {
  public:
-  // Errors: ALREADY_EXISTS when another process has it.
-  static absl::StatusOr<FolderLock> Take(const std::string& folder);
+  enum class With { kNobody, kOthers };
+  // Errors: ALREADY_EXISTS when another process has it, and does not share it as this one.
+  static absl::StatusOr<FolderLock> Take(const std::string& folder, With with = With::kNobody);
 
   // The job store to which the folder's files belong; empty before it was told.
   const std::string& store_id() const { return store_id_; }

@@ -2,6 +2,7 @@
 #define BCCSKEL_SERVER_STORE_JOB_STORE_H_
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,12 @@
 namespace bccskel::server {
 
 // Tables of uploads, volumes, jobs, their events and results. Changes are made within Begin() and
-// Commit(); what Commit() has confirmed survives the process and the machine.
+// Commit(); what Commit() has confirmed survives the process and the machine. Nobody else changes
+// anything in between, be it another server of a fleet: so what a transaction has found holds until
+// its end.
 // Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file or row;
-// INTERNAL. Looking for what is not there is no error.
+// UNAVAILABLE when the database cannot be reached just now: then what Commit() was to confirm may
+// have happened, or not; INTERNAL. Looking for what is not there is no error.
 // Every row has a checksum. What yields a list of rows leaves damaged ones out and counts them, but
 // for ListJobs() and EventsAfter(), whose callers would take the rest for everything.
 // Threads: one at a time.
@@ -30,7 +34,7 @@ class JobStore {
   virtual absl::Status Health() const = 0;
   virtual int damaged_rows() const = 0;  // found since it was opened. Threads: safe.
 
-  // Errors: a file that is gone, as Health() says.
+  // Errors: a file that is gone, as Health() says; UNAVAILABLE when this server was fenced off.
   virtual absl::Status Begin() = 0;
   // After an error nothing since Begin() has happened.
   virtual absl::Status Commit() = 0;
@@ -41,7 +45,7 @@ class JobStore {
   virtual absl::Status UndoStep() = 0;
 
   virtual absl::Status InsertUpload(const UploadRow& row) = 0;
-  virtual absl::Status UpdateUpload(const UploadRow& row) = 0;  // its volume and last use
+  virtual absl::Status UpdateUpload(const UploadRow& row) = 0;  // its volume, file and last use
   virtual absl::Status DeleteUpload(const std::string& tenant, const std::string& name) = 0;
   virtual absl::StatusOr<std::optional<UploadRow>> FindUpload(const std::string& tenant,
                                                               const std::string& name) = 0;
@@ -98,6 +102,31 @@ class JobStore {
   virtual absl::Status InsertRemoval(const RemovalRow& row) = 0;
   virtual absl::Status DeleteRemoval(const RemovalRow& row) = 0;
   virtual absl::StatusOr<std::vector<RemovalRow>> AllRemovals() = 0;
+
+  // ---- The fleet. Where nobody shares the store, the one server that has it is all of it.
+
+  // Whether other servers may use the same tables.
+  virtual bool shared() const = 0;
+  // From now on transactions are this server's, and fail once it was fenced off. Needs: a name that
+  // no server ever had, of hexadecimal digits.
+  virtual absl::Status Join(const std::string& server) = 0;
+  virtual absl::Status Leave() = 0;
+  // Whether a transaction has failed since, because this server was fenced off: it has to join
+  // anew.
+  virtual bool fenced() const = 0;
+  // One more sign of life of this server.
+  virtual absl::Status Beat() = 0;
+  virtual absl::StatusOr<std::vector<Member>> Members() = 0;
+  // Needs: a transaction. Takes the member away, unless it has given a sign of life since. Yields
+  // whether it was there: then it writes nothing any more.
+  virtual absl::StatusOr<bool> Fence(const Member& member) = 0;
+  // What has become of jobs since a change; from -1 on the unfinished ones as they are.
+  virtual absl::StatusOr<JobChanges> ChangesAfter(int64_t number) = 0;
+  // A job with the same options, of the same volume, that another server runs.
+  virtual absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,
+                                             const std::string& server) = 0;
+  // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
+  virtual absl::StatusOr<std::map<std::string, uint64_t>> DiskUse() = 0;
 
   // What was deleted is then nowhere in the store's files any more.
   virtual absl::Status Forget() = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 
@@ -34,6 +35,7 @@ struct UploadRow {
   std::string job;          // that waits for it; empty without one
   std::string volume;       // what it has become; empty before
   Time used;                // last
+  std::string file;         // where its bytes are; empty: a file named after the upload
 };
 
 struct VolumeRow {
@@ -102,10 +104,24 @@ struct EventRow {
 // A file that nobody wants any more: it goes, and then the row. So a crash between the two leaves
 // nothing behind, and no file has to go because nobody knows it.
 struct RemovalRow {
-  enum class Kind { kUpload = 0, kBlob = 1, kResult = 2 };  // the numbers are stored
+  // The numbers are stored.
+  enum class Kind { kUpload = 0, kBlob = 1, kResult = 2, kUploadFile = 3 };
   Kind kind = Kind::kUpload;
   std::string tenant;
-  std::string name;  // of the upload; the blob's digest; of the result's file
+  std::string name;  // of the upload; the blob's digest; of the result's or the upload's file
+};
+
+// A server of the fleet.
+struct Member {
+  std::string server;
+  int64_t beats = 0;  // signs of life
+};
+
+// Jobs that are new or other than before, each as it is now.
+struct JobChanges {
+  std::vector<JobRow> jobs;
+  std::vector<int64_t> deleted;  // their numbers
+  int64_t last = 0;              // go on from here
 };
 
 }  // namespace bccskel::server

@@ -81,6 +81,12 @@ CREATE TABLE removals(
 CREATE TABLE store(id TEXT NOT NULL, schema_check INTEGER NOT NULL);
 INSERT INTO store VALUES(lower(hex(randomblob(16))), 0);
 )",
+    // 6: an upload names its file.
+    R"(
+ALTER TABLE uploads ADD COLUMN file TEXT NOT NULL DEFAULT '';
+UPDATE uploads SET row_check = checksum('uploads', tenant, name, declaration, size_bytes, job,
+  volume, used, file);
+)",
 };
 
 // The definitions of all tables and indexes.
@@ -90,9 +96,8 @@ INSERT INTO store VALUES(lower(hex(randomblob(16))), 0);
 constexpr char kSealSchema[] = "UPDATE store SET schema_check = " BCCSKEL_SCHEMA_CHECK ";";
 
 absl::StatusOr<int> VersionOf(SqliteDatabase& database) {
-  SqliteQuery query(database, "PRAGMA user_version");
-  BCCSKEL_RETURN_IF_ERROR(query.Next().status());
-  return static_cast<int>(query.Number());
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("PRAGMA user_version", {}));
+  return static_cast<int>(rows.front().Number());
 }
 
 absl::Status Damaged(const std::string& how) {
@@ -102,17 +107,16 @@ absl::Status Damaged(const std::string& how) {
 
 // The pages, and that indexes and tables say the same: what an index does not have is not found.
 absl::Status CheckIntegrity(SqliteDatabase& database) {
-  SqliteQuery query(database, "PRAGMA integrity_check(1)");
-  BCCSKEL_RETURN_IF_ERROR(query.Next().status());
-  const std::string answer = query.Text();
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("PRAGMA integrity_check(1)", {}));
+  const std::string answer = rows.front().Text();
   return answer == "ok" ? absl::OkStatus() : Damaged(answer);
 }
 
 absl::Status CheckSchema(SqliteDatabase& database) {
-  SqliteQuery query(database, "SELECT schema_check = " BCCSKEL_SCHEMA_CHECK " FROM store");
-  BCCSKEL_ASSIGN_OR_RETURN(const bool found, query.Next());
-  return found && query.Number() == 1 ? absl::OkStatus()
-                                      : Damaged("its tables are defined wrongly");
+  static constexpr char kCheck[] = "SELECT schema_check = " BCCSKEL_SCHEMA_CHECK " FROM store";
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run(kCheck, {}));
+  const bool whole = !rows.empty() && rows.front().Number() == 1;
+  return whole ? absl::OkStatus() : Damaged("its tables are defined wrongly");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "server/store/file_io.h"
-#include "server/store/little_endian.h"
+#include "server/store/row_checksum.h"
 
 namespace bccskel::server {
 namespace {
@@ -42,21 +42,19 @@ absl::StatusCode CodeOf(int sqlite_code, int system_error) {
   }
 }
 
-void AddValue(sqlite3_value* value, std::string& bytes) {
+SqlValue ValueOf(sqlite3_value* value) {
   const int type = sqlite3_value_type(value);
-  bytes.push_back(static_cast<char>(type));
-  if (type == SQLITE_INTEGER) {
-    return AppendNumber(static_cast<uint64_t>(sqlite3_value_int64(value)), bytes);
-  }
+  if (type == SQLITE_INTEGER) return SqlValue::Number(sqlite3_value_int64(value));
   const void* const content = sqlite3_value_blob(value);
   const auto size = static_cast<size_t>(sqlite3_value_bytes(value));
-  AppendNumber(uint64_t{size}, bytes);
-  if (size > 0) bytes.append(static_cast<const char*>(content), size);
+  std::string bytes;
+  if (size > 0) bytes.assign(static_cast<const char*>(content), size);
+  return type == SQLITE_TEXT ? SqlValue::Text(std::move(bytes)) : SqlValue::Blob(std::move(bytes));
 }
 
 void Checksum(sqlite3_context* context, int count, sqlite3_value** values) {
   std::string bytes;
-  for (int n = 0; n < count; ++n) AddValue(values[n], bytes);
+  for (int n = 0; n < count; ++n) AppendChecked(ValueOf(values[n]), bytes);
   sqlite3_result_int64(context, Crc32c(bytes));
 }
 
@@ -91,16 +89,21 @@ absl::Status SqliteDatabase::Execute(const char* sql) {
   return code == SQLITE_OK ? absl::OkStatus() : ErrorOf(code, sql);
 }
 
+absl::Status SqliteDatabase::Begin(const std::string&) {
+  BCCSKEL_RETURN_IF_ERROR(Health());
+  return Execute("BEGIN IMMEDIATE");
+}
+
 bool SqliteDatabase::InTransaction() const { return sqlite3_get_autocommit(database_) == 0; }
-absl::Status SqliteDatabase::CheckFile() const {
+
+absl::Status SqliteDatabase::Forget() { return Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
+
+absl::Status SqliteDatabase::Health() const {
   const absl::StatusOr<FileFacts> now = FactsOf(path_);
   if (now.ok() && now->identity == identity_) return absl::OkStatus();
   return absl::DataLossError(
       "the file of the tables is gone, or another one has its name: what is written now is lost");
 }
-
-int64_t SqliteDatabase::LastRow() const { return sqlite3_last_insert_rowid(database_); }
-int SqliteDatabase::Changes() const { return sqlite3_changes(database_); }
 
 absl::Status SqliteDatabase::ErrorOf(int code, const char* doing) const {
   // SQLite forgets the system's error where a COMMIT fails; errno has it still.
@@ -123,63 +126,54 @@ absl::StatusOr<sqlite3_stmt*> SqliteDatabase::Prepared(const char* sql) {
   return statement;
 }
 
-SqliteQuery::SqliteQuery(SqliteDatabase& database, const char* sql, Unbound)
-    : database_(database), sql_(sql) {
-  auto statement = database_.Prepared(sql);
-  if (statement.ok()) {
-    statement_ = *statement;
-  } else {
-    status_ = statement.status();
+absl::Status SqliteDatabase::Bind(sqlite3_stmt* statement, const std::vector<SqlValue>& values,
+                                  const char* sql) {
+  int index = 0;
+  for (const SqlValue& value : values) {
+    ++index;
+    const std::string& bytes = value.bytes;
+    int code = SQLITE_OK;
+    if (value.kind == SqlValue::Kind::kNumber) {
+      code = sqlite3_bind_int64(statement, index, value.number);
+    } else if (value.kind == SqlValue::Kind::kText) {
+      code = sqlite3_bind_text64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC,
+                                 SQLITE_UTF8);
+    } else {
+      code = sqlite3_bind_blob64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC);
+    }
+    if (code != SQLITE_OK) return ErrorOf(code, sql);
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Rows(sqlite3_stmt* statement, const char* sql) {
+  std::vector<SqlRow> rows;
+  errno = 0;
+  while (true) {
+    const int code = sqlite3_step(statement);
+    if (code == SQLITE_DONE) return rows;
+    if (code != SQLITE_ROW) return ErrorOf(code, sql);
+    std::vector<SqlValue> values;
+    for (int column = 0; column < sqlite3_column_count(statement); ++column) {
+      // Of any type: in a damaged file a column may have another one.
+      const int64_t number = sqlite3_column_int64(statement, column);
+      const void* const bytes = sqlite3_column_blob(statement, column);
+      const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, column));
+      SqlValue& value = values.emplace_back(SqlValue::Number(number));
+      if (bytes != nullptr) value.bytes.assign(static_cast<const char*>(bytes), size);
+    }
+    rows.emplace_back(std::move(values));
   }
 }
 
-SqliteQuery::~SqliteQuery() {
-  if (statement_ == nullptr) return;
-  sqlite3_reset(statement_);
-  sqlite3_clear_bindings(statement_);
-}
-
-// Binding fails for wrong indexes and without memory only; Next() would then see a wrong statement,
-// so the first error is kept.
-void SqliteQuery::Bind(int index, int64_t value) {
-  if (!status_.ok()) return;
-  const int code = sqlite3_bind_int64(statement_, index, value);
-  if (code != SQLITE_OK) status_ = database_.ErrorOf(code, sql_);
-}
-
-void SqliteQuery::Bind(int index, const std::string& value) {
-  if (!status_.ok()) return;
-  const int code = sqlite3_bind_text64(statement_, index, value.data(), value.size(), SQLITE_STATIC,
-                                       SQLITE_UTF8);
-  if (code != SQLITE_OK) status_ = database_.ErrorOf(code, sql_);
-}
-
-void SqliteQuery::Bind(int index, const Blob& value) {
-  if (!status_.ok()) return;
-  const int code =
-      sqlite3_bind_blob64(statement_, index, value.bytes.data(), value.bytes.size(), SQLITE_STATIC);
-  if (code != SQLITE_OK) status_ = database_.ErrorOf(code, sql_);
-}
-
-absl::StatusOr<bool> SqliteQuery::Next() {
-  BCCSKEL_RETURN_IF_ERROR(status_);
-  column_ = 0;
-  errno = 0;
-  const int code = sqlite3_step(statement_);
-  if (code == SQLITE_ROW) return true;
-  if (code == SQLITE_DONE) return false;
-  return database_.ErrorOf(code, sql_);
-}
-
-absl::Status SqliteQuery::Run() { return Next().status(); }
-
-int64_t SqliteQuery::Number() { return sqlite3_column_int64(statement_, column_++); }
-
-std::string SqliteQuery::Text() {
-  const int column = column_++;
-  const void* const bytes = sqlite3_column_blob(statement_, column);
-  const auto size = static_cast<size_t>(sqlite3_column_bytes(statement_, column));
-  return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
+absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Run(const char* sql,
+                                                        const std::vector<SqlValue>& values) {
+  BCCSKEL_ASSIGN_OR_RETURN(sqlite3_stmt * statement, Prepared(sql));
+  const absl::Status bound = Bind(statement, values, sql);
+  auto rows = bound.ok() ? Rows(statement, sql) : bound;
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  return rows;
 }
 
 }  // namespace bccskel::server

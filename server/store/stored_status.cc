@@ -1,6 +1,7 @@
 #include "server/store/stored_status.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -47,10 +48,15 @@ std::string BytesOf(const absl::Status& status) {
   if (status.ok()) return bytes;
   AddNumber(static_cast<size_t>(status.raw_code()), bytes);
   AddText(std::string_view(status.message().data(), status.message().size()), bytes);
+  // They come in no order of their own.
+  std::map<std::string, std::string> payloads;
   status.ForEachPayload([&](const auto& url, const absl::Cord& payload) {
-    AddText(std::string_view(url.data(), url.size()), bytes);
-    AddText(std::string(payload), bytes);
+    payloads.emplace(std::string(url.data(), url.size()), std::string(payload));
   });
+  for (const auto& [url, payload] : payloads) {
+    AddText(url, bytes);
+    AddText(payload, bytes);
+  }
   return bytes;
 }
 

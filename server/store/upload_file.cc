@@ -21,6 +21,12 @@ std::string EntryOf(std::string_view bytes) {
   return entry;
 }
 
+bool IsWhole(const std::string& entry) {
+  if (entry.size() < kEntryBytes) return false;
+  return NumberAt<uint32_t>(entry, kCheckedBytes) ==
+         Crc32c(std::string_view(entry).substr(0, kCheckedBytes));
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<UploadFile>> UploadFile::Open(const std::string& path) {
@@ -37,29 +43,57 @@ absl::StatusOr<UploadFile::Files> UploadFile::OpenFiles() const {
   return Files{std::move(bytes), std::move(chunks)};
 }
 
+absl::StatusOr<std::unique_ptr<UploadFile>> UploadFile::Copy(const std::string& from,
+                                                             const std::string& to) {
+  BCCSKEL_ASSIGN_OR_RETURN(File bytes, File::OpenToRead(BytesPath(from)));
+  BCCSKEL_ASSIGN_OR_RETURN(File chunks, File::OpenToRead(ChunksPath(from)));
+  const Files files = {std::move(bytes), std::move(chunks)};
+  UploadFile source(from);
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> copy, Open(to));
+  while (true) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto chunk, source.NextChunk(files));
+    if (!chunk.has_value()) return copy;
+    source.Count(*chunk);
+    BCCSKEL_RETURN_IF_ERROR(copy->Append(*chunk));
+  }
+}
+
+uint64_t UploadFile::SizeOf(const std::string& path) {
+  const auto chunks = File::OpenToRead(ChunksPath(path));
+  uint64_t size = 0;
+  for (uint64_t at = 0; chunks.ok(); at += kEntryBytes) {
+    const auto entry = chunks->ReadAt(at, kEntryBytes);
+    if (!entry.ok() || !IsWhole(*entry)) break;
+    size += NumberAt<uint32_t>(*entry, 0);
+  }
+  return size;
+}
+
 absl::Status UploadFile::Recover(Files files) {
-  bool whole = true;
-  while (whole) {
-    BCCSKEL_ASSIGN_OR_RETURN(whole, RecoverChunk(files));
+  while (true) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto chunk, NextChunk(files));
+    if (!chunk.has_value()) break;
+    Count(*chunk);
   }
   BCCSKEL_RETURN_IF_ERROR(files.bytes.Truncate(size_));
   return files.chunks.Truncate(chunks_size_);
 }
 
-absl::StatusOr<bool> UploadFile::RecoverChunk(const Files& files) {
+absl::StatusOr<std::optional<std::string>> UploadFile::NextChunk(const Files& files) const {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string entry, files.chunks.ReadAt(chunks_size_, kEntryBytes));
-  if (entry.size() < kEntryBytes) return false;
-  const std::string_view checked = std::string_view(entry).substr(0, kCheckedBytes);
-  if (NumberAt<uint32_t>(entry, kCheckedBytes) != Crc32c(checked)) return false;
+  if (!IsWhole(entry)) return std::nullopt;
   const size_t length = NumberAt<uint32_t>(entry, 0);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string chunk, files.bytes.ReadAt(size_, length));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string chunk, files.bytes.ReadAt(size_, length));
   if (chunk.size() < length || Crc32c(chunk) != NumberAt<uint32_t>(entry, sizeof(uint32_t))) {
-    return false;
+    return std::nullopt;
   }
+  return std::optional(std::move(chunk));
+}
+
+void UploadFile::Count(std::string_view chunk) {
   sha256_.Add(chunk);
-  size_ += length;
+  size_ += chunk.size();
   chunks_size_ += kEntryBytes;
-  return true;
 }
 
 absl::Status UploadFile::Append(std::string_view bytes) {
@@ -72,9 +106,7 @@ absl::Status UploadFile::Append(std::string_view bytes) {
     files.chunks.Truncate(chunks_size_).IgnoreError();
     return status;
   }
-  sha256_.Add(bytes);
-  size_ += bytes.size();
-  chunks_size_ += kEntryBytes;
+  Count(bytes);
   return absl::OkStatus();
 }
 

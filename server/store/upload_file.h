@@ -27,6 +27,12 @@ class UploadFile {
   // Makes the files or goes on with those that are there: reads them and cuts off what is damaged.
   static absl::StatusOr<std::unique_ptr<UploadFile>> Open(const std::string& path);
 
+  // A new upload with all that is whole in another one, be it that somebody writes that still.
+  static absl::StatusOr<std::unique_ptr<UploadFile>> Copy(const std::string& from,
+                                                          const std::string& to);
+  // Of the chunks, as far as their entries are whole; 0 where there is none.
+  static uint64_t SizeOf(const std::string& path);
+
   uint64_t size() const { return size_; }
   // After an error the upload is as it was before.
   absl::Status Append(std::string_view bytes);
@@ -45,8 +51,9 @@ class UploadFile {
   explicit UploadFile(std::string path) : path_(std::move(path)) {}
   absl::StatusOr<Files> OpenFiles() const;
   absl::Status Recover(Files files);
-  // False for a chunk that is not whole.
-  absl::StatusOr<bool> RecoverChunk(const Files& files);
+  // The next chunk's bytes; nothing for one that is not whole.
+  absl::StatusOr<std::optional<std::string>> NextChunk(const Files& files) const;
+  void Count(std::string_view chunk);
 
   const std::string path_;
   uint64_t size_ = 0;

@@ -34,6 +34,22 @@ TEST(Context, RunsOnItsTeam) {
   EXPECT_EQ(ran, std::vector<int>(3, 1));
 }
 
+TEST(Context, SharesWorkAmongThreadsThatAreNotLeftToOthers) {
+  WorkerTeam team(3);
+  Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  EXPECT_EQ(context.WorkersFor(100), 3);
+  int share = 2;
+  context.share = [&share] { return share; };
+  EXPECT_EQ(context.WorkersFor(100), 2);
+  share = 1;
+  EXPECT_EQ(context.WorkersFor(100), 1);
+  EXPECT_EQ(context.MeetingWorkersFor(100), 1);
+  share = 7;
+  EXPECT_EQ(context.WorkersFor(100), 3);
+}
+
 TEST(Context, StopsWhenAskedTo) {
   std::stop_source source;
   Context context;

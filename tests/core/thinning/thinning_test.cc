@@ -79,6 +79,27 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
   }
 }
 
+// The team asks for its share after each cycle, until worker 0 goes on alone.
+TEST(Thinning, LeavesThreadsToOthersBetweenShellsAndGivesTheSameBits) {
+  const Volume object = Blob(12);
+  exec::WorkerTeam team(2);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  context.patience = 1e9;
+  int shells = 0, asked_together = 0, asked_alone = 0;
+  context.on_shell = [&](const exec::ShellProgress&) { ++shells; };
+  context.share = [&] {
+    if (shells > 0) ++(shells > 3 ? asked_alone : asked_together);
+    return shells >= 2 ? 1 : 2;
+  };
+  const Volume alone = Thin(object, {}).thin;
+  EXPECT_TRUE(Thin(object, {}, context).thin == alone);
+  EXPECT_GT(shells, 4);
+  EXPECT_GT(asked_together, 0);
+  EXPECT_EQ(asked_alone, 0);
+}
+
 TEST(Thinning, ReportsEveryShellOnce) {
   const Volume object = Blob(3);
   std::vector<exec::ShellProgress> reports;

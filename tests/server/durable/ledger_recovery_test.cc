@@ -261,6 +261,11 @@ TEST(RunQueueTest, LetsTenantsTakeTurnsAndPutsSuspectsBack) {
   queue.Add(job("a", 5));
   queue.Add(job("b", 6));
   EXPECT_EQ(queue.First({{"a", 1}}), 6) << "who has less at work comes first";
+  const TenantTable heavy = {.each = {}, .named = {{"a", {.weight = 3}}}};
+  EXPECT_NE(queue.First({{"a", 2}, {"b", 1}}, RunQueue::Suspects::kWelcome, heavy), 6)
+      << "less for its weight";
+  const TenantTable capped = {.each = {.max_running = 2}, .named = {}};
+  EXPECT_EQ(queue.First({{"a", 2}, {"b", 2}}, RunQueue::Suspects::kWelcome, capped), std::nullopt);
 }
 
 // A server that is killed at any moment, and what it has confirmed until then.

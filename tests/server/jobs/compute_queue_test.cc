@@ -141,6 +141,28 @@ TEST(ComputeQueue, ALargeJobStartsBesideOneThatHasAllThreads) {
   EXPECT_EQ(second, 1);
 }
 
+TEST(ComputeQueue, AJobLeavesThreadsToThoseThatComeLaterAndTakesThemBack) {
+  ComputeQueue queue(4, 4);
+  std::binary_semaphore may_end(0);
+  queue.Post(Claim(4), [&](ComputeQueue::Turn& turn) {
+    EXPECT_EQ(turn.share(), 4);
+    std::latch both(2), seen(1);
+    queue.Post(Claim(4), [&](ComputeQueue::Turn& later) {
+      EXPECT_EQ(later.share(), 1);
+      both.count_down();
+      seen.wait();
+    });
+    both.arrive_and_wait();
+    EXPECT_EQ(turn.share(), 3);
+    seen.count_down();
+    WaitForUsage(queue, {.waiting = 0, .running = 1, .busy_threads = 4});
+    EXPECT_EQ(turn.share(), 4);
+    may_end.release();
+  });
+  may_end.acquire();
+  WaitForUsage(queue, Usage());
+}
+
 TEST(ComputeQueue, LargeJobsThatCameTogetherLatelyTakeOneThreadEach) {
   std::atomic<int> now_ms = 0;
   ComputeQueue queue(

@@ -23,7 +23,11 @@ def server_arguments():
     yield "Dockerfile", image
     compose = yaml.safe_load((DOCKER / "compose.yaml").read_text())
     yield "compose.yaml", image + compose["services"]["server"]["command"]
-    for name in ("base/deployment.yaml", "durable/keep-jobs.yaml"):
+    fleet = yaml.safe_load((DOCKER / "compose-fleet.yaml").read_text())
+    for name, service in fleet["services"].items():
+        if name.startswith("server"):
+            yield f"compose-fleet.yaml {name}", image + service["command"]
+    for name in ("base/deployment.yaml", "durable/keep-jobs.yaml", "fleet/share-jobs.yaml"):
         deployment = yaml.safe_load((DOCKER / "kubernetes" / name).read_text())
         containers = deployment["spec"]["template"]["spec"]["containers"]
         yield name, image + next(c["args"] for c in containers if c["name"] == "server")
@@ -64,6 +68,24 @@ class DeploymentTest(unittest.TestCase):
         told = set(re.findall(r'"((?:bccskel|process)_[a-z_]+)"', sources))
         for name, metric in named_metrics():
             self.assertIn(metric, told, f"in {name}")
+
+    def test_a_fleet_shares_a_folder_and_nginx_finds_every_server(self):
+        fleet = yaml.safe_load((DOCKER / "compose-fleet.yaml").read_text())
+        servers = {name: service for name, service in fleet["services"].items()
+                   if name.startswith("server")}
+        self.assertEqual(len(servers), 3)
+        mounts = dict(mount.split(":")[:2] for mount in fleet["services"]["nginx"]["volumes"])
+        upstreams = (DOCKER / "nginx/fleet/servers.conf").read_text()
+        targets = yaml.safe_load((DOCKER / "prometheus/fleet.yml").read_text())[
+            "scrape_configs"][0]["static_configs"][0]["targets"]
+        for name, service in servers.items():
+            volumes = dict(mount.split(":")[:2] for mount in service["volumes"])
+            self.assertEqual(volumes["data"], "/var/lib/bccskel")
+            socket = next(volume for volume, at in volumes.items() if at == "/run/bccskel")
+            self.assertIn(f"unix:{mounts[socket]}/server.sock", upstreams)
+            self.assertIn(f"{name}:9464", targets)
+        claim = yaml.safe_load((DOCKER / "kubernetes/fleet/volume-claim.yaml").read_text())
+        self.assertEqual(claim["spec"]["accessModes"], ["ReadWriteMany"])
 
     def test_both_kinds_of_pod_mount_what_nginx_and_server_share(self):
         base = yaml.safe_load((DOCKER / "kubernetes/base/deployment.yaml").read_text())

@@ -1,13 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <random>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "server/store/file_io.h"
 #include "server/store/schema.h"
+#include "server/store/sql_job_store.h"
 #include "server/store/sqlite_database.h"
-#include "server/store/sqlite_job_store.h"
+#include "tests/server/store/postgres_server.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {
@@ -15,12 +19,25 @@ namespace {
 
 using testing::ElementsAre, testing::Field, testing::HasSubstr, testing::IsEmpty;
 
-class JobStoreTest : public testing::Test {
+enum class Backend { kSqlite, kPostgres };
+
+class JobStoreTest : public testing::TestWithParam<Backend> {
  protected:
-  void SetUp() override { Reopen(); }
+  void SetUp() override {
+    if (GetParam() == Backend::kPostgres) {
+      PostgresServer* const server = PostgresServer::Get();
+      if (server == nullptr) GTEST_SKIP() << "PostgreSQL is not installed (or was not built in)";
+      database_ = server->NewDatabase();
+    }
+    Reopen();
+  }
+  absl::StatusOr<std::unique_ptr<JobStore>> Open() {
+    return database_.empty() ? OpenSqliteJobStore(folder_ / "jobs.db")
+                             : OpenPostgresJobStore(database_);
+  }
   void Reopen() {
     store_.reset();
-    auto store = OpenSqliteJobStore(folder_ / "jobs.db");
+    auto store = Open();
     ASSERT_TRUE(store.ok()) << store.status();
     store_ = *std::move(store);
   }
@@ -38,10 +55,20 @@ class JobStoreTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
+  std::string database_;  // empty: SQLite's
   std::unique_ptr<JobStore> store_;
 };
 
-TEST_F(JobStoreTest, KeepsEveryFieldOfAJob) {
+INSTANTIATE_TEST_SUITE_P(Backends, JobStoreTest,
+                         testing::Values(Backend::kSqlite, Backend::kPostgres),
+                         [](const auto& info) {
+                           return info.param == Backend::kSqlite ? "Sqlite" : "Postgres";
+                         });
+
+class SqliteJobStoreTest : public JobStoreTest {};
+INSTANTIATE_TEST_SUITE_P(Backends, SqliteJobStoreTest, testing::Values(Backend::kSqlite));
+
+TEST_P(JobStoreTest, KeepsEveryFieldOfAJob) {
   JobRow job = Job("clinic", "jobs/1");
   job.request_id = "request";
   job.body = std::string("b\0dy", 4);
@@ -82,7 +109,7 @@ TEST_F(JobStoreTest, KeepsEveryFieldOfAJob) {
   EXPECT_EQ(found.ended, std::nullopt);
 }
 
-TEST_F(JobStoreTest, NeverChangesAJobThatHasEnded) {
+TEST_P(JobStoreTest, NeverChangesAJobThatHasEnded) {
   JobRow job = Job("clinic", "jobs/1");
   job.number = Insert(job);
   job.state = JobState::kCancelled;
@@ -92,7 +119,7 @@ TEST_F(JobStoreTest, NeverChangesAJobThatHasEnded) {
   EXPECT_EQ((*store_->FindJob("clinic", "jobs/1"))->state, JobState::kCancelled);
 }
 
-TEST_F(JobStoreTest, FindsNothingOfAnotherTenant) {
+TEST_P(JobStoreTest, FindsNothingOfAnotherTenant) {
   JobRow job = Job("clinic", "jobs/1");
   job.request_id = "request";
   Insert(job);
@@ -114,7 +141,7 @@ TEST_F(JobStoreTest, FindsNothingOfAnotherTenant) {
   EXPECT_THAT(*store_->ListJobs("other", std::nullopt, ~0u, 10), IsEmpty());
 }
 
-TEST_F(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
+TEST_P(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
   for (int n = 1; n <= 4; ++n) {
     JobRow job = Job("clinic", "jobs/" + std::to_string(n));
     if (n == 2) job.state = JobState::kFailed;
@@ -136,7 +163,7 @@ TEST_F(JobStoreTest, ListsTheNewestJobsFirstAndFiltersByState) {
   EXPECT_EQ(names(*store_->ListJobs("clinic", std::nullopt, 1u << 4, 10)), "2");
 }
 
-TEST_F(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
+TEST_P(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
   ASSERT_TRUE(store_->Begin().ok());
   ASSERT_TRUE(store_->BeginStep().ok());
   Insert(Job("clinic", "jobs/kept"));
@@ -149,7 +176,46 @@ TEST_F(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
   EXPECT_FALSE(store_->FindJob("clinic", "jobs/undone")->has_value());
 }
 
-TEST_F(JobStoreTest, GivesUpAResultWithItsLastJob) {
+TEST_P(JobStoreTest, TakesAnyBytesForANameAndFindsNothing) {
+  const std::string name("jobs/\0\xFF'", 8);
+  Insert(Job("clinic", name));
+  EXPECT_EQ((*store_->FindJob("clinic", name))->name, name);
+  EXPECT_FALSE(store_->FindJob("clinic", "jobs/")->has_value());
+}
+
+TEST_P(JobStoreTest, CountsWhatTheFilesOfEachTenantTake) {
+  const auto volume = [&](const std::string& name, const std::string& digest, uint64_t bytes) {
+    VolumeRow row;
+    row.tenant = "clinic";
+    row.name = name;
+    row.blob_digest = digest;
+    row.size_bytes = bytes;
+    EXPECT_TRUE(store_->PutVolume(row).ok());
+  };
+  volume("volumes/1", "a", 100);
+  volume("volumes/2", "a", 100);  // the same bytes, declared differently
+  volume("volumes/3", "b", 30);
+  UploadRow upload;
+  upload.tenant = "lab";
+  upload.name = "uploads/1";
+  upload.size_bytes = 7;
+  EXPECT_TRUE(store_->InsertUpload(upload).ok());
+  upload.name = "uploads/2";
+  EXPECT_TRUE(store_->InsertUpload(upload).ok());
+  upload.volume = "volumes/4";
+  upload.file = "file";
+  EXPECT_TRUE(store_->UpdateUpload(upload).ok());
+  EXPECT_EQ((*store_->FindUpload("lab", "uploads/2"))->file, "file");
+  ResultRow result;
+  result.tenant = "lab";
+  result.file = "file";
+  result.bytes = 50;
+  EXPECT_TRUE(store_->InsertResult(result).ok());
+  EXPECT_THAT(*store_->DiskUse(),
+              ElementsAre(testing::Pair("clinic", 130), testing::Pair("lab", 57)));
+}
+
+TEST_P(JobStoreTest, GivesUpAResultWithItsLastJob) {
   ResultRow result;
   result.tenant = "clinic";
   result.key = "key";
@@ -169,7 +235,7 @@ TEST_F(JobStoreTest, GivesUpAResultWithItsLastJob) {
   EXPECT_FALSE(store_->FindResult(number)->has_value());
 }
 
-TEST_F(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
+TEST_P(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
   const int64_t job = Insert(Job("clinic", "jobs/1"));
   for (uint64_t sequence : {1U, 2U, 3U}) {
     EventRow event;
@@ -184,7 +250,7 @@ TEST_F(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
 }
 
 // Every single bit would be 300,000 openings: a few hundred, the same ones at every run.
-TEST_F(JobStoreTest, GivesTheRightAnswerOrAnErrorWhateverBitIsFlipped) {
+TEST_P(SqliteJobStoreTest, GivesTheRightAnswerOrAnErrorWhateverBitIsFlipped) {
   constexpr int kJobs = 8, kFlips = 300;
   for (int n = 0; n < kJobs; ++n) {
     JobRow job = Job("clinic", "jobs/" + std::to_string(n));
@@ -221,6 +287,129 @@ TEST_F(JobStoreTest, GivesTheRightAnswerOrAnErrorWhateverBitIsFlipped) {
   }
   EXPECT_GT(told, 0);
   Reopen();
+}
+
+// Two servers of a fleet.
+class FleetStoreTest : public JobStoreTest {
+ protected:
+  void SetUp() override {
+    JobStoreTest::SetUp();
+    if (store_ == nullptr) return;
+    auto other = Open();
+    ASSERT_TRUE(other.ok()) << other.status();
+    other_ = *std::move(other);
+    ASSERT_TRUE(store_->Join("aa").ok());
+    ASSERT_TRUE(other_->Join("bb").ok());
+  }
+  Member MemberOf(const std::string& server) {
+    const auto members = *store_->Members();
+    for (const Member& member : members) {
+      if (member.server == server) return member;
+    }
+    return {};
+  }
+  std::unique_ptr<JobStore> other_;
+};
+INSTANTIATE_TEST_SUITE_P(Backends, FleetStoreTest, testing::Values(Backend::kPostgres));
+
+TEST_P(FleetStoreTest, WhoIsFencedOffWritesNothing) {
+  const Member seen = MemberOf("bb");
+  ASSERT_TRUE(other_->Beat().ok());
+  EXPECT_FALSE(*store_->Fence(seen)) << "it has given a sign of life since";
+  EXPECT_TRUE(*store_->Fence(MemberOf("bb")));
+  EXPECT_FALSE(other_->fenced());
+  EXPECT_TRUE(absl::IsUnavailable(other_->Begin()));
+  EXPECT_TRUE(other_->fenced());
+  other_->Rollback();
+  ASSERT_TRUE(store_->Begin().ok());
+  ASSERT_TRUE(store_->Commit().ok());
+  ASSERT_TRUE(other_->Join("cc").ok());
+  ASSERT_TRUE(other_->Begin().ok());
+  ASSERT_TRUE(other_->Commit().ok());
+}
+
+TEST_P(FleetStoreTest, OneWritesAtATime) {
+  ASSERT_TRUE(store_->Begin().ok());
+  Insert(Job("clinic", "jobs/1"));
+  std::atomic<bool> begun = false;
+  std::jthread second([&] {
+    EXPECT_TRUE(other_->Begin().ok());
+    begun = true;
+    EXPECT_TRUE(other_->FindJob("clinic", "jobs/1")->has_value());
+    EXPECT_TRUE(other_->Commit().ok());
+  });
+  for (int looks = 0; looks < 1000; ++looks) std::this_thread::yield();
+  EXPECT_FALSE(begun);
+  ASSERT_TRUE(store_->Commit().ok());
+}
+
+TEST_P(FleetStoreTest, TellsWhatOthersHaveChanged) {
+  const JobChanges none = *other_->ChangesAfter(-1);
+  EXPECT_THAT(none.jobs, IsEmpty());
+  JobRow job = Job("clinic", "jobs/1");
+  job.number = Insert(job);
+  JobRow ended = Job("clinic", "jobs/2");
+  ended.state = JobState::kFailed;
+  ended.number = Insert(ended);
+  EXPECT_THAT(other_->ChangesAfter(none.last)->jobs, testing::SizeIs(2));
+  const JobChanges all = *other_->ChangesAfter(-1);
+  EXPECT_THAT(all.jobs, ElementsAre(Field(&JobRow::name, "jobs/1")));
+  EXPECT_EQ(other_->ChangesAfter(all.last)->last, all.last);
+  job.state = JobState::kCancelled;
+  ASSERT_TRUE(*store_->UpdateJob(job));
+  const JobChanges changed = *other_->ChangesAfter(all.last);
+  EXPECT_THAT(changed.jobs, ElementsAre(Field(&JobRow::state, JobState::kCancelled)));
+  ASSERT_TRUE(store_->DeleteJob(job.number).ok());
+  const JobChanges deleted = *other_->ChangesAfter(changed.last);
+  EXPECT_THAT(deleted.jobs, IsEmpty());
+  EXPECT_THAT(deleted.deleted, ElementsAre(job.number));
+}
+
+TEST_P(FleetStoreTest, KnowsWhetherEqualWorkRunsElsewhere) {
+  JobRow job = Job("clinic", "jobs/1");
+  job.options = "options";
+  job.volume = "volumes/1";
+  job.state = JobState::kRunning;
+  job.owner = "aa";
+  Insert(job);
+  JobRow equal = job;
+  EXPECT_TRUE(*other_->RunsElsewhere(equal, "", "bb"));
+  EXPECT_FALSE(*other_->RunsElsewhere(equal, "", "aa")) << "that is its own";
+  equal.volume = "volumes/2";
+  EXPECT_FALSE(*other_->RunsElsewhere(equal, "cd", "bb"));
+  VolumeRow volume;
+  volume.tenant = "clinic";
+  volume.name = "volumes/1";
+  volume.volume_digest = "cd";
+  ASSERT_TRUE(store_->PutVolume(volume).ok());
+  EXPECT_TRUE(*other_->RunsElsewhere(equal, "cd", "bb")) << "the same points, encoded otherwise";
+  equal.options = "others";
+  EXPECT_FALSE(*other_->RunsElsewhere(equal, "cd", "bb"));
+}
+
+TEST_P(FleetStoreTest, GoesOnAfterTheDatabaseWasAway) {
+  PostgresServer::Get()->Restart();
+  EXPECT_FALSE(store_->FindJob("clinic", "jobs/1").ok());
+  while (!store_->Begin().ok()) std::this_thread::yield();
+  Insert(Job("clinic", "jobs/1"));
+  ASSERT_TRUE(store_->Commit().ok());
+  EXPECT_TRUE(store_->Health().ok());
+  EXPECT_TRUE(store_->FindJob("clinic", "jobs/1")->has_value());
+}
+
+TEST_P(FleetStoreTest, OneOfManyServersMakesTheTables) {
+  database_ = PostgresServer::Get()->NewDatabase();
+  std::atomic<int> opened = 0;
+  {
+    std::vector<std::jthread> servers;
+    for (int n = 0; n < 4; ++n) servers.emplace_back([&] { opened += Open().ok() ? 1 : 0; });
+  }
+  EXPECT_EQ(opened, 4);
+}
+
+TEST_P(FleetStoreTest, RefusesAPasswordThatOthersCouldSee) {
+  EXPECT_EQ(OpenPostgresJobStore("postgresql://me:secret@/x").status().code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 TEST(SchemaTest, RefusesAFileOfANewerServer) {
@@ -303,9 +492,7 @@ TEST(SchemaTest, StatesTheVersionThatItWrites) {
   const TemporaryFolder folder;
   ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
   auto database = *SqliteDatabase::Open(folder / "jobs.db");
-  SqliteQuery query(*database, "PRAGMA user_version");
-  ASSERT_TRUE(*query.Next());
-  EXPECT_EQ(query.Number(), SchemaVersion());
+  EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), SchemaVersion());
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "server/store/postgres_schema.h"
+
+#include <iterator>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+
+namespace bccskel::server {
+namespace {
+
+// Migration n brings tables from version n to version n + 1. What was released is never changed,
+// and servers of the version before go on with the tables of the next one until they are replaced:
+// so a migration adds, with defaults.
+//
+// Text is bytes, as callers sent it: it may hold a zero byte, and is compared as SQLite does.
+constexpr const char* kMigrations[] = {
+    // 1
+    R"(
+CREATE TABLE uploads(
+  tenant BYTEA NOT NULL, name BYTEA NOT NULL, declaration BYTEA NOT NULL,
+  size_bytes BIGINT NOT NULL, job BYTEA NOT NULL, volume BYTEA NOT NULL, used BIGINT NOT NULL,
+  file BYTEA NOT NULL, row_check BIGINT NOT NULL DEFAULT 0, PRIMARY KEY(tenant, name));
+CREATE TABLE volumes(
+  tenant BYTEA NOT NULL, name BYTEA NOT NULL, declaration BYTEA NOT NULL,
+  blob_digest BYTEA NOT NULL, volume_digest BYTEA NOT NULL, size_bytes BIGINT NOT NULL,
+  created BIGINT NOT NULL, used BIGINT NOT NULL, row_check BIGINT NOT NULL DEFAULT 0,
+  PRIMARY KEY(tenant, name));
+CREATE INDEX volumes_by_blob ON volumes(tenant, blob_digest);
+CREATE INDEX volumes_by_volume ON volumes(tenant, volume_digest);
+CREATE TABLE results(
+  number BIGSERIAL PRIMARY KEY, tenant BYTEA NOT NULL, key BYTEA NOT NULL, file BYTEA NOT NULL,
+  file_digest BYTEA NOT NULL, bytes BIGINT NOT NULL, records BIGINT NOT NULL,
+  summary BYTEA NOT NULL, row_check BIGINT NOT NULL DEFAULT 0, UNIQUE(tenant, key));
+CREATE SEQUENCE job_changes;
+CREATE TABLE jobs(
+  number BIGSERIAL PRIMARY KEY, tenant BYTEA NOT NULL, name BYTEA NOT NULL,
+  request_id BYTEA NOT NULL, body BYTEA NOT NULL, upload BYTEA NOT NULL, options BYTEA NOT NULL,
+  priority BIGINT NOT NULL, threads BIGINT NOT NULL, trace BYTEA NOT NULL,
+  created BIGINT NOT NULL, volume BYTEA NOT NULL, state INTEGER NOT NULL, attempts BIGINT NOT NULL,
+  crashes BIGINT NOT NULL, sequence BIGINT NOT NULL, owner BYTEA NOT NULL, error BYTEA NOT NULL,
+  result BIGINT NOT NULL, started BIGINT NOT NULL, ended BIGINT NOT NULL,
+  row_check BIGINT NOT NULL DEFAULT 0, changed BIGINT NOT NULL DEFAULT nextval('job_changes'),
+  UNIQUE(tenant, name));
+CREATE UNIQUE INDEX jobs_by_request ON jobs(tenant, request_id) WHERE request_id != '';
+CREATE INDEX jobs_by_creation ON jobs(tenant, created, name);
+CREATE INDEX jobs_unfinished ON jobs(number) WHERE state < 3;
+CREATE INDEX jobs_by_result ON jobs(result) WHERE result != 0;
+CREATE INDEX jobs_by_end ON jobs(ended) WHERE state >= 3;
+CREATE INDEX jobs_by_change ON jobs(changed);
+CREATE TABLE deleted_jobs(
+  changed BIGINT PRIMARY KEY DEFAULT nextval('job_changes'), number BIGINT NOT NULL,
+  at TIMESTAMPTZ NOT NULL DEFAULT now());
+CREATE FUNCTION note_job_change() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+  IF TG_OP = 'DELETE' THEN
+    INSERT INTO deleted_jobs(number) VALUES(OLD.number);
+    RETURN OLD;
+  END IF;
+  NEW.changed := nextval('job_changes');
+  RETURN NEW;
+END $$;
+CREATE TRIGGER job_changed BEFORE UPDATE OR DELETE ON jobs
+  FOR EACH ROW EXECUTE FUNCTION note_job_change();
+CREATE TABLE events(
+  job BIGINT NOT NULL REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,
+  time BIGINT NOT NULL, state INTEGER NOT NULL, attempt BIGINT NOT NULL, error BYTEA NOT NULL,
+  row_check BIGINT NOT NULL DEFAULT 0, PRIMARY KEY(job, sequence));
+CREATE TABLE removals(
+  kind BIGINT NOT NULL, tenant BYTEA NOT NULL, name BYTEA NOT NULL,
+  row_check BIGINT NOT NULL DEFAULT 0, PRIMARY KEY(kind, tenant, name));
+CREATE TABLE servers(
+  server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
+)",
+};
+
+constexpr char kVersionTable[] =
+    "CREATE TABLE IF NOT EXISTS store(id BYTEA NOT NULL, version BIGINT NOT NULL);"
+    "INSERT INTO store SELECT convert_to(replace(gen_random_uuid()::text, '-', ''), 'UTF8'), 0"
+    " WHERE NOT EXISTS (SELECT 1 FROM store);";
+
+absl::Status MigrateWithin(PostgresDatabase& database) {
+  BCCSKEL_RETURN_IF_ERROR(database.Execute(kVersionTable));
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("SELECT version FROM store", {}));
+  const auto version = static_cast<int>(rows.front().Number());
+  if (version > PostgresSchemaVersion()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("the job store has version ", version, ", this server knows versions up to ",
+                     PostgresSchemaVersion(), ": it was written by a newer server"));
+  }
+  for (int next = version; next < PostgresSchemaVersion(); ++next) {
+    BCCSKEL_RETURN_IF_ERROR(database.Execute(kMigrations[next]));
+  }
+  return database.Run("UPDATE store SET version = $1", {SqlValue::Number(PostgresSchemaVersion())})
+      .status();
+}
+
+}  // namespace
+
+int PostgresSchemaVersion() { return static_cast<int>(std::size(kMigrations)); }
+
+absl::Status Migrate(PostgresDatabase& database) {
+  BCCSKEL_RETURN_IF_ERROR(database.Begin(""));
+  absl::Status migrated = MigrateWithin(database);
+  if (migrated.ok()) return database.Execute("COMMIT");
+  if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
+  return migrated;
+}
+
+}  // namespace bccskel::server

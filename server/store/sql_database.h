@@ -1,0 +1,69 @@
+#ifndef BCCSKEL_SERVER_STORE_SQL_DATABASE_H_
+#define BCCSKEL_SERVER_STORE_SQL_DATABASE_H_
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+
+namespace bccskel::server {
+
+// A parameter of a statement, or a column of what it yields.
+struct SqlValue {
+  enum class Kind { kNumber, kText, kBlob };
+
+  static SqlValue Number(int64_t number) { return {Kind::kNumber, number, {}}; }
+  static SqlValue Text(std::string bytes) { return {Kind::kText, 0, std::move(bytes)}; }
+  static SqlValue Blob(std::string bytes) { return {Kind::kBlob, 0, std::move(bytes)}; }
+
+  Kind kind = Kind::kNumber;
+  int64_t number = 0;
+  std::string bytes;
+};
+
+// One row, read from left to right.
+class SqlRow {
+ public:
+  explicit SqlRow(std::vector<SqlValue> values) : values_(std::move(values)) {}
+  const std::vector<SqlValue>& values() const { return values_; }
+  int64_t Number() { return values_[next_++].number; }
+  std::string Text() { return std::move(values_[next_++].bytes); }
+
+ private:
+  std::vector<SqlValue> values_;
+  size_t next_ = 0;
+};
+
+// A connection to a database. Statements are written so that SQLite and PostgreSQL understand them:
+// $1, $2, ... are the parameters, first named in this order; all text is compared as bytes.
+// Errors of all: RESOURCE_EXHAUSTED (full disk); DATA_LOSS (damaged); UNAVAILABLE (locked or not
+//         reachable just now); INTERNAL.
+// Threads: one at a time, but for Health().
+class SqlDatabase {
+ public:
+  virtual ~SqlDatabase() = default;
+
+  // Any number of statements without parameters and rows.
+  virtual absl::Status Execute(const char* sql) = 0;
+  // Needs: `sql` is a literal.
+  virtual absl::StatusOr<std::vector<SqlRow>> Run(const char* sql,
+                                                  const std::vector<SqlValue>& values) = 0;
+
+  // Nobody else writes until the end of the transaction. Errors: ABORTED when `server`, unless it
+  // is empty, is no (longer) a member of the fleet.
+  virtual absl::Status Begin(const std::string& server) = 0;
+  virtual bool InTransaction() const = 0;
+
+  virtual absl::Status Health() const = 0;
+  // What was deleted is then nowhere in the files any more, as far as that is ours to say.
+  virtual absl::Status Forget() = 0;
+  // Whether other servers may use it, too.
+  virtual bool shared() const = 0;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_STORE_SQL_DATABASE_H_
