@@ -257,7 +257,9 @@ void Server::LookAfterData() {
                                  data_is_well_ ? Listener::Serving::kYes : Listener::Serving::kNo);
   }
   Log(data_is_well_ ? LogLevel::kInfo : LogLevel::kError,
-      data_is_well_ ? "data is well again" : "data is damaged",
+      data_is_well_                 ? "data is well again"
+      : absl::IsUnavailable(health) ? "data cannot be reached"
+                                    : "data is damaged",
       {{"message", std::string(health.message())}});
 }
 
