@@ -11,6 +11,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zlib
 import xml.etree.ElementTree
 
 import harness
@@ -445,9 +446,10 @@ class FormatsTest(harness.TestCase):
             with open(self.path("s.html")) as file:
                 text = file.read()
             html.parser.HTMLParser().feed(text)
-            shown, data = (json.loads(re.search(
-                rf'<script id="{name}" type="application/json">(.*?)</script>', text, re.S)[1])
-                for name in ("result", "data"))
+            packed, data = (re.search(rf'<script id="{name}" type="[^"]*">(.*?)</script>', text,
+                                      re.S)[1] for name in ("result", "data"))
+            shown = json.loads(zlib.decompress(base64.b64decode(packed)))
+            data = json.loads(data)
             self.assertEqual(shown["nodes"], document["nodes"])
             self.assertEqual([e["curve"] for e in shown["edges"]],
                              [e["curve"] for e in document["edges"]])
