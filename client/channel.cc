@@ -48,7 +48,7 @@ grpc::ChannelArguments ArgumentsFor(Endpoint::Sharing sharing) {
   grpc::ChannelArguments arguments;
   // The retry loop sets the pace; gRPC's own pause after a refused connection must not exceed it.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
   // Retries are counted in one place.
   arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);

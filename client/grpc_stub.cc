@@ -141,6 +141,7 @@ class GrpcStub : public Stub {
   absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) override {
+    AwaitReconnection();
     AcceptedCall accepted;
     auto result =
         Attempt<SkeletonizeResult>(options.stop, deadline, [&](grpc::ClientContext& context) {
@@ -160,6 +161,7 @@ class GrpcStub : public Stub {
                                                  const LabelsCallOptions& options,
                                                  const LabelConsumer& consume,
                                                  Clock::time_point deadline) override {
+    AwaitReconnection();
     return Attempt<LabelsReport>(options.stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = skeletonization_->SkeletonizeLabels(&context);
       return LabelsCall(context, *stream, options, consume).Run(volume);
@@ -167,6 +169,7 @@ class GrpcStub : public Stub {
   }
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
+    AwaitReconnection();
     grpc::ClientContext context;
     context.set_deadline(deadline);
     v1::GetCapabilitiesResponse response;
@@ -176,6 +179,16 @@ class GrpcStub : public Stub {
   }
 
  private:
+  // After a failure gRPC connects again by itself, but nobody reads what the server says first
+  // unless somebody waits: without this, no attempt after the first ever came through.
+  void AwaitReconnection() {
+    if (channel_->GetState(false) != GRPC_CHANNEL_TRANSIENT_FAILURE &&
+        channel_->GetState(false) != GRPC_CHANNEL_CONNECTING) {
+      return;
+    }
+    channel_->WaitForConnected(Clock::now() + std::chrono::milliseconds(300));
+  }
+
   // The stream is over, the job is not: goes on with it, or ends it where nobody waits any more.
   absl::StatusOr<SkeletonizeResult> AfterStream(const absl::Status& error,
                                                 const AcceptedCall& accepted,
