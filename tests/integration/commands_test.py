@@ -5,6 +5,7 @@ import json
 import os
 import pty
 import subprocess
+import time
 
 import harness
 
@@ -27,6 +28,16 @@ class CommandsTest(harness.TestCase):
         with open(self.path("tetrahedron.off"), "w") as file:
             file.write(TETRAHEDRON)
         return self.path("tetrahedron.off")
+
+    def test_a_client_reaches_a_server_that_starts_after_it(self):
+        volume = self.generate("ball", 5000)
+        client = subprocess.Popen(
+            [harness.CLIENT, "skeletonize", volume, "--server", f"unix:{self.folder}/server",
+             "-o", self.path("late.json")], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(0.1)
+        with harness.Server(self.folder):
+            _, said = client.communicate(timeout=60)
+        self.assertEqual(client.returncode, 0, said)
 
     def test_voxelize_submit_and_all_outputs(self):
         mesh, volume = self.tetrahedron(), self.path("v.exr")
