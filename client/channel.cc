@@ -4,6 +4,8 @@
 #include <grpcpp/support/channel_arguments.h>
 #include <grpcpp/support/client_interceptor.h>
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +80,13 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const Endpoint& endpo
   return grpc::experimental::CreateCustomChannelWithInterceptors(
       endpoint.address, CredentialsFor(endpoint.tls), ArgumentsFor(endpoint.sharing),
       std::move(senders));
+}
+
+void AwaitReconnection(grpc::Channel& channel, std::chrono::system_clock::time_point deadline) {
+  const grpc_connectivity_state state = channel.GetState(false);
+  if (state != GRPC_CHANNEL_TRANSIENT_FAILURE && state != GRPC_CHANNEL_CONNECTING) return;
+  channel.WaitForConnected(
+      std::min(deadline, std::chrono::system_clock::now() + std::chrono::milliseconds(300)));
 }
 
 }  // namespace bccskel::client

@@ -3,6 +3,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <chrono>
 #include <memory>
 
 #include "absl/status/statusor.h"
@@ -14,6 +15,11 @@ namespace bccskel::client {
 // how to reconnect. Nothing is sent yet.
 // Errors: as CheckEndpoint().
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const Endpoint& endpoint);
+
+// After a failure gRPC connects anew by itself, but reads what the server says first only while
+// somebody waits for the channel: calls that came after a pause found that the connection had timed
+// out. Waits for it, 300 ms and until the deadline at most, where there is one to wait for.
+void AwaitReconnection(grpc::Channel& channel, std::chrono::system_clock::time_point deadline);
 
 }  // namespace bccskel::client
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "client/retry_loop.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
@@ -45,21 +46,15 @@ class RetryingConnection : public Connection {
   }
 
  private:
-  // Attempts share one deadline; a pause that would pass it is not begun.
   template <typename Value, typename Attempt>
   absl::StatusOr<Value> Retry(
       milliseconds timeout, const std::stop_token& stop, Attempt attempt,
       const std::function<bool()>& may_repeat = [] { return true; }) {
-    const Stub::Clock::time_point deadline = Stub::Clock::now() + timeout;
-    RetryPauses pauses(policy_);
+    RetryLoop loop(policy_, pause_, timeout, stop);
     while (true) {
-      absl::StatusOr<Value> result = attempt(deadline);
+      absl::StatusOr<Value> result = attempt(loop.deadline());
       if (result.ok() || !may_repeat()) return result;
-      const std::optional<milliseconds> pause = pauses.Next(result.status());
-      if (!pause.has_value() || Stub::Clock::now() + *pause >= deadline) return result;
-      pause_(*pause, stop);
-      if (stop.stop_requested())
-        return absl::CancelledError("cancelled while waiting to try again");
+      if (std::optional<absl::Status> end = loop.EndAfter(result.status())) return *std::move(end);
     }
   }
 

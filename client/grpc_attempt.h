@@ -8,15 +8,18 @@
 #include <utility>
 
 #include "absl/status/status.h"
+#include "client/channel.h"
 
 namespace bccskel::client {
 
-// Makes one attempt at a call, which `stop` cancels.
+// Makes one attempt at a call on `channel`, which `stop` cancels.
 // Errors: CANCELLED before the call where the stop was requested before; those of `call`.
 template <typename Call>
-auto Attempt(const std::stop_token& stop, std::chrono::system_clock::time_point deadline, Call call)
+auto Attempt(grpc::Channel& channel, const std::stop_token& stop,
+             std::chrono::system_clock::time_point deadline, Call call)
     -> decltype(call(std::declval<grpc::ClientContext&>())) {
   if (stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
+  AwaitReconnection(channel, deadline);
   grpc::ClientContext context;
   context.set_deadline(deadline);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });

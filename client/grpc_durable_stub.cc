@@ -53,7 +53,9 @@ v1::UploadVolumeRequest FinishRequest(const EncodedVolume& volume) {
 class GrpcDurableStub final : public DurableStub {
  public:
   explicit GrpcDurableStub(const std::shared_ptr<grpc::Channel>& channel)
-      : volumes_(v1::VolumeService::NewStub(channel)), jobs_(v1::JobService::NewStub(channel)) {}
+      : channel_(channel),
+        volumes_(v1::VolumeService::NewStub(channel)),
+        jobs_(v1::JobService::NewStub(channel)) {}
 
   absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume, Deadline deadline) override {
     const Sha256Digest digest = Sha256Of(volume.bytes);
@@ -76,7 +78,7 @@ class GrpcDurableStub final : public DurableStub {
     if (begun == Begun::kMaybe) {
       BCCSKEL_ASSIGN_OR_RETURN(committed, CommittedSize(upload, deadline));
     }
-    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
       return Send(context, upload, volume, committed);
     });
   }
@@ -139,7 +141,7 @@ class GrpcDurableStub final : public DurableStub {
     v1::WatchJobRequest request;
     request.set_job(job);
     request.set_after_sequence(after_sequence);
-    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->WatchJob(&context, request);
       v1::WatchJobResponse response;
       while (stream->Read(&response)) {
@@ -154,7 +156,7 @@ class GrpcDurableStub final : public DurableStub {
     v1::ReadSkeletonRequest request;
     request.set_job(job);
     request.set_piece_index(reading.pieces());
-    return Attempt(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->ReadSkeleton(&context, request);
       v1::ReadSkeletonResponse piece;
       absl::Status taken;
@@ -167,8 +169,8 @@ class GrpcDurableStub final : public DurableStub {
 
  private:
   template <typename Do>
-  static absl::Status Call(Deadline deadline, Do call) {
-    return Attempt({}, deadline,
+  absl::Status Call(Deadline deadline, Do call) {
+    return Attempt(*channel_, {}, deadline,
                    [&](grpc::ClientContext& context) { return FromGrpcStatus(call(context)); });
   }
 
@@ -218,6 +220,7 @@ class GrpcDurableStub final : public DurableStub {
     return absl::DataLossError("a piece of a kind that this version does not know");
   }
 
+  const std::shared_ptr<grpc::Channel> channel_;
   const std::unique_ptr<v1::VolumeService::StubInterface> volumes_;
   const std::unique_ptr<v1::JobService::StubInterface> jobs_;
 };

@@ -9,6 +9,7 @@
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "client/channel.h"
 #include "client/connection.h"
+#include "client/grpc_attempt.h"
 #include "client/grpc_durable_stub.h"
 #include "client/grpc_status.h"
 #include "client/labels_call.h"
@@ -141,16 +142,14 @@ class GrpcStub : public Stub {
   absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) override {
-    AwaitReconnection();
     AcceptedCall accepted;
-    auto result =
-        Attempt<SkeletonizeResult>(options.stop, deadline, [&](grpc::ClientContext& context) {
-          const auto stream = skeletonization_->Skeletonize(&context);
-          SkeletonizeCall call(context, *stream, options);
-          auto one_stream = call.Run(volume);
-          accepted = call.accepted();
-          return one_stream;
-        });
+    auto result = Attempt(*channel_, options.stop, deadline, [&](grpc::ClientContext& context) {
+      const auto stream = skeletonization_->Skeletonize(&context);
+      SkeletonizeCall call(context, *stream, options);
+      auto one_stream = call.Run(volume);
+      accepted = call.accepted();
+      return one_stream;
+    });
     if (result.ok()) return result;
     const absl::Status error = WithoutForeignCancel(result.status(), options.stop);
     if (accepted.job.empty()) return error;
@@ -161,34 +160,21 @@ class GrpcStub : public Stub {
                                                  const LabelsCallOptions& options,
                                                  const LabelConsumer& consume,
                                                  Clock::time_point deadline) override {
-    AwaitReconnection();
-    return Attempt<LabelsReport>(options.stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, options.stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = skeletonization_->SkeletonizeLabels(&context);
       return LabelsCall(context, *stream, options, consume).Run(volume);
     });
   }
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
-    AwaitReconnection();
-    grpc::ClientContext context;
-    context.set_deadline(deadline);
     v1::GetCapabilitiesResponse response;
-    const grpc::Status status = server_->GetCapabilities(&context, {}, &response);
-    if (!status.ok()) return FromGrpcStatus(status);
+    BCCSKEL_RETURN_IF_ERROR(Attempt(*channel_, {}, deadline, [&](grpc::ClientContext& context) {
+      return FromGrpcStatus(server_->GetCapabilities(&context, {}, &response));
+    }));
     return ServerDescription{response.server_version(), response.algorithm_version()};
   }
 
  private:
-  // After a failure gRPC connects again by itself, but nobody reads what the server says first
-  // unless somebody waits: without this, no attempt after the first ever came through.
-  void AwaitReconnection() {
-    if (channel_->GetState(false) != GRPC_CHANNEL_TRANSIENT_FAILURE &&
-        channel_->GetState(false) != GRPC_CHANNEL_CONNECTING) {
-      return;
-    }
-    channel_->WaitForConnected(Clock::now() + std::chrono::milliseconds(300));
-  }
-
   // The stream is over, the job is not: goes on with it, or ends it where nobody waits any more.
   absl::StatusOr<SkeletonizeResult> AfterStream(const absl::Status& error,
                                                 const AcceptedCall& accepted,
@@ -207,16 +193,6 @@ class GrpcStub : public Stub {
       client.CancelJob(accepted.job, {.timeout = kFarewell, .stop = {}}).status().IgnoreError();
     }
     return error;
-  }
-
-  template <typename Value, typename Call>
-  static absl::StatusOr<Value> Attempt(const std::stop_token& stop, Clock::time_point deadline,
-                                       Call call) {
-    if (stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
-    grpc::ClientContext context;
-    context.set_deadline(deadline);
-    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-    return call(context);
   }
 
   std::shared_ptr<grpc::Channel> channel_;

@@ -31,13 +31,16 @@ class CommandsTest(harness.TestCase):
 
     def test_a_client_reaches_a_server_that_starts_after_it(self):
         volume = self.generate("ball", 5000)
-        client = subprocess.Popen(
-            [harness.CLIENT, "skeletonize", volume, "--server", f"unix:{self.folder}/server",
-             "-o", self.path("late.json")], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(0.1)
-        with harness.Server(self.folder):
-            _, said = client.communicate(timeout=60)
-        self.assertEqual(client.returncode, 0, said)
+        for name, words in (("one-call", ("skeletonize", volume, "-o", self.path("late.json"))),
+                            ("durable", ("submit", volume, "--detach"))):
+            with self.subTest(name):
+                client = subprocess.Popen(
+                    [harness.CLIENT, *words, "--server", f"unix:{self.folder}/{name}"],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                time.sleep(0.1)
+                with harness.Server(self.folder, "--data-dir", self.path("data"), name=name):
+                    _, said = client.communicate(timeout=60)
+                self.assertEqual(client.returncode, 0, said)
 
     def test_voxelize_submit_and_all_outputs(self):
         mesh, volume = self.tetrahedron(), self.path("v.exr")
