@@ -14,11 +14,11 @@
 #include "client/cli/server_arguments.h"
 #include "client/export/point_forest.h"
 #include "client/view/render/picture.h"
+#include "core/import/shapes/shapes.h"
+#include "core/import/voxelize/voxelize.h"
 #include "core/io/volume_header.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 #include "core/skeleton/tree_order.h"
-#include "core/voxelize/voxelize.h"
 
 namespace bccskel::cli {
 

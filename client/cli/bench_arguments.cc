@@ -9,8 +9,8 @@
 #include "client/cli/choice_option.h"
 #include "client/cli/count_option.h"
 #include "core/exec/instruction_sets.h"
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/option_words.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "client/cli/bench_memory.h"
 #include "client/cli/bench_objects.h"
 #include "core/exec/status_macros.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 
 namespace bccskel::cli {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
-#include "core/shapes/branching.h"
-#include "core/shapes/figures.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/branching.h"
+#include "core/import/shapes/figures.h"
+#include "core/import/shapes/shapes.h"
 
 namespace bccskel::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "absl/status/statusor.h"
 #include "core/volume/volume.h"
 
-// What the engine is measured on, here and in tests/bench: shapes of core/shapes, but
+// What the engine is measured on, here and in tests/bench: shapes of core/import/shapes, but
 //   blob        has 2 % of its boundary flipped, as scanned objects have;
 //   thin-tubes  are the tubes twelve times as long, about 0.01 % of their box.
 

@@ -8,7 +8,7 @@
 #include "client/cli/image_arguments.h"
 #include "core/certificate/certificate.h"
 #include "core/exec/context.h"
-#include "core/image/image_source.h"
+#include "core/import/image/image_source.h"
 #include "core/labels/voxel_runs.h"
 #include "core/volume/volume.h"
 

@@ -1,7 +1,7 @@
 #ifndef BCCSKEL_CLIENT_CLI_GRID_ARGUMENTS_H_
 #define BCCSKEL_CLIENT_CLI_GRID_ARGUMENTS_H_
 
-#include "core/voxelize/voxelize.h"
+#include "core/import/voxelize/voxelize.h"
 
 namespace CLI {
 class App;

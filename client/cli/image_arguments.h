@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/image/foreground.h"
-#include "core/image/image_options.h"
+#include "core/import/image/foreground.h"
+#include "core/import/image/image_options.h"
 #include "core/mask/mask_converter.h"
 
 namespace CLI {

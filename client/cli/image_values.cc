@@ -13,7 +13,7 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/status_macros.h"
-#include "core/image/open_image.h"
+#include "core/import/image/open_image.h"
 
 namespace bccskel::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "absl/status/statusor.h"
 #include "client/cli/image_arguments.h"
 #include "core/exec/context.h"
-#include "core/image/image_info.h"
+#include "core/import/image/image_info.h"
 
 namespace bccskel::cli {
 

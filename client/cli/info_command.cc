@@ -10,8 +10,8 @@
 #include "client/cli/mesh_summary.h"
 #include "client/cli/volume_summary.h"
 #include "core/certificate/certificate.h"
+#include "core/import/mesh/mesh_file.h"
 #include "core/io/volume_file.h"
-#include "core/mesh/mesh_file.h"
 
 namespace bccskel::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "core/exec/status_macros.h"
-#include "core/image/open_image.h"
+#include "core/import/image/open_image.h"
 #include "core/labels/skeletonize_labels.h"
 
 namespace bccskel::cli {

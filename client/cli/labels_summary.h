@@ -7,7 +7,7 @@
 
 #include "client/cli/arguments.h"
 #include "client/cli/skeleton_summary.h"
-#include "core/image/image_info.h"
+#include "core/import/image/image_info.h"
 #include "core/labels/skeletonize_labels.h"
 
 namespace bccskel::cli {

@@ -11,7 +11,7 @@
 #include "client/cli/load_object.h"
 #include "client/export/picture/caption.h"
 #include "core/exec/status_macros.h"
-#include "core/image/open_image.h"
+#include "core/import/image/open_image.h"
 #include "core/mask/mask_converter.h"
 
 namespace bccskel::cli {

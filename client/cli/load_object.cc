@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/image/open_image.h"
-#include "core/mesh/mesh_file.h"
+#include "core/import/image/open_image.h"
+#include "core/import/mesh/mesh_file.h"
 
 namespace bccskel::cli {
 namespace {

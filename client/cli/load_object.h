@@ -9,8 +9,8 @@
 #include "absl/status/statusor.h"
 #include "client/cli/image_arguments.h"
 #include "core/exec/context.h"
+#include "core/import/voxelize/voxelize.h"
 #include "core/volume/volume.h"
-#include "core/voxelize/voxelize.h"
 
 namespace bccskel::cli {
 

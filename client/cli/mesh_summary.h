@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/mesh/mesh_report.h"
-#include "core/voxelize/voxelize.h"
+#include "core/import/mesh/mesh_report.h"
+#include "core/import/voxelize/voxelize.h"
 
 namespace bccskel::cli {
 

@@ -9,9 +9,9 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "client/view/result_balls.h"
+#include "core/export/reconstruct/overlap.h"
+#include "core/export/reconstruct/union_of_balls.h"
 #include "core/io/volume_file.h"
-#include "core/reconstruct/overlap.h"
-#include "core/reconstruct/union_of_balls.h"
 
 namespace bccskel::cli {
 namespace {

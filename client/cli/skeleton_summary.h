@@ -7,10 +7,10 @@
 
 #include "client/cli/arguments.h"
 #include "client/cli/load_image.h"
-#include "core/mesh/mesh_report.h"
+#include "core/import/mesh/mesh_report.h"
+#include "core/import/voxelize/voxelize.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/volume/volume.h"
-#include "core/voxelize/voxelize.h"
 
 namespace bccskel::cli {
 

@@ -7,9 +7,9 @@
 
 #include "core/distance/distance_field.h"
 #include "core/exec/status_macros.h"
+#include "core/export/surface/cell_grid.h"
+#include "core/export/surface/smooth_surface.h"
 #include "core/shells/shells.h"
-#include "core/surface/cell_grid.h"
-#include "core/surface/smooth_surface.h"
 
 namespace bccskel::view {
 namespace {

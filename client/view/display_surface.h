@@ -9,8 +9,8 @@
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/export/surface/surface_mesh.h"
 #include "core/lattice/lattice_point.h"
-#include "core/surface/surface_mesh.h"
 #include "core/volume/volume.h"
 
 namespace bccskel::view {

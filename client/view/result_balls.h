@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "client/view/result_document.h"
-#include "core/reconstruct/union_of_balls.h"
+#include "core/export/reconstruct/union_of_balls.h"
 
 namespace bccskel::view {
 

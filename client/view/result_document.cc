@@ -7,7 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "core/mesh/file_bytes.h"
+#include "core/import/mesh/file_bytes.h"
 
 namespace bccskel::view {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "client/view/result_document.h"
-#include "core/surface/surface_mesh.h"
+#include "core/export/surface/surface_mesh.h"
 
 namespace bccskel::view {
 

@@ -8,8 +8,8 @@
 #include "client/cli/bench_core.h"
 #include "client/cli/bench_memory.h"
 #include "core/exec/worker_team.h"
-#include "core/shapes/rasterize.h"
-#include "core/shapes/solids.h"
+#include "core/import/shapes/rasterize.h"
+#include "core/import/shapes/solids.h"
 
 // Makes a skeleton of a ball that fills a share of a lattice of N^3 cells, once, and says as JSON
 // what that took. With 2048 and 0.45 that is an object of 7.7e9 points.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "client/skeleton_reading.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "tests/client/support/fake_server.h"
 
 // What is tried again, and from where it goes on.

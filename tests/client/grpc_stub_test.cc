@@ -5,7 +5,7 @@
 
 #include "client/connection.h"
 #include "core/digest/sha256.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "proto/wire/error_details.h"
 #include "tests/client/support/fake_server.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/connection.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "proto/wire/result.h"
 #include "proto/wire/skeleton_chunks.h"
 #include "tests/client/support/fake_server.h"

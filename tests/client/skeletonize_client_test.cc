@@ -6,8 +6,8 @@
 #include <array>
 #include <span>
 
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::client {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/image/foreground.h"
-#include "core/image/open_image.h"
+#include "core/import/image/foreground.h"
+#include "core/import/image/open_image.h"
 
 namespace {
 

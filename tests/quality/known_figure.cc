@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "core/exec/status_macros.h"
-#include "core/shapes/branching.h"
-#include "core/shapes/random.h"
-#include "core/shapes/rasterize.h"
+#include "core/import/shapes/branching.h"
+#include "core/import/shapes/random.h"
+#include "core/import/shapes/rasterize.h"
 
 namespace bccskel::quality {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/shapes/solids.h"
+#include "core/import/shapes/solids.h"
 #include "core/volume/volume.h"
 
 namespace bccskel::quality {

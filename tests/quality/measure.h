@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/import/shapes/solids.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/solids.h"
 #include "tests/quality/known_figure.h"
 
 // How far a skeleton is from the truth. Lattice units throughout.

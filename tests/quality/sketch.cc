@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/shapes/random.h"
+#include "core/import/shapes/random.h"
 
 namespace bccskel::quality {
 namespace {

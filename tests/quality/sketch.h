@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/shapes/solids.h"
+#include "core/import/shapes/solids.h"
 #include "core/volume/volume.h"
 #include "tests/quality/known_figure.h"
 #include "tests/quality/voxel_mask.h"

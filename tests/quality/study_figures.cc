@@ -3,7 +3,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/shapes/boundary_noise.h"
+#include "core/import/shapes/boundary_noise.h"
 #include "tests/quality/disturb.h"
 #include "tests/quality/known_figure.h"
 #include "tests/quality/measure.h"

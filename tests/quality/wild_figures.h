@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/shapes/random.h"
+#include "core/import/shapes/random.h"
 #include "tests/quality/sketch.h"
 
 // Random figures of the kinds that people have, beside the round ones of known_figure.h.

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "bccskel/v1/server_service.grpc.pb.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "proto/wire/error_details.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"

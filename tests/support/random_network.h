@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/shapes/random.h"
-#include "core/shapes/solids.h"
+#include "core/import/shapes/random.h"
+#include "core/import/shapes/solids.h"
 
 namespace bccskel::test {
 

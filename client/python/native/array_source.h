@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "absl/status/statusor.h"
-#include "core/image/image_source.h"
-#include "core/image/slice_buffer.h"
+#include "core/import/image/image_source.h"
+#include "core/import/image/slice_buffer.h"
 
 namespace bccskel::python {
 

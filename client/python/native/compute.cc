@@ -7,9 +7,9 @@
 #include "client/cli/load_object.h"
 #include "client/cli/local_team.h"
 #include "core/exec/status_macros.h"
+#include "core/import/voxelize/voxelize.h"
 #include "core/labels/convert_label.h"
 #include "core/labels/skeletonize_labels.h"
-#include "core/voxelize/voxelize.h"
 
 namespace bccskel::python {
 namespace {

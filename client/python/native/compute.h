@@ -15,10 +15,10 @@
 #include "client/cli/arguments.h"
 #include "client/encoded_labels.h"
 #include "client/skeletonize_client.h"
-#include "core/image/image_source.h"
+#include "core/import/image/image_source.h"
+#include "core/import/mesh/triangle_mesh.h"
 #include "core/labels/voxel_runs.h"
 #include "core/mask/mask_converter.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::python {

@@ -17,8 +17,8 @@
 #include "client/python/native/job.h"
 #include "client/python/native/skeleton_class.h"
 #include "core/exec/status_macros.h"
-#include "core/image/open_image.h"
-#include "core/mesh/mesh_file.h"
+#include "core/import/image/open_image.h"
+#include "core/import/mesh/mesh_file.h"
 #include "core/version/version.h"
 
 // What the Python files of this package call: coordinates in the order x, y, z, arrays in the order

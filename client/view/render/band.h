@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/view/render/beads.h"
-#include "core/surface/surface_mesh.h"
+#include "core/export/surface/surface_mesh.h"
 
 namespace bccskel::view {
 

@@ -16,7 +16,7 @@
 #include "client/view/render/glass_color.h"
 #include "client/view/sheet_surface.h"
 #include "core/certificate/describe_changes.h"
-#include "core/surface/smooth_surface.h"
+#include "core/export/surface/smooth_surface.h"
 
 namespace bccskel::view {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::exporting {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::view {
 namespace {

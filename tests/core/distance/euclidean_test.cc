@@ -7,8 +7,8 @@
 
 #include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
+#include "core/import/shapes/shapes.h"
 #include "core/lattice/directions.h"
-#include "core/shapes/shapes.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {

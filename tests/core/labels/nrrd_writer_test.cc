@@ -11,8 +11,8 @@
 #include <iterator>
 #include <string>
 
-#include "core/image/foreground.h"
-#include "core/image/open_image.h"
+#include "core/import/image/foreground.h"
+#include "core/import/image/open_image.h"
 
 namespace bccskel {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/image/foreground.h"
-#include "core/image/open_image.h"
+#include "core/import/image/foreground.h"
+#include "core/import/image/open_image.h"
 #include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pruning/sheet_pruner.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/import/shapes/figures.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/figures.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_network.h"

@@ -6,8 +6,8 @@
 #include <new>
 
 #include "core/exec/context.h"
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 
 // The allocator of this program fails on demand, for all but the words of messages: Abseil ends the
 // process where it cannot have those.

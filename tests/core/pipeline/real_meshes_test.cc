@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
-#include "core/mesh/mesh_file.h"
+#include "core/import/mesh/mesh_file.h"
+#include "core/import/voxelize/voxelize.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/voxelize/voxelize.h"
-#include "tests/core/mesh/test_data.h"
+#include "tests/core/import/mesh/test_data.h"
 #include "tests/support/reference_thinner.h"
 
 namespace bccskel {

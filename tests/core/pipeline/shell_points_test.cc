@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {

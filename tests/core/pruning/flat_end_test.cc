@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "core/import/shapes/rasterize.h"
+#include "core/import/shapes/solids.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/rasterize.h"
-#include "core/shapes/solids.h"
 #include "tests/core/pruning/simple_noise.h"
 
 namespace bccskel {

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/pruning/pruning_levels.h"
-#include "core/shapes/shapes.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/distance/exact_radius.h"
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 #include "core/thinning/thinning.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_objects.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_objects.h"

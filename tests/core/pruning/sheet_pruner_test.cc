@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/certificate/certificate.h"
+#include "core/import/shapes/figures.h"
 #include "core/pruning/simple_points.h"
-#include "core/shapes/figures.h"
 #include "core/topology/simple_point_table.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"

@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
+#include "core/import/shapes/rasterize.h"
+#include "core/import/shapes/shapes.h"
+#include "core/import/shapes/solids.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/rasterize.h"
-#include "core/shapes/shapes.h"
-#include "core/shapes/solids.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "tests/core/pruning/simple_noise.h"
 
 namespace bccskel {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/shapes/shapes.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel {

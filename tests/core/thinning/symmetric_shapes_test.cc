@@ -5,7 +5,7 @@
 
 #include "core/distance/distance_field.h"
 #include "core/exec/worker_team.h"
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "core/thinning/thinning.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "core/shapes/shapes.h"
 #include "server/admission/refusal.h"
 #include "server/decoding/child_decoder.h"
 #include "server/decoding/decoding_child.h"

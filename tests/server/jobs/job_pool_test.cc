@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "core/shapes/shapes.h"
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
 

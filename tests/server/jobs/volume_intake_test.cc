@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_encoder.h"
-#include "core/shapes/shapes.h"
 
 namespace bccskel::server {
 namespace {

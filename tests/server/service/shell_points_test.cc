@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/shapes/shapes.h"
+#include "core/import/shapes/shapes.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
-#include "core/shapes/shapes.h"
 #include "proto/wire/options.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"

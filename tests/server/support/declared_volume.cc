@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "core/digest/sha256.h"
+#include "core/import/shapes/shapes.h"
 #include "core/io/volume_encoder.h"
-#include "core/shapes/shapes.h"
 #include "proto/wire/placement.h"
 #include "proto/wire/volume_encoding.h"
 

@@ -1,0 +1,30 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_CHUNK_CODEC_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_CHUNK_CODEC_H_
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "absl/status/status.h"
+#include "core/import/image/image_file.h"
+
+namespace bccskel {
+
+// How the bytes of a chunk are compressed.
+enum class ChunkCodec {
+  kNone,
+  kDeflate,  // gzip or zlib
+  kZstd,
+  kLz4,    // one block behind its expanded length, as numcodecs writes it
+  kBlosc,  // with any of its own codecs
+};
+
+// Expands a file that holds one chunk of into.size() bytes; a file far longer than these is refused
+// before it is read.
+// Errors: INVALID_ARGUMENT for damaged bytes and for those that expand to fewer or more.
+absl::Status ExpandChunk(ChunkCodec codec, const std::shared_ptr<const ImageFile>& file,
+                         std::span<std::byte> into);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_CHUNK_CODEC_H_

@@ -1,0 +1,58 @@
+// Where headers end and voxels begin.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/exec/status_macros.h"
+#include "core/import/image/image_headers.h"
+
+namespace bccskel {
+
+absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
+                                     const ImageLimits& limits) {
+  std::array<std::byte, 2> magic = {};
+  BCCSKEL_RETURN_IF_ERROR(file->ReadAt(0, magic).status());
+  ImageFront front = {.file = std::move(file), .compression = SniffGzip(magic), .bytes = ""};
+  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(front.file, 0, front.compression));
+  const bool plain = front.compression == Compression::kNone;
+  const uint64_t most = plain ? front.file->size() : front.file->size() * kMaxDeflateRatio;
+  front.bytes.resize(static_cast<size_t>(std::min(limits.max_header_bytes, most)));
+  BCCSKEL_ASSIGN_OR_RETURN(const size_t got,
+                           stream->Read(std::as_writable_bytes(std::span(front.bytes))));
+  front.bytes.resize(got);
+  return front;
+}
+
+absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
+                               StoredImage& image) {
+  image.file = front.file;
+  if (front.compression == Compression::kNone) {
+    image.stream_offset = header_bytes;
+    image.compression = inner;
+    return absl::OkStatus();
+  }
+  if (inner != Compression::kNone) {
+    return absl::InvalidArgumentError("the voxels are compressed, and then the file again");
+  }
+  image.compression = front.compression;
+  image.skip = header_bytes;
+  return absl::OkStatus();
+}
+
+absl::Status PlaceInFile(const ImageFront& front, std::string_view name,
+                         std::optional<uint64_t> skip, Compression inner, StoredImage& image) {
+  BCCSKEL_ASSIGN_OR_RETURN(image.file, front.file->OpenBeside(std::string(name)));
+  image.compression = inner;
+  if (skip.has_value()) {
+    image.skip = *skip;
+    return absl::OkStatus();
+  }
+  if (inner != Compression::kNone) {
+    return absl::InvalidArgumentError("compressed voxels cannot be found from the file's end");
+  }
+  const uint64_t declared = image.VoxelBytesDeclared();
+  image.stream_offset = image.file->size() - std::min(declared, image.file->size());
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel

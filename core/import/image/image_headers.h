@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_HEADERS_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_HEADERS_H_
+
+// The headers of all formats but TIFF; open_image.h chooses between them. README.md tells why they
+// are not left to libraries.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/import/image/image_limits.h"
+#include "core/import/image/stored_image.h"
+
+namespace bccskel {
+
+// The beginning of a file: at most ImageLimits::max_header_bytes of it, expanded if the file as a
+// whole is compressed by gzip.
+struct ImageFront {
+  std::shared_ptr<const ImageFile> file;
+  Compression compression = Compression::kNone;
+  std::string bytes;
+};
+
+absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
+                                     const ImageLimits& limits);
+
+// Where the voxels begin, for a header that is followed by them. `inner` tells how the voxels alone
+// are compressed.
+// Errors: INVALID_ARGUMENT for voxels compressed twice.
+absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
+                               StoredImage& image);
+
+// Voxels in a file of their own beside the header, behind `skip` bytes; nothing: at its end.
+// Errors: as ImageFile::OpenBeside().
+absl::Status PlaceInFile(const ImageFront& front, std::string_view name,
+                         std::optional<uint64_t> skip, Compression inner, StoredImage& image);
+
+// Does the file begin as the format does?
+bool IsNifti(std::string_view front);
+bool IsNrrd(std::string_view front);
+bool IsMetaImage(std::string_view front);
+bool IsInrimage(std::string_view front);
+bool IsNpy(std::string_view front);
+bool IsVol(std::string_view front);
+
+// Errors of all: INVALID_ARGUMENT (malformed header, names the field and its value),
+//                RESOURCE_EXHAUSTED (over a limit), UNIMPLEMENTED (what the format knows and we do
+//                not read, such as voxels as text).
+absl::StatusOr<StoredImage> ParseNifti(const ImageFront& front, const ImageLimits& limits);
+absl::StatusOr<StoredImage> ParseNrrd(const ImageFront& front, const ImageLimits& limits);
+absl::StatusOr<StoredImage> ParseMetaImage(const ImageFront& front, const ImageLimits& limits);
+absl::StatusOr<StoredImage> ParseInrimage(const ImageFront& front, const ImageLimits& limits);
+absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits& limits);
+absl::StatusOr<StoredImage> ParseVol(const ImageFront& front, const ImageLimits& limits);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_HEADERS_H_

@@ -1,0 +1,37 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_OPTIONS_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_OPTIONS_H_
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+
+#include "core/import/image/image_info.h"
+#include "core/import/image/image_limits.h"
+
+namespace bccskel {
+
+// What a raw file cannot say itself.
+struct RawLayout {
+  std::array<int64_t, 3> size = {0, 0, 0};  // x, y, z; x varies fastest
+  VoxelType type = VoxelType::kUint8;
+  std::endian byte_order = std::endian::little;
+  uint64_t header_bytes = 0;  // in front of the voxels; of the expanded bytes, if gzip is used
+};
+
+struct ImageOptions {
+  // Reads the file as raw voxels, whatever it says of itself.
+  std::optional<RawLayout> raw;
+  // Replaces the spacing that the file tells, or does not tell.
+  std::optional<std::array<double, 3>> spacing;
+  // Of a TIFF file or OME-Zarr folder with several; counted from 0.
+  std::optional<int64_t> channel;
+  std::optional<int64_t> time;
+  // Of a pyramid (OME-Zarr, precomputed): 0, the default, is the finest.
+  std::optional<int64_t> level;
+  ImageLimits limits;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_OPTIONS_H_

@@ -1,0 +1,43 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_SOURCE_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_SOURCE_H_
+
+#include <cstdint>
+#include <span>
+#include <variant>
+
+#include "absl/status/statusor.h"
+#include "core/import/image/image_info.h"
+
+namespace bccskel {
+
+using SliceValues =
+    std::variant<std::span<const uint8_t>, std::span<const int8_t>, std::span<const uint16_t>,
+                 std::span<const int16_t>, std::span<const uint32_t>, std::span<const int32_t>,
+                 std::span<const uint64_t>, std::span<const int64_t>, std::span<const float>,
+                 std::span<const double>>;
+
+// Shapes: `values` holds nx * ny of them, x fastest.
+struct ImageSlice {
+  int32_t nx = 0;
+  int32_t ny = 0;
+  int32_t z = 0;
+  SliceValues values;
+};
+
+// An open image, read once from the first slice to the last. Memory goes with a slice, never with
+// the file; README.md names the one exception.
+class ImageSource {
+ public:
+  virtual ~ImageSource() = default;
+
+  virtual const ImageInfo& info() const = 0;
+
+  // The slice z = 0, then 1, and so on; its values live until the next call.
+  // Errors: INVALID_ARGUMENT (cut or damaged data), OUT_OF_RANGE after the last slice,
+  //         RESOURCE_EXHAUSTED (memory), and what the system says when it cannot read.
+  virtual absl::StatusOr<ImageSlice> NextSlice() = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_SOURCE_H_

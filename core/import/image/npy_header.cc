@@ -1,0 +1,126 @@
+// NumPy's .npy. The header is a Python dictionary of three entries; it is read, never run.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
+#include "core/import/image/image_headers.h"
+
+namespace bccskel {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+
+// What stands behind the key, up to the end of the dictionary.
+absl::StatusOr<std::string_view> ValueOf(std::string_view dictionary, std::string_view key) {
+  const std::string quoted = absl::StrFormat("'%s'", std::string(key));
+  const size_t at = dictionary.find(quoted);
+  if (at != dictionary.npos) {
+    const auto value = SplitAt(dictionary.substr(at + quoted.size()), ":");
+    if (value.has_value() && value->first.empty()) return value->second;
+  }
+  return absl::InvalidArgumentError(absl::StrFormat("the header lacks '%s'", std::string(key)));
+}
+
+struct Elements {
+  VoxelType type;
+  std::endian order;
+};
+
+absl::Status BadElements(std::string_view descr) {
+  return absl::InvalidArgumentError(
+      absl::StrFormat("elements of type %s are not read, only plain integers, floats and bools",
+                      std::string(descr.substr(0, descr.find(',')).substr(0, 80))));
+}
+
+absl::StatusOr<Elements> ElementsOf(std::string_view dictionary) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view descr, ValueOf(dictionary, "descr"));
+  if (descr.size() < 5 || descr[0] != '\'' || descr[4] != '\'') return BadElements(descr);
+  const std::endian order = descr[1] == '>' ? std::endian::big : std::endian::little;
+  const std::string_view name = descr.substr(2, 2);
+  if (descr[1] != '<' && descr[1] != '>' && descr[1] != '|') return BadElements(descr);
+  if (name == "b1") return Elements{VoxelType::kUint8, order};
+  const std::optional<int> bytes = ParseNumber<int>(name.substr(1));
+  if (!bytes.has_value()) return BadElements(descr);
+  const std::string short_name = absl::StrFormat("%c%d", name[0], 8 * *bytes);
+  const absl::StatusOr<VoxelType> type = ParseVoxelType(short_name);
+  if (!type.ok()) return BadElements(descr);
+  return Elements{*type, order};
+}
+
+absl::StatusOr<VoxelOrder> VoxelOrderOf(std::string_view dictionary) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view text, ValueOf(dictionary, "fortran_order"));
+  if (text.starts_with("False")) return VoxelOrder::kXFastest;
+  if (text.starts_with("True")) return VoxelOrder::kZFastest;
+  return absl::InvalidArgumentError("'fortran_order' is neither True nor False");
+}
+
+// The lengths of the axes as NumPy names them, the one of x last.
+absl::StatusOr<std::vector<int64_t>> ShapeOf(std::string_view dictionary) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view text, ValueOf(dictionary, "shape"));
+  const size_t end = text.find(')');
+  if (!text.starts_with('(') || end == text.npos) {
+    return absl::InvalidArgumentError("'shape' is not a tuple of numbers");
+  }
+  std::vector<int64_t> shape;
+  for (const std::string_view word : Words(text.substr(1, end - 1), ",")) {
+    BCCSKEL_ASSIGN_OR_RETURN(shape.emplace_back(), RequireNumber<int64_t>("shape", word));
+  }
+  constexpr size_t kMaxAxes = 32;  // NumPy's own limit
+  if (shape.size() <= kMaxAxes) return shape;
+  return absl::InvalidArgumentError(
+      absl::StrFormat("'shape' has %d axes, the limit is %d", shape.size(), kMaxAxes));
+}
+
+// Fastest first; an axis of length 1 on either side of more than three is dropped.
+std::vector<int64_t> AxesOf(std::vector<int64_t> shape) {
+  std::ranges::reverse(shape);
+  while (shape.size() > 3 && shape.back() == 1) shape.pop_back();
+  while (shape.size() > 3 && shape.front() == 1) shape.erase(shape.begin());
+  return shape;
+}
+
+struct Header {
+  std::string_view dictionary;
+  size_t bytes;  // where the elements begin
+};
+
+absl::StatusOr<Header> HeaderOf(std::string_view front) {
+  if (front.size() < 12) return absl::InvalidArgumentError("the header is cut");
+  const int version = front[6];
+  if (version < 1 || version > 3) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("version %d of the format, it must be 1, 2 or 3", version));
+  }
+  const size_t width = version == 1 ? 2 : 4;
+  size_t length = 0;
+  for (size_t n = width; n-- > 0;) length = length << 8 | static_cast<unsigned char>(front[8 + n]);
+  const size_t bytes = 8 + width + length;
+  if (bytes <= front.size()) return Header{front.substr(8 + width, length), bytes};
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "the header declares %d bytes, %d are there to be read", bytes, front.size()));
+}
+
+}  // namespace
+
+bool IsNpy(std::string_view front) { return front.starts_with(kMagic); }
+
+absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const Header header, HeaderOf(front.bytes));
+  StoredImage image;
+  image.info.format = "npy";
+  BCCSKEL_ASSIGN_OR_RETURN(const Elements elements, ElementsOf(header.dictionary));
+  image.stored_type = elements.type;
+  image.byte_order = elements.order;
+  BCCSKEL_ASSIGN_OR_RETURN(image.voxel_order, VoxelOrderOf(header.dictionary));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> shape, ShapeOf(header.dictionary));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(AxesOf(std::move(shape)), limits));
+  BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, header.bytes, Compression::kNone, image));
+  return image;
+}
+
+}  // namespace bccskel

@@ -1,0 +1,224 @@
+// NRRD, by teem's definition of the format, versions 1 to 5.
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
+#include "core/import/image/image_headers.h"
+
+namespace bccskel {
+namespace {
+
+struct TypeNames {
+  VoxelType type;
+  std::string_view names;  // between bars
+};
+constexpr std::array<TypeNames, 10> kTypes = {{
+    {VoxelType::kInt8, "|signed char|int8|int8_t|"},
+    {VoxelType::kUint8, "|uchar|unsigned char|uint8|uint8_t|"},
+    {VoxelType::kInt16, "|short|short int|signed short|signed short int|int16|int16_t|"},
+    {VoxelType::kUint16, "|ushort|unsigned short|unsigned short int|uint16|uint16_t|"},
+    {VoxelType::kInt32, "|int|signed int|int32|int32_t|"},
+    {VoxelType::kUint32, "|uint|unsigned int|uint32|uint32_t|"},
+    {VoxelType::kInt64,
+     "|longlong|long long|long long int|signed long long|signed long long int|int64|int64_t|"},
+    {VoxelType::kUint64, "|ulonglong|unsigned long long|unsigned long long int|uint64|uint64_t|"},
+    {VoxelType::kFloat32, "|float|"},
+    {VoxelType::kFloat64, "|double|"},
+}};
+
+struct SpaceName {
+  std::string_view name;
+  std::string_view axes;
+};
+constexpr std::array<SpaceName, 6> kSpaces = {{
+    {"right-anterior-superior", "RAS"},
+    {"ras", "RAS"},
+    {"left-anterior-superior", "LAS"},
+    {"las", "LAS"},
+    {"left-posterior-superior", "LPS"},
+    {"lps", "LPS"},
+}};
+
+absl::StatusOr<VoxelType> TypeOf(const HeaderFields& fields) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view name, fields.Require({"type"}));
+  const std::string wanted = absl::StrFormat("|%s|", LowerCase(name));
+  for (const TypeNames& entry : kTypes) {
+    if (entry.names.find(wanted) != entry.names.npos) return entry.type;
+  }
+  return BadField("type", name, "is not a type of numbers");
+}
+
+absl::StatusOr<std::endian> ByteOrderOf(const HeaderFields& fields, VoxelType type) {
+  if (VoxelBytes(type) == 1) return std::endian::little;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view order, fields.Require({"endian"}));
+  const std::string name = LowerCase(order);
+  if (name == "little") return std::endian::little;
+  if (name == "big") return std::endian::big;
+  return BadField("endian", order, "is neither little nor big");
+}
+
+absl::StatusOr<Compression> CompressionOf(const HeaderFields& fields) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view encoding, fields.Require({"encoding"}));
+  const std::string name = LowerCase(encoding);
+  if (name == "raw") return Compression::kNone;
+  if (name == "gzip" || name == "gz") return Compression::kDeflate;
+  for (const std::string_view known : {"ascii", "text", "txt", "hex", "bzip2", "bz2", "zrl"}) {
+    if (name != known) continue;
+    return absl::UnimplementedError(
+        absl::StrFormat("encoding '%s' is not read; there are raw and gzip", name));
+  }
+  return BadField("encoding", encoding, "is neither raw nor gzip");
+}
+
+absl::StatusOr<std::vector<int64_t>> SizesOf(const HeaderFields& fields) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view dimension, fields.Require({"dimension"}));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string_view text, fields.Require({"sizes"}));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, ParseNumbers<int64_t>("sizes", text));
+  if (ParseNumber<size_t>(dimension) != sizes.size()) {
+    return BadField("dimension", dimension, "is not the number of sizes");
+  }
+  return sizes;
+}
+
+// "(1,0,0)" as a point; in a plane, the third coordinate is 0.
+absl::StatusOr<WorldPoint> VectorOf(std::string_view field, std::string_view text) {
+  if (!text.starts_with('(') || !text.ends_with(')'))
+    return BadField(field, text, "is not a vector");
+  WorldPoint point = {0, 0, 0};
+  const std::vector<std::string_view> words = Words(text.substr(1, text.size() - 2), ",");
+  if (words.empty() || words.size() > 3) return BadField(field, text, "has not 1 to 3 coordinates");
+  for (size_t n = 0; n < words.size(); ++n) {
+    const std::optional<double> number = ParseNumber<double>(words[n]);
+    if (!number.has_value()) return BadField(field, text, "holds what is not a number");
+    point[n] = *number;
+  }
+  return point;
+}
+
+// The vectors of a field, which may hold blanks inside; "none" gives nothing.
+absl::StatusOr<std::vector<std::optional<WorldPoint>>> VectorsOf(std::string_view field,
+                                                                 std::string_view text) {
+  std::vector<std::optional<WorldPoint>> vectors;
+  for (text = Trimmed(text); !text.empty(); text = Trimmed(text)) {
+    const bool none = text.starts_with("none");
+    const size_t end = none ? 4 : text.find(')') + 1;
+    if (end == 0) return BadField(field, text, "has no end");
+    if (none) {
+      vectors.emplace_back();
+    } else {
+      BCCSKEL_ASSIGN_OR_RETURN(vectors.emplace_back(), VectorOf(field, text.substr(0, end)));
+    }
+    text.remove_prefix(end);
+  }
+  return vectors;
+}
+
+absl::StatusOr<Placement> PlacementOfDirections(std::string_view text, const WorldPoint& origin) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto vectors, VectorsOf("space directions", text));
+  std::array<WorldPoint, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (size_t axis = 0; axis < std::min<size_t>(3, vectors.size()); ++axis) {
+    if (!vectors[axis].has_value()) {
+      return BadField("space directions", text, "has no direction for one of the first three axes");
+    }
+    steps[axis] = *vectors[axis];
+  }
+  return PlacementOfSteps(steps, origin);
+}
+
+absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields) {
+  WorldPoint origin = {0, 0, 0};
+  if (const auto text = fields.Find({"space origin"}); text.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(origin, VectorOf("space origin", *text));
+  }
+  if (const auto text = fields.Find({"space directions"}); text.has_value()) {
+    return PlacementOfDirections(*text, origin);
+  }
+  std::array<double, 3> spacing = {1, 1, 1};
+  if (const auto text = fields.Find({"spacings"}); text.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto spacings, ParseNumbers<double>("spacings", *text));
+    for (size_t axis = 0; axis < std::min<size_t>(3, spacings.size()); ++axis) {
+      // NaN is the format's way to say that nobody knows.
+      if (!std::isnan(spacings[axis])) spacing[axis] = spacings[axis];
+    }
+  }
+  return PlacementOfSpacing(spacing, origin);
+}
+
+std::string WorldOf(const HeaderFields& fields) {
+  const std::string name = LowerCase(fields.Find({"space"}).value_or(""));
+  for (const SpaceName& space : kSpaces) {
+    if (name == space.name) return std::string(space.axes);
+  }
+  return "";
+}
+
+// "mm" where all axes have it.
+std::string UnitOf(const HeaderFields& fields) {
+  std::string unit;
+  for (const auto word : Words(fields.Find({"space units", "units"}).value_or(""), "\"")) {
+    if (!unit.empty() && unit != word) return "";
+    unit = word;
+  }
+  return unit.substr(0, 32);
+}
+
+HeaderLine Classify(std::string_view line) {
+  if (line.empty()) return HeaderLine::kEnd;
+  const bool key_value = line.find(":=") != line.npos;
+  const bool ignored = line.starts_with('#') || line.starts_with("NRRD000") || key_value;
+  return ignored ? HeaderLine::kIgnored : HeaderLine::kField;
+}
+
+absl::Status PlaceDetached(const ImageFront& front, const HeaderFields& fields,
+                           std::string_view name, Compression compression, StoredImage& image) {
+  if (name.starts_with("LIST") || name.find('%') != name.npos) {
+    return absl::UnimplementedError("voxels spread over several data files are not read");
+  }
+  const std::string_view text = fields.Find({"byte skip", "byteskip"}).value_or("0");
+  BCCSKEL_ASSIGN_OR_RETURN(const int64_t skip, RequireNumber<int64_t>("byte skip", text));
+  if (skip < -1) return BadField("byte skip", text, "is less than -1");
+  const auto behind = skip < 0 ? std::nullopt : std::optional(static_cast<uint64_t>(skip));
+  return PlaceInFile(front, name, behind, compression, image);
+}
+
+absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, StoredImage& image) {
+  BCCSKEL_ASSIGN_OR_RETURN(const Compression compression, CompressionOf(fields));
+  if (fields.Find({"line skip", "lineskip"}).value_or("0") != "0") {
+    return absl::UnimplementedError("the field 'line skip' is not read");
+  }
+  if (const auto name = fields.Find({"data file", "datafile"}); name.has_value()) {
+    return PlaceDetached(front, fields, *name, compression, image);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const size_t header_bytes, fields.Bytes());
+  if (fields.Find({"byte skip", "byteskip"}).value_or("0") != "0") {
+    return absl::UnimplementedError("the field 'byte skip' is read for data files only");
+  }
+  return PlaceBehindHeader(front, header_bytes, compression, image);
+}
+
+}  // namespace
+
+bool IsNrrd(std::string_view front) { return front.starts_with("NRRD000"); }
+
+absl::StatusOr<StoredImage> ParseNrrd(const ImageFront& front, const ImageLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const HeaderFields fields,
+                           HeaderFields::Read(front.bytes, {": ", Classify}));
+  StoredImage image;
+  image.info.format = "NRRD";
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<int64_t> sizes, SizesOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(sizes, limits));
+  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, TypeOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, ByteOrderOf(fields, image.stored_type));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields));
+  image.info.unit = UnitOf(fields);
+  image.info.world = WorldOf(fields);
+  BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));
+  return image;
+}
+
+}  // namespace bccskel

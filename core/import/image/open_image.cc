@@ -1,0 +1,192 @@
+#include "core/import/image/open_image.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <new>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
+#include "core/import/image/image_headers.h"
+#include "core/import/image/precomputed_image.h"
+#include "core/import/image/stored_image.h"
+#include "core/import/image/tiff_source.h"
+#include "core/import/image/zarr_image.h"
+
+namespace bccskel {
+namespace {
+
+// Each also with .gz behind it.
+constexpr std::array<std::string_view, 13> kEndings = {".nii", ".hdr",  ".img", ".nrrd", ".nhdr",
+                                                       ".tif", ".tiff", ".mha", ".mhd",  ".inr",
+                                                       ".npy", ".vol",  ".raw"};
+
+struct Format {
+  bool (*is)(std::string_view front);
+  absl::StatusOr<StoredImage> (*parse)(const ImageFront& front, const ImageLimits& limits);
+};
+// The vaguest marks last.
+constexpr std::array<Format, 6> kFormats = {{
+    {IsNrrd, ParseNrrd},
+    {IsNpy, ParseNpy},
+    {IsInrimage, ParseInrimage},
+    {IsNifti, ParseNifti},
+    {IsMetaImage, ParseMetaImage},
+    {IsVol, ParseVol},
+}};
+
+absl::StatusOr<StoredImage> ParseRaw(const ImageFront& front, const RawLayout& raw,
+                                     const ImageLimits& limits) {
+  StoredImage image;
+  image.info.format = "raw";
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(raw.size, limits));
+  image.stored_type = raw.type;
+  image.byte_order = raw.byte_order;
+  BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, raw.header_bytes, Compression::kNone, image));
+  const uint64_t bytes = raw.header_bytes + image.VoxelBytesDeclared();
+  if (front.compression != Compression::kNone || front.file->size() <= bytes) return image;
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "%d bytes of header and voxels are declared, the file holds %d", bytes, front.file->size()));
+}
+
+absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOptions& options) {
+  if (options.raw.has_value()) return ParseRaw(front, *options.raw, options.limits);
+  if (front.bytes.empty()) return absl::InvalidArgumentError("the file is empty");
+  for (const Format& format : kFormats) {
+    if (format.is(front.bytes)) return format.parse(front, options.limits);
+  }
+  return absl::InvalidArgumentError(
+      "format not supported: images are read from NIfTI, NRRD, TIFF, MetaImage, Inrimage, npy and "
+      "vol; raw voxels need their size and type");
+}
+
+// TIFF pages lie anywhere in their file, so a compressed one is expanded as a whole.
+absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
+                                                          Compression compression) {
+  if (compression == Compression::kNone) return file;
+  constexpr size_t kMaxBytes = size_t{1} << 30;
+  constexpr size_t kStep = size_t{1} << 20;
+  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(file, 0, compression));
+  std::string bytes;
+  for (size_t filled = 0;; filled = bytes.size()) {
+    bytes.resize(filled + kStep);
+    const auto into = std::as_writable_bytes(std::span(bytes)).subspan(filled);
+    BCCSKEL_ASSIGN_OR_RETURN(const size_t got, stream->Read(into));
+    bytes.resize(filled + got);
+    if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
+    if (bytes.size() >= kMaxBytes) {
+      return absl::ResourceExhaustedError(
+          absl::StrFormat("a TIFF file compressed by gzip as a whole may have %d bytes; expand it "
+                          "with gunzip first",
+                          kMaxBytes));
+    }
+  }
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
+                                                      const ImageOptions& options) {
+  if (options.level.has_value()) {
+    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
+  if (!options.raw.has_value() && IsTiff(front.bytes)) {
+    BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
+    return OpenTiff(std::move(file), options);
+  }
+  if (options.channel.has_value() || options.time.has_value()) {
+    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseStored(front, options));
+  if (options.spacing.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
+                             WithSpacing(image.info.placement, *options.spacing));
+  }
+  return OpenStoredImage(std::move(image), options.limits);
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
+                                                        const ImageOptions& options) {
+  if (options.raw.has_value()) {
+    return absl::InvalidArgumentError("is a folder; raw voxels are read from files");
+  }
+  if (IsZarrFolder(path)) return OpenZarr(path, options);
+  if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
+  return absl::InvalidArgumentError(
+      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info)");
+}
+
+// Every error names the image, and no exception leaves.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(
+    const std::string& name,
+    const std::function<absl::StatusOr<std::unique_ptr<ImageSource>>()>& open) {
+  try {
+    auto source = open();
+    if (source.ok()) return source;
+    return absl::Status(source.status().code(),
+                        absl::StrFormat("image '%s': %s", name, source.status().message()));
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError(absl::StrFormat("image '%s': not enough memory", name));
+  }
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamedFile(std::shared_ptr<const ImageFile> file,
+                                                           const ImageOptions& options) {
+  return OpenNamed(file->name(), [&] { return OpenFile(file, options); });
+}
+
+bool IsFolder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+// The header of a pair that is named by its voxels: "brain.hdr" for "brain.img".
+std::optional<std::string> HeaderBeside(const std::string& path) {
+  const std::string name = LowerCase(path);
+  for (const std::string_view ending : {".img", ".img.gz"}) {
+    if (!name.ends_with(ending)) continue;
+    const std::string stem = path.substr(0, path.size() - ending.size());
+    return stem + ".hdr" + std::string(ending.substr(4));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool IsImagePath(std::string_view path) {
+  if (IsFolder(std::string(path))) return true;
+  std::string name = LowerCase(path);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return std::ranges::any_of(kEndings,
+                             [&name](std::string_view ending) { return name.ends_with(ending); });
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
+                                                       const ImageOptions& options) {
+  if (IsFolder(path)) {
+    return OpenNamed(path, [&] { return OpenFolder(path, options); });
+  }
+  const std::optional<std::string> header =
+      options.raw.has_value() ? std::nullopt : HeaderBeside(path);
+  if (header.has_value()) {
+    auto file = ImageFile::Open(*header);
+    if (!absl::IsNotFound(file.status())) {
+      BCCSKEL_RETURN_IF_ERROR(file.status());
+      return OpenNamedFile(*std::move(file), options);
+    }
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(auto file, ImageFile::Open(path));
+  return OpenNamedFile(std::move(file), options);
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
+                                                            const ImageOptions& options) {
+  return OpenNamedFile(ImageFile::OfBytes(std::move(name), std::move(bytes)), options);
+}
+
+}  // namespace bccskel

@@ -1,0 +1,35 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_OPEN_IMAGE_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_OPEN_IMAGE_H_
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "core/import/image/image_options.h"
+#include "core/import/image/image_source.h"
+
+namespace bccskel {
+
+// True when the name ends like that of an image that is read: .nii, .hdr, .img, .nrrd, .nhdr, .tif,
+// .tiff, .mha, .mhd, .inr, .npy, .vol, .raw, each also with .gz behind it; and for every folder.
+bool IsImagePath(std::string_view path);
+
+// Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, MetaImage, Inrimage, npy, vol or, with
+// options.raw, any bytes; the content tells which. A folder is opened as OME-Zarr,
+// a Zarr array or a Neuroglancer precomputed volume.
+// Reads the header and compares it with the file's length and the limits before any memory is taken
+// for voxels. Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, several
+// channels);
+//         RESOURCE_EXHAUSTED (over a limit); UNIMPLEMENTED (what the format knows and we do not).
+//         Messages name the file.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
+                                                       const ImageOptions& options = {});
+
+// The same for bytes in memory; `name` is used in messages.
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
+                                                            const ImageOptions& options = {});
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_OPEN_IMAGE_H_

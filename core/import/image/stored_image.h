@@ -1,0 +1,51 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_STORED_IMAGE_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_STORED_IMAGE_H_
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/import/image/byte_stream.h"
+#include "core/import/image/image_file.h"
+#include "core/import/image/image_info.h"
+#include "core/import/image/image_source.h"
+
+namespace bccskel {
+
+// Which axis varies fastest in the file.
+enum class VoxelOrder { kXFastest, kZFastest };
+
+// What every format but TIFF comes down to: one array of voxels in one stream of bytes. The readers
+// of headers fill it in; from there on all formats share one way.
+struct StoredImage {
+  ImageInfo info;
+  VoxelType stored_type = VoxelType::kUint8;
+  std::endian byte_order = std::endian::little;
+  VoxelOrder voxel_order = VoxelOrder::kXFastest;
+
+  // The voxels' stream begins at `stream_offset` of `file`; of its expanded bytes, the first `skip`
+  // are not voxels.
+  std::shared_ptr<const ImageFile> file;
+  uint64_t stream_offset = 0;
+  Compression compression = Compression::kNone;
+  uint64_t skip = 0;
+
+  // Slices give slope * stored + intercept, as float64, unless these are 1 and 0.
+  double slope = 1;
+  double intercept = 0;
+
+  bool Scaled() const { return slope != 1 || intercept != 0; }
+  uint64_t VoxelBytesDeclared() const { return info.size.Voxels() * VoxelBytes(stored_type); }
+};
+
+// Compares what the header declares with what the file can hold, then opens the stream.
+// Needs:  info.size from SizeOfAxes(), info.placement from PlacementOf...().
+// Errors: INVALID_ARGUMENT where the file is too short; RESOURCE_EXHAUSTED (memory).
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image,
+                                                             const ImageLimits& limits);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_STORED_IMAGE_H_

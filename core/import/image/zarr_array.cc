@@ -1,0 +1,155 @@
+// .zarray of Zarr version 2.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
+#include "core/import/image/json_metadata.h"
+#include "core/import/image/slice_buffer.h"
+#include "core/import/image/zarr_metadata.h"
+
+namespace bccskel {
+namespace {
+
+using Json = nlohmann::json;
+
+// "<u2": byte order, kind, bytes.
+absl::Status ReadType(const Json& dtype, ZarrArray& array) {
+  if (!dtype.is_string()) {
+    return absl::UnimplementedError("dtype is not one number: records are not read");
+  }
+  const auto name = dtype.get<std::string>();
+  const std::string_view kind = std::string_view(name).substr(std::min<size_t>(1, name.size()));
+  constexpr std::array<std::pair<std::string_view, VoxelType>, 11> kTypes = {{
+      {"b1", VoxelType::kUint8},
+      {"u1", VoxelType::kUint8},
+      {"i1", VoxelType::kInt8},
+      {"u2", VoxelType::kUint16},
+      {"i2", VoxelType::kInt16},
+      {"u4", VoxelType::kUint32},
+      {"i4", VoxelType::kInt32},
+      {"u8", VoxelType::kUint64},
+      {"i8", VoxelType::kInt64},
+      {"f4", VoxelType::kFloat32},
+      {"f8", VoxelType::kFloat64},
+  }};
+  const auto* const known =
+      std::ranges::find(kTypes, kind, [](const auto& type) { return type.first; });
+  const bool ordered = name.starts_with('<') || name.starts_with('>') || name.starts_with('|');
+  if (known == kTypes.end() || !ordered || (name[0] == '|' && kind[1] != '1')) {
+    return BadField("dtype", name, "is not a type that is read: bool, integers, float32, float64");
+  }
+  array.type = known->second;
+  array.byte_order = name[0] == '>' ? std::endian::big : std::endian::little;
+  return absl::OkStatus();
+}
+
+template <typename T>
+absl::StatusOr<T> FillOf(const Json& value) {
+  if (value.is_null()) return T{0};
+  if (value.is_boolean()) return static_cast<T>(value.get<bool>());
+  if constexpr (std::is_floating_point_v<T>) {
+    if (value == "NaN") return std::numeric_limits<T>::quiet_NaN();
+    if (value == "Infinity") return std::numeric_limits<T>::infinity();
+    if (value == "-Infinity") return -std::numeric_limits<T>::infinity();
+    if (value.is_number()) return value.get<T>();
+  } else {
+    const bool fits = value.is_number_unsigned()
+                          ? std::in_range<T>(value.get<uint64_t>())
+                          : value.is_number_integer() && std::in_range<T>(value.get<int64_t>());
+    if (fits) return value.get<T>();
+    // Some writers put a dot behind whole numbers.
+    if (value.is_number_float() && value.get<double>() == 0) return T{0};
+  }
+  return BadValue("fill_value", value, "is not a value of the array's type");
+}
+
+absl::Status ReadFill(const Json& value, ZarrArray& array) {
+  return WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const T fill, FillOf<T>(value));
+    std::memcpy(array.fill.data(), &fill, sizeof(T));
+    if (array.byte_order != std::endian::native) {
+      std::reverse(array.fill.data(), array.fill.data() + sizeof(T));
+    }
+    return absl::OkStatus();
+  });
+}
+
+absl::StatusOr<ChunkCodec> CodecOf(const Json& compressor) {
+  if (compressor.is_null()) return ChunkCodec::kNone;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string id,
+                           TextOf("the compressor's id", MemberOf(compressor, "id")));
+  if (id == "blosc") return ChunkCodec::kBlosc;
+  if (id == "zstd") return ChunkCodec::kZstd;
+  if (id == "gzip" || id == "zlib") return ChunkCodec::kDeflate;
+  if (id == "lz4") return ChunkCodec::kLz4;
+  return absl::UnimplementedError(
+      BadField("compressor", id, "is not read; blosc, zstd, gzip, zlib and lz4 are").message());
+}
+
+absl::Status CheckShape(const ZarrArray& array) {
+  constexpr size_t kMostAxes = 8;
+  if (array.shape.empty() || array.shape.size() > kMostAxes) {
+    return absl::InvalidArgumentError(absl::StrFormat("the array has %d axes, it must have 1 to %d",
+                                                      array.shape.size(), kMostAxes));
+  }
+  if (array.chunks.size() == array.shape.size()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat("the array has %d axes, its chunks have %d",
+                                                    array.shape.size(), array.chunks.size()));
+}
+
+absl::Status CheckChunks(const ZarrArray& array, const ImageLimits& limits) {
+  uint64_t room = limits.max_chunk_bytes / VoxelBytes(array.type);
+  for (const int64_t length : array.chunks) {
+    if (length < 1) {
+      return absl::InvalidArgumentError(
+          absl::StrFormat("chunks are %d long, they must be at least 1", length));
+    }
+    room /= static_cast<uint64_t>(length);
+  }
+  if (room > 0) return absl::OkStatus();
+  return absl::ResourceExhaustedError(absl::StrFormat(
+      "a chunk holds more than %d bytes, the limit: write smaller chunks", limits.max_chunk_bytes));
+}
+
+}  // namespace
+
+uint64_t ZarrArray::ChunkBytes() const {
+  uint64_t bytes = VoxelBytes(type);
+  for (const int64_t length : chunks) bytes *= static_cast<uint64_t>(length);
+  return bytes;
+}
+
+absl::StatusOr<ZarrArray> ParseZarrArray(const Json& metadata, const ImageLimits& limits) {
+  const Json& version = MemberOf(metadata, "zarr_format");
+  if (version != 2) return BadValue("zarr_format", version, "is not 2");
+  ZarrArray array;
+  BCCSKEL_ASSIGN_OR_RETURN(array.shape, IntegersOf("shape", MemberOf(metadata, "shape")));
+  BCCSKEL_ASSIGN_OR_RETURN(array.chunks, IntegersOf("chunks", MemberOf(metadata, "chunks")));
+  BCCSKEL_RETURN_IF_ERROR(CheckShape(array));
+  BCCSKEL_RETURN_IF_ERROR(ReadType(MemberOf(metadata, "dtype"), array));
+  BCCSKEL_RETURN_IF_ERROR(CheckChunks(array, limits));
+  BCCSKEL_RETURN_IF_ERROR(ReadFill(MemberOf(metadata, "fill_value"), array));
+  BCCSKEL_ASSIGN_OR_RETURN(array.codec, CodecOf(MemberOf(metadata, "compressor")));
+  const Json& filters = MemberOf(metadata, "filters");
+  if (!filters.is_null() && !(filters.is_array() && filters.empty())) {
+    return absl::UnimplementedError(BadValue("filters", filters, "are not read").message());
+  }
+  const Json& order = MemberOf(metadata, "order");
+  if (order != "C" && order != "F") return BadValue("order", order, "is neither C nor F");
+  array.last_axis_fastest = order == "C";
+  const Json& separator = MemberOf(metadata, "dimension_separator");
+  if (!separator.is_null() && separator != "." && separator != "/") {
+    return BadValue("dimension_separator", separator, "is neither . nor /");
+  }
+  array.separator = separator == "/" ? '/' : '.';
+  return array;
+}
+
+}  // namespace bccskel

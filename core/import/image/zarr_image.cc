@@ -1,0 +1,204 @@
+#include "core/import/image/zarr_image.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/exec/uninitialized.h"
+#include "core/import/image/chunked_image.h"
+#include "core/import/image/image_choice.h"
+#include "core/import/image/json_metadata.h"
+#include "core/import/image/zarr_metadata.h"
+
+namespace bccskel {
+namespace {
+
+using Json = nlohmann::json;
+
+bool Holds(const std::string& folder, const char* name) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::path(folder) / name, ignored);
+}
+
+// What each axis of the array is to the image.
+struct ZarrAxes {
+  std::array<std::optional<size_t>, 3> space;  // which axis x, y and z are
+  std::vector<int64_t> place;                  // the chosen place along each axis; 0 of space
+};
+
+absl::StatusOr<ZarrAxes> AxesOf(const std::vector<char>& names, const ZarrArray& array,
+                                const ImageOptions& options) {
+  ZarrAxes axes;
+  axes.place.assign(names.size(), 0);
+  for (size_t n = 0; n < names.size(); ++n) {
+    if (names[n] == 't' || names[n] == 'c') {
+      if (array.shape[n] < 1) break;  // SizeOf() refuses it
+      const char letter = names[n] == 't' ? 'T' : 'C';
+      BCCSKEL_ASSIGN_OR_RETURN(axes.place[n], ChosenAlong(letter, array.shape[n], options));
+    } else {
+      axes.space[static_cast<size_t>(names[n] - 'x')] = n;
+    }
+  }
+  const auto none_of = [&names](char name) { return std::ranges::count(names, name) == 0; };
+  if ((options.channel.value_or(0) != 0 && none_of('c')) ||
+      (options.time.value_or(0) != 0 && none_of('t'))) {
+    return absl::InvalidArgumentError(
+        "--channel and --time choose along axes c and t; the image has no such axis");
+  }
+  if (axes.space[0].has_value() && axes.space[1].has_value()) return axes;
+  return absl::InvalidArgumentError("the image has no axes y and x");
+}
+
+std::vector<char> AxesOfPlainArray(size_t count) {
+  constexpr std::string_view kNames = "tczyx";
+  const std::string_view last = kNames.substr(kNames.size() - count);
+  return {last.begin(), last.end()};
+}
+
+absl::StatusOr<ImageSize> SizeOf(const ZarrArray& array, const ZarrAxes& axes,
+                                 const ImageLimits& limits) {
+  if (std::ranges::any_of(array.shape, [](int64_t length) { return length < 1; })) {
+    return absl::InvalidArgumentError("an axis of the array holds no voxels");
+  }
+  std::vector<int64_t> lengths;
+  for (const std::optional<size_t>& axis : axes.space) {
+    lengths.push_back(axis.has_value() ? array.shape[*axis] : 1);
+  }
+  return SizeOfAxes(lengths, limits);
+}
+
+absl::StatusOr<Placement> PlacementOf(const ZarrLevel& level, const ZarrAxes& axes) {
+  std::array<double, 3> spacing = {1, 1, 1};
+  WorldPoint origin = {0, 0, 0};
+  for (size_t n = 0; n < 3 && !level.scale.empty(); ++n) {
+    if (!axes.space[n].has_value()) continue;
+    spacing[n] = level.scale[*axes.space[n]];
+    origin[n] = level.translation[*axes.space[n]];
+  }
+  return PlacementOfSpacing(spacing, origin);
+}
+
+// Chunks are files; one at the end of the array is as large as the others.
+class ZarrStore : public ChunkStore {
+ public:
+  ZarrStore(std::string folder, ZarrArray array, ZarrAxes axes)
+      : folder_(std::move(folder)), array_(std::move(array)), axes_(std::move(axes)) {}
+
+  absl::StatusOr<std::optional<ChunkVoxels>> Read(const ChunkIndex& chunk) override {
+    const std::string name = NameOf(chunk);
+    auto file = ImageFile::Open(folder_ + "/" + name);
+    if (absl::IsNotFound(file.status())) return std::nullopt;
+    BCCSKEL_RETURN_IF_ERROR(file.status());
+    bytes_.resize(static_cast<size_t>(array_.ChunkBytes()));
+    const absl::Status expanded = ExpandChunk(array_.codec, *file, bytes_);
+    if (expanded.ok()) return Voxels();
+    return absl::Status(expanded.code(),
+                        absl::StrFormat("chunk '%s': %s", name, expanded.message()));
+  }
+
+ private:
+  std::string NameOf(const ChunkIndex& chunk) const {
+    std::vector<int64_t> index(array_.shape.size());
+    for (size_t n = 0; n < index.size(); ++n) index[n] = axes_.place[n] / array_.chunks[n];
+    for (size_t n = 0; n < 3; ++n) {
+      if (axes_.space[n].has_value()) index[*axes_.space[n]] = chunk[n];
+    }
+    std::string name;
+    for (const int64_t along : index) {
+      if (!name.empty()) name += array_.separator;
+      name += std::to_string(along);
+    }
+    return name;
+  }
+
+  ChunkVoxels Voxels() const {
+    const size_t count = array_.shape.size();
+    std::vector<size_t> step(count);
+    size_t bytes = VoxelBytes(array_.type);
+    for (size_t n = 0; n < count; ++n) {
+      const size_t axis = array_.last_axis_fastest ? count - 1 - n : n;
+      step[axis] = bytes;
+      bytes *= static_cast<size_t>(array_.chunks[axis]);
+    }
+    ChunkVoxels voxels = {.first = bytes_.data(), .step = {0, 0, 0}};
+    for (size_t n = 0; n < count; ++n) {
+      voxels.first += static_cast<size_t>(axes_.place[n] % array_.chunks[n]) * step[n];
+    }
+    for (size_t n = 0; n < 3; ++n) {
+      if (axes_.space[n].has_value()) voxels.step[n] = step[*axes_.space[n]];
+    }
+    return voxels;
+  }
+
+  std::string folder_;
+  ZarrArray array_;
+  ZarrAxes axes_;
+  exec::UninitializedVector<std::byte> bytes_;
+};
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenArray(const std::string& folder,
+                                                       const Json& metadata, ZarrLevel level,
+                                                       const ImageOptions& options) {
+  BCCSKEL_ASSIGN_OR_RETURN(ZarrArray array, ParseZarrArray(metadata, options.limits));
+  const size_t count = array.shape.size();
+  if (level.axes.empty() && count <= 5) level.axes = AxesOfPlainArray(count);
+  if (level.axes.size() != count) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the array has %d axes, %d are named or can be", count, level.axes.size()));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ZarrAxes axes, AxesOf(level.axes, array, options));
+  ChunkedImage image;
+  image.info.format = level.path.empty() ? "Zarr" : "OME-Zarr";
+  image.info.type = array.type;
+  image.info.unit = level.unit;
+  image.byte_order = array.byte_order;
+  image.fill = array.fill;
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOf(array, axes, options.limits));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(level, axes));
+  if (options.spacing.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
+                             WithSpacing(image.info.placement, *options.spacing));
+  }
+  for (size_t n = 0; n < 3; ++n) {
+    if (axes.space[n].has_value()) image.chunk_size[n] = array.chunks[*axes.space[n]];
+  }
+  return OpenChunkedImage(std::move(image),
+                          std::make_unique<ZarrStore>(folder, std::move(array), std::move(axes)),
+                          options.limits);
+}
+
+}  // namespace
+
+bool IsZarrFolder(const std::string& folder) {
+  return Holds(folder, ".zarray") || Holds(folder, ".zattrs") || Holds(folder, ".zgroup") ||
+         Holds(folder, "zarr.json");
+}
+
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenZarr(const std::string& folder,
+                                                      const ImageOptions& options) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto alone, ReadJson(folder + "/.zarray", options.limits));
+  if (alone.has_value()) {
+    BCCSKEL_RETURN_IF_ERROR(ChosenLevel(1, options).status());
+    return OpenArray(folder, *alone, {}, options);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const auto attributes, ReadJson(folder + "/.zattrs", options.limits));
+  if (!attributes.has_value() && Holds(folder, "zarr.json")) {
+    return absl::UnimplementedError(
+        "the folder is Zarr version 3 (OME-Zarr 0.5), which is not read; write version 2 (OME-Zarr "
+        "0.4)");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ZarrLevel level, ParseMultiscales(attributes.value_or(Json()), options));
+  const std::string path = folder + "/" + level.path;
+  BCCSKEL_ASSIGN_OR_RETURN(const auto metadata, ReadJson(path + "/.zarray", options.limits));
+  if (metadata.has_value()) return OpenArray(path, *metadata, std::move(level), options);
+  return absl::InvalidArgumentError(
+      absl::StrFormat("the group names the array '%s', which has no .zarray", level.path));
+}
+
+}  // namespace bccskel

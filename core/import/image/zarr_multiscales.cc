@@ -1,0 +1,147 @@
+// The attributes of an OME-Zarr group.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
+#include "core/import/image/image_choice.h"
+#include "core/import/image/json_metadata.h"
+#include "core/import/image/zarr_metadata.h"
+
+namespace bccskel {
+namespace {
+
+using Json = nlohmann::json;
+
+// Axes are objects since version 0.4, names in 0.3, and always t, c, z, y, x before.
+absl::StatusOr<std::string> NameOf(const Json& axis) {
+  return TextOf("an axis's name", axis.is_object() ? MemberOf(axis, "name") : axis);
+}
+
+absl::Status ReadAxes(const Json& axes, ZarrLevel& level) {
+  if (axes.is_null()) {
+    level.axes = {'t', 'c', 'z', 'y', 'x'};
+    return absl::OkStatus();
+  }
+  if (!axes.is_array() || axes.empty()) return BadValue("axes", axes, "is not a list of axes");
+  for (const Json& axis : axes) {
+    BCCSKEL_ASSIGN_OR_RETURN(const std::string name, NameOf(axis));
+    const bool known = name.size() == 1 && std::string_view("tczyx").find(name[0]) != name.npos;
+    if (!known || std::ranges::count(level.axes, name[0]) > 0) {
+      return absl::UnimplementedError(
+          BadField("axis", name, "is none of t, c, z, y, x, or there twice").message());
+    }
+    level.axes.push_back(name[0]);
+  }
+  return absl::OkStatus();
+}
+
+// As other formats name it.
+std::string UnitOf(const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kUnits = {{
+      {"angstrom", "A"},
+      {"nanometer", "nm"},
+      {"micrometer", "um"},
+      {"millimeter", "mm"},
+      {"centimeter", "cm"},
+      {"meter", "m"},
+  }};
+  for (const auto& [written, unit] : kUnits) {
+    if (name == written) return unit;
+  }
+  return name.substr(0, 32);
+}
+
+absl::Status ReadUnit(const Json& axes, ZarrLevel& level) {
+  bool first = true;
+  for (size_t n = 0; axes.is_array() && n < axes.size(); ++n) {
+    if (level.axes[n] == 't' || level.axes[n] == 'c') continue;
+    const Json& unit = MemberOf(axes[n], "unit");
+    const std::string name = unit.is_string() ? UnitOf(unit.get<std::string>()) : "";
+    if (!first && name != level.unit) {
+      return absl::UnimplementedError(
+          absl::StrFormat("one axis of space is in '%s' and another in '%s'", level.unit, name));
+    }
+    level.unit = name;
+    first = false;
+  }
+  return absl::OkStatus();
+}
+
+// What is done to the coordinates that `level` gives so far.
+absl::Status Apply(const Json& transformations, ZarrLevel& level) {
+  if (transformations.is_null()) return absl::OkStatus();
+  if (!transformations.is_array()) {
+    return BadValue("coordinateTransformations", transformations, "is not a list");
+  }
+  for (const Json& step : transformations) {
+    const Json& type = MemberOf(step, "type");
+    if (type == "identity") continue;
+    if ((type != "scale" && type != "translation") || !MemberOf(step, "path").is_null()) {
+      return absl::UnimplementedError(
+          BadValue("transformation", step, "is neither a scale nor a translation in numbers")
+              .message());
+    }
+    const auto name = type.get<std::string>();
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<double> numbers,
+                             NumbersOf(name, MemberOf(step, name)));
+    if (numbers.size() != level.axes.size()) {
+      return absl::InvalidArgumentError(absl::StrFormat("a %s has %d numbers for %d axes", name,
+                                                        numbers.size(), level.axes.size()));
+    }
+    for (size_t n = 0; n < numbers.size(); ++n) {
+      if (type == "scale") level.scale[n] *= numbers[n];
+      level.translation[n] =
+          type == "scale" ? level.translation[n] * numbers[n] : level.translation[n] + numbers[n];
+    }
+  }
+  return absl::OkStatus();
+}
+
+// A group can name nothing outside its folder.
+absl::Status CheckPath(const std::string& path) {
+  bool inside = !path.empty() && path.front() != '/' && path.find('\0') == path.npos;
+  for (const std::string_view part : Words(path, "/")) inside = inside && part != "..";
+  return inside ? absl::OkStatus()
+                : BadField("path", path, "is not that of an array in the folder");
+}
+
+}  // namespace
+
+absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOptions& options) {
+  const Json& images = MemberOf(attributes, "multiscales");
+  if (!images.is_array() || images.empty()) {
+    return absl::InvalidArgumentError(
+        "the Zarr group states no multiscales: name the folder of one image or array in it, such "
+        "as FOLDER/0");
+  }
+  const Json& image = images[0];
+  const Json& version = MemberOf(image, "version");
+  if (!version.is_null() && version != "0.1" && version != "0.2" && version != "0.3" &&
+      version != "0.4") {
+    return absl::UnimplementedError(
+        BadValue("OME-Zarr version", version, "is not read; 0.1 to 0.4 are").message());
+  }
+  const Json& datasets = MemberOf(image, "datasets");
+  if (!datasets.is_array() || datasets.empty()) {
+    return BadValue("datasets", datasets, "is not a list of levels");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const int64_t chosen,
+                           ChosenLevel(static_cast<int64_t>(datasets.size()), options));
+  const Json& dataset = datasets[static_cast<size_t>(chosen)];
+  ZarrLevel level;
+  BCCSKEL_ASSIGN_OR_RETURN(level.path, TextOf("path", MemberOf(dataset, "path")));
+  BCCSKEL_RETURN_IF_ERROR(CheckPath(level.path));
+  BCCSKEL_RETURN_IF_ERROR(ReadAxes(MemberOf(image, "axes"), level));
+  BCCSKEL_RETURN_IF_ERROR(ReadUnit(MemberOf(image, "axes"), level));
+  level.scale.assign(level.axes.size(), 1);
+  level.translation.assign(level.axes.size(), 0);
+  BCCSKEL_RETURN_IF_ERROR(Apply(MemberOf(dataset, "coordinateTransformations"), level));
+  BCCSKEL_RETURN_IF_ERROR(Apply(MemberOf(image, "coordinateTransformations"), level));
+  return level;
+}
+
+}  // namespace bccskel

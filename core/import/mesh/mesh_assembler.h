@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_CORE_IMPORT_MESH_MESH_ASSEMBLER_H_
+#define BCCSKEL_CORE_IMPORT_MESH_MESH_ASSEMBLER_H_
+
+#include <cstdint>
+#include <span>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/import/mesh/mesh_limits.h"
+#include "core/import/mesh/triangle_mesh.h"
+
+namespace bccskel {
+
+// Collects what the four readers find and makes the checks that all of them share.
+class MeshAssembler {
+ public:
+  explicit MeshAssembler(const MeshLimits& limits) : limits_(limits) {}
+
+  // Errors: INVALID_ARGUMENT for a coordinate that is not finite, RESOURCE_EXHAUSTED.
+  absl::Status AddVertex(TriangleMesh::Vertex vertex);
+  // Cuts the polygon into a fan around its first corner; fewer than three corners bound nothing and
+  // are dropped. Corners may name vertices that come later in the file.
+  // Errors: INVALID_ARGUMENT for an index no vertex can have, RESOURCE_EXHAUSTED.
+  absl::Status AddPolygon(std::span<const int64_t> corners);
+
+  uint64_t vertex_count() const { return mesh_.vertices.size(); }
+  uint64_t triangle_count() const { return mesh_.triangles.size(); }
+
+  // Errors: INVALID_ARGUMENT when there is no triangle or one names a vertex that is not there.
+  absl::StatusOr<TriangleMesh> Finish() &&;
+
+ private:
+  MeshLimits limits_;
+  TriangleMesh mesh_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_MESH_MESH_ASSEMBLER_H_

@@ -1,0 +1,123 @@
+#include "core/import/mesh/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <optional>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/mesh/file_bytes.h"
+#include "core/import/mesh/mesh_readers.h"
+#include "core/import/mesh/text_scanner.h"
+
+namespace bccskel {
+namespace {
+
+enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl };
+
+constexpr std::array<std::string_view, 4> kMeshEndings = {"obj", "stl", "ply", "off"};
+
+// "off" for "a/b.OFF.gz"; empty without a dot.
+std::string EndingOf(std::string_view path) {
+  std::string name(path.substr(path.find_last_of('/') + 1));
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  const size_t dot = name.find_last_of('.');
+  return dot == name.npos ? "" : name.substr(dot + 1);
+}
+
+// The first word that is not in a comment.
+std::string_view FirstWord(std::string_view bytes) {
+  TextScanner text(bytes, TextScanner::Comments::kHash, LineContinuation::kNone);
+  return text.TokenAcrossLines();
+}
+
+bool IsObjKeyword(std::string_view word) {
+  constexpr std::array<std::string_view, 9> kKeywords = {"v", "vt", "vn",     "f",     "o",
+                                                         "g", "s",  "mtllib", "usemtl"};
+  return std::ranges::find(kKeywords, word) != kKeywords.end();
+}
+
+// What the bytes say by themselves.
+std::optional<MeshFormat> SniffContent(std::string_view bytes) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::kPly;
+  if (HasBinaryStlLength(bytes)) return MeshFormat::kBinaryStl;
+  const std::string_view word = FirstWord(bytes);
+  if (IsOffKeyword(word)) return MeshFormat::kOff;
+  if (EqualsIgnoringCase(word, "solid")) return MeshFormat::kAsciiStl;
+  if (IsObjKeyword(word)) return MeshFormat::kObj;
+  return std::nullopt;
+}
+
+// "solid" also begins the free-form header of some binary files.
+bool HasZeroByte(std::string_view bytes) {
+  return bytes.substr(0, 512).find('\0') != std::string_view::npos;
+}
+
+absl::StatusOr<MeshFormat> ChooseFormat(std::string_view bytes, std::string_view name) {
+  const std::string ending = EndingOf(name);
+  const std::optional<MeshFormat> sniffed = SniffContent(bytes);
+  if (sniffed == MeshFormat::kAsciiStl && HasZeroByte(bytes)) return MeshFormat::kBinaryStl;
+  if (sniffed) return *sniffed;
+  if (ending == "obj") return MeshFormat::kObj;
+  if (ending == "off") return MeshFormat::kOff;
+  if (ending == "stl") return MeshFormat::kBinaryStl;
+  if (ending == "ply") return absl::InvalidArgumentError("a PLY file must begin with 'ply'");
+  return absl::InvalidArgumentError(
+      "format not supported: meshes are read from OBJ, STL, PLY and OFF, each also .gz");
+}
+
+absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
+                                     const MeshLimits& limits) {
+  switch (format) {
+    case MeshFormat::kOff:
+      return ParseOff(bytes, limits);
+    case MeshFormat::kObj:
+      return ParseObj(bytes, limits);
+    case MeshFormat::kPly:
+      return ParsePly(bytes, limits);
+    case MeshFormat::kAsciiStl:
+      return ParseAsciiStl(bytes, limits);
+    case MeshFormat::kBinaryStl:
+      break;
+  }
+  return ParseBinaryStl(bytes, limits);
+}
+
+absl::StatusOr<TriangleMesh> ChooseAndParse(std::string_view bytes, std::string_view name,
+                                            const MeshLimits& limits) {
+  if (bytes.empty() && EndingOf(name) != "obj") {
+    return absl::InvalidArgumentError("the file is empty");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const MeshFormat format, ChooseFormat(bytes, name));
+  return ParseAs(format, bytes, limits);
+}
+
+}  // namespace
+
+bool HasMeshFileName(std::string_view path) {
+  return std::ranges::find(kMeshEndings, EndingOf(path)) != kMeshEndings.end();
+}
+
+absl::StatusOr<TriangleMesh> ParseMesh(std::string_view bytes, std::string_view name,
+                                       const MeshLimits& limits) {
+  try {
+    absl::StatusOr<TriangleMesh> mesh = ChooseAndParse(bytes, name, limits);
+    if (mesh.ok()) return mesh;
+    return absl::Status(mesh.status().code(), absl::StrFormat("mesh '%s': %s", std::string(name),
+                                                              mesh.status().message()));
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError(
+        absl::StrFormat("mesh '%s': not enough memory", std::string(name)));
+  }
+}
+
+absl::StatusOr<TriangleMesh> ReadMeshFile(const std::string& path, const MeshLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(path, limits.max_file_bytes));
+  return ParseMesh(bytes, path, limits);
+}
+
+}  // namespace bccskel

@@ -1,0 +1,30 @@
+#ifndef BCCSKEL_CORE_IMPORT_MESH_MESH_FILE_H_
+#define BCCSKEL_CORE_IMPORT_MESH_MESH_FILE_H_
+
+#include <string>
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "core/import/mesh/mesh_limits.h"
+#include "core/import/mesh/triangle_mesh.h"
+
+namespace bccskel {
+
+// True when the name ends like a mesh file: .obj, .stl, .ply or .off, each also with .gz.
+bool HasMeshFileName(std::string_view path);
+
+// Reads OBJ, STL (text, binary), PLY (text, both byte orders) or OFF (also COFF and the like), each
+// also compressed by gzip. The content decides the format; the name helps only where the content
+// says nothing. Polygons become fans of triangles; normals, colors and textures are dropped.
+// Units:   coordinates as in the file, in double.
+// Errors:  NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, coordinates that are not
+//          finite, bad indices, no triangles, a format that is not read); RESOURCE_EXHAUSTED.
+absl::StatusOr<TriangleMesh> ReadMeshFile(const std::string& path, const MeshLimits& limits = {});
+
+// The same for bytes in memory (not compressed); `name` is used for its ending and in messages.
+absl::StatusOr<TriangleMesh> ParseMesh(std::string_view bytes, std::string_view name,
+                                       const MeshLimits& limits = {});
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_MESH_MESH_FILE_H_

@@ -1,0 +1,81 @@
+#include "core/import/voxelize/fill_rule.h"
+
+#include "absl/strings/str_format.h"
+
+namespace bccskel {
+namespace {
+
+std::string DescribeDefects(const MeshReport& mesh) {
+  return absl::StrFormat("%d boundary edges, %d non-manifold edges, %d misoriented edges",
+                         mesh.boundary_edges, mesh.non_manifold_edges, mesh.misoriented_edges);
+}
+
+// Shells inside a shell of the same orientation: solid for one rule, cavities for the other.
+int64_t CountAmbiguousShells(const MeshReport& mesh) {
+  int64_t count = 0;
+  for (const SurfaceComponent& component : mesh.components) {
+    const bool in_winding = component.winding_outside != 0;
+    const bool in_parity = component.depth % 2 != 0;
+    const bool winding_wall =
+        in_winding != (component.winding_outside + component.orientation != 0);
+    count += in_winding != in_parity || !winding_wall ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted) {
+  const bool open = mesh.closure == SurfaceClosure::kOpen;
+  if (open && wanted == FillRule::kAuto) {
+    return absl::FailedPreconditionError(absl::StrFormat(
+        "the mesh is not closed (%s); repair it or fill it by winding number (--fill winding)",
+        DescribeDefects(mesh)));
+  }
+  if (open && wanted == FillRule::kParity) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("parity needs a closed mesh, this one has %s", DescribeDefects(mesh)));
+  }
+  if (wanted == FillRule::kWinding && mesh.closure == SurfaceClosure::kClosed) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("winding needs a consistently oriented mesh, this one has %s: use parity",
+                        DescribeDefects(mesh)));
+  }
+  if (wanted != FillRule::kAuto) return wanted;
+  return mesh.closure == SurfaceClosure::kOriented ? FillRule::kWinding : FillRule::kParity;
+}
+
+std::vector<std::string> DefectWarnings(const MeshReport& mesh, FillRule rule) {
+  std::vector<std::string> warnings;
+  if (mesh.closure == SurfaceClosure::kOpen) {
+    warnings.push_back(absl::StrFormat(
+        "the mesh is not closed (%s): filled where its generalized winding number exceeds 1/2",
+        DescribeDefects(mesh)));
+  } else if (mesh.closure == SurfaceClosure::kClosed) {
+    warnings.push_back(
+        absl::StrFormat("the mesh is not consistently oriented (%d edges): filled by parity",
+                        mesh.misoriented_edges));
+  }
+  if (mesh.closure == SurfaceClosure::kOriented && CountAmbiguousShells(mesh) > 0) {
+    warnings.push_back(absl::StrFormat(
+        "%d shells lie inside a shell of the same orientation: %s", CountAmbiguousShells(mesh),
+        rule == FillRule::kWinding ? "filled (parity would make them cavities)"
+                                   : "taken as cavities (winding would fill them)"));
+  }
+  if (mesh.two_sided_triangles > 0) {
+    warnings.push_back(
+        absl::StrFormat("all %d triangles were there from both sides: one of each was kept",
+                        mesh.two_sided_triangles));
+  }
+  if (mesh.dropped_triangles > 0) {
+    warnings.push_back(
+        absl::StrFormat("%d degenerate triangles were dropped", mesh.dropped_triangles));
+  }
+  return warnings;
+}
+
+std::optional<SolidTopology> ExpectedTopology(const MeshReport& mesh, FillRule rule) {
+  return rule == FillRule::kParity ? mesh.SolidByParity() : mesh.SolidByWinding();
+}
+
+}  // namespace bccskel

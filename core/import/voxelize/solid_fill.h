@@ -1,0 +1,41 @@
+#ifndef BCCSKEL_CORE_IMPORT_VOXELIZE_SOLID_FILL_H_
+#define BCCSKEL_CORE_IMPORT_VOXELIZE_SOLID_FILL_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
+#include "core/import/mesh/mesh_report.h"
+#include "core/import/voxelize/boundary_caps.h"
+#include "core/import/voxelize/fill_rule.h"
+#include "core/import/voxelize/grid_fit.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// A surface with the rule that fits it, ready to be filled on one grid after another.
+class SolidFill {
+ public:
+  // Needs: kParity or kWinding, allowed for the surface by ChooseFillRule(); `surface` stays.
+  SolidFill(const Surface& surface, FillRule rule, uint64_t max_points);
+
+  // Errors: as FillRows().
+  absl::StatusOr<Volume> Fill(const GridFit& fit, const exec::Context& context) const;
+
+ private:
+  // Closes an open surface; the caps are taken out again by the generalized winding number.
+  void AddCaps();
+
+  const Surface& surface_;
+  const FillRule rule_;
+  const uint64_t max_points_;
+  std::vector<TriangleMesh::Vertex> vertices_;  // of the surface, then the apexes of the caps
+  std::vector<TriangleMesh::Triangle> triangles_;
+  std::vector<int8_t> signs_;  // per triangle: +1, or -1 to turn it outward
+  BoundaryCaps caps_;          // none when the surface is closed
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_VOXELIZE_SOLID_FILL_H_

@@ -1,0 +1,203 @@
+#include "core/import/voxelize/voxelize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/import/voxelize/grid_fit.h"
+#include "core/import/voxelize/solid_fill.h"
+
+namespace bccskel {
+namespace {
+
+absl::Status CheckOptions(const VoxelizeOptions& options) {
+  if (options.points.has_value() == options.spacing.has_value()) {
+    return absl::InvalidArgumentError(
+        "exactly one of the number of points and the spacing must be given");
+  }
+  if (options.points && (*options.points < 1 || *options.points > options.max_points)) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%d points wanted: must be 1 to %d", *options.points, options.max_points));
+  }
+  if (options.spacing && !(*options.spacing > 0 && std::isfinite(*options.spacing))) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("spacing %g: must be finite and positive", *options.spacing));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckTriangles(const Surface& surface) {
+  if (!surface.triangles.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "nothing enclosed: every triangle of the mesh names a vertex twice after joining equal "
+      "vertices (are coordinates in float too far from the origin?)");
+}
+
+absl::Status CheckSize(const Surface& surface) {
+  if (std::ranges::min(surface.upper_unit) <= 0) {
+    return absl::InvalidArgumentError("nothing enclosed: the mesh is flat along an axis");
+  }
+  if (!std::isfinite(2 * surface.half_size) || 2 * surface.half_size < 1e-290) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("the mesh is 2 * %g wide: must be 1e-290 to 1.7e308", surface.half_size));
+  }
+  return absl::OkStatus();
+}
+
+// Looks for the spacing that gives a number of points.
+class SpacingSearch {
+ public:
+  explicit SpacingSearch(double first) : spacing_(first) {}
+
+  double spacing() const { return spacing_; }
+
+  // Takes the count found at spacing() and moves on: by the law of cubes, or to the middle of the
+  // bracket when that has been left or makes no progress.
+  void Learn(uint64_t count, uint64_t target) {
+    (count > target ? too_small_ : too_large_) = spacing_;
+    const double ratio = static_cast<double>(count) / static_cast<double>(target);
+    constexpr uint64_t kFewPoints = 64;  // below, a count says little about the volume
+    const double next = spacing_ * (count < kFewPoints && ratio < 1 ? 0.5 : std::cbrt(ratio));
+    const bool bracketed = too_small_ > 0 && std::isfinite(too_large_);
+    const bool inside = next > too_small_ && next < too_large_;
+    spacing_ = bracketed && (!inside || ++steps_in_bracket_ > 2)
+                   ? std::sqrt(too_small_) * std::sqrt(too_large_)
+                   : next;
+  }
+
+ private:
+  double spacing_;
+  double too_small_ = 0;
+  double too_large_ = std::numeric_limits<double>::infinity();
+  int steps_in_bracket_ = 0;
+};
+
+class Voxelizer {
+ public:
+  Voxelizer(Surface surface, const VoxelizeOptions& options, const exec::Context& context)
+      : surface_(std::move(surface)), options_(options), context_(context) {}
+
+  absl::StatusOr<VoxelizeResult> Run() {
+    BCCSKEL_RETURN_IF_ERROR(CheckTriangles(surface_));
+    VoxelizeResult result;
+    BCCSKEL_ASSIGN_OR_RETURN(result.fill, ChooseFillRule(surface_.report, options_.fill));
+    BCCSKEL_RETURN_IF_ERROR(CheckSize(surface_));
+    warnings_ = DefectWarnings(surface_.report, result.fill);
+    fill_.emplace(surface_, result.fill, options_.max_points);
+    BCCSKEL_ASSIGN_OR_RETURN(result.volume, FillAsAsked());
+    if (options_.topology == TopologyCheck::kCompare) {
+      BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
+      WarnAboutTopology(ExpectedTopology(surface_.report, result.fill), *result.topology);
+    }
+    result.warnings = std::move(warnings_);
+    result.mesh = std::move(surface_.report);
+    return result;
+  }
+
+ private:
+  absl::StatusOr<Volume> FillAsAsked() {
+    if (!options_.spacing) return FillToCount(*options_.points);
+    const double unit_spacing = *options_.spacing / surface_.half_size / 2;
+    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(unit_spacing, options_.shift));
+    if (volume.empty()) warnings_.push_back("no lattice point is inside: the spacing is too large");
+    return volume;
+  }
+
+  void WarnAboutTopology(const std::optional<SolidTopology>& mesh, const BettiNumbers& grid) {
+    if (!mesh || *mesh == SolidTopology{grid.components, grid.loops, grid.cavities}) return;
+    warnings_.push_back(absl::StrFormat(
+        "the grid has %d components, %d loops, %d cavities, the mesh %d, %d, %d: walls or gaps "
+        "thinner than a cell, or parts that touch or cross",
+        grid.components, grid.loops, grid.cavities, mesh->components, mesh->loops, mesh->cavities));
+  }
+
+  absl::StatusOr<Volume> Fill(double unit_spacing, GridShift shift) const {
+    BCCSKEL_ASSIGN_OR_RETURN(const GridFit fit, FitGrid(surface_, unit_spacing, shift));
+    return fill_->Fill(fit, context_);
+  }
+
+  // Spacing that gives about this many points in the box.
+  double BoxSpacing(double points) const {
+    const auto& box = surface_.upper_unit;
+    return std::cbrt(2 * box[0] * box[1] * box[2] / points);
+  }
+
+  // Spacing for a first try: from the enclosed volume, or a coarse one from the box. Where parts of
+  // a surface turn against each other their volumes cancel, and the spacing that follows from the
+  // sum may ask for any number of points; so a small sum is compared with a coarse grid first.
+  absl::StatusOr<double> FirstSpacing(uint64_t target) const {
+    constexpr double kCoarseBoxPoints = 30000;
+    constexpr double kLargeShare = 1.0 / 8;
+    const auto& box = surface_.upper_unit;
+    const double coarse = BoxSpacing(kCoarseBoxPoints);
+    const double share = surface_.unit_volume / (box[0] * box[1] * box[2]);
+    if (surface_.report.closure != SurfaceClosure::kOriented || !(share > 0)) return coarse;
+    const double spacing = std::cbrt(2 * surface_.unit_volume / static_cast<double>(target));
+    if (share >= kLargeShare) return spacing;
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume volume, Fill(coarse, GridShift::kCentered));
+    const double expected = kCoarseBoxPoints * share;
+    const bool plausible =
+        expected >= 1 && static_cast<double>(volume.PointCount()) <= 8 * std::max(expected, 4.0);
+    return plausible ? spacing : coarse;
+  }
+
+  // Points = 2 * volume / spacing^3, so each count tells a better spacing. The count jumps where
+  // flat walls cross whole layers of points; the second half of the tries moves the grid off the
+  // middle, where opposite walls jump at different spacings.
+  absl::StatusOr<Volume> FillToCount(uint64_t target) {
+    constexpr int kTries = 16;
+    constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
+    constexpr double kTolerance = 0.02;
+    BCCSKEL_ASSIGN_OR_RETURN(const double first, FirstSpacing(target));
+    SpacingSearch search(first);
+    Volume best;
+    double best_ratio = 0;
+    for (int n = 0; n < kTries; ++n) {
+      if (n == kTries / 2) search = SpacingSearch(search.spacing());
+      const GridShift shift = n < kTries / 2 ? GridShift::kCentered : GridShift::kOffCenter;
+      if (n == kFruitlessTries && best.empty()) break;
+      BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(search.spacing(), shift));
+      const uint64_t count = volume.PointCount();
+      const double ratio = static_cast<double>(count) / static_cast<double>(target);
+      if (Distance(ratio) < Distance(best_ratio)) {
+        best = std::move(volume);
+        best_ratio = ratio;
+      }
+      if (std::abs(best_ratio - 1) <= kTolerance) return best;
+      search.Learn(count, target);
+    }
+    return BestOfTries(std::move(best), target);
+  }
+
+  // How far a count is from the target, as a factor of 1 or more.
+  static double Distance(double ratio) { return ratio < 1 ? 1 / ratio : ratio; }
+
+  absl::StatusOr<Volume> BestOfTries(Volume best, uint64_t target) {
+    if (best.empty()) {
+      return absl::InvalidArgumentError(
+          "nothing enclosed: no lattice point is inside the mesh at any spacing tried");
+    }
+    warnings_.push_back(
+        absl::StrFormat("%d points instead of the %d wanted", best.PointCount(), target));
+    return best;
+  }
+
+  Surface surface_;
+  std::optional<SolidFill> fill_;
+  const VoxelizeOptions& options_;
+  const exec::Context& context_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+absl::StatusOr<VoxelizeResult> Voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options,
+                                        const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckOptions(options));
+  return Voxelizer(PrepareSurface(mesh), options, context).Run();
+}
+
+}  // namespace bccskel

@@ -1,0 +1,60 @@
+#ifndef BCCSKEL_CORE_IMPORT_VOXELIZE_VOXELIZE_H_
+#define BCCSKEL_CORE_IMPORT_VOXELIZE_VOXELIZE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/import/mesh/mesh_report.h"
+#include "core/import/mesh/triangle_mesh.h"
+#include "core/import/voxelize/fill_rule.h"
+#include "core/import/voxelize/grid_fit.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Whether the topology of the grid is counted and compared with that of the mesh.
+enum class TopologyCheck { kCompare, kSkip };
+
+struct VoxelizeOptions {
+  // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
+  // them; the spacing is the edge of the cubic cell in the mesh's unit of length.
+  std::optional<uint64_t> points = {};
+  std::optional<double> spacing = {};
+  // Of a spacing. A number of points takes a centered grid, unless only one off the center has it.
+  GridShift shift = GridShift::kCentered;
+  FillRule fill = FillRule::kAuto;
+  TopologyCheck topology = TopologyCheck::kCompare;
+  uint64_t max_points = uint64_t{1} << 33;
+};
+
+struct VoxelizeResult {
+  Volume volume;
+  MeshReport mesh;
+  std::vector<std::string> warnings;     // sentences for a person
+  FillRule fill = FillRule::kParity;     // the rule used, never kAuto
+  std::optional<BettiNumbers> topology;  // of the volume, with TopologyCheck::kCompare
+};
+
+// Lays a bcc grid over the mesh, its middle on or near the middle of the box, and takes the lattice
+// points inside. Points exactly on the surface are inside where (x + e^3, y + e, z + e^2) is, for a
+// vanishing e > 0 (see core/import/mesh/ray_crossing.h), so a box of whole cells gives half-open
+// ranges. Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every
+// lattice
+//          row and fills spans into sparse bricks.
+// Cost:    time and memory follow the surface in rows and the solid in bricks, not the box.
+// Errors:  INVALID_ARGUMENT (options, nothing enclosed, sizes a double cannot hold, kParity for an
+//          open mesh, kWinding for a closed one of inconsistent orientation), FAILED_PRECONDITION
+//          (kAuto for an open mesh), RESOURCE_EXHAUSTED (more than kMaxExtentCells cells along an
+//          axis, more points than max_points), CANCELLED, DEADLINE_EXCEEDED.
+// Threads: same bits for any number of threads.
+absl::StatusOr<VoxelizeResult> Voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options,
+                                        const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_VOXELIZE_VOXELIZE_H_

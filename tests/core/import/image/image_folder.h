@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_
+#define BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/core/import/image/image_bytes.h"
+
+namespace bccskel::testing {
+
+// An image that is a folder, written file by file; it is gone with its owner.
+class ImageFolder {
+ public:
+  explicit ImageFolder(const std::string& name) : path_(TemporaryPath(name)) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~ImageFolder() { std::filesystem::remove_all(path_); }
+  ImageFolder(const ImageFolder&) = delete;
+  ImageFolder& operator=(const ImageFolder&) = delete;
+
+  void Write(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path path = std::filesystem::path(path_) / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+  absl::StatusOr<ReadImage> Read(const ImageOptions& options = {}) const {
+    return ReadAll(OpenImage(path_, options));
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace bccskel::testing
+
+#endif  // BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_

@@ -1,0 +1,280 @@
+// How many points, how large, how far away, for how long; and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/import/mesh/mesh_file.h"
+#include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/core/import/mesh/test_data.h"
+#include "tests/core/import/voxelize/voxelized.h"
+
+namespace bccskel {
+namespace {
+
+using test::Voxelized;
+using ::testing::AllOf;
+using testing::Box;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::Merged;
+using testing::Moved;
+using testing::Sphere;
+
+absl::Status Refusal(const TriangleMesh& mesh, const VoxelizeOptions& options) {
+  return Voxelize(mesh, options, {}).status();
+}
+
+TEST(VoxelizePoints, MeetsTheWantedNumberWithinTwoPercent) {
+  const std::vector<TriangleMesh> meshes = {
+      Sphere({0, 0, 0}, 1), testing::Torus(3, 0.5), testing::TrefoilTube(0.2),
+      Merged(Sphere({0, 0, 0}, 1), Sphere({40, 0, 0}, 0.5)), Box({0, 0, 0}, {1, 2, 30})};
+  for (const TriangleMesh& mesh : meshes) {
+    for (uint64_t wanted : {2000u, 30000u, 250000u}) {
+      const VoxelizeResult result =
+          Voxelized(mesh, {.points = wanted, .topology = TopologyCheck::kSkip});
+      const auto count = static_cast<double>(result.volume.PointCount());
+      EXPECT_NEAR(count / static_cast<double>(wanted), 1, 0.02);
+      EXPECT_THAT(result.warnings, IsEmpty());
+    }
+  }
+}
+
+// A box whose upper face is turned by half a turn: two lobes of opposite orientation.
+TriangleMesh BowTie() {
+  TriangleMesh mesh = Box({-1, -1, -1}, {1, 1, 1});
+  for (auto& v : mesh.vertices) {
+    if (v[2] > 0) v = {-v[0], -v[1], v[2]};
+  }
+  return mesh;
+}
+
+TEST(VoxelizePoints, AreMetWhereSignedVolumesCancel) {
+  for (const uint64_t wanted : {2000u, 20000u}) {
+    const VoxelizeResult result =
+        Voxelized(BowTie(), {.points = wanted, .topology = TopologyCheck::kSkip});
+    EXPECT_NEAR(static_cast<double>(result.volume.PointCount()) / static_cast<double>(wanted), 1,
+                0.02);
+  }
+}
+
+TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {
+  const TriangleMesh ball = Sphere({0, 0, 0}, 1);
+  const VoxelizeResult one = Voxelized(ball, {.points = 2000});
+  TriangleMesh twice = ball;
+  const TriangleMesh flipped = testing::Flipped(ball);
+  twice.triangles.insert(twice.triangles.end(), flipped.triangles.begin(), flipped.triangles.end());
+  for (const TriangleMesh& mesh : {twice, testing::Unshared(twice)}) {
+    const VoxelizeResult both = Voxelized(mesh, {.points = 2000});
+    EXPECT_EQ(both.volume, one.volume);
+    EXPECT_THAT(both.warnings, ElementsAre(HasSubstr("from both sides")));
+  }
+}
+
+TEST(VoxelizePoints, SaysSoWhereWholeLayersOfACubeLeaveNoCountNearby) {
+  const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.points = 40});
+  const auto count = static_cast<double>(result.volume.PointCount());
+  const bool met = std::abs(count / 40 - 1) <= 0.02;
+  if (met) {
+    EXPECT_THAT(result.warnings, IsEmpty());
+  } else {
+    EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("instead of the 40 wanted")));
+  }
+  EXPECT_GT(count, 10);
+  EXPECT_LT(count, 160);
+}
+
+TEST(VoxelizePoints, OnePointIsAnObjectToo) {
+  const VoxelizeResult result = Voxelized(Sphere({0, 0, 0}, 1), {.points = 1});
+  EXPECT_GE(result.volume.PointCount(), 1u);
+  EXPECT_LE(result.volume.PointCount(), 10u);
+}
+
+TEST(VoxelizeSpacing, IsTheEdgeOfTheCubicCellInUnitsOfTheMesh) {
+  for (double size : {1e-3, 1.0, 1e6}) {
+    const auto result =
+        Voxelized(Box({0, 0, 0}, {8 * size, 4 * size, 2 * size}), {.spacing = size / 2});
+    EXPECT_EQ(result.volume.PointCount(), 2u * 16 * 8 * 4);
+    for (double spacing : result.volume.placement().spacing) EXPECT_NEAR(spacing, size / 2, 1e-9);
+  }
+}
+
+TEST(VoxelizeSpacing, TooLargeGivesAnEmptySolidWithAWarning) {
+  const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.spacing = 3});
+  EXPECT_TRUE(result.volume.empty());
+  EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("spacing is too large")));
+}
+
+TEST(VoxelizePlacement, PutsThePointsWhereTheMeshIs) {
+  const VoxelizeResult result = Voxelized(Sphere({10, -20, 30}, 2), {.spacing = 0.1});
+  WorldPoint sum = {};
+  result.volume.ForEachPoint([&](LatticePoint p) {
+    const WorldPoint world = result.volume.placement().ToWorld(p);
+    EXPECT_LE(std::hypot(world[0] - 10, world[1] + 20, world[2] - 30), 2.0);
+    for (size_t axis = 0; axis < 3; ++axis) sum[axis] += world[axis];
+  });
+  const auto count = static_cast<double>(result.volume.PointCount());
+  EXPECT_NEAR(sum[0] / count, 10, 0.01);
+  EXPECT_NEAR(sum[1] / count, -20, 0.01);
+  EXPECT_NEAR(sum[2] / count, 30, 0.01);
+}
+
+TEST(VoxelizePlacement, KeepsItsBitsFarFromTheOrigin) {
+  // Multiples of 2^-10 stay exact at an offset of 10^9.
+  TriangleMesh mesh = Sphere({0, 0, 0}, 1);
+  for (auto& vertex : mesh.vertices) {
+    for (double& c : vertex) c = std::ldexp(std::round(std::ldexp(c, 10)), -10);
+  }
+  const VoxelizeResult here = Voxelized(mesh, {.spacing = 0.0625});
+  const VoxelizeResult far = Voxelized(Moved(mesh, 1, {1e9, -1e9, 1e9}), {.spacing = 0.0625});
+  EXPECT_EQ(far.volume.SortedPoints(), here.volume.SortedPoints());
+  EXPECT_NEAR(far.volume.placement().origin[0] - 1e9, here.volume.placement().origin[0], 1e-6);
+  EXPECT_EQ(far.topology, (BettiNumbers{1, 0, 0}));
+}
+
+// Twelve rods 200 wide and 1 thick: less than 0.02 % of their box.
+TEST(VoxelizeSparse, PaysForTheSolidAndNotForItsBox) {
+  TriangleMesh mesh;
+  for (double y : {0.0, 199.0}) {
+    for (double z : {0.0, 199.0}) {
+      mesh = Merged(mesh, Box({0, y, z}, {200, y + 0.5, z + 0.5}));
+      mesh = Merged(mesh, Box({y, 0.75, z}, {y + 0.5, 198.75, z + 0.5}));
+    }
+  }
+  const VoxelizeResult result =
+      Voxelized(mesh, {.spacing = 0.0625, .topology = TopologyCheck::kSkip});
+  const LatticeExtent& extent = result.volume.extent();
+  const uint64_t points = result.volume.PointCount();
+  EXPECT_LT(static_cast<double>(points), 1e-4 * static_cast<double>(extent.PointCount()));
+  EXPECT_GT(points, 700000u);
+  EXPECT_LT(result.volume.brick_count() * kBrickPoints, 6 * points);
+}
+
+TEST(VoxelizeSparse, AFarSpeckCostsNoMoreThanItself) {
+  BCCSKEL_SKIP_WITHOUT_TEST_DATA();
+  const auto mesh = ReadMeshFile(testing::TestData("hostile/one_outlier.off"));
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  const VoxelizeResult sparse = Voxelized(*mesh, {.spacing = 0.5});
+  EXPECT_GT(sparse.volume.extent().nx, 1000000);
+  EXPECT_LT(sparse.volume.brick_count(), 20u);
+  EXPECT_THAT(Refusal(*mesh, {.points = 100000}).message(), HasSubstr("the limit is 4194304"));
+  EXPECT_EQ(Refusal(*mesh, {.points = 100000}).code(), absl::StatusCode::kResourceExhausted);
+}
+
+TEST(VoxelizeRefusal, WantsExactlyOneOfPointsAndSpacing) {
+  const TriangleMesh mesh = Sphere({0, 0, 0}, 1);
+  for (const VoxelizeOptions& options :
+       {VoxelizeOptions{}, VoxelizeOptions{.points = 100, .spacing = 0.1}}) {
+    EXPECT_EQ(Refusal(mesh, options).code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(Refusal(mesh, options).message(), HasSubstr("exactly one"));
+  }
+}
+
+TEST(VoxelizeRefusal, NamesTheValueAndTheLimit) {
+  const TriangleMesh mesh = Sphere({0, 0, 0}, 1);
+  for (double spacing : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(Refusal(mesh, {.spacing = spacing}).code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(Refusal(mesh, {.spacing = spacing}).message(), HasSubstr("finite and positive"));
+  }
+  const absl::Status none = Refusal(mesh, {.points = 0, .max_points = 500});
+  EXPECT_EQ(none.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(none.message(), AllOf(HasSubstr("0 points"), HasSubstr("1 to 500")));
+  EXPECT_THAT(Refusal(mesh, {.points = 501, .max_points = 500}).message(), HasSubstr("501"));
+}
+
+TEST(VoxelizeRefusal, OfASolidWithTooManyPoints) {
+  const absl::Status status = Refusal(Sphere({0, 0, 0}, 1), {.spacing = 0.01, .max_points = 5000});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(status.message(), HasSubstr("5000"));
+}
+
+TEST(VoxelizeRefusal, OfAGridWithTooManyCells) {
+  const absl::Status status = Refusal(Sphere({0, 0, 0}, 1), {.spacing = 1e-7});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(status.message(), AllOf(HasSubstr("2e+07 cells"), HasSubstr("4194304")));
+}
+
+TEST(VoxelizeRefusal, OfMoreCrossingsThanAreServed) {
+  const absl::Status status = Refusal(Box({0, 0, 0}, {1, 1, 1}), {.spacing = 1e-5});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(status.message(), HasSubstr("cross"));
+}
+
+TEST(VoxelizeRefusal, OfMeshesThatEncloseNothing) {
+  const TriangleMesh point = {{{1, 1, 1}}, {{0, 0, 0}}};
+  const TriangleMesh plane = Box({0, 0, 0}, {1, 1, 0});
+  for (const TriangleMesh& mesh : {point, plane, TriangleMesh{}}) {
+    EXPECT_EQ(Refusal(mesh, {.points = 100}).code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(Refusal(mesh, {.points = 100}).message(), HasSubstr("nothing enclosed"));
+  }
+}
+
+TEST(VoxelizeRefusal, OfSheetsThatFoldBackOntoThemselves) {
+  // Two triangles back to back, tilted: closed, oriented, no volume.
+  const TriangleMesh sheet = {{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.4}}, {{0, 1, 2}, {0, 2, 1}}};
+  const absl::Status status = Refusal(sheet, {.points = 100});
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("nothing enclosed"));
+}
+
+TEST(VoxelizeRefusal, OfSizesThatADoubleCannotHold) {
+  const absl::Status status =
+      Refusal(Box({-1.7e308, -1.7e308, -1.7e308}, {1.7e308, 1.7e308, 1.7e308}), {.points = 100});
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+}
+
+VoxelizeResult OnTeam(const TriangleMesh& mesh, const VoxelizeOptions& options, int threads) {
+  exec::WorkerTeam team(threads);
+  exec::Context context;
+  context.team = &team;
+  auto result = Voxelize(mesh, options, context);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return *std::move(result);
+}
+
+TEST(VoxelizeThreads, GiveTheSameBitsForAnyNumber) {
+  TriangleMesh open = testing::Torus(2, 0.8);
+  open.triangles.resize(open.triangles.size() - 40);
+  const std::vector<std::pair<TriangleMesh, FillRule>> cases = {
+      {testing::TrefoilTube(0.3), FillRule::kAuto},
+      {Merged(Sphere({0, 0, 0}, 1), Sphere({1, 0, 0}, 1)), FillRule::kParity},
+      {open, FillRule::kWinding}};
+  for (const auto& [mesh, fill] : cases) {
+    const VoxelizeOptions options = {.points = 60000, .fill = fill};
+    const VoxelizeResult expected = Voxelized(mesh, options);
+    for (int threads : {2, 8}) {
+      const VoxelizeResult result = OnTeam(mesh, options, threads);
+      EXPECT_EQ(result.volume, expected.volume);
+      EXPECT_EQ(result.warnings, expected.warnings);
+      EXPECT_EQ(result.topology, expected.topology);
+    }
+  }
+}
+
+TEST(VoxelizeStop, EndsCancelledOrPastItsDeadline) {
+  std::stop_source source;
+  source.request_stop();
+  exec::Context cancelled;
+  cancelled.stop = source.get_token();
+  exec::Context late;
+  late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
+  const TriangleMesh mesh = Sphere({0, 0, 0}, 1);
+  for (const VoxelizeOptions& options :
+       {VoxelizeOptions{.points = 1000}, VoxelizeOptions{.spacing = 0.1}}) {
+    EXPECT_EQ(Voxelize(mesh, options, cancelled).status().code(), absl::StatusCode::kCancelled);
+    EXPECT_EQ(Voxelize(mesh, options, late).status().code(), absl::StatusCode::kDeadlineExceeded);
+  }
+}
+
+TEST(VoxelizeRefusal, OfCoordinatesThatFloatsHaveMerged) {
+  BCCSKEL_SKIP_WITHOUT_TEST_DATA();
+  const auto mesh = ReadMeshFile(testing::TestData("hostile/offset_1e9.stl"));
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  EXPECT_EQ(Refusal(*mesh, {.points = 1000}).code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace bccskel
