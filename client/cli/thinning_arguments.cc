@@ -72,8 +72,8 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
                   "of thinning for persistence (default 6)")
       ->option_text("X");
   AddChoice<TipPlacement>(command, "--tips", pruning.tips,
-                          "Where branches end: where the ridge of the distances does (default), or "
-                          "as thinned",
+                          "Where branches end: where the ridge of the distances does (default; branches that "
+                          "run beside another curve then join it where they meet it), or as thinned",
                           Choices(kTipsWords));
 }
 
@@ -81,7 +81,7 @@ void AddJunctions(CLI::App& command, double& reach) {
   command
       .add_option("--merge-junctions", reach,
                   "Make one node of junctions that lie within so many radii of the deepest of "
-                  "them, up to 4; 0 leaves all (default 1.75)")
+                  "them or of thinner limbs, up to 4; 0 leaves all (default 1.25)")
       ->option_text("X");
 }
 

@@ -19,6 +19,8 @@ using Path = std::vector<SkeletonPoint>;
 // More junctions in one ball are no place where limbs meet but a sponge: noise that bored tunnels.
 // Joined, each of their edges would have to run on to the middle of the body.
 constexpr size_t kMostJoined = 16;
+// Of the radius: so near to each other, junctions are one for limbs of any width.
+constexpr double kOneBall = 0.5;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 struct OpenEdge {
@@ -90,7 +92,7 @@ class Merger {
       for (uint32_t e : edges_at_[from]) {
         const SkeletonEdge& edge = graph_.edges[e];
         const uint32_t to = edge.source == from ? edge.target : edge.source;
-        if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(edge, center)) continue;
+        if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(e, to, center)) continue;
         node_of_[to] = center;
         dissolved_[e] = 1;
         inside.push_back(e);
@@ -111,13 +113,27 @@ class Merger {
     for (uint32_t e : edges) dissolved_[e] = 0;
   }
 
-  bool IsWithin(const SkeletonEdge& edge, uint32_t center) const {
+  // Whether the edge to `to` runs inside the node at `center`: within reach of its ball and of the
+  // limbs that leave at `to`. Thin limbs that leave a thick body side by side are no one node.
+  bool IsWithin(uint32_t e, uint32_t to, uint32_t center) const {
     const SkeletonPoint& at = graph_.nodes[center].at;
-    const double radius = reach_ * at.radius;
-    return std::ranges::all_of(graph_.PointsOf(edge), [&](const SkeletonPoint& p) {
+    double radius = reach_ * at.radius;
+    for (uint32_t other : edges_at_[to]) {
+      if (other != e) radius = std::min(radius, reach_ * MedianRadius(other));
+    }
+    radius = std::max(radius, kOneBall * at.radius);
+    return std::ranges::all_of(graph_.PointsOf(graph_.edges[e]), [&](const SkeletonPoint& p) {
       const Coordinates way = Sum(PlaceOf(p.point, scale_), -1, PlaceOf(at.point, scale_));
       return Dot(way, way) <= radius * radius;
     });
+  }
+
+  double MedianRadius(uint32_t e) const {
+    std::vector<float> radii;
+    for (const SkeletonPoint& p : graph_.PointsOf(graph_.edges[e])) radii.push_back(p.radius);
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::ranges::nth_element(radii, middle);
+    return *middle;
   }
 
   Path PathOf(const SkeletonEdge& edge) const {

@@ -7,20 +7,22 @@
 
 namespace bccskel {
 
-// The reach of a junction in radii of its ball. Limbs with background between them are two radii
-// apart at least.
-inline constexpr double kDefaultJunctionReach = 1.75;
+// The reach of a junction in radii of its ball, or of thinner limbs. Limbs with background between
+// them are two radii apart at least.
+inline constexpr double kDefaultJunctionReach = 1.25;
 inline constexpr double kMaxJunctionReach = 4;
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckJunctionReach(double reach);
 
 // Does:  makes one node of junctions that lie in one ball. The deepest junction first, each joins
-//        those that edges lead to whose points all lie within `reach` of its radii from it: those
-//        edges become part of the node. A junction that was taken in takes in none, so that a row
-//        of junctions along a limb does not become one. All other edges of what was taken in run
-//        on to the node, along the way that is now inside it. A ball with more than 17 junctions is
-//        left as it is: that is a sponge, and all its edges would run on to the middle.
+//        those that edges lead to whose points all lie within `reach` of its radii from it, and
+//        within `reach` of the radius of each limb that leaves there (or within half its radius,
+//        whatever the limbs): those edges become part of the node. A junction that was taken in
+//        takes in none, so that a row of junctions along a limb does not become one. All other
+//        edges of what was taken in run on to the node, along the way that is now inside it. A
+//        ball with more than 17 junctions is left as it is: that is a sponge, and all its edges
+//        would run on to the middle.
 // Why it is right: only edges of a tree disappear, each with a node, so edges - nodes stays, and
 //        so do loops and components. A second edge between two that are joined becomes an edge
 //        from the node to itself.

@@ -60,7 +60,16 @@ TEST(MergeJunctions, LeavesThoseFartherApart) {
 TEST(MergeJunctions, MakesNotOneOfARow) {
   const auto row = Comb({10, 18, 26, 34, 42, 50, 58, 66});
   EXPECT_EQ(JunctionsOf(Merged(row, 5, 0)), 8);
-  EXPECT_EQ(JunctionsOf(Merged(row, 6, kDefaultJunctionReach)), 4);
+  EXPECT_EQ(JunctionsOf(Merged(row, 6, 1.75)), 4);
+}
+
+// Two dendrites leave a soma side by side, within one ball of it.
+TEST(MergeJunctions, LeavesThinLimbsOfAThickBody) {
+  const auto thin_limbs = [](LatticePoint p) { return p.y == kMiddle ? 20.0f : 3.0f; };
+  SkeletonGraph graph = test::Trace(Comb({30, 46}), thin_limbs);
+  ASSERT_TRUE(MergeJunctions(kDefaultJunctionReach, {}, graph).ok());
+  EXPECT_EQ(JunctionsOf(graph), 2);
+  EXPECT_EQ(JunctionsOf(Merged(Comb({30, 46}), 20, kDefaultJunctionReach)), 1);
 }
 
 TEST(MergeJunctions, TakesTheDeepest) {
