@@ -71,10 +71,11 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
                   "relative-length (default 1), passes "
                   "of thinning for persistence (default 6)")
       ->option_text("X");
-  AddChoice<TipPlacement>(command, "--tips", pruning.tips,
-                          "Where branches end: where the ridge of the distances does (default; branches that "
-                          "run beside another curve then join it where they meet it), or as thinned",
-                          Choices(kTipsWords));
+  AddChoice<TipPlacement>(
+      command, "--tips", pruning.tips,
+      "Where branches end: where the ridge of the distances does (default; branches that "
+      "run beside another curve then join it where they meet it), or as thinned",
+      Choices(kTipsWords));
 }
 
 void AddJunctions(CLI::App& command, double& reach) {
