@@ -18,16 +18,18 @@ namespace bccskel {
 namespace {
 
 constexpr int kMostPasses = 3;
-constexpr size_t kMostReached = 10000;  // points; more are a sheet
+constexpr size_t kMostReached = 5000;  // points; more are a sheet
 constexpr double kWay = 2;           // radii along the curves, from which on it is beside the other
 constexpr double kInside = 0.9;      // radii
 constexpr double kOwnBall = 1.2;     // radii of the junction, where nothing else need be near
 constexpr double kGap = 4;           // lattice units that may lie outside all balls
 constexpr double kLeastGain = 5;     // lattice units
 constexpr double kLeastShare = 0.3;  // of the ball's radius
-constexpr double kReach = 1.5;       // of the arm's way, along the other curves
-constexpr double kSlant = 0.4;       // how far before the foot, relative to the way across
-constexpr double kSampling = 0.5;    // lattice units
+constexpr double kBodyShare = 0.6;  // of the junction's radius: the other curve runs on in the body
+constexpr double kReach = 2;        // of the arm's way, along the other curves
+constexpr double kStep = 2;         // lattice units, between places where the arm may be cut
+constexpr double kSlant = 0.4;      // how far before the foot, relative to the way across
+constexpr double kSampling = 0.5;   // lattice units
 
 // From a junction along curve points; the junction is not one of them.
 struct Arm {
@@ -99,12 +101,10 @@ class Slider {
   std::optional<Attachment> BetterFor(const Arm& arm) {
     const PointSet own(arm.points.begin(), arm.points.end());
     std::vector<double> ways;
-    double way = 0, covered_to = kOwnBall * set_.RadiusOf(arm.junction);
+    double covered_to = kOwnBall * set_.RadiusOf(arm.junction);
     size_t covered = 0;
-    LatticePoint previous = arm.junction;
     for (LatticePoint p : arm.points) {
-      way += set_.Between(previous, p);
-      previous = p;
+      const double way = set_.Between(p, arm.junction);
       if (balls_->IsCovered(p, 2 * way, set_, own)) {
         covered_to = std::max(covered_to, way);
         covered = ways.size() + 1;
@@ -114,7 +114,8 @@ class Slider {
       ways.push_back(way);
     }
     ways.resize(covered);
-    if (ways.empty() || ways.back() < kLeastGain) return std::nullopt;
+    const double least = kLeastShare * kBodyShare * set_.RadiusOf(arm.junction);
+    if (ways.empty() || ways.back() < std::max(kLeastGain, least)) return std::nullopt;
     return BestOf(arm, own, ways);
   }
 
@@ -124,7 +125,8 @@ class Slider {
   };
 
   // The points near the junction but those of the arm, by their ways from it.
-  PointTable<Reached> WaysFrom(LatticePoint junction, const PointSet& own, double reach) const {
+  PointTable<Reached> WaysFrom(LatticePoint junction, const PointSet& own, double least,
+                               double reach) const {
     using Step = std::pair<double, std::pair<LatticePoint, LatticePoint>>;
     PointTable<Reached> ways;
     std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
@@ -137,34 +139,37 @@ class Slider {
       ways.Set(p, {way, from});
       ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint q) {
         const double there = way + set_.Between(p, q);
-        if (there <= reach && !own.contains(q)) front.push({there, {q, p}});
+        if (there > reach || own.contains(q) || set_.RadiusOf(q) < least) return;
+        front.push({there, {q, p}});
       });
     }
     return ways;
   }
 
-  // The attachment that makes the branch shortest. Shapes: `way_to`, one for each of the arm's
-  // first points.
+  // The attachment that makes the branch shortest. Ways are straight, since those along lattice
+  // points depend on their direction. Shapes: `way_to`, one for each of the arm's first points.
   std::optional<Attachment> BestOf(const Arm& arm, const PointSet& own,
                                    const std::vector<double>& way_to) const {
-    const PointTable<Reached> ways = WaysFrom(arm.junction, own, kReach * way_to.back());
+    const double least = kBodyShare * set_.RadiusOf(arm.junction);
+    const PointTable<Reached> ways = WaysFrom(arm.junction, own, least, kReach * way_to.back());
     struct Ball {
       LatticePoint center;
       Coordinates place;
       double radius, way;
     };
     std::vector<Ball> balls;
-    ways.ForEach([&](LatticePoint p, const Reached& reached) {
-      balls.push_back({p, PlaceOf(p, scale_), set_.RadiusOf(p), reached.way});
+    ways.ForEach([&](LatticePoint p, const Reached&) {
+      balls.push_back({p, PlaceOf(p, scale_), set_.RadiusOf(p), set_.Between(p, arm.junction)});
     });
     std::optional<LatticePoint> center;
     size_t last = 0;
-    double most = 0;
+    double most = 0, looked_at = kLeastGain;
     for (size_t n = 0; n < way_to.size(); ++n) {
       const LatticePoint q = arm.points[n];
       const Coordinates place = PlaceOf(q, scale_);
       const double radius = set_.RadiusOf(q), way = way_to[n];
-      if (way < kLeastGain) continue;
+      if (way < looked_at + kStep) continue;
+      looked_at = way;
       for (const Ball& ball : balls) {
         if (ball.radius < radius || ball.way + way <= kWay * ball.radius) continue;
         const Coordinates across = Sum(ball.place, -1, place);
