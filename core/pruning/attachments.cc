@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <queue>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "core/distance/places.h"
-#include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/simple_points.h"
 #include "core/topology/simple_point_table.h"
@@ -21,12 +19,12 @@ constexpr int kMostPasses = 3;
 constexpr size_t kMostReached = 5000;  // points; more are a sheet
 constexpr double kWay = 2;           // radii along the curves, from which on it is beside the other
 constexpr double kInside = 0.9;      // radii
-constexpr double kOwnBall = 1.2;     // radii of the junction, where nothing else need be near
 constexpr double kGap = 4;           // lattice units that may lie outside all balls
 constexpr double kLeastGain = 5;     // lattice units
 constexpr double kLeastShare = 0.3;  // of the ball's radius
+constexpr double kShorter = 0.4;     // of the way that it replaces
 constexpr double kBodyShare = 0.6;  // of the junction's radius: the other curve runs on in the body
-constexpr double kReach = 2;        // of the arm's way, along the other curves
+constexpr double kReach = 4;        // radii of the junction
 constexpr double kStep = 2;         // lattice units, between places where the arm may be cut
 constexpr double kSlant = 0.4;      // how far before the foot, relative to the way across
 constexpr double kSampling = 0.5;   // lattice units
@@ -63,33 +61,42 @@ class Slider {
  private:
   // Returns whether anything moved.
   bool SlideAll() {
-    using Start = std::pair<LatticePoint, LatticePoint>;  // a junction, and a curve point beside it
-    std::vector<Start> starts;
+    std::vector<LatticePoint> junctions;
     set_.ForEachBranchPoint([&](LatticePoint p) {
       ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint junction) {
-        if (set_.Degree(junction) > 2) starts.emplace_back(junction, p);
+        if (set_.Degree(junction) > 2) junctions.push_back(junction);
       });
     });
-    std::ranges::sort(starts);
-    balls_.emplace(set_, scale_);
+    std::ranges::sort(junctions);
+    junctions.erase(std::unique(junctions.begin(), junctions.end()), junctions.end());
     bool moved = false;
-    for (const auto& [junction, start] : starts) {
+    for (LatticePoint junction : junctions) {
       if (context_.ShouldStop()) return false;
-      if (!set_.Contains(junction) || set_.Degree(junction) <= 2) continue;
-      if (!set_.Contains(start) || set_.Degree(start) > 2) continue;
-      const Arm arm = ArmFrom(junction, start);
-      const std::optional<Attachment> better = BetterFor(arm);
-      if (better.has_value() && Slide(arm, *better)) moved = true;
+      if (set_.Contains(junction) && SlideFrom(junction)) moved = true;
     }
     return moved;
   }
 
+  bool SlideFrom(LatticePoint junction) {
+    bool moved = false;
+    ForEachNeighbor(junction, set_.NeighborsOf(junction), [&](LatticePoint start) {
+      if (!set_.Contains(junction) || set_.Degree(junction) <= 2) return;
+      if (!set_.Contains(start) || set_.Degree(start) > 2) return;
+      const Arm arm = ArmFrom(junction, start);
+      const std::optional<Attachment> better = BetterFor(arm);
+      if (better.has_value() && Slide(arm, *better)) moved = true;
+    });
+    return moved;
+  }
+
+  // As far as it may have to move.
   Arm ArmFrom(LatticePoint junction, LatticePoint start) const {
+    const double reach = kReach * set_.RadiusOf(junction);
     Arm arm{junction, {start}};
     LatticePoint previous = junction, p = start;
     for (NeighborMask mask = set_.NeighborsOf(p); IsPair(mask); mask = set_.NeighborsOf(p)) {
       const LatticePoint next = NextPoint(p, mask, previous);
-      if (set_.Degree(next) > 2 || next == start) break;
+      if (set_.Degree(next) > 2 || next == start || set_.Between(next, junction) > reach) break;
       arm.points.push_back(next);
       previous = p;
       p = next;
@@ -97,98 +104,68 @@ class Slider {
     return arm;
   }
 
-  // Looks at the first part of the arm that lies in the balls of other curves.
-  std::optional<Attachment> BetterFor(const Arm& arm) {
-    const PointSet own(arm.points.begin(), arm.points.end());
-    std::vector<double> ways;
-    double covered_to = kOwnBall * set_.RadiusOf(arm.junction);
-    size_t covered = 0;
-    for (LatticePoint p : arm.points) {
-      const double way = set_.Between(p, arm.junction);
-      if (balls_->IsCovered(p, 2 * way, set_, own)) {
-        covered_to = std::max(covered_to, way);
-        covered = ways.size() + 1;
-      } else if (way > covered_to + kGap) {
-        break;
-      }
-      ways.push_back(way);
-    }
-    ways.resize(covered);
-    const double least = kLeastShare * kBodyShare * set_.RadiusOf(arm.junction);
-    if (ways.empty() || ways.back() < std::max(kLeastGain, least)) return std::nullopt;
-    return BestOf(arm, own, ways);
-  }
-
   struct Reached {
-    double way = 0;
-    LatticePoint from;
+    LatticePoint point;
+    size_t from;  // position of the one before
+    Coordinates place;
+    double radius;
+    double way;  // straight from the junction
   };
 
-  // The points near the junction but those of the arm, by their ways from it.
-  PointTable<Reached> WaysFrom(LatticePoint junction, const PointSet& own, double least,
-                               double reach) const {
-    using Step = std::pair<double, std::pair<LatticePoint, LatticePoint>>;
-    PointTable<Reached> ways;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> front;
-    front.push({0, {junction, junction}});
-    while (!front.empty() && ways.size() < kMostReached) {
-      const auto [way, step] = front.top();
-      front.pop();
-      const auto [p, from] = step;
-      if (ways.Find(p) != nullptr) continue;
-      ways.Set(p, {way, from});
+  // The points of other curves of the same body, breadth first, the junction first.
+  std::vector<Reached> BodyAround(const Arm& arm) const {
+    const double ball = set_.RadiusOf(arm.junction);
+    std::vector<Reached> body = {{arm.junction, 0, PlaceOf(arm.junction, scale_), ball, 0}};
+    PointSet seen = {arm.junction, arm.points.front()};
+    for (size_t n = 0; n < body.size() && body.size() < kMostReached; ++n) {
+      const LatticePoint p = body[n].point;
       ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint q) {
-        const double there = way + set_.Between(p, q);
-        if (there > reach || own.contains(q) || set_.RadiusOf(q) < least) return;
-        front.push({there, {q, p}});
+        const double radius = set_.RadiusOf(q), way = set_.Between(q, arm.junction);
+        if (radius < kBodyShare * ball || way > kReach * ball || !seen.insert(q).second) return;
+        body.push_back({q, n, PlaceOf(q, scale_), radius, way});
       });
     }
-    return ways;
+    return body;
   }
 
   // The attachment that makes the branch shortest. Ways are straight, since those along lattice
-  // points depend on their direction. Shapes: `way_to`, one for each of the arm's first points.
-  std::optional<Attachment> BestOf(const Arm& arm, const PointSet& own,
-                                   const std::vector<double>& way_to) const {
-    const double least = kBodyShare * set_.RadiusOf(arm.junction);
-    const PointTable<Reached> ways = WaysFrom(arm.junction, own, least, kReach * way_to.back());
-    struct Ball {
-      LatticePoint center;
-      Coordinates place;
-      double radius, way;
-    };
-    std::vector<Ball> balls;
-    ways.ForEach([&](LatticePoint p, const Reached&) {
-      balls.push_back({p, PlaceOf(p, scale_), set_.RadiusOf(p), set_.Between(p, arm.junction)});
-    });
-    std::optional<LatticePoint> center;
-    size_t last = 0;
-    double most = 0, looked_at = kLeastGain;
-    for (size_t n = 0; n < way_to.size(); ++n) {
+  // points depend on their direction.
+  std::optional<Attachment> BetterFor(const Arm& arm) const {
+    const double ball = set_.RadiusOf(arm.junction);
+    // Nearer to the junction nothing is long enough to count.
+    const double nearest = kBodyShare * kWay / (2 + 1 - kShorter) * ball;
+    if (set_.Between(arm.points.back(), arm.junction) < std::max(nearest, kLeastGain)) {
+      return std::nullopt;
+    }
+    const std::vector<Reached> body = BodyAround(arm);
+    size_t last = 0, center = 0;
+    double most = kLeastGain, looked_at = nearest;
+    for (size_t n = 0; n < arm.points.size(); ++n) {
       const LatticePoint q = arm.points[n];
       const Coordinates place = PlaceOf(q, scale_);
-      const double radius = set_.RadiusOf(q), way = way_to[n];
+      const double radius = set_.RadiusOf(q), way = set_.Between(q, arm.junction);
       if (way < looked_at + kStep) continue;
       looked_at = way;
-      for (const Ball& ball : balls) {
-        if (ball.radius < radius || ball.way + way <= kWay * ball.radius) continue;
-        const Coordinates across = Sum(ball.place, -1, place);
-        const double square = Dot(across, across), reach = kInside * ball.radius;
+      for (size_t m = 0; m < body.size(); ++m) {
+        const Reached& other = body[m];
+        if (other.radius < radius || other.way + way <= kWay * other.radius) continue;
+        const Coordinates across = Sum(other.place, -1, place);
+        const double square = Dot(across, across), reach = kInside * other.radius;
         if (square >= reach * reach) continue;
         const double gain = way - std::sqrt(square);
-        if (gain < std::max(kLeastGain, kLeastShare * ball.radius) || gain < most) continue;
-        if (gain == most && (n != last || *center < ball.center)) continue;
+        if (gain <= most || gain < kLeastShare * other.radius || gain < kShorter * way) continue;
         most = gain;
         last = n;
-        center = ball.center;
+        center = m;
       }
     }
-    if (!center.has_value()) return std::nullopt;
-    const double at = ways.Find(*center)->way - kSlant * set_.Between(*center, arm.points[last]);
+    if (center == 0) return std::nullopt;
+    const double at =
+        body[center].way - kSlant * set_.Between(body[center].point, arm.points[last]);
     if (at <= kGap) return std::nullopt;
     Attachment better{last, {}};
-    for (LatticePoint p = *center; p != arm.junction; p = ways.Find(p)->from) {
-      if (ways.Find(p)->way <= at) better.trunk.push_back(p);
+    for (size_t m = center; m != 0; m = body[m].from) {
+      if (body[m].way <= at || !better.trunk.empty()) better.trunk.push_back(body[m].point);
     }
     if (better.trunk.empty()) return std::nullopt;
     better.trunk.push_back(arm.junction);
@@ -326,13 +303,20 @@ class Slider {
       ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint n) { wider.insert(n); });
     }
     RemoveSimplePoints(set_, wider, keep_);
-    for (LatticePoint p : wider) {
-      while (set_.Contains(p) && set_.Degree(p) == 1 && !keep_.contains(p) && !ends.contains(p)) {
-        const LatticePoint next = NextPoint(p, set_.NeighborsOf(p), p);
-        set_.Remove(p);
-        p = next;
-      }
+    for (LatticePoint p : wider) RemoveSpur(p, ends);
+  }
+
+  // Removes the curve from p on if it ends there, as none did before.
+  void RemoveSpur(LatticePoint p, const PointSet& ends) {
+    std::set<LatticePoint> around;
+    while (set_.Contains(p) && set_.Degree(p) == 1 && !keep_.contains(p) && !ends.contains(p)) {
+      const LatticePoint next = NextPoint(p, set_.NeighborsOf(p), p);
+      set_.Remove(p);
+      p = next;
+      around = {p};
+      ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint n) { around.insert(n); });
     }
+    RemoveSimplePoints(set_, around, keep_);
   }
 
   ThinSet& set_;
@@ -342,7 +326,6 @@ class Slider {
   const PointSet& keep_;
   const exec::Context& context_;
   PruningLevels& levels_;
-  std::optional<BallIndex> balls_;
 };
 
 }  // namespace

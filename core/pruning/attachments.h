@@ -14,14 +14,15 @@ namespace bccskel {
 // meets the curve where it enters those balls.
 // Does:  looks, per branch from a junction J, for a point q of it and a point t of another curve so
 //        that q lies within 0.9 of the ball of t, |q - J| + |t - J| > 2 D(t), and |q - J| - |q -
-//        t|, the gain, is as large as possible, at least 0.3 D(t) and 5 units. Between J and t no
-//        ball is smaller than 0.6 D(J): the curve runs on in the same body. The new way runs from q
-//        to a place on the curve a little before t. The object's points between the old way and the
-//        curve are added one by one, each simple at its turn; then they go, with the old way, the
-//        farthest from the new way first, each simple at its turn. So the topology stays. Where
-//        the new way is not as short as it should be, since something lies between, all stays.
+//        t|, the gain, is as large as possible, at least 0.3 D(t), 0.4 |q - J| and 5 units. Between
+//        J and t no ball is smaller than 0.6 D(J): the curve runs on in the same body. The new way
+//        runs from q to a place on the curve a little before t. The object's points between the old
+//        way and the curve are added one by one, each simple at its turn; then they go, with the
+//        old way, the farthest from the new way first, each simple at its turn. So the topology
+//        stays. Where the new way is not as short as it should be, since something lies between,
+//        all stays.
 // Needs: `radius` belongs to `object`. New points get the level of q.
-// Cost:  a few table lookups per point near junctions; the area between the curves where they move.
+// Cost:  the pairs of points near junctions; the area between the curves where they move.
 void SlideAttachments(ThinSet& set, const Volume& object, const ExactRadius& radius,
                       const PointSet& keep, const exec::Context& context, PruningLevels& levels);
 
