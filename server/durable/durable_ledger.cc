@@ -8,7 +8,7 @@
 #include "server/admission/demand.h"
 #include "server/admission/refusal.h"
 #include "server/jobs/random_name.h"
-#include "server/store/sql_job_store.h"
+#include "server/store/job_store.h"
 
 namespace bccskel::server {
 namespace {

@@ -29,7 +29,7 @@
 #include "server/jobs/task_threads.h"
 #include "server/store/blob_store.h"
 #include "server/store/disk_quota.h"
-#include "server/store/folder_lock.h"
+#include "server/store/data_folder.h"
 #include "server/store/group_commit.h"
 
 namespace bccskel::server {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "server/store/disk_quota.h"
-#include "server/store/folder_lock.h"
+#include "server/store/data_folder.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {

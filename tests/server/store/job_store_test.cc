@@ -1,3 +1,5 @@
+#include "server/store/job_store.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,8 +11,7 @@
 
 #include "server/store/file_io.h"
 #include "server/store/schema.h"
-#include "server/store/sql_job_store.h"
-#include "server/store/sqlite_database.h"
+#include "server/store/sql_database.h"
 #include "tests/server/store/postgres_server.h"
 #include "tests/server/store/temporary_folder.h"
 
@@ -415,7 +416,7 @@ TEST_P(FleetStoreTest, RefusesAPasswordThatOthersCouldSee) {
 TEST(SchemaTest, RefusesAFileOfANewerServer) {
   const TemporaryFolder folder;
   {
-    auto database = *SqliteDatabase::Open(folder / "jobs.db");
+    auto database = *OpenSqlite(folder / "jobs.db");
     ASSERT_TRUE(database->Execute("PRAGMA user_version = 999").ok());
   }
   const auto store = OpenSqliteJobStore(folder / "jobs.db");
@@ -467,7 +468,7 @@ PRAGMA user_version = 1;
 
 TEST(SchemaTest, TakesOverAFileOfVersion1) {
   const TemporaryFolder folder;
-  ASSERT_TRUE((*SqliteDatabase::Open(folder / "jobs.db"))->Execute(kVersion1).ok());
+  ASSERT_TRUE((*OpenSqlite(folder / "jobs.db"))->Execute(kVersion1).ok());
   const auto store = OpenSqliteJobStore(folder / "jobs.db");
   ASSERT_TRUE(store.ok()) << store.status();
   const JobRow job = **(*store)->FindJob("clinic", "jobs/old");
@@ -491,8 +492,8 @@ TEST(SchemaTest, TakesOverAFileOfVersion1) {
 TEST(SchemaTest, StatesTheVersionThatItWrites) {
   const TemporaryFolder folder;
   ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
-  auto database = *SqliteDatabase::Open(folder / "jobs.db");
-  EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), SchemaVersion());
+  auto database = *OpenSqlite(folder / "jobs.db");
+  EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), SqliteSchemaVersion());
 }
 
 }  // namespace

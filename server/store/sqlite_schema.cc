@@ -1,10 +1,9 @@
-#include "server/store/schema.h"
-
 #include <iterator>
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/store/schema.h"
 
 namespace bccskel::server {
 namespace {
@@ -95,7 +94,7 @@ UPDATE uploads SET row_check = checksum('uploads', tenant, name, declaration, si
   " WHERE name NOT LIKE 'sqlite_%')"
 constexpr char kSealSchema[] = "UPDATE store SET schema_check = " BCCSKEL_SCHEMA_CHECK ";";
 
-absl::StatusOr<int> VersionOf(SqliteDatabase& database) {
+absl::StatusOr<int> VersionOf(SqlDatabase& database) {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("PRAGMA user_version", {}));
   return static_cast<int>(rows.front().Number());
 }
@@ -106,13 +105,13 @@ absl::Status Damaged(const std::string& how) {
 }
 
 // The pages, and that indexes and tables say the same: what an index does not have is not found.
-absl::Status CheckIntegrity(SqliteDatabase& database) {
+absl::Status CheckIntegrity(SqlDatabase& database) {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("PRAGMA integrity_check(1)", {}));
   const std::string answer = rows.front().Text();
   return answer == "ok" ? absl::OkStatus() : Damaged(answer);
 }
 
-absl::Status CheckSchema(SqliteDatabase& database) {
+absl::Status CheckSchema(SqlDatabase& database) {
   static constexpr char kCheck[] = "SELECT schema_check = " BCCSKEL_SCHEMA_CHECK " FROM store";
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run(kCheck, {}));
   const bool whole = !rows.empty() && rows.front().Number() == 1;
@@ -121,22 +120,25 @@ absl::Status CheckSchema(SqliteDatabase& database) {
 
 }  // namespace
 
-int SchemaVersion() { return static_cast<int>(std::size(kMigrations)); }
+absl::Status CheckSchemaVersion(int version, int known) {
+  if (version <= known) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat("the job store has version ", version,
+                                                    ", this server knows versions up to ", known,
+                                                    ": it was written by a newer server"));
+}
 
-absl::Status Migrate(SqliteDatabase& database) {
+int SqliteSchemaVersion() { return static_cast<int>(std::size(kMigrations)); }
+
+absl::Status MigrateSqlite(SqlDatabase& database) {
   BCCSKEL_ASSIGN_OR_RETURN(int version, VersionOf(database));
-  if (version > SchemaVersion()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("the job store has version ", version, ", this server knows versions up to ",
-                     SchemaVersion(), ": it was written by a newer server"));
-  }
+  BCCSKEL_RETURN_IF_ERROR(CheckSchemaVersion(version, SqliteSchemaVersion()));
   BCCSKEL_RETURN_IF_ERROR(CheckIntegrity(database));
-  for (; version < SchemaVersion(); ++version) {
-    const bool last = version + 1 == SchemaVersion();
+  for (; version < SqliteSchemaVersion(); ++version) {
+    const bool last = version + 1 == SqliteSchemaVersion();
     const std::string sql =
         absl::StrCat("BEGIN IMMEDIATE;", kMigrations[version], last ? kSealSchema : "",
                      "PRAGMA user_version = ", version + 1, "; COMMIT;");
-    const absl::Status migrated = database.Execute(sql.c_str());
+    const absl::Status migrated = database.Execute(sql);
     if (migrated.ok()) continue;
     if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
     return migrated;
