@@ -9,8 +9,18 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "server/calls/admin_service.h"
+#include "server/calls/durable_gate.h"
+#include "server/calls/job_log.h"
+#include "server/calls/job_service.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/server_service.h"
+#include "server/calls/skeletonization_service.h"
+#include "server/calls/status_mapping.h"
+#include "server/calls/upload_writers.h"
+#include "server/calls/volume_service.h"
 #include "server/durable/ledger.h"
-#include "server/durable/message_codec.h"
+#include "server/errors/call_error.h"
 #include "server/identity/tls_files.h"
 #include "server/listener.h"
 #include "server/logging/json_log.h"
@@ -18,16 +28,7 @@
 #include "server/metrics/metered_runner.h"
 #include "server/metrics/metrics_page.h"
 #include "server/server_status.h"
-#include "server/service/admin_service.h"
-#include "server/service/durable_gate.h"
-#include "server/service/job_log.h"
-#include "server/service/job_service.h"
-#include "server/service/server_service.h"
-#include "server/service/skeletonization_service.h"
-#include "server/service/upload_writers.h"
-#include "server/service/volume_service.h"
 #include "server/settings/values.h"
-#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -160,7 +161,7 @@ absl::Status Server::OpenData() {
       if (!IsTerminal(job.state)) return;
       const bool cancelled = job.state == JobState::kCancelled;
       const absl::Status end = cancelled ? absl::CancelledError() : WithJobReason(job.error);
-      metrics_.CountDurable(absl::StatusCodeToString(end.code()), ReasonOf(end));
+      metrics_.CountDurable(absl::StatusCodeToString(end.code()), ReasonNameOf(end));
     };
     options.on_warning = [](const std::string& warning) {
       Log(LogLevel::kWarning, "data", {{"message", warning}});

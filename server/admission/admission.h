@@ -31,7 +31,7 @@ class Ticket {
   // Gives back what is over `bytes`.
   void ShrinkTo(uint64_t bytes);
   // The same, or takes what is missing.
-  // Errors: a Refusal: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
+  // Errors: a CallError: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
   absl::Status ResizeTo(uint64_t bytes);
   // Gives back the place among the jobs; the memory stays.
   void LeavePlace();
@@ -69,7 +69,7 @@ class Admission {
 
   explicit Admission(const Limits& limits) : limits_(limits) {}
 
-  // Errors: a Refusal: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
+  // Errors: a CallError: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
   //         or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }

@@ -14,13 +14,13 @@ namespace bccskel::server {
 // them; a child is taken only once all are there, so that slow senders keep none busy.
 class ChildDecoder final : public VolumeDecoder {
  public:
-  // Needs: a completed header of OpenEXR; the pool outlives the decoder. Errors: a Refusal.
+  // Needs: a completed header of OpenEXR; the pool outlives the decoder. Errors: a CallError.
   static absl::StatusOr<std::unique_ptr<VolumeDecoder>> Create(const VolumeHeader& header,
                                                                const VolumeLimits& limits,
                                                                const std::string& tenant,
                                                                ChildPool& pool);
 
-  // Errors: as VolumeDecoder, or a Refusal.
+  // Errors: as VolumeDecoder, or a CallError.
   absl::Status Append(std::span<const std::byte> bytes) override;
   absl::StatusOr<Volume> Finish(const exec::Context& context) override;
 

@@ -19,7 +19,6 @@
 #include "core/exec/status_macros.h"
 #include "core/io/bricks_header.h"
 #include "core/io/volume_decoder.h"
-#include "server/admission/refusal.h"
 #include "server/decoding/decoding_child.h"
 
 namespace bccskel::server {

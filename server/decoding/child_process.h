@@ -23,7 +23,7 @@ class ChildProcess {
  public:
   // Returns before the child is ready. It inherits nothing but its end of the channel, ignores the
   // signals that end the server and gets none from the terminal.
-  // Shapes: the program's path, then its arguments. Errors: a Refusal.
+  // Shapes: the program's path, then its arguments. Errors: a CallError.
   static absl::StatusOr<std::unique_ptr<ChildProcess>> Start(
       const std::vector<std::string>& command);
   ~ChildProcess();
@@ -31,7 +31,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // Decodes sealed bytes whose header is `announced`. After an error the child is of no more use.
-  // Errors: a Refusal when the child was lost before it took the volume; INVALID_ARGUMENT for
+  // Errors: a CallError when the child was lost before it took the volume; INVALID_ARGUMENT for
   //         malformed bytes, and for whatever happens to the child while it has them: a crash, a
   //         limit, nonsense; RESOURCE_EXHAUSTED for a volume over the limits; CANCELLED,
   //         DEADLINE_EXCEEDED.

@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -14,7 +14,7 @@ void Descriptor::Close() {
 }
 
 absl::Status NoDecoder(const std::string& what, int error) {
-  return Refuse(Refusal::kNoDecoder, what + ": " + std::generic_category().message(error));
+  return CallError(Reason::kDecoderBusy, what + ": " + std::generic_category().message(error));
 }
 
 }  // namespace bccskel::server

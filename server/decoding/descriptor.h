@@ -31,7 +31,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-// The server lacks something that decoding takes: a Refusal, so that the caller tries again.
+// The server lacks something that decoding takes: a CallError, so that the caller tries again.
 absl::Status NoDecoder(const std::string& what, int error);
 
 }  // namespace bccskel::server

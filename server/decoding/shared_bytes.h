@@ -14,10 +14,10 @@ namespace bccskel::server {
 // Bytes in memory that a child can be given without copying them: an upload on its way.
 class SharedBytes {
  public:
-  // Errors: a Refusal, when there is no descriptor left.
+  // Errors: a CallError, when there is no descriptor left.
   static absl::StatusOr<SharedBytes> Create();
 
-  // Errors: a Refusal, when there is no memory.
+  // Errors: a CallError, when there is no memory.
   absl::Status Append(std::span<const std::byte> bytes);
   // From now on nobody can change them, the server neither.
   absl::Status Seal();

@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/random_name.h"
 #include "server/store/job_store.h"
 
@@ -252,21 +252,22 @@ JobRequest DurableLedger::RunnerRequest(JobRequest request, const JobRow& job) {
 
 absl::Status DurableLedger::CheckAdmitting() const {
   if (admitting_) return absl::OkStatus();
-  return Refuse(Refusal::kDraining, "the server is about to stop");
+  return CallError(Reason::kDraining, "the server is about to stop");
 }
 
 absl::Status DurableLedger::CheckFits(const JobRequest& request) const {
   const uint64_t bytes = BytesToSkeletonize(request.header, request.size_bytes);
   if (options_.max_job_bytes == 0 || bytes <= options_.max_job_bytes) return absl::OkStatus();
-  return Refuse(Refusal::kTooMuchMemory,
-                absl::StrCat("the job needs ", bytes, " bytes of memory, the limit is ",
-                             options_.max_job_bytes));
+  return CallError(Reason::kVolumeTooLarge,
+                   absl::StrCat("the job needs ", bytes, " bytes of memory, the limit is ",
+                                options_.max_job_bytes),
+                   {.quota = "max_admitted_bytes"});
 }
 
 absl::Status DurableLedger::CheckRoomForJob() const {
   if (active_.size() < static_cast<size_t>(options_.max_unfinished_jobs)) return absl::OkStatus();
-  return Refuse(Refusal::kQueueFull,
-                absl::StrCat("all ", options_.max_unfinished_jobs, " places for jobs are taken"));
+  return CallError(Reason::kQueueFull, absl::StrCat("all ", options_.max_unfinished_jobs,
+                                                    " places for jobs are taken"));
 }
 
 void DurableLedger::Apply(const Step& step) {

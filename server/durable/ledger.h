@@ -48,9 +48,8 @@ class ResultReader {
 // OK is on disk. Every function returns at once; `done` is called exactly once, on a thread of the
 // ledger, and must not block. Every name is looked up within the tenant: those of others are
 // NOT_FOUND.
-// Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE, a
-// Refusal, when the server is draining; INTERNAL.
-// Threads: safe.
+// Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE when
+// the server is draining; INTERNAL. Threads: safe.
 class Ledger {
  public:
   template <typename Value>
@@ -91,7 +90,7 @@ class Ledger {
     std::optional<ThenJob> then_job;
   };
   // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name that was used with something else;
-  //         RESOURCE_EXHAUSTED for a quota; with a job the runner's Refusal.
+  //         RESOURCE_EXHAUSTED for a quota; with a job the runner's.
   virtual void CreateUpload(const std::string& tenant, const NewUpload& upload,
                             Done<UploadInfo> done) = 0;
   // Yields the committed size. `done` comes when there is room for more. Without `crc32c` (of
@@ -185,9 +184,6 @@ class Ledger {
   // gone. OK else, and on a full disk.
   virtual absl::Status Health() const = 0;
 };
-
-// What a caller whose offset was wrong should go on from.
-std::optional<uint64_t> CommittedSizeOf(const absl::Status& status);
 
 }  // namespace bccskel::server
 

@@ -4,8 +4,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
 #include "server/durable/names.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -68,8 +68,8 @@ void DurableLedger::Seal(const std::shared_ptr<Finishing>& finishing) {
   }
   if (finishing->expected.has_value() && *finishing->expected != *digest) {
     const absl::Status error =
-        WrongVolume(absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
-                                 ", the request states ", finishing->expected->Hex()));
+        InvalidVolume(absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
+                                   ", the request states ", finishing->expected->Hex()));
     return EndUpload(session.row().tenant, session.row().name, JobState::kFailed, error,
                      [finishing, error](const absl::Status&) { finishing->done(error); });
   }

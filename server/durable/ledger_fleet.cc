@@ -5,7 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/random_name.h"
 
 namespace bccskel::server {
@@ -249,14 +249,13 @@ void DurableLedger::WithSession(const std::string& tenant, const std::string& up
 absl::Status DurableLedger::PrepareMove(JobStore& store, Moving& moving) {
   BCCSKEL_ASSIGN_OR_RETURN(moving.row, FindUploadRow(store, moving.row.tenant, moving.row.name));
   if (!moving.row.volume.empty()) {
-    return WithFault(absl::FailedPreconditionError(absl::StrCat(moving.row.name, " is finished")),
-                     {.reason = "UPLOAD_FINISHED"});
+    return CallError(Reason::kUploadFinished, absl::StrCat(moving.row.name, " is finished"));
   }
   std::lock_guard lock(sessions_mutex_);
   const UploadKey key = {moving.row.tenant, moving.row.name};
   if (!shared_ || opening_.contains(key) || sessions_.contains(key)) {
-    return WithFault(absl::AbortedError(absl::StrCat(moving.row.name, " is being opened just now")),
-                     {.reason = "SECOND_WRITER"});
+    return CallError(Reason::kSecondWriter,
+                     absl::StrCat(moving.row.name, " is being opened just now"));
   }
   opening_.insert(key);
   moving.opening = true;
@@ -278,8 +277,7 @@ void DurableLedger::MoveUpload(const std::shared_ptr<Moving>& moving) {
 absl::Status DurableLedger::StoreMove(JobStore& store, Moving& moving) const {
   BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, FindUploadRow(store, moving.row.tenant, moving.row.name));
   if (now.file != moving.row.file || !now.volume.empty()) {
-    return WithFault(absl::AbortedError(absl::StrCat(now.name, " goes on on another server")),
-                     {.reason = "SECOND_WRITER"});
+    return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " goes on on another server"));
   }
   BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(now)));
   now.file = moving.to;
@@ -307,9 +305,8 @@ void DurableLedger::EndMove(const std::shared_ptr<Moving>& moving, absl::Status 
 
 absl::Status DurableLedger::Superseded(const Session& session) {
   ForgetSession(session->row());
-  return WithFault(
-      absl::AbortedError(absl::StrCat(session->row().name, " goes on on another server")),
-      {.reason = "SECOND_WRITER"});
+  return CallError(Reason::kSecondWriter,
+                   absl::StrCat(session->row().name, " goes on on another server"));
 }
 
 void DurableLedger::ForgetSession(const UploadRow& row) {

@@ -9,8 +9,8 @@
 #include "absl/strings/str_split.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
 #include "server/durable/names.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/random_name.h"
 
 namespace bccskel::server {
@@ -42,7 +42,7 @@ absl::StatusOr<std::optional<JobPosition>> PositionOf(const std::string& token, 
     const JobPosition position = {.created = Time(Time::duration(created)), .name = parts[1]};
     if (TokenOf(position, states) == token) return position;
   }
-  return WrongField("page_token", "did not come with a page of these states");
+  return InvalidField("page_token", "did not come with a page of these states");
 }
 
 // What makes two requests the same.
@@ -55,10 +55,6 @@ bool AsksForTheSame(const JobRow& found, const Ledger::NewJob& wanted) {
   if (found.body == BodyOf(wanted)) return true;
   return found.volume == wanted.volume && found.options == wanted.options &&
          found.priority == wanted.priority && found.threads == wanted.threads;
-}
-
-absl::Status WithReason(absl::Status status, const char* reason) {
-  return WithFault(std::move(status), {.reason = reason});
 }
 
 class BoardWatch final : public WatchHandle {
@@ -166,10 +162,10 @@ absl::Status DurableLedger::StoreJob(JobStore& store, Creating& creating) {
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
     if (!AsksForTheSame(*found, wanted)) {
-      return WithFault(
-          absl::AlreadyExistsError(absl::StrCat("request_id ", wanted.request_id, " has made ",
-                                                found->name, ", which is something else")),
-          {.reason = "REQUEST_ID_REUSED", .key = "job", .value = found->name});
+      return CallError(Reason::kRequestIdReused,
+                       absl::StrCat("request_id ", wanted.request_id, " has made ", found->name,
+                                    ", which is something else"),
+                       {.key = "job", .value = found->name});
     }
     BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, *found));
     return absl::OkStatus();
@@ -196,13 +192,12 @@ absl::Status DurableLedger::CheckJob(JobStore& store, Creating& creating) {
   const absl::StatusOr<VolumeRow> volume =
       FindVolumeRow(store, creating.tenant, creating.wanted.volume);
   if (absl::IsNotFound(volume.status())) {
-    return WithReason(absl::FailedPreconditionError(volume.status().message()), "VOLUME_MISSING");
+    return CallError(Reason::kVolumeMissing, std::string(volume.status().message()));
   }
   BCCSKEL_RETURN_IF_ERROR(volume.status());
   if (!blobs_.HasBlob(volume->tenant, volume->blob_digest, volume->size_bytes)) {
-    return WithReason(absl::FailedPreconditionError(absl::StrCat("the bytes of ", volume->name,
-                                                                 " are lost: send them again")),
-                      "VOLUME_MISSING");
+    return CallError(Reason::kVolumeMissing,
+                     absl::StrCat("the bytes of ", volume->name, " are lost: send them again"));
   }
   creating.volume = *volume;
   BCCSKEL_ASSIGN_OR_RETURN(const JobRequest request,
@@ -358,8 +353,7 @@ void DurableLedger::OpenResult(const std::string& tenant, const std::string& job
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
         BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
         if (row.state != JobState::kSucceeded || !result.has_value()) {
-          return WithReason(absl::FailedPreconditionError(absl::StrCat(job, " has no result")),
-                            "JOB_NOT_SUCCEEDED");
+          return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
         }
         if (result->file.empty()) {
           return absl::DataLossError(absl::StrCat(

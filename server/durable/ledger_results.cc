@@ -2,7 +2,7 @@
 
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -150,7 +150,7 @@ void DurableLedger::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult>
   files_.Post({.tenant = run->tenant()}, [this, run, held] {
     absl::StatusOr<ResultRow> row = WriteResult(**held, *run, codec_, blobs_, quota_);
     held->reset();  // its memory is admitted until here
-    if (!row.ok()) row = WithDiskFault(row.status());
+    if (!row.ok()) row = WithDiskReason(row.status());
     loop_.Post([this, run, row = std::move(row)] { RunEnded(run.get(), row); });
   });
 }

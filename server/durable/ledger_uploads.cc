@@ -5,8 +5,8 @@
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
 #include "server/durable/names.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/random_name.h"
 
 namespace bccskel::server {
@@ -119,9 +119,8 @@ absl::Status DurableLedger::CheckSameUpload(JobStore& store, const Opening& open
     same = job.has_value() && job->options == opening.job->options;
   }
   if (same) return absl::OkStatus();
-  return WithFault(absl::AlreadyExistsError(
-                       absl::StrCat(found.name, " was begun with another declaration or job")),
-                   {.reason = "UPLOAD_EXISTS"});
+  return CallError(Reason::kUploadExists,
+                   absl::StrCat(found.name, " was begun with another declaration or job"));
 }
 
 absl::Status DurableLedger::StoreReceivingJob(JobStore& store, Opening& opening) {
@@ -189,10 +188,10 @@ void DurableLedger::AppendNow(const Session& session, std::string bytes,
                               std::optional<uint32_t> crc32c, const Done<uint64_t>& done) {
   absl::Status status;
   if (crc32c.has_value() && *crc32c != Crc32c(bytes)) {
-    status =
-        WithFault(absl::InvalidArgumentError(absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes),
-                                                          ", the request states ", *crc32c)),
-                  {.reason = "CHUNK_CHECKSUM", .field = "chunk.crc32c"});
+    status = CallError(
+        Reason::kChunkChecksum,
+        absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes), ", the request states ", *crc32c),
+        {.field = "chunk.crc32c"});
   }
   if (status.ok()) status = session->file().Append(bytes);
   if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
@@ -205,7 +204,8 @@ void DurableLedger::AppendNow(const Session& session, std::string bytes,
   along->Append(std::move(bytes), [this, session, done](const absl::Status& decoded) {
     session->EndWriting(Now());
     // Whatever else has ended the decoding, the bytes are here.
-    if (absl::IsInvalidArgument(decoded)) return done(WrongVolume(std::string(decoded.message())));
+    if (absl::IsInvalidArgument(decoded))
+      return done(InvalidVolume(std::string(decoded.message())));
     done(session->committed());
   });
 }

@@ -4,7 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_ledger.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -63,9 +63,9 @@ void DurableLedger::DeleteVolume(const std::string& tenant, const std::string& v
         BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, FindVolumeRow(store, tenant, volume));
         BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(tenant, volume));
         if (!user.has_value()) return EraseVolume(store, row, erased);
-        return WithFault(absl::FailedPreconditionError(
-                             absl::StrCat(*user, " still needs ", volume, ": cancel it first")),
-                         {.reason = "VOLUME_IN_USE", .key = "job", .value = *user});
+        return CallError(Reason::kVolumeInUse,
+                         absl::StrCat(*user, " still needs ", volume, ": cancel it first"),
+                         {.key = "job", .value = *user});
       },
       Track(std::move(done)));
 }

@@ -6,8 +6,8 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/demand.h"
-#include "server/admission/refusal.h"
 #include "server/decoding/child_decoder.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/labels_work.h"
 #include "server/jobs/random_name.h"
 #include "server/jobs/skeletonize_work.h"
@@ -21,9 +21,10 @@ constexpr int kDecoderThreads = 2;
 
 absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
   if (size_bytes <= max_volume_bytes) return absl::OkStatus();
-  return Refuse(Refusal::kVolumeTooLarge,
-                absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
-                                max_volume_bytes));
+  return CallError(Reason::kVolumeTooLarge,
+                   absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
+                                   max_volume_bytes),
+                   {.quota = "max_volume_bytes"});
 }
 
 }  // namespace

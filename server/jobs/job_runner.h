@@ -142,7 +142,7 @@ class JobRunner {
  public:
   virtual ~JobRunner() = default;
   // Decides at once from the declaration; nothing is decoded yet.
-  // Errors: a Refusal (admission/refusal.h).
+  // Errors: a CallError (errors/call_error.h).
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                                      std::shared_ptr<JobListener> listener) = 0;
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,

@@ -8,7 +8,7 @@
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/fill_cavities.h"
 #include "server/admission/demand.h"
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -97,9 +97,9 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(
 absl::Status SkeletonizeWork::CheckShellPoints() const {
   const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
   if (shell_points_bytes_ <= limit) return absl::OkStatus();
-  return Refuse(Refusal::kShellPointsTooLarge,
-                absl::StrCat("the points of the shells take more than ", limit,
-                             " bytes, the limit for a volume of ", bricks_, " bricks"));
+  return CallError(Reason::kShellPointsTooLarge,
+                   absl::StrCat("the points of the shells take more than ", limit,
+                                " bytes, the limit for a volume of ", bricks_, " bricks"));
 }
 
 void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {

@@ -23,15 +23,13 @@
 #include "bccskel/v1/volume_service.pb.h"
 #include "core/digest/sha256.h"
 #include "core/exec/status_macros.h"
-#include "proto/wire/error_details.h"
+#include "server/calls/durable_messages.h"
+#include "server/calls/job_fields.h"
+#include "server/calls/job_request.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/request_sequence.h"
+#include "server/calls/status_mapping.h"
 #include "server/durable/ledger.h"
-#include "server/durable/message_codec.h"
-#include "server/service/durable_messages.h"
-#include "server/service/job_fields.h"
-#include "server/service/job_request.h"
-#include "server/service/ledger_status.h"
-#include "server/service/request_sequence.h"
-#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -68,7 +66,7 @@ absl::StatusOr<Value> Ask(Call call) {
   std::promise<absl::StatusOr<Value>> promise;
   call([&](absl::StatusOr<Value> value) { promise.set_value(std::move(value)); });
   absl::StatusOr<Value> answer = promise.get_future().get();
-  if (!answer.ok()) return LedgerError(answer.status());
+  if (!answer.ok()) return StorageError(answer.status());
   return answer;
 }
 
@@ -76,7 +74,7 @@ template <typename Call>
 absl::Status Tell(Call call) {
   std::promise<absl::Status> promise;
   call([&](absl::Status status) { promise.set_value(std::move(status)); });
-  return LedgerError(promise.get_future().get());
+  return StorageError(promise.get_future().get());
 }
 
 // One for the process: each call leaves it as it found it, but for `known` ones.

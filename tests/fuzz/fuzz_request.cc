@@ -19,12 +19,12 @@
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/demand.h"
 #include "server/admission/label_demand.h"
+#include "server/calls/job_request.h"
+#include "server/calls/labels_request.h"
+#include "server/calls/request_sequence.h"
+#include "server/calls/status_mapping.h"
 #include "server/jobs/label_intake.h"
 #include "server/jobs/volume_intake.h"
-#include "server/service/job_request.h"
-#include "server/service/labels_request.h"
-#include "server/service/request_sequence.h"
-#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {

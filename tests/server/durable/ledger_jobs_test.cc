@@ -8,8 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/admission/refusal.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 #include "server/store/file_io.h"
 #include "tests/server/durable/ledger_fixture.h"
 
@@ -72,13 +71,13 @@ TEST_F(LedgerJobsTest, MakesOneJobOfAHundredEqualRequestsAtTheSameTime) {
   EXPECT_EQ(runner_->started(), 1);
   const absl::Status reused = Create("clinic", JobOf(volume, "p", "request")).status();
   EXPECT_EQ(reused.code(), absl::StatusCode::kAlreadyExists);
-  EXPECT_EQ(FaultOf(reused)->reason, "REQUEST_ID_REUSED");
+  EXPECT_EQ(ReasonOf(reused), Reason::kRequestIdReused);
 }
 
 TEST_F(LedgerJobsTest, RefusesAJobWithoutItsVolume) {
   const absl::Status missing = Create("clinic", JobOf("volumes/none")).status();
   EXPECT_EQ(missing.code(), absl::StatusCode::kFailedPrecondition);
-  EXPECT_EQ(FaultOf(missing)->reason, "VOLUME_MISSING");
+  EXPECT_EQ(ReasonOf(missing), Reason::kVolumeMissing);
   EXPECT_EQ(Create("other", JobOf(Upload("clinic", "volume"))).status().code(),
             absl::StatusCode::kFailedPrecondition)
       << "another tenant's volume is none";
@@ -104,7 +103,7 @@ TEST_F(LedgerJobsTest, RefusesMoreJobsThanItHasPlaces) {
   const std::string volume = Upload("clinic", "volume");
   CreateName("clinic", JobOf(volume));
   CreateName("clinic", JobOf(volume));
-  EXPECT_EQ(RefusalOf(Create("clinic", JobOf(volume)).status()), Refusal::kQueueFull);
+  EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kQueueFull);
 }
 
 TEST_F(LedgerJobsTest, RefusesAJobThatCanNeverBeAdmitted) {
@@ -112,7 +111,7 @@ TEST_F(LedgerJobsTest, RefusesAJobThatCanNeverBeAdmitted) {
   options_.max_job_bytes = 1000;
   Open();
   const std::string volume = Upload("clinic", "volume");
-  EXPECT_EQ(RefusalOf(Create("clinic", JobOf(volume)).status()), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kVolumeTooLarge);
 }
 
 TEST_F(LedgerJobsTest, CancelsAJobThatRunsAndOneThatWaits) {
@@ -271,7 +270,7 @@ TEST_F(LedgerJobsTest, RunsEqualJobsInFlightOnce) {
 
 TEST_F(LedgerJobsTest, WaitsForARunnerThatIsBusy) {
   const std::string volume = Upload("clinic", "volume");
-  runner_->Refuse(Refuse(Refusal::kMemoryBusy, "busy"));
+  runner_->Refuse(CallError(Reason::kMemoryBusy, "busy"));
   const std::string job = CreateName("clinic", JobOf(volume));
   EXPECT_EQ(GetJob("clinic", job)->state, JobState::kQueued);
   runner_->Refuse(absl::OkStatus());
@@ -336,7 +335,7 @@ TEST_F(LedgerJobsTest, KnowsNoVolumeWhoseFileIsGone) {
   EXPECT_THAT(*find(), SizeIs(1));
   std::filesystem::remove(FilesIn("blobs").at(0));
   EXPECT_THAT(*find(), IsEmpty());
-  EXPECT_EQ(FaultOf(Create("clinic", JobOf(volume)).status())->reason, "VOLUME_MISSING");
+  EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kVolumeMissing);
   EXPECT_EQ(Upload("clinic", "volume"), volume);
   EXPECT_THAT(*find(), SizeIs(1));
 }

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "server/durable/fault.h"
 #include "server/durable/run_queue.h"
+#include "server/errors/call_error.h"
 #include "tests/server/durable/ledger_fixture.h"
 
 namespace bccskel::server {
@@ -28,8 +28,8 @@ class LedgerRecoveryTest : public LedgerTest {
 
   // A kill is no different from a crash: a job that was at work at three of them has had its turns.
   void ExpectResult(const JobInfo& job) {
-    if (job.state == JobState::kFailed && FaultOf(job.error).has_value()) {
-      EXPECT_EQ(FaultOf(job.error)->reason, "POISONED");
+    if (job.state == JobState::kFailed && ReasonOf(job.error).has_value()) {
+      EXPECT_EQ(ReasonOf(job.error), Reason::kPoisoned);
       EXPECT_GE(job.attempts, 3);
       return;
     }
@@ -88,7 +88,7 @@ TEST_F(LedgerRecoveryTest, DoesNotRunAJobAFourthTimeThatWasThereAtThreeCrashes) 
   const JobInfo ended = WaitForEnd("clinic", job);
   EXPECT_EQ(ended.state, JobState::kFailed);
   EXPECT_EQ(ended.error.code(), absl::StatusCode::kInternal);
-  EXPECT_EQ(FaultOf(ended.error)->reason, "POISONED");
+  EXPECT_EQ(ReasonOf(ended.error), Reason::kPoisoned);
   EXPECT_EQ(runner_->started(), 0);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 #include "tests/server/durable/ledger_fixture.h"
 
 // What the ledger tells of jobs and their errors, to callers and to the log.
@@ -89,7 +89,7 @@ TEST_F(LedgerReportsTest, WhatACrashDidToAJobUpToPoison) {
   }
   const JobRow last = Rows().back();
   EXPECT_EQ(last.state, JobState::kFailed);
-  EXPECT_EQ(FaultOf(last.error)->reason, "POISONED");
+  EXPECT_EQ(ReasonOf(last.error), Reason::kPoisoned);
   EXPECT_EQ(last.attempts, 3);
   EXPECT_EQ(last.trace, "trace");
 }
@@ -130,9 +130,9 @@ TEST_F(LedgerReportsTest, WhichJobARequestIdHasMade) {
   EXPECT_EQ(CreateName("clinic", job), first) << "a trace makes no other request";
   job.options = "p";
   const absl::Status reused = Create("clinic", job).status();
-  ASSERT_TRUE(FaultOf(reused).has_value()) << reused;
-  EXPECT_EQ(FaultOf(reused)->reason, "REQUEST_ID_REUSED");
-  EXPECT_EQ(FaultOf(reused)->value, first);
+  ASSERT_TRUE(ReasonOf(reused).has_value()) << reused;
+  EXPECT_EQ(ReasonOf(reused), Reason::kRequestIdReused);
+  EXPECT_EQ(DetailsOf(reused).value, first);
   EXPECT_THAT(std::string(reused.message()), HasSubstr(first));
 }
 
@@ -140,18 +140,18 @@ TEST_F(LedgerReportsTest, WhichFieldIsWrong) {
   Ledger::JobQuery query;
   query.page_token = "nonsense";
   const auto page = Get<JobPage>([&](auto done) { ledger_->ListJobs("clinic", query, done); });
-  ASSERT_TRUE(FaultOf(page.status()).has_value()) << page.status();
-  EXPECT_EQ(FaultOf(page.status())->field, "page_token");
+  ASSERT_TRUE(ReasonOf(page.status()).has_value()) << page.status();
+  EXPECT_EQ(DetailsOf(page.status()).field, "page_token");
   const auto upload = CreateUpload("clinic", {.name = "a b", .declaration = "1", .then_job = {}});
-  EXPECT_EQ(FaultOf(upload.status())->field, "config.upload");
+  EXPECT_EQ(DetailsOf(upload.status()).field, "config.upload");
 }
 
 TEST_F(LedgerReportsTest, OtherBytesThanTheDigestSaysAreAWrongVolume) {
   const auto upload = CreateUpload("clinic", {.name = {}, .declaration = "6", .then_job = {}});
   ASSERT_TRUE(Append("clinic", upload->name, 0, "volume").ok());
   const auto finished = Finish("clinic", upload->name, 6, Sha256Of("another"));
-  ASSERT_TRUE(FaultOf(finished.status()).has_value()) << finished.status();
-  EXPECT_EQ(FaultOf(finished.status())->reason, "VOLUME_INVALID");
+  ASSERT_TRUE(ReasonOf(finished.status()).has_value()) << finished.status();
+  EXPECT_EQ(ReasonOf(finished.status()), Reason::kVolumeInvalid);
 }
 
 TEST_F(LedgerReportsTest, HowMuchCanStillBeWritten) {

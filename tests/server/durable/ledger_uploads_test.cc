@@ -4,8 +4,7 @@
 #include <string>
 
 #include "core/digest/crc32c.h"
-#include "server/admission/refusal.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 #include "server/store/disk_quota.h"
 #include "tests/server/durable/ledger_fixture.h"
 
@@ -36,10 +35,6 @@ class LedgerUploadsTest : public LedgerTest {
     return Get<std::vector<VolumeInfo>>(
         [&](auto done) { ledger_->FindVolumes(tenant, {digest}, done); });
   }
-  static std::string ReasonOf(const absl::Status& status) {
-    const auto fault = FaultOf(status);
-    return fault.has_value() ? fault->reason : std::string();
-  }
 };
 
 TEST_F(LedgerUploadsTest, MakesAVolumeOfChunksInOrder) {
@@ -65,14 +60,14 @@ TEST_F(LedgerUploadsTest, TellsWhereToGoOnAfterAWrongOffset) {
   EXPECT_EQ(CommittedSizeOf(wrong), 3u);
   EXPECT_EQ(CommittedSizeOf(Append("clinic", upload, 3, "12345678").status()), 3u) << "too much";
   EXPECT_EQ(CommittedSizeOf(Finish("clinic", upload, 10).status()), 3u) << "bytes are missing";
-  EXPECT_EQ(ReasonOf(Finish("clinic", upload, 3).status()), "VOLUME_SIZE");
+  EXPECT_EQ(ReasonOf(Finish("clinic", upload, 3).status()), Reason::kVolumeSize);
 }
 
 TEST_F(LedgerUploadsTest, RefusesAChunkWithAnotherChecksumAndKeepsTheRest) {
   const std::string upload = Begin("clinic", "", 10);
   ASSERT_TRUE(Append("clinic", upload, 0, "123").ok());
   const absl::Status wrong = Append("clinic", upload, 3, "456", Crc32c("457")).status();
-  EXPECT_EQ(ReasonOf(wrong), "CHUNK_CHECKSUM");
+  EXPECT_EQ(ReasonOf(wrong), Reason::kChunkChecksum);
   EXPECT_EQ(GetUpload("clinic", upload)->committed_bytes, 3u);
 }
 
@@ -166,9 +161,10 @@ TEST_F(LedgerUploadsTest, CountsUploadsByTheirDeclaredSize) {
   const absl::Status own =
       CreateUpload("clinic", {.name = {}, .declaration = "11", .then_job = {}}).status();
   EXPECT_EQ(own.code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(ExceededQuota(own), "max_tenant_disk_bytes");
-  EXPECT_EQ(ExceededQuota(
-                CreateUpload("other", {.name = {}, .declaration = "51", .then_job = {}}).status()),
+  EXPECT_EQ(DetailsOf(own).quota, "max_tenant_disk_bytes");
+  EXPECT_EQ(DetailsOf(
+                CreateUpload("other", {.name = {}, .declaration = "51", .then_job = {}}).status())
+                .quota,
             "max_disk_bytes");
   EXPECT_TRUE(
       GetStatus([&](auto done) { ledger_->DeleteUpload("clinic", "uploads/a", done); }).ok());
@@ -235,10 +231,10 @@ TEST_F(LedgerUploadsTest, EndsAJobWhoseVolumeIsMalformed) {
 }
 
 TEST_F(LedgerUploadsTest, TellsTheRunnersRefusalBeforeAnythingIsStored) {
-  runner_->Refuse(Refuse(Refusal::kQueueFull, "full"));
+  runner_->Refuse(CallError(Reason::kQueueFull, "full"));
   Ledger::NewUpload upload = {.name = "uploads/a", .declaration = "6", .then_job = {}};
   upload.then_job = Ledger::NewUpload::ThenJob{.options = {}};
-  EXPECT_EQ(RefusalOf(CreateUpload("clinic", upload).status()), Refusal::kQueueFull);
+  EXPECT_EQ(ReasonOf(CreateUpload("clinic", upload).status()), Reason::kQueueFull);
   EXPECT_EQ(GetUpload("clinic", "uploads/a").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(ledger_->usage().disk_bytes, 0u);
 }
@@ -261,10 +257,10 @@ TEST_F(LedgerUploadsTest, LetsOneProcessOwnTheDirectory) {
 TEST_F(LedgerUploadsTest, AdmitsNothingNewOnceItIsToStop) {
   const std::string volume = Upload("clinic", "volume");
   ledger_->StopAdmitting();
-  EXPECT_EQ(RefusalOf(Create("clinic", JobOf(volume)).status()), Refusal::kDraining);
+  EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kDraining);
   EXPECT_EQ(
-      RefusalOf(CreateUpload("clinic", {.name = {}, .declaration = "1", .then_job = {}}).status()),
-      Refusal::kDraining);
+      ReasonOf(CreateUpload("clinic", {.name = {}, .declaration = "1", .then_job = {}}).status()),
+      Reason::kDraining);
 }
 
 }  // namespace

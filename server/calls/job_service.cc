@@ -1,0 +1,109 @@
+#include "server/calls/job_service.h"
+
+#include <string>
+
+#include "server/calls/durable_messages.h"
+#include "server/calls/job_fields.h"
+#include "server/calls/result_stream.h"
+#include "server/calls/unary_answer.h"
+#include "server/calls/watch_stream.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr Method kCreateJob{"JobService/CreateJob"};
+constexpr Method kGetJob{"JobService/GetJob", Method::Kind::kQuestion};
+constexpr Method kListJobs{"JobService/ListJobs", Method::Kind::kQuestion};
+constexpr Method kCancelJob{"JobService/CancelJob"};
+constexpr Method kDeleteJob{"JobService/DeleteJob"};
+constexpr Method kWatchJob{"JobService/WatchJob"};
+constexpr Method kReadSkeleton{"JobService/ReadSkeleton"};
+
+// For every response that holds one job.
+template <typename Response>
+auto AnswerJob(UnaryEnd end, Response* response) {
+  return [end = std::move(end), response](const absl::StatusOr<JobInfo>& job) mutable {
+    if (job.ok()) {
+      *response->mutable_job() = ToMessage(*job);
+      end.set_subject(job->name);
+    }
+    end(StorageError(job.status()));
+  };
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* JobService::CreateJob(grpc::CallbackServerContext* context,
+                                                const v1::CreateJobRequest* request,
+                                                v1::CreateJobResponse* response) {
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kCreateJob, {"volume", request->volume()});
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, request->volume());
+  absl::StatusOr<Ledger::NewJob> job = NewJobOf(*request);
+  if (!job.ok()) return end(job.status());
+  job->trace = call->facts.trace;
+  call->ledger.CreateJob(call->tenant(), *job, AnswerJob(end, response));
+  return end.reactor();
+}
+
+grpc::ServerUnaryReactor* JobService::GetJob(grpc::CallbackServerContext* context,
+                                             const v1::GetJobRequest* request,
+                                             v1::GetJobResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kGetJob, {"job", request->job()});
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.GetJob(call->tenant(), request->job(), AnswerJob(end, response));
+  return end.reactor();
+}
+
+grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* context,
+                                               const v1::ListJobsRequest* request,
+                                               v1::ListJobsResponse* response) {
+  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kListJobs);
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, std::string());
+  const absl::StatusOr<Ledger::JobQuery> query = QueryOf(*request);
+  if (!query.ok()) return end(query.status());
+  call->ledger.ListJobs(call->tenant(), *query, Answer(end, [response](const JobPage& page) {
+                          for (const JobInfo& job : page.jobs) {
+                            *response->add_jobs() = ToMessage(job);
+                          }
+                          response->set_next_page_token(page.next_token);
+                        }));
+  return end.reactor();
+}
+
+grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* context,
+                                                const v1::CancelJobRequest* request,
+                                                v1::CancelJobResponse* response) {
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kCancelJob, {"job", request->job()});
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.CancelJob(call->tenant(), request->job(), AnswerJob(end, response));
+  return end.reactor();
+}
+
+grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* context,
+                                                const v1::DeleteJobRequest* request,
+                                                v1::DeleteJobResponse*) {
+  const absl::StatusOr<DurableCall> call =
+      gate_.Enter(*context, kDeleteJob, {"job", request->job()});
+  if (!call.ok()) return EndUnary(*context, call.status());
+  const UnaryEnd end(*context, call->facts, request->job());
+  call->ledger.DeleteJob(call->tenant(), request->job(), AnswerNothing(end));
+  return end.reactor();
+}
+
+grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
+    grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
+  return StartWatchStream(gate_.Enter(*context, kWatchJob, {"job", request->job()}), *request);
+}
+
+grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* JobService::ReadSkeleton(
+    grpc::CallbackServerContext* context, const v1::ReadSkeletonRequest* request) {
+  return StartResultStream(gate_.Enter(*context, kReadSkeleton, {"job", request->job()}), *request);
+}
+
+}  // namespace bccskel::server
