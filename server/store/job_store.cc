@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/store/schema.h"
 #include "server/store/tables.h"
 
 namespace bccskel::server {
@@ -16,23 +15,6 @@ constexpr char kByName[] = "WHERE tenant = $1 AND name = $2";
 
 absl::Status DamagedRow() {
   return absl::DataLossError("a row of the job store is not what was stored there");
-}
-
-// "$1, $2, ..."
-std::string Parameters(size_t count) {
-  std::string list;
-  for (size_t n = 1; n <= count; ++n) absl::StrAppend(&list, n == 1 ? "$" : ", $", n);
-  return list;
-}
-
-// An insertion that replaces the row with the same `key`, all columns of it.
-std::string Replacing(const std::string& key, const std::vector<std::string>& columns) {
-  std::string clause = absl::StrCat(" ON CONFLICT(", key, ") DO UPDATE SET ");
-  for (const std::string& column : columns) {
-    absl::StrAppend(&clause, &column == &columns.front() ? "" : ", ", column, " = excluded.",
-                    column);
-  }
-  return clause;
 }
 
 }  // namespace
@@ -412,24 +394,5 @@ absl::StatusOr<std::map<std::string, uint64_t>> JobStore::DiskUse() {
 }
 
 absl::Status JobStore::Forget() { return database_->Forget(); }
-
-absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenSqlite(path));
-  BCCSKEL_RETURN_IF_ERROR(MigrateSqlite(*database));
-  // So that the tables have their room before the disk is full; where it is already, without.
-  database->Forget().IgnoreError();
-  return std::make_unique<JobStore>(std::move(database));
-}
-
-absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& name) {
-#ifdef BCCSKEL_WITH_POSTGRESQL
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenPostgres(name));
-  BCCSKEL_RETURN_IF_ERROR(MigratePostgres(*database));
-  return std::make_unique<JobStore>(std::move(database));
-#else
-  (void)name;
-  return absl::UnimplementedError("this program was built without PostgreSQL (libpq)");
-#endif
-}
 
 }  // namespace bccskel::server

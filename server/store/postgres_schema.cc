@@ -1,6 +1,10 @@
 #include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "core/exec/status_macros.h"
+#include "server/store/job_store.h"
 #include "server/store/schema.h"
 
 namespace bccskel::server {
@@ -97,6 +101,12 @@ absl::Status MigratePostgres(SqlDatabase& database) {
   if (migrated.ok()) return database.Execute("COMMIT");
   if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
   return migrated;
+}
+
+absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& name) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenPostgres(name));
+  BCCSKEL_RETURN_IF_ERROR(MigratePostgres(*database));
+  return std::make_unique<JobStore>(std::move(database));
 }
 
 }  // namespace bccskel::server

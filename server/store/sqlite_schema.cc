@@ -3,6 +3,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/store/job_store.h"
 #include "server/store/schema.h"
 
 namespace bccskel::server {
@@ -145,5 +146,19 @@ absl::Status MigrateSqlite(SqlDatabase& database) {
   }
   return CheckSchema(database);
 }
+
+absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenSqlite(path));
+  BCCSKEL_RETURN_IF_ERROR(MigrateSqlite(*database));
+  // So that the tables have their room before the disk is full; where it is already, without.
+  database->Forget().IgnoreError();
+  return std::make_unique<JobStore>(std::move(database));
+}
+
+#ifndef BCCSKEL_WITH_POSTGRESQL
+absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string&) {
+  return absl::UnimplementedError("this program was built without PostgreSQL (libpq)");
+}
+#endif
 
 }  // namespace bccskel::server

@@ -162,6 +162,23 @@ std::string ColumnsOf(Row row) {
   return columns;
 }
 
+// "$1, $2, ..."
+inline std::string Parameters(size_t count) {
+  std::string list;
+  for (size_t n = 1; n <= count; ++n) absl::StrAppend(&list, n == 1 ? "$" : ", $", n);
+  return list;
+}
+
+// An insertion that replaces the row with the same `key`, all columns of it.
+inline std::string Replacing(const std::string& key, const std::vector<std::string>& columns) {
+  std::string clause = absl::StrCat(" ON CONFLICT(", key, ") DO UPDATE SET ");
+  for (const std::string& column : columns) {
+    absl::StrAppend(&clause, &column == &columns.front() ? "" : ", ", column, " = excluded.",
+                    column);
+  }
+  return clause;
+}
+
 // What the row should have in its column row_check.
 template <typename Row>
 int64_t CheckOf(const Row& row) {
