@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
-#include "server/calls/server_service.h"
+#include "server/calls/services.h"
 #include "server/calls/unparsed_requests.h"
 #include "server/settings/values.h"
 

@@ -48,7 +48,7 @@ class Ticket {
   int places_ = 0;
 };
 
-// Lets jobs in while the sum of their demands stays within the limits, of all tenants together and
+// Lets jobs in while the sum of what they need stays within the limits, of all tenants together and
 // of each. It decides at once, from what a volume's declaration says, and nothing ever waits for
 // it. Needs: outlives its tickets.
 class Admission {

@@ -6,7 +6,7 @@
 
 namespace bccskel::server {
 
-// Demands of hostile declarations stay at the largest number instead of wrapping around.
+// Needs of hostile declarations stay at the largest number instead of wrapping around.
 inline uint64_t SaturatingAdd(uint64_t a, uint64_t b) {
   uint64_t sum = 0;
   return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<uint64_t>::max() : sum;

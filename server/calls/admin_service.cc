@@ -1,7 +1,6 @@
-#include "server/calls/admin_service.h"
-
 #include <string>
 
+#include "server/calls/services.h"
 #include "server/calls/unary_answer.h"
 
 namespace bccskel::server {

@@ -1,13 +1,17 @@
 #include "server/calls/durable_messages.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
 #include "proto/wire/result.h"
 #include "server/calls/message_codec.h"
+#include "server/calls/requests.h"
 #include "server/calls/status_mapping.h"
 #include "server/errors/call_error.h"
 
@@ -39,6 +43,18 @@ void SetTimes(const JobInfo& job, v1::Job& message) {
   if (job.started.has_value()) *message.mutable_start_time() = ToMessage(*job.started);
   if (job.ended.has_value()) *message.mutable_end_time() = ToMessage(*job.ended);
   if (job.expires.has_value()) *message.mutable_expire_time() = ToMessage(*job.expires);
+}
+
+constexpr size_t kMaxRequestIdBytes = 128;
+constexpr int kMaxPageSize = 1000, kDefaultPageSize = 50;
+
+absl::Status CheckRequestId(const std::string& id) {
+  const auto printable = [](char c) { return c > ' ' && c <= '~'; };
+  if (id.size() <= kMaxRequestIdBytes && std::ranges::all_of(id, printable)) {
+    return absl::OkStatus();
+  }
+  return InvalidField("request_id", absl::StrCat("must be up to ", kMaxRequestIdBytes,
+                                                 " printable ASCII characters"));
 }
 
 }  // namespace
@@ -139,24 +155,33 @@ absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& fiel
   }
 }
 
-absl::StatusOr<v1::ReadSkeletonResponse> ToMessage(const ResultRecord& record, uint32_t index) {
-  v1::ReadSkeletonResponse message;
-  message.set_piece_index(index);
-  const auto parse = [&](auto* piece) { return piece->ParseFromString(record.bytes); };
-  bool parsed = false;
-  switch (record.kind) {
-    case ResultRecord::Kind::kSkeletonChunk:
-      parsed = parse(message.mutable_skeleton_chunk());
-      break;
-    case ResultRecord::Kind::kThinVolumeChunk:
-      parsed = parse(message.mutable_thin_volume_chunk());
-      break;
-    case ResultRecord::Kind::kSummary:
-      parsed = parse(message.mutable_summary());
-      break;
+absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request) {
+  NewJob job;
+  BCCSKEL_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
+  BCCSKEL_ASSIGN_OR_RETURN(job.options,
+                           OptionsBytes(request.options(), request.thin_volume_return()));
+  BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
+  job.request_id = request.request_id();
+  job.volume = request.volume();
+  job.threads = request.threads();
+  if (request.validate_only()) job.mode = NewJob::Mode::kValidateOnly;
+  return job;
+}
+
+absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request) {
+  const int wanted = request.page_size();
+  if (wanted < 0 || wanted > kMaxPageSize) {
+    return InvalidField("page_size", absl::StrCat(wanted, ", must be 0 to ", kMaxPageSize));
   }
-  if (parsed) return message;
-  return absl::InternalError(absl::StrCat("piece ", index, " of the result cannot be read"));
+  JobQuery query;
+  query.page_size = wanted == 0 ? kDefaultPageSize : wanted;
+  query.page_token = request.page_token();
+  for (const int state : request.states()) {
+    BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
+    query.states.push_back(known);
+  }
+  return query;
 }
 
 }  // namespace bccskel::server

@@ -8,11 +8,12 @@
 #include "absl/status/statusor.h"
 #include "bccskel/v1/job_service.pb.h"
 #include "bccskel/v1/volume_service.pb.h"
+#include "server/durable/durable_jobs.h"
 #include "server/durable/records.h"
 
 namespace bccskel::server {
 
-// The ledger's records as callers see them.
+// DurableJobs' records as callers see them.
 google::protobuf::Timestamp ToMessage(Time time);
 v1::Upload ToMessage(const UploadInfo& upload);
 v1::Job ToMessage(const JobInfo& job);
@@ -23,8 +24,10 @@ v1::JobState ToMessage(JobState state);
 absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field);
 absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field);
 
-// Error: INTERNAL where the record is no message of its kind, which the checksum rules out.
-absl::StatusOr<v1::ReadSkeletonResponse> ToMessage(const ResultRecord& record, uint32_t index);
+// What callers of JobService send, as DurableJobs takes it. Errors: INVALID_ARGUMENT with the
+// field.
+absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request);
+absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request);
 
 }  // namespace bccskel::server
 

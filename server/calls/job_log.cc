@@ -4,10 +4,10 @@
 #include <iterator>
 #include <string>
 
-#include "server/logging/json_log.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/status_mapping.h"
 #include "server/errors/call_error.h"
+#include "server/logging/json_log.h"
 
 namespace bccskel::server {
 namespace {

@@ -1,12 +1,9 @@
-#include "server/calls/job_service.h"
-
 #include <string>
 
+#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
-#include "server/calls/job_fields.h"
-#include "server/calls/result_stream.h"
+#include "server/calls/services.h"
 #include "server/calls/unary_answer.h"
-#include "server/calls/watch_stream.h"
 
 namespace bccskel::server {
 namespace {
@@ -40,10 +37,10 @@ grpc::ServerUnaryReactor* JobService::CreateJob(grpc::CallbackServerContext* con
       gate_.Enter(*context, kCreateJob, {"volume", request->volume()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->volume());
-  absl::StatusOr<Ledger::NewJob> job = NewJobOf(*request);
+  absl::StatusOr<NewJob> job = NewJobOf(*request);
   if (!job.ok()) return end(job.status());
   job->trace = call->facts.trace;
-  call->ledger.CreateJob(call->tenant(), *job, AnswerJob(end, response));
+  call->durable_jobs.CreateJob(call->tenant(), *job, AnswerJob(end, response));
   return end.reactor();
 }
 
@@ -53,7 +50,7 @@ grpc::ServerUnaryReactor* JobService::GetJob(grpc::CallbackServerContext* contex
   const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kGetJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->job());
-  call->ledger.GetJob(call->tenant(), request->job(), AnswerJob(end, response));
+  call->durable_jobs.GetJob(call->tenant(), request->job(), AnswerJob(end, response));
   return end.reactor();
 }
 
@@ -63,14 +60,14 @@ grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* cont
   const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kListJobs);
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, std::string());
-  const absl::StatusOr<Ledger::JobQuery> query = QueryOf(*request);
+  const absl::StatusOr<JobQuery> query = QueryOf(*request);
   if (!query.ok()) return end(query.status());
-  call->ledger.ListJobs(call->tenant(), *query, Answer(end, [response](const JobPage& page) {
-                          for (const JobInfo& job : page.jobs) {
-                            *response->add_jobs() = ToMessage(job);
-                          }
-                          response->set_next_page_token(page.next_token);
-                        }));
+  call->durable_jobs.ListJobs(call->tenant(), *query, Answer(end, [response](const JobPage& page) {
+                                for (const JobInfo& job : page.jobs) {
+                                  *response->add_jobs() = ToMessage(job);
+                                }
+                                response->set_next_page_token(page.next_token);
+                              }));
   return end.reactor();
 }
 
@@ -81,7 +78,7 @@ grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* con
       gate_.Enter(*context, kCancelJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->job());
-  call->ledger.CancelJob(call->tenant(), request->job(), AnswerJob(end, response));
+  call->durable_jobs.CancelJob(call->tenant(), request->job(), AnswerJob(end, response));
   return end.reactor();
 }
 
@@ -92,18 +89,18 @@ grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* con
       gate_.Enter(*context, kDeleteJob, {"job", request->job()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->job());
-  call->ledger.DeleteJob(call->tenant(), request->job(), AnswerNothing(end));
+  call->durable_jobs.DeleteJob(call->tenant(), request->job(), AnswerNothing(end));
   return end.reactor();
 }
 
 grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(
     grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
-  return StartWatchStream(gate_.Enter(*context, kWatchJob, {"job", request->job()}), *request);
+  return StartWatch(gate_.Enter(*context, kWatchJob, {"job", request->job()}), *request);
 }
 
 grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* JobService::ReadSkeleton(
     grpc::CallbackServerContext* context, const v1::ReadSkeletonRequest* request) {
-  return StartResultStream(gate_.Enter(*context, kReadSkeleton, {"job", request->job()}), *request);
+  return StartRead(gate_.Enter(*context, kReadSkeleton, {"job", request->job()}), *request);
 }
 
 }  // namespace bccskel::server

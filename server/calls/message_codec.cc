@@ -7,38 +7,10 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/canonical_options.h"
 #include "proto/wire/options.h"
-#include "proto/wire/result.h"
-#include "proto/wire/skeleton_chunks.h"
-#include "server/calls/job_request.h"
+#include "server/calls/requests.h"
+#include "server/calls/skeleton_responses.h"
 
 namespace bccskel::server {
-namespace {
-
-using Kind = ResultRecord::Kind;
-
-constexpr size_t kThinVolumeChunkBytes = 256 * 1024;
-
-absl::Status WriteThinVolume(const std::string& bytes, const JobCodec::RecordSink& sink) {
-  for (size_t offset = 0; offset < bytes.size(); offset += kThinVolumeChunkBytes) {
-    v1::ThinVolumeChunk chunk;
-    chunk.set_offset(offset);
-    chunk.set_data(bytes.substr(offset, kThinVolumeChunkBytes));
-    BCCSKEL_RETURN_IF_ERROR(sink({Kind::kThinVolumeChunk, chunk.SerializeAsString()}));
-  }
-  return absl::OkStatus();
-}
-
-v1::SkeletonSummary SummaryOf(const JobResult& result) {
-  return wire::SummaryOf(result.skeleton, {.queued = result.queued,
-                                           .decoded = result.decoded,
-                                           .threads = result.threads,
-                                           .thin_volume_size_bytes = result.thin_volume.size(),
-                                           .algorithm_version = result.skeleton.algorithm_version,
-                                           .method = result.skeleton.method});
-}
-
-}  // namespace
-
 absl::StatusOr<JobRequest> MessageCodec::RequestOf(const std::string& declaration,
                                                    const std::string& options) const {
   v1::SkeletonizeConfig config = ConfigOf(options);
@@ -53,12 +25,9 @@ std::string MessageCodec::OptionsFor(const JobRequest& request, const std::strin
 }
 
 absl::Status MessageCodec::WriteResult(const JobResult& result, const RecordSink& sink) const {
-  wire::SkeletonChunkPager pager(result.skeleton.graph);
-  while (auto chunk = pager.Next()) {
-    BCCSKEL_RETURN_IF_ERROR(sink({Kind::kSkeletonChunk, chunk->SerializeAsString()}));
-  }
-  BCCSKEL_RETURN_IF_ERROR(WriteThinVolume(result.thin_volume, sink));
-  return sink({Kind::kSummary, SummaryOf(result).SerializeAsString()});
+  ResultPieces pieces(result);
+  while (const auto piece = pieces.Next()) BCCSKEL_RETURN_IF_ERROR(sink(RecordOf(*piece)));
+  return absl::OkStatus();
 }
 
 std::string DeclarationBytes(const v1::VolumeDeclaration& declaration) {

@@ -9,7 +9,7 @@
 
 namespace bccskel::server {
 
-// The bytes that the ledger stores are serialized messages: a VolumeDeclaration, and a
+// The bytes that DurableJobs stores are serialized messages: a VolumeDeclaration, and a
 // SkeletonizeConfig with nothing but options and thin_volume_return. Part of the library `service`.
 class MessageCodec final : public JobCodec {
  public:

@@ -27,8 +27,9 @@ absl::Status RequestSequence::HalfClose() const {
   if (expected_ == Expected::kConfig) {
     return CallError(Reason::kRequestOrder, "the stream was closed before config");
   }
-  return CallError(Reason::kVolumeTruncated, absl::StrCat("the stream was closed without finish after ",
-                                     committed_bytes_, " of ", declared_bytes_, " declared bytes"));
+  return CallError(Reason::kVolumeTruncated,
+                   absl::StrCat("the stream was closed without finish after ", committed_bytes_,
+                                " of ", declared_bytes_, " declared bytes"));
 }
 
 absl::Status RequestSequence::TakeConfig(uint64_t declared_bytes) {
@@ -41,13 +42,13 @@ absl::Status RequestSequence::TakeConfig(uint64_t declared_bytes) {
 absl::Status RequestSequence::TakeChunk(const v1::VolumeChunk& chunk) {
   BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kBytes, "chunk"));
   if (chunk.offset() != committed_bytes_) {
-    return WrongOffset(absl::StrCat("chunk at offset ", chunk.offset(), ", ",
-                                                         committed_bytes_, " bytes came so far"), committed_bytes_);
+    return WrongOffset(absl::StrCat("chunk at offset ", chunk.offset(), ", ", committed_bytes_,
+                                    " bytes came so far"),
+                       committed_bytes_);
   }
   const size_t size = chunk.data().size();
   if (size > kMaxChunkBytes) {
-    return InvalidField("chunk.data",
-                              absl::StrCat(size, " bytes, the limit is ", kMaxChunkBytes));
+    return InvalidField("chunk.data", absl::StrCat(size, " bytes, the limit is ", kMaxChunkBytes));
   }
   if (size > declared_bytes_ - committed_bytes_) {
     return WrongSize("chunk.data", absl::StrCat("more than the declared ", declared_bytes_,
@@ -65,8 +66,8 @@ absl::Status RequestSequence::TakeFinish(const v1::VolumeFinish& finish) {
                                   committed_bytes_, " came, ", declared_bytes_, " were declared"));
   }
   if (!finish.sha256().empty() && finish.sha256().size() != kDigestBytes) {
-    return InvalidField(
-        "finish.sha256", absl::StrCat(finish.sha256().size(), " bytes, must be ", kDigestBytes));
+    return InvalidField("finish.sha256",
+                        absl::StrCat(finish.sha256().size(), " bytes, must be ", kDigestBytes));
   }
   expected_ = Expected::kNothing;
   return absl::OkStatus();

@@ -38,9 +38,12 @@ class SenderClock {
   absl::Status Check(TimePoint now, std::chrono::milliseconds limit) const {
     if (!waiting_since_.has_value() || Waited(now) <= limit) return absl::OkStatus();
     const std::string ms = absl::StrCat(limit.count());
-    return CallError(Reason::kSenderTimeout, absl::StrCat(
-            "the server has waited more than ", ms, " ms for the volume; within each ", ms,
-            " ms (sender-timeout-ms) send ", kBytesInTime, " bytes or the rest and the finish"), {.key = "sender_timeout_ms", .value = ms});
+    return CallError(
+        Reason::kSenderTimeout,
+        absl::StrCat("the server has waited more than ", ms, " ms for the volume; within each ", ms,
+                     " ms (sender-timeout-ms) send ", kBytesInTime,
+                     " bytes or the rest and the finish"),
+        {.key = "sender_timeout_ms", .value = ms});
   }
 
  private:

@@ -1,5 +1,3 @@
-#include "server/calls/server_service.h"
-
 #include <grpcpp/grpcpp.h>
 
 #include <string>
@@ -9,6 +7,7 @@
 #include "proto/wire/duration.h"
 #include "proto/wire/labels.h"
 #include "server/calls/request_sequence.h"
+#include "server/calls/services.h"
 #include "server/calls/unary_answer.h"
 
 namespace bccskel::server {

@@ -10,7 +10,6 @@
 #include "absl/status/statusor.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/status_mapping.h"
-#include "server/calls/status_mapping.h"
 
 namespace bccskel::server {
 
@@ -39,7 +38,8 @@ class UnaryEnd {
   std::string subject_;
 };
 
-// What the ledger calls when a unary call can be answered: `fill` puts the value into the response.
+// What DurableJobs calls when a unary call can be answered: `fill` puts the value into the
+// response.
 template <typename Fill>
 auto Answer(const UnaryEnd& end, Fill fill) {
   return [end, fill = std::move(fill)](auto value) {

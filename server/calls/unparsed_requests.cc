@@ -21,7 +21,9 @@ class NameUnparsed : public grpc::experimental::Interceptor {
       // No handler of ours ends without details, or as UNIMPLEMENTED.
       if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED &&
           status.error_details().empty()) {
-        methods->ModifySendStatus(ToGrpcStatus(CallError(Reason::kRequestMalformed, "the request cannot be parsed as a message of this method")));
+        methods->ModifySendStatus(
+            ToGrpcStatus(CallError(Reason::kRequestMalformed,
+                                   "the request cannot be parsed as a message of this method")));
       }
     }
     methods->Proceed();

@@ -1,5 +1,3 @@
-#include "server/calls/volume_service.h"
-
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,10 +5,11 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/calls/message_codec.h"
+#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/services.h"
 #include "server/calls/unary_answer.h"
-#include "server/calls/upload_stream.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -25,7 +24,7 @@ constexpr Method kDeleteVolume{"VolumeService/DeleteVolume"};
 constexpr int kMaxKeys = 256;
 constexpr size_t kDigestBytes = 32;
 
-// A volume as the ledger stores it.
+// A volume as DurableJobs stores it.
 struct StoredKey {
   std::string declaration;
   std::string digest;
@@ -37,15 +36,14 @@ struct StoredKey {
 
 absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request) {
   if (request.volumes().empty() || request.volumes_size() > kMaxKeys) {
-    return InvalidField(
-        "volumes", absl::StrCat(request.volumes_size(), " keys, must be 1 to ", kMaxKeys));
+    return InvalidField("volumes",
+                        absl::StrCat(request.volumes_size(), " keys, must be 1 to ", kMaxKeys));
   }
   std::vector<StoredKey> keys;
   for (const v1::VolumeKey& key : request.volumes()) {
     if (key.blob_sha256().size() != kDigestBytes) {
-      return InvalidField(
-          "volumes.blob_sha256",
-          absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kDigestBytes));
+      return InvalidField("volumes.blob_sha256",
+                          absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kDigestBytes));
     }
     keys.push_back(
         {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
@@ -64,7 +62,7 @@ std::string NameOf(const StoredKey& key, const std::vector<VolumeInfo>& volumes)
 
 grpc::ServerReadReactor<v1::UploadVolumeRequest>* VolumeService::UploadVolume(
     grpc::CallbackServerContext* context, v1::UploadVolumeResponse* response) {
-  return StartUploadStream(gate_.Enter(*context, kUploadVolume), writers_, limits_, *response);
+  return StartUpload(gate_.Enter(*context, kUploadVolume), writers_, limits_, *response);
 }
 
 grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerContext* context,
@@ -74,10 +72,10 @@ grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerCon
       gate_.Enter(*context, kGetUploadStatus, {"upload", request->upload()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->upload());
-  call->ledger.GetUpload(call->tenant(), request->upload(),
-                         Answer(end, [response](const UploadInfo& upload) {
-                           *response->mutable_upload() = ToMessage(upload);
-                         }));
+  call->durable_jobs.GetUpload(call->tenant(), request->upload(),
+                               Answer(end, [response](const UploadInfo& upload) {
+                                 *response->mutable_upload() = ToMessage(upload);
+                               }));
   return end.reactor();
 }
 
@@ -88,7 +86,7 @@ grpc::ServerUnaryReactor* VolumeService::DeleteUpload(grpc::CallbackServerContex
       gate_.Enter(*context, kDeleteUpload, {"upload", request->upload()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->upload());
-  call->ledger.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(end));
+  call->durable_jobs.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(end));
   return end.reactor();
 }
 
@@ -102,7 +100,7 @@ grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
   if (!keys.ok()) return end(keys.status());
   std::vector<std::string> digests;
   for (const StoredKey& key : *keys) digests.push_back(key.digest);
-  call->ledger.FindVolumes(
+  call->durable_jobs.FindVolumes(
       call->tenant(), digests,
       Answer(end, [response, keys = *std::move(keys)](const std::vector<VolumeInfo>& found) {
         for (const StoredKey& key : keys) response->add_volumes(NameOf(key, found));
@@ -117,7 +115,7 @@ grpc::ServerUnaryReactor* VolumeService::DeleteVolume(grpc::CallbackServerContex
       gate_.Enter(*context, kDeleteVolume, {"volume", request->volume()});
   if (!call.ok()) return EndUnary(*context, call.status());
   const UnaryEnd end(*context, call->facts, request->volume());
-  call->ledger.DeleteVolume(call->tenant(), request->volume(), AnswerNothing(end));
+  call->durable_jobs.DeleteVolume(call->tenant(), request->volume(), AnswerNothing(end));
   return end.reactor();
 }
 

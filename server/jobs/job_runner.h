@@ -15,8 +15,8 @@
 #include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
-#include "server/admission/demand.h"
-#include "server/admission/label_demand.h"
+#include "server/admission/label_memory_estimate.h"
+#include "server/admission/memory_estimate.h"
 #include "server/jobs/job_origin.h"
 
 namespace bccskel::server {

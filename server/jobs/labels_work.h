@@ -6,8 +6,8 @@
 
 #include "server/jobs/job_runner.h"
 #include "server/jobs/job_work.h"
-#include "server/jobs/label_intake.h"
 #include "server/jobs/unread_results.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 
@@ -46,14 +46,14 @@ class LabelsWork final : public JobWork {
   const VolumeLimits limits_;
   const int threads_;
   std::shared_ptr<LabelsListener> listener_;
-  std::unique_ptr<LabelIntake> intake_;
+  std::unique_ptr<LabelReceiver> receiver_;
 
   LabeledObjects labels_;
-  std::vector<uint64_t> demands_;  // bytes to compute each of labels_
-  size_t next_ = 0;                // of labels_; those before have no runs any more
-  uint64_t runs_bytes_ = 0;        // of the runs that are left
-  uint64_t compute_bytes_ = 0;     // for labels at work and results that are not let go of
-  uint64_t bricks_ = 0;            // of all labels
+  std::vector<uint64_t> estimates_;  // bytes to compute each of labels_
+  size_t next_ = 0;                  // of labels_; those before have no runs any more
+  uint64_t runs_bytes_ = 0;          // of the runs that are left
+  uint64_t compute_bytes_ = 0;       // for labels at work and results that are not let go of
+  uint64_t bricks_ = 0;              // of all labels
   std::shared_ptr<UnreadResults> unread_ = std::make_shared<UnreadResults>();
   Clock::time_point started_;
   LabelsResult result_;

@@ -55,14 +55,17 @@ TEST(StatusMapping, NoOtherWrongArgumentIsTakenForAVolume) {
 }
 
 TEST(StatusMapping, AJobsOwnReasonStays) {
-  EXPECT_EQ(ReasonNameOf(WithJobReason(wire::InvalidField("config.options", "no"))), "FIELD_INVALID");
+  EXPECT_EQ(ReasonNameOf(WithJobReason(wire::InvalidField("config.options", "no"))),
+            "FIELD_INVALID");
   EXPECT_EQ(ReasonNameOf(WithJobReason(CallError(Reason::kDraining, "later"))), "DRAINING");
-  EXPECT_EQ(ReasonNameOf(WithJobReason(absl::ResourceExhaustedError("9 of 8"))), "VOLUME_TOO_LARGE");
+  EXPECT_EQ(ReasonNameOf(WithJobReason(absl::ResourceExhaustedError("9 of 8"))),
+            "VOLUME_TOO_LARGE");
   EXPECT_EQ(ReasonNameOf(WithJobReason(absl::OkStatus())), "");
 }
 
 TEST(StatusMapping, AnErrorNamesItsField) {
-  const absl::Status back = Back(ToGrpcStatus(InvalidField("page_token", "did not come from here")));
+  const absl::Status back =
+      Back(ToGrpcStatus(InvalidField("page_token", "did not come from here")));
   EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "FIELD_INVALID");
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "page_token");
 }
@@ -75,7 +78,8 @@ TEST(StatusMapping, AFullDiskNamesTheLimit) {
 }
 
 TEST(StatusMapping, AnErrorKeepsItsReason) {
-  const absl::Status poisoned = CallError(Reason::kPoisoned, "ended 3 times", {.key = "attempts", .value = "3"});
+  const absl::Status poisoned =
+      CallError(Reason::kPoisoned, "ended 3 times", {.key = "attempts", .value = "3"});
   const auto info = wire::ErrorInfoOf(Back(ToGrpcStatus(poisoned)));
   EXPECT_EQ(info->reason(), "POISONED");
   EXPECT_EQ(info->metadata().at("attempts"), "3");

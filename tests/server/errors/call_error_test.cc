@@ -52,8 +52,8 @@ TEST(CallErrorTest, ReadsWhatOlderServersHaveStored) {
                                    "DISK_FULL\nlimit\nmax_tenant_disk_bytes");
   EXPECT_EQ(ReasonOf(full), Reason::kDiskFull);
   EXPECT_EQ(DetailsOf(full).quota, "max_tenant_disk_bytes");
-  const absl::Status large = Stored(absl::StatusCode::kResourceExhausted,
-                                    "bccskel.server/refusal", std::string(1, '\3'));
+  const absl::Status large =
+      Stored(absl::StatusCode::kResourceExhausted, "bccskel.server/refusal", std::string(1, '\3'));
   EXPECT_EQ(ReasonOf(large), Reason::kVolumeTooLarge);
   EXPECT_EQ(DetailsOf(large).quota, "max_admitted_bytes");
   for (const char* damaged : {"", "x", "NO_SUCH_REASON\n\n\n"}) {

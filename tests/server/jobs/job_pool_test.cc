@@ -18,7 +18,7 @@
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "server/admission/demand.h"
+#include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
