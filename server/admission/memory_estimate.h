@@ -3,12 +3,26 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/io/volume_header.h"
+#include "core/labels/voxel_runs.h"
+#include "core/mask/mask_grid.h"
+#include "core/prepare/prepare.h"
 #include "core/volume/volume.h"
-#include "server/admission/saturating.h"
 
 namespace bccskel::server {
+
+// Needs of hostile declarations stay at the largest number instead of wrapping around.
+inline uint64_t SaturatingAdd(uint64_t a, uint64_t b) {
+  uint64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<uint64_t>::max() : sum;
+}
+
+inline uint64_t SaturatingMultiply(uint64_t a, uint64_t b) {
+  uint64_t product = 0;
+  return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
+}
 
 // Volumes of up to so many occupied bricks (1 M points) get one thread: more would not make them
 // faster, and eight of them side by side are better served.
@@ -47,6 +61,43 @@ int ThreadsWithin(int threads, int wanted);
 
 // Threads that a job of this size should get of `threads`. `wanted` 0 leaves it to the server.
 int ThreadsFor(uint64_t bricks, int wanted, int threads);
+
+// What is known about a volume of labels before its first byte.
+struct LabelVolumeHeader {
+  MaskGrid grid;
+  MaskAdjacency adjacency = MaskAdjacency::k26;
+  VoxelPoints points = VoxelPoints::kTwo;
+  int label_bytes = 1;  // of one voxel: 1, 2, 4 or 8
+  VolumeCompression compression = VolumeCompression::kNone;
+
+  // Promises about the labels that are wanted, enforced while decoding.
+  uint64_t max_voxels = 0;        // of all together
+  uint64_t max_label_voxels = 0;  // of any one
+  uint64_t max_runs = 0;          // longest stretches of one label along x
+  uint64_t max_labels = 0;
+
+  uint64_t DecodedBytes() const;  // saturates
+};
+
+// Replaces a promise that was not made, 0, by the worst that grid and type allow. `labels_wanted` 0
+// means all.
+LabelVolumeHeader WithWorstCase(LabelVolumeHeader header, uint64_t labels_wanted);
+
+// Memory for computing `threads` labels of the largest size at the same time, when they are no
+// thinner than most: where they are, the job asks for more once it knows them.
+uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads);
+// Peak memory for receiving the volume, and for computing beside its runs.
+uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads);
+
+// No exact conversion of the object has more bricks; most have as many. Where cavities are to be
+// filled, all bricks between others of a row count.
+// Cost: a few operations for each run.
+uint64_t MostBricksOf(const LabeledObject& object, VoxelPoints points,
+                      CavityFilling cavities = CavityFilling::kOff);
+// Peak memory for converting and thinning an object of so many bricks, its graph included.
+uint64_t BytesToComputeLabel(uint64_t bricks);
+// Memory that the runs of an object keep.
+uint64_t BytesOf(const LabeledObject& object);
 
 }  // namespace bccskel::server
 

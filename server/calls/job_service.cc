@@ -33,25 +33,26 @@ auto AnswerJob(UnaryEnd end, Response* response) {
 grpc::ServerUnaryReactor* JobService::CreateJob(grpc::CallbackServerContext* context,
                                                 const v1::CreateJobRequest* request,
                                                 v1::CreateJobResponse* response) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kCreateJob, {"volume", request->volume()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->volume());
-  absl::StatusOr<NewJob> job = NewJobOf(*request);
-  if (!job.ok()) return end(job.status());
-  job->trace = call->facts.trace;
-  call->durable_jobs.CreateJob(call->tenant(), *job, AnswerJob(end, response));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kCreateJob, {"volume", request->volume()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      absl::StatusOr<NewJob> job = NewJobOf(*request);
+                      if (!job.ok()) {
+                        end(job.status());
+                        return;
+                      }
+                      job->trace = call.facts.trace;
+                      call.durable_jobs.CreateJob(call.tenant(), *job, AnswerJob(end, response));
+                    });
 }
 
 grpc::ServerUnaryReactor* JobService::GetJob(grpc::CallbackServerContext* context,
                                              const v1::GetJobRequest* request,
                                              v1::GetJobResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kGetJob, {"job", request->job()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->job());
-  call->durable_jobs.GetJob(call->tenant(), request->job(), AnswerJob(end, response));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kGetJob, {"job", request->job()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.GetJob(call.tenant(), request->job(),
+                                               AnswerJob(end, response));
+                    });
 }
 
 grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* context,
@@ -74,23 +75,21 @@ grpc::ServerUnaryReactor* JobService::ListJobs(grpc::CallbackServerContext* cont
 grpc::ServerUnaryReactor* JobService::CancelJob(grpc::CallbackServerContext* context,
                                                 const v1::CancelJobRequest* request,
                                                 v1::CancelJobResponse* response) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kCancelJob, {"job", request->job()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->job());
-  call->durable_jobs.CancelJob(call->tenant(), request->job(), AnswerJob(end, response));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kCancelJob, {"job", request->job()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.CancelJob(call.tenant(), request->job(),
+                                                  AnswerJob(end, response));
+                    });
 }
 
 grpc::ServerUnaryReactor* JobService::DeleteJob(grpc::CallbackServerContext* context,
                                                 const v1::DeleteJobRequest* request,
                                                 v1::DeleteJobResponse*) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kDeleteJob, {"job", request->job()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->job());
-  call->durable_jobs.DeleteJob(call->tenant(), request->job(), AnswerNothing(end));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kDeleteJob, {"job", request->job()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.DeleteJob(call.tenant(), request->job(),
+                                                  AnswerNothing(end));
+                    });
 }
 
 grpc::ServerWriteReactor<v1::WatchJobResponse>* JobService::WatchJob(

@@ -37,6 +37,8 @@ void Set(v1::Durability& message, const DurableOptions& durable) {
   message.set_max_unfinished_jobs(static_cast<uint32_t>(durable.max_unfinished_jobs));
 }
 
+constexpr Method kGetServerStatus{"AdminService/GetServerStatus", Method::Kind::kQuestion};
+
 }  // namespace
 
 grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerContext* context,
@@ -56,6 +58,15 @@ grpc::ServerUnaryReactor* ServerService::GetCapabilities(grpc::CallbackServerCon
   for (int bytes : {1, 2, 4, 8}) response->add_label_types(wire::LabelTypeOf(bytes));
   Set(*response->mutable_limits(), limits_);
   if (!durable_.data_directory.empty()) Set(*response->mutable_durability(), durable_);
+  return UnaryEnd(*context, *facts, std::string())(absl::OkStatus());
+}
+
+grpc::ServerUnaryReactor* AdminService::GetServerStatus(grpc::CallbackServerContext* context,
+                                                        const v1::GetServerStatusRequest*,
+                                                        v1::GetServerStatusResponse* response) {
+  const absl::StatusOr<CallFacts> facts = gate_.EnterAsAdmin(*context, kGetServerStatus);
+  if (!facts.ok()) return EndUnary(*context, facts.status());
+  *response = status_();
   return UnaryEnd(*context, *facts, std::string())(absl::OkStatus());
 }
 

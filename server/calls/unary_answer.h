@@ -53,6 +53,19 @@ inline auto AnswerNothing(const UnaryEnd& end) {
   return [end](const absl::Status& status) { end(StorageError(status)); };
 }
 
+// A unary call about something durable that has a name. `serve` takes the call and its end, which
+// it calls, or has called, once.
+template <typename Serve>
+grpc::ServerUnaryReactor* ServeUnary(const DurableGate& gate, grpc::CallbackServerContext& context,
+                                     const Method& method, const DurableGate::Name& name,
+                                     Serve serve) {
+  const absl::StatusOr<DurableCall> call = gate.Enter(context, method, name);
+  if (!call.ok()) return EndUnary(context, call.status());
+  const UnaryEnd end(context, call->facts, name.name);
+  serve(*call, end);
+  return end.reactor();
+}
+
 }  // namespace bccskel::server
 
 #endif  // BCCSKEL_SERVER_CALLS_UNARY_ANSWER_H_

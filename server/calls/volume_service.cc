@@ -68,26 +68,23 @@ grpc::ServerReadReactor<v1::UploadVolumeRequest>* VolumeService::UploadVolume(
 grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerContext* context,
                                                          const v1::GetUploadStatusRequest* request,
                                                          v1::GetUploadStatusResponse* response) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kGetUploadStatus, {"upload", request->upload()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->upload());
-  call->durable_jobs.GetUpload(call->tenant(), request->upload(),
-                               Answer(end, [response](const UploadInfo& upload) {
-                                 *response->mutable_upload() = ToMessage(upload);
-                               }));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kGetUploadStatus, {"upload", request->upload()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.GetUpload(call.tenant(), request->upload(),
+                                                  Answer(end, [response](const UploadInfo& upload) {
+                                                    *response->mutable_upload() = ToMessage(upload);
+                                                  }));
+                    });
 }
 
 grpc::ServerUnaryReactor* VolumeService::DeleteUpload(grpc::CallbackServerContext* context,
                                                       const v1::DeleteUploadRequest* request,
                                                       v1::DeleteUploadResponse*) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kDeleteUpload, {"upload", request->upload()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->upload());
-  call->durable_jobs.DeleteUpload(call->tenant(), request->upload(), AnswerNothing(end));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kDeleteUpload, {"upload", request->upload()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.DeleteUpload(call.tenant(), request->upload(),
+                                                     AnswerNothing(end));
+                    });
 }
 
 grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
@@ -111,12 +108,11 @@ grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
 grpc::ServerUnaryReactor* VolumeService::DeleteVolume(grpc::CallbackServerContext* context,
                                                       const v1::DeleteVolumeRequest* request,
                                                       v1::DeleteVolumeResponse*) {
-  const absl::StatusOr<DurableCall> call =
-      gate_.Enter(*context, kDeleteVolume, {"volume", request->volume()});
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, request->volume());
-  call->durable_jobs.DeleteVolume(call->tenant(), request->volume(), AnswerNothing(end));
-  return end.reactor();
+  return ServeUnary(gate_, *context, kDeleteVolume, {"volume", request->volume()},
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      call.durable_jobs.DeleteVolume(call.tenant(), request->volume(),
+                                                     AnswerNothing(end));
+                    });
 }
 
 }  // namespace bccskel::server

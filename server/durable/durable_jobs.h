@@ -314,6 +314,7 @@ class DurableJobs final : public RunObserver {
   void DropResult(const ResultRow& row, std::function<void()> then);
   void GiveStoredResult(Run* run, int64_t result);
   std::map<int64_t, JobEvent> TakeProgress(Run& run);
+  absl::Status StoreProgress(JobStore& store, const std::map<int64_t, JobEvent>& events);
   void RetryLater(std::function<void()> task);
 
   void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) override;
@@ -329,6 +330,9 @@ class DurableJobs final : public RunObserver {
   void FollowDeleted(int64_t job);
   // All events of the job to who watches it here.
   void TellStored(int64_t job);
+  // The newest progress of jobs that run elsewhere to who watches them here.
+  void TellProgress();
+  std::optional<JobEvent> ProgressElsewhere(JobStore& store, const JobRow& job) const;
   void Beat();
   absl::Status CountFiles(JobStore& store);
   void SweepShared();
@@ -374,7 +378,7 @@ class DurableJobs final : public RunObserver {
   std::set<int64_t>
       waits_for_equal_;  // jobs in the queue's turn, while an equal one runs elsewhere
   std::map<std::string, Sign> members_;  // others of the fleet
-  std::chrono::steady_clock::time_point last_beat_, last_look_;
+  std::chrono::steady_clock::time_point last_beat_, last_look_, last_progress_;
   int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;

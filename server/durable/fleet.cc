@@ -46,6 +46,7 @@ void DurableJobs::LookAfterFleet() {
   JobStore& store = loop_.store();
   if (store.fenced()) return Rejoin();
   Sync();
+  TellProgress();
   const Clock::time_point now = Clock::now();
   if (now - last_beat_ < kBetweenBeats) return;
   last_beat_ = now;
@@ -77,6 +78,24 @@ void DurableJobs::TellStored(int64_t job) {
   if (!events.ok()) return watches_.End(job, absl::UnavailableError("its events cannot be read"));
   if (events->empty()) return watches_.End(job, absl::NotFoundError("the job was deleted"));
   for (const EventRow& event : *events) watches_.Tell(job, EventOf(event));
+}
+
+std::optional<JobEvent> DurableJobs::ProgressElsewhere(JobStore& store, const JobRow& job) const {
+  if (!shared_ || job.state != JobState::kRunning || job.owner == journal_.owner()) return {};
+  const auto found = store.FindProgress(job.number);
+  // What is older than the state is of an earlier attempt.
+  if (!found.ok() || !found->has_value() || (*found)->sequence <= job.sequence) return {};
+  const std::optional<JobProgress> progress = ProgressOfBytes((*found)->bytes);
+  if (!progress.has_value()) return {};
+  return JobEvent{.sequence = (*found)->sequence, .time = Now(), .what = *progress};
+}
+
+void DurableJobs::TellProgress() {
+  for (const auto& [number, job] : active_) {
+    if (!watches_.Has(number)) continue;
+    const std::optional<JobEvent> event = ProgressElsewhere(loop_.store(), job.row);
+    if (event.has_value()) watches_.Tell(number, *event);
+  }
 }
 
 // It was cancelled first, but that is not to be read any more.

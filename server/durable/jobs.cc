@@ -105,6 +105,9 @@ JobInfo DurableJobs::PlainInfoOf(const JobRow& row) const {
 absl::StatusOr<JobInfo> DurableJobs::InfoOf(JobStore& store, const JobRow& row) const {
   JobInfo info = PlainInfoOf(row);
   if (row.state == JobState::kRunning) info.progress = watches_.ProgressOf(row.number);
+  if (const auto event = ProgressElsewhere(store, row); event.has_value()) {
+    info.progress = std::get<JobProgress>(event->what);
+  }
   if (row.result == 0) return info;
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> result, store.FindResult(row.result));
   if (!result.has_value()) return info;

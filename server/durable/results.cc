@@ -114,15 +114,29 @@ void DurableJobs::JoinEqual(Run* run) {
 void DurableJobs::OnRunProgress(std::shared_ptr<Run> run) {
   const auto events = std::make_shared<std::map<int64_t, JobEvent>>();
   loop_.Post(
-      [this, run = std::move(run), events](JobStore&) {
+      [this, run = std::move(run), events](JobStore& store) {
         if (events->empty()) *events = TakeProgress(*run);
-        return absl::OkStatus();
+        return StoreProgress(store, *events);
       },
       [this, events](const absl::Status&) {
         for (const auto& [job, event] : *events) {
           if (active_.count(job) > 0) watches_.Tell(job, event);
         }
       });
+}
+
+// For the fleet's other servers, a few times a second.
+absl::Status DurableJobs::StoreProgress(JobStore& store,
+                                        const std::map<int64_t, JobEvent>& events) {
+  constexpr std::chrono::milliseconds kBetween(200);
+  const auto now = std::chrono::steady_clock::now();
+  if (!shared_ || events.empty() || now - last_progress_ < kBetween) return absl::OkStatus();
+  last_progress_ = now;
+  for (const auto& [job, event] : events) {
+    const std::string bytes = BytesOf(std::get<JobProgress>(event.what));
+    BCCSKEL_RETURN_IF_ERROR(store.PutProgress(job, {.sequence = event.sequence, .bytes = bytes}));
+  }
+  return absl::OkStatus();
 }
 
 std::map<int64_t, JobEvent> DurableJobs::TakeProgress(Run& run) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "server/durable/records.h"
@@ -67,6 +68,10 @@ class WatchBoard {
 };
 
 JobEvent EventOf(const EventRow& row);
+
+// Progress as servers of a fleet tell it each other, and back; nothing for what is none.
+std::string BytesOf(const JobProgress& progress);
+std::optional<JobProgress> ProgressOfBytes(const std::string& bytes);
 
 }  // namespace bccskel::server
 

@@ -10,7 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/memory_budget.h"
 #include "server/admission/admission.h"
-#include "server/admission/saturating.h"
+#include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {

@@ -6,7 +6,7 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/memory_estimate.h"
-#include "server/decoding/child_decoder.h"
+#include "server/decoding/child_pool.h"
 #include "server/errors/call_error.h"
 #include "server/jobs/labels_work.h"
 #include "server/jobs/random_name.h"

@@ -15,7 +15,6 @@
 #include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
-#include "server/admission/label_memory_estimate.h"
 #include "server/admission/memory_estimate.h"
 #include "server/jobs/job_origin.h"
 

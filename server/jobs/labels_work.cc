@@ -6,7 +6,6 @@
 #include "core/exec/status_macros.h"
 #include "core/labels/skeletonize_labels_within.h"
 #include "server/admission/memory_estimate.h"
-#include "server/admission/saturating.h"
 
 namespace bccskel::server {
 namespace {

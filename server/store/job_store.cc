@@ -64,14 +64,18 @@ absl::Status JobStore::Delete(const std::string& tenant, const std::string& name
   return Run(absl::StrCat("DELETE FROM ", TableOf(Row()), " ", kByName), tenant, name);
 }
 
-template <typename Row>
-absl::StatusOr<std::vector<Row>> JobStore::Whole(Damaged damaged, std::vector<SqlRow> found) {
+template <typename Row, typename... Values>
+absl::StatusOr<std::vector<Row>> JobStore::All(Damaged damaged, const std::string& where,
+                                               const Values&... values) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<SqlRow> found,
+                           Query(absl::StrCat("SELECT ", ColumnsOf(Row()), ", row_check FROM ",
+                                              TableOf(Row()), " ", where),
+                                 values...));
   std::vector<Row> rows;
   for (SqlRow& from : found) {
     Row& row = rows.emplace_back();
     const int64_t check = CheckOf(from, row);
-    ForEachColumn(row,
-                  [&from](const char*, auto& field, Kind = Kind::kNumber) { Read(from, field); });
+    ForEachColumn(row, [&](const char*, auto& field, Kind = Kind::kNumber) { Read(from, field); });
     if (from.Number() == check) continue;
     ++damaged_rows_;
     if (damaged == Damaged::kFails) return DamagedRow();
@@ -80,14 +84,9 @@ absl::StatusOr<std::vector<Row>> JobStore::Whole(Damaged damaged, std::vector<Sq
   return rows;
 }
 
-template <typename Row, typename... Values>
-absl::StatusOr<std::vector<Row>> JobStore::All(Damaged damaged, const std::string& where,
-                                               const Values&... values) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<SqlRow> found,
-                           Query(absl::StrCat("SELECT ", ColumnsOf(Row()), ", row_check FROM ",
-                                              TableOf(Row()), " ", where),
-                                 values...));
-  return Whole<Row>(damaged, std::move(found));
+template <typename Row>
+absl::StatusOr<std::vector<Row>> JobStore::Every() {
+  return All<Row>(Damaged::kLeftOut, "");
 }
 
 template <typename Row, typename... Values>
@@ -153,9 +152,7 @@ absl::StatusOr<std::optional<UploadRow>> JobStore::FindUpload(const std::string&
   return Find<UploadRow>(tenant, name);
 }
 
-absl::StatusOr<std::vector<UploadRow>> JobStore::AllUploads() {
-  return All<UploadRow>(Damaged::kLeftOut, "");
-}
+absl::StatusOr<std::vector<UploadRow>> JobStore::AllUploads() { return Every<UploadRow>(); }
 
 absl::Status JobStore::PutVolume(const VolumeRow& row) {
   static const std::string replacing =
@@ -183,9 +180,7 @@ absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string
       digest);
 }
 
-absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() {
-  return All<VolumeRow>(Damaged::kLeftOut, "");
-}
+absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
 
 absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) { return InsertNumbered(row); }
 
@@ -282,20 +277,14 @@ absl::StatusOr<std::optional<ResultRow>> JobStore::FindResultOf(const std::strin
 }
 
 absl::StatusOr<std::optional<ResultRow>> JobStore::TakeResultIfUnused(int64_t number) {
-  BCCSKEL_ASSIGN_OR_RETURN(
-      std::vector<SqlRow> taken,
-      Query(absl::StrCat("DELETE FROM results WHERE number = $1 AND NOT EXISTS"
-                         " (SELECT 1 FROM jobs WHERE result = $1 AND result != 0) RETURNING ",
-                         ColumnsOf(ResultRow()), ", row_check"),
-            number));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> rows,
-                           Whole<ResultRow>(Damaged::kLeftOut, std::move(taken)));
-  return rows.empty() ? std::nullopt : std::optional(rows.front());
+  static const std::string unused =
+      "WHERE number = $1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE result = $1 AND result != 0)";
+  BCCSKEL_ASSIGN_OR_RETURN(auto taken, One<ResultRow>(Damaged::kLeftOut, unused, number));
+  BCCSKEL_RETURN_IF_ERROR(Run("DELETE FROM results " + unused, number));
+  return taken;
 }
 
-absl::StatusOr<std::vector<ResultRow>> JobStore::AllResults() {
-  return All<ResultRow>(Damaged::kLeftOut, "");
-}
+absl::StatusOr<std::vector<ResultRow>> JobStore::AllResults() { return Every<ResultRow>(); }
 
 absl::Status JobStore::InsertRemoval(const RemovalRow& row) {
   return Insert(row, Replacing("kind, tenant, name", {"row_check"}));
@@ -306,9 +295,7 @@ absl::Status JobStore::DeleteRemoval(const RemovalRow& row) {
              row.tenant, row.name);
 }
 
-absl::StatusOr<std::vector<RemovalRow>> JobStore::AllRemovals() {
-  return All<RemovalRow>(Damaged::kLeftOut, "");
-}
+absl::StatusOr<std::vector<RemovalRow>> JobStore::AllRemovals() { return Every<RemovalRow>(); }
 
 absl::Status JobStore::Join(const std::string& server) {
   if (!shared()) return absl::OkStatus();
@@ -319,8 +306,7 @@ absl::Status JobStore::Join(const std::string& server) {
 }
 
 absl::Status JobStore::Leave() {
-  if (!shared()) return absl::OkStatus();
-  return Run("DELETE FROM servers WHERE server = $1", server_);
+  return shared() ? Run("DELETE FROM servers WHERE server = $1", server_) : absl::OkStatus();
 }
 
 absl::Status JobStore::Beat() {
@@ -374,6 +360,21 @@ absl::StatusOr<bool> JobStore::RunsElsewhere(const JobRow& job, const std::strin
             " OR (volumes.volume_digest = $5 AND volumes.volume_digest != '')) LIMIT 1",
             job.tenant, SqlValue::Blob(job.options), server, job.volume, volume_digest));
   return !rows.empty();
+}
+
+absl::Status JobStore::PutProgress(int64_t job, const ProgressRow& progress) {
+  if (!shared()) return absl::OkStatus();
+  return Run("INSERT INTO progress(job, sequence, bytes) VALUES($1, $2, $3)" +
+                 Replacing("job", {"sequence", "bytes"}),
+             job, progress.sequence, progress.bytes);
+}
+
+absl::StatusOr<std::optional<ProgressRow>> JobStore::FindProgress(int64_t job) {
+  if (!shared()) return std::nullopt;
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows,
+                           Query("SELECT sequence, bytes FROM progress WHERE job = $1", job));
+  if (rows.empty()) return std::nullopt;
+  return ProgressRow{static_cast<uint64_t>(rows.front().Number()), rows.front().Text()};
 }
 
 absl::StatusOr<std::map<std::string, uint64_t>> JobStore::DiskUse() {

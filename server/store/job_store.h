@@ -128,6 +128,9 @@ class JobStore {
   // A job with the same options, of the same volume, that another server runs.
   absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,
                                      const std::string& server);
+  // The newest progress of a running job, for the other servers.
+  absl::Status PutProgress(int64_t job, const ProgressRow& progress);
+  absl::StatusOr<std::optional<ProgressRow>> FindProgress(int64_t job);
   // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
   absl::StatusOr<std::map<std::string, uint64_t>> DiskUse();
 
@@ -158,7 +161,7 @@ class JobStore {
   template <typename Row>
   absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
   template <typename Row>
-  absl::StatusOr<std::vector<Row>> Whole(Damaged damaged, std::vector<SqlRow> found);
+  absl::StatusOr<std::vector<Row>> Every();
 
   const std::unique_ptr<SqlDatabase> database_;
   std::string server_;  // empty before it has joined

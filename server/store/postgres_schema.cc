@@ -73,6 +73,12 @@ CREATE TABLE removals(
 CREATE TABLE servers(
   server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
 )",
+    // 2: the newest progress of running jobs, for who watches them elsewhere; may be lost.
+    R"(
+CREATE UNLOGGED TABLE progress(
+  job BIGINT PRIMARY KEY REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,
+  bytes BYTEA NOT NULL);
+)",
 };
 
 constexpr int kVersion = static_cast<int>(std::size(kMigrations));

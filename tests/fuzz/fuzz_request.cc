@@ -17,7 +17,6 @@
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/skeletonize.h"
-#include "server/admission/label_memory_estimate.h"
 #include "server/admission/memory_estimate.h"
 #include "server/calls/request_sequence.h"
 #include "server/calls/requests.h"

@@ -1,5 +1,3 @@
-#include "server/admission/label_memory_estimate.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "core/labels/convert_label.h"
 #include "core/labels/label_collector.h"
+#include "server/admission/memory_estimate.h"
 
 namespace bccskel::server {
 namespace {

@@ -11,7 +11,6 @@
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "server/decoding/child_decoder.h"
 #include "server/decoding/decoding_child.h"
 #include "server/errors/call_error.h"
 #include "tests/server/decoding/faulty_children.h"

@@ -90,6 +90,21 @@ class AnyServerTest(FleetTest):
         servers[2].jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
         self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: servers[0].get(job))
 
+    def test_progress_reaches_who_watches_on_any_server(self):
+        servers = self.start()
+        job = servers[0].create(servers[0].send(*volume(*SLOW))).name
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            watches = [pool.submit(lambda server=server: list(durable.watch(server.channel, job)))
+                       for server in servers]
+        for watch in watches:
+            shells = [event.shell_progress.shell for event in watch.result()
+                      if event.HasField("shell_progress")]
+            self.assertGreater(len(shells), 1)
+            self.assertEqual(shells, sorted(shells))
+            numbers = [event.sequence for event in watch.result()
+                       if not event.HasField("heartbeat")]
+            self.assertEqual(numbers, sorted(set(numbers)))
+
     def test_a_job_is_cancelled_on_a_server_that_does_not_run_it(self):
         first, second = self.start()
         name = first.send(*volume(*SLOW))

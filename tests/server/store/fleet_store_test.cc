@@ -136,5 +136,16 @@ TEST_P(FleetStoreTest, RefusesAPasswordThatOthersCouldSee) {
             absl::StatusCode::kInvalidArgument);
 }
 
+TEST_P(FleetStoreTest, OthersSeeTheNewestProgressOfAJob) {
+  const int64_t job = Insert(Job("clinic", "jobs/a"));
+  EXPECT_FALSE(other_->FindProgress(job)->has_value());
+  for (const uint64_t sequence : {3, 9}) {
+    ASSERT_TRUE(store_->PutProgress(job, {.sequence = sequence, .bytes = "p"}).ok());
+  }
+  EXPECT_EQ((*other_->FindProgress(job))->sequence, 9u);
+  ASSERT_TRUE(store_->DeleteJob(job).ok());
+  EXPECT_FALSE(other_->FindProgress(job)->has_value());
+}
+
 }  // namespace
 }  // namespace bccskel::server
