@@ -23,14 +23,19 @@ void Insist(bool holds) {
   if (!holds) std::abort();
 }
 
-std::string Folder() {
-  static const std::string folder = [] {
-    std::string name = (std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX").string();
-    Insist(mkdtemp(name.data()) != nullptr);
-    std::atexit([] { std::filesystem::remove_all(Folder()); });
-    return name;
-  }();
-  return folder;
+// Gone with the process.
+struct TemporaryFolder {
+  TemporaryFolder() {
+    path = (std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX").string();
+    Insist(mkdtemp(path.data()) != nullptr);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  std::string path;
+};
+
+const std::string& Folder() {
+  static const TemporaryFolder folder;
+  return folder.path;
 }
 
 void Write(const std::string& path, std::string_view bytes) {
