@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <mutex>
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "server/errors/call_error.h"
@@ -208,6 +211,41 @@ TEST_F(DurableJobsTest, EndsWatchesWhenItStops) {
   const auto handle = durable_jobs_->WatchJob("clinic", job, 0, watcher);
   Close();
   EXPECT_EQ(watcher->WaitForEnd().code(), absl::StatusCode::kUnavailable);
+}
+
+// The rule of all jobs (jobs/fair_queue.h).
+TEST_F(DurableJobsTest, LetsTenantsTakeTurnsByWeightAndNoJobStarve) {
+  Close();
+  std::mutex mutex;
+  std::string order;  // first letters of the tenants whose jobs begin
+  options_.max_runs = 1;
+  options_.tenants = [] {
+    return TenantTable{.each = {}, .named = {{"heavy", {.weight = 3}}, {"light", {}}}};
+  };
+  options_.on_job_state = [&](const JobRow& job) {
+    const std::lock_guard lock(mutex);
+    if (job.state == JobState::kRunning) order += job.priority < 0 ? 'L' : job.tenant[0];
+  };
+  Open();
+  runner_->Hold();
+  std::vector<std::pair<std::string, std::string>> made;
+  const auto create = [&](const std::string& tenant, int number, int priority) {
+    NewJob job = JobOf(Upload(tenant, std::to_string(number)), std::to_string(number));
+    job.priority = priority;
+    made.emplace_back(tenant, CreateName(tenant, job));
+  };
+  create("other", 0, 0);
+  WaitForState("other", made.front().second, JobState::kRunning);
+  create("light", 0, -1);
+  Wait(std::chrono::seconds(61));  // worth two levels of priority
+  for (int n = 1; n <= 6; ++n) create("heavy", n, 0);
+  for (int n = 1; n <= 2; ++n) create("light", n, 1);
+  runner_->Release();
+  for (const auto& [tenant, job] : made) WaitForEnd(tenant, job);
+  Close();
+  EXPECT_EQ(std::count(order.begin(), order.end(), 'h'), 6);
+  EXPECT_EQ(std::count(order.begin(), order.begin() + 5, 'h'), 3) << order;
+  EXPECT_LT(order.find('L'), order.find('l')) << order;
 }
 
 }  // namespace
