@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
-#include "server/service/server_service.h"
-#include "server/service/unparsed_requests.h"
+#include "server/calls/services.h"
+#include "server/calls/unparsed_requests.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {

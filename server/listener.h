@@ -11,7 +11,6 @@
 #include "absl/status/statusor.h"
 #include "server/connection_acceptor.h"
 #include "server/identity/tls_files.h"
-#include "server/socket_lock.h"
 
 namespace bccskel::server {
 

@@ -9,8 +9,14 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
-#include "server/durable/ledger.h"
-#include "server/durable/message_codec.h"
+#include "server/calls/call_gate.h"
+#include "server/calls/job_log.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/services.h"
+#include "server/calls/status_mapping.h"
+#include "server/calls/upload_writers.h"
+#include "server/durable/durable_jobs.h"
+#include "server/errors/call_error.h"
 #include "server/identity/tls_files.h"
 #include "server/listener.h"
 #include "server/logging/json_log.h"
@@ -18,16 +24,7 @@
 #include "server/metrics/metered_runner.h"
 #include "server/metrics/metrics_page.h"
 #include "server/server_status.h"
-#include "server/service/admin_service.h"
-#include "server/service/durable_gate.h"
-#include "server/service/job_log.h"
-#include "server/service/job_service.h"
-#include "server/service/server_service.h"
-#include "server/service/skeletonization_service.h"
-#include "server/service/upload_writers.h"
-#include "server/service/volume_service.h"
 #include "server/settings/values.h"
-#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -47,10 +44,10 @@ std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
   return std::chrono::duration<double>(end->time_since_epoch()).count();
 }
 
-std::optional<ServerGauges::Stored> StoredGauges(const Ledger* ledger) {
-  if (ledger == nullptr) return std::nullopt;
-  const Ledger::Usage usage = ledger->usage();
-  return ServerGauges::Stored{.healthy = ledger->Health().ok(),
+std::optional<ServerGauges::Stored> StoredGauges(const DurableJobs* durable_jobs) {
+  if (durable_jobs == nullptr) return std::nullopt;
+  const DurableUsage usage = durable_jobs->usage();
+  return ServerGauges::Stored{.healthy = durable_jobs->Health().ok(),
                               .disk_bytes = usage.disk_bytes,
                               .available_bytes = usage.disk_available_bytes,
                               .uploads = usage.uploads,
@@ -67,26 +64,28 @@ class Server::Work {
   Work(JobPool& jobs, ServerMetrics& metrics, const VolumeLimits& limits)
       : runner_(jobs, metrics), codec_(limits) {}
 
-  absl::Status OpenLedger(const DurableOptions& options) {
-    BCCSKEL_ASSIGN_OR_RETURN(ledger_, Ledger::Open(options, runner_, codec_));
+  absl::Status OpenDurableJobs(const DurableOptions& options) {
+    BCCSKEL_ASSIGN_OR_RETURN(durable_jobs_, DurableJobs::Open(options, runner_, codec_));
     return absl::OkStatus();
   }
 
   JobRunner& runner() { return runner_; }
-  Ledger* ledger() const { return ledger_.get(); }  // null where nothing is durable
+  DurableJobs* durable_jobs() const {
+    return durable_jobs_.get();
+  }  // null where nothing is durable
 
  private:
   MeteredRunner runner_;
   MessageCodec codec_;
-  std::unique_ptr<Ledger> ledger_;
+  std::unique_ptr<DurableJobs> durable_jobs_;
 };
 
 class Server::Services {
  public:
   Services(const ServerConfig& config, const Callers& callers, Work& work, ServerMetrics& metrics)
       : gate_(callers, config.sender_timeout),
-        durable_gate_(gate_, work.ledger()),
-        skeletonization_(gate_, work.runner(), config.limits.volume, work.ledger(), writers_),
+        durable_gate_(gate_, work.durable_jobs()),
+        skeletonization_(gate_, work.runner(), config.limits.volume, work.durable_jobs(), writers_),
         volumes_(durable_gate_, writers_, config.limits),
         jobs_(durable_gate_),
         server_(gate_, config.limits, config.durable),
@@ -160,12 +159,12 @@ absl::Status Server::OpenData() {
       if (!IsTerminal(job.state)) return;
       const bool cancelled = job.state == JobState::kCancelled;
       const absl::Status end = cancelled ? absl::CancelledError() : WithJobReason(job.error);
-      metrics_.CountDurable(absl::StatusCodeToString(end.code()), ReasonOf(end));
+      metrics_.CountDurable(absl::StatusCodeToString(end.code()), ReasonNameOf(end));
     };
     options.on_warning = [](const std::string& warning) {
       Log(LogLevel::kWarning, "data", {{"message", warning}});
     };
-    BCCSKEL_RETURN_IF_ERROR(work_->OpenLedger(options));
+    BCCSKEL_RETURN_IF_ERROR(work_->OpenDurableJobs(options));
   }
   services_ = std::make_unique<Services>(config_, *callers_, *work_, metrics_);
   return absl::OkStatus();
@@ -220,7 +219,7 @@ ServerGauges Server::Gauges() const {
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();
   now.certificate_end = CertificateEndSeconds(config_.tls);
-  now.stored = StoredGauges(work_->ledger());
+  now.stored = StoredGauges(work_->durable_jobs());
   return now;
 }
 
@@ -246,9 +245,9 @@ void Server::ReloadNow() {
 void Server::LookAfterCalls() { services_->LookAfterCalls(); }
 
 void Server::LookAfterData() {
-  const Ledger* const ledger = work_->ledger();
-  if (ledger == nullptr) return;
-  const absl::Status health = ledger->Health();
+  const DurableJobs* const durable_jobs = work_->durable_jobs();
+  if (durable_jobs == nullptr) return;
+  const absl::Status health = durable_jobs->Health();
   if (health.ok() == data_is_well_) return;
   data_is_well_ = health.ok();
   for (const char* service :
@@ -292,7 +291,7 @@ void Server::Drain() {
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
   BeLameDuck();
-  if (Ledger* const ledger = work_->ledger()) ledger->StopAdmitting();
+  if (DurableJobs* const durable_jobs = work_->durable_jobs()) durable_jobs->StopAdmitting();
   jobs_.StopAdmitting();
   jobs_.WaitUntilEmpty(config_.drain);
   services_->CutOff();

@@ -74,7 +74,7 @@ class Server {
   bool data_is_well_ = true;  // as LookAfterData() saw it
   ServerMetrics metrics_;
   JobPool jobs_;
-  // After jobs_: calls end before the ledger, and the ledger before the jobs' threads.
+  // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.
   std::unique_ptr<Work> work_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/version/version.h"
-#include "server/metrics/process_figures.h"
+#include "server/metrics/server_metrics.h"
 
 namespace bccskel::server {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -18,10 +18,11 @@ constexpr char kWhereCounted[] =
 
 absl::Status CheckFits(const char* whose, uint64_t bytes, uint64_t limit, const char* remedy) {
   if (bytes <= limit) return absl::OkStatus();
-  return Refuse(Refusal::kTooMuchMemory,
-                absl::StrFormat("the volume needs up to %d bytes of memory, the limit for %s is "
-                                "%d; %s",
-                                bytes, whose, limit, remedy));
+  return CallError(Reason::kVolumeTooLarge,
+                   absl::StrFormat("the volume needs up to %d bytes of memory, the limit for %s is "
+                                   "%d; %s",
+                                   bytes, whose, limit, remedy),
+                   {.quota = "max_admitted_bytes"});
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ void Ticket::Release() {
 absl::StatusOr<Ticket> Admission::Admit(const std::string& tenant, uint64_t bytes) {
   std::lock_guard lock(mutex_);
   if (!admitting_) {
-    return Refuse(Refusal::kDraining, "the server is shutting down and takes no new jobs");
+    return CallError(Reason::kDraining, "the server is shutting down and takes no new jobs");
   }
   BCCSKEL_RETURN_IF_ERROR(Take(tenant, {.bytes = bytes, .places = 1}));
   ++jobs_;
@@ -98,17 +99,18 @@ absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
     BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes, kWhereDeclared));
     if (part.usage.places + wanted.places > part.limit.places) {
       const bool is_share = part.limit.places < limits_.places && own.max_jobs == 0;
-      return Refuse(Refusal::kQueueFull,
-                    absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d%s",
-                                    part.usage.places, part.whose, part.limit.places,
-                                    is_share ? ", half of what other tenants leave" : ""));
+      return CallError(Reason::kQueueFull,
+                       absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d%s",
+                                       part.usage.places, part.whose, part.limit.places,
+                                       is_share ? ", half of what other tenants leave" : ""));
     }
     const uint64_t free_bytes = part.limit.bytes - std::min(part.limit.bytes, part.usage.bytes);
     if (wanted.bytes > free_bytes) {
-      return Refuse(Refusal::kMemoryBusy,
-                    absl::StrFormat("the volume needs up to %d bytes of memory, %d of %d are free "
-                                    "now for %s",
-                                    wanted.bytes, free_bytes, part.limit.bytes, part.whose));
+      return CallError(
+          Reason::kMemoryBusy,
+          absl::StrFormat("the volume needs up to %d bytes of memory, %d of %d are free "
+                          "now for %s",
+                          wanted.bytes, free_bytes, part.limit.bytes, part.whose));
     }
   }
   for (Usage* usage : {&usage_, &tenants_[tenant]}) {

@@ -31,7 +31,7 @@ class Ticket {
   // Gives back what is over `bytes`.
   void ShrinkTo(uint64_t bytes);
   // The same, or takes what is missing.
-  // Errors: a Refusal: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
+  // Errors: a CallError: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
   absl::Status ResizeTo(uint64_t bytes);
   // Gives back the place among the jobs; the memory stays.
   void LeavePlace();
@@ -48,7 +48,7 @@ class Ticket {
   int places_ = 0;
 };
 
-// Lets jobs in while the sum of their demands stays within the limits, of all tenants together and
+// Lets jobs in while the sum of what they need stays within the limits, of all tenants together and
 // of each. It decides at once, from what a volume's declaration says, and nothing ever waits for
 // it. Needs: outlives its tickets.
 class Admission {
@@ -69,7 +69,7 @@ class Admission {
 
   explicit Admission(const Limits& limits) : limits_(limits) {}
 
-  // Errors: a Refusal: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
+  // Errors: a CallError: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
   //         or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }

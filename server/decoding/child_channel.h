@@ -10,7 +10,7 @@
 
 #include "absl/status/status.h"
 #include "core/io/volume_header.h"
-#include "server/decoding/descriptor.h"
+#include "server/decoding/shared_bytes.h"
 
 namespace bccskel::server {
 

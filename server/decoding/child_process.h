@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,12 +11,22 @@
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/io/volume_header.h"
 #include "core/volume/volume.h"
 #include "server/decoding/child_channel.h"
-#include "server/decoding/decoding_budget.h"
 #include "server/decoding/shared_bytes.h"
 
 namespace bccskel::server {
+
+// What decoding one volume may cost a child.
+struct DecodingBudget {
+  uint64_t memory_bytes = 0;               // beside what the child has before the volume
+  std::chrono::seconds processor_time{0};  // in the child
+  std::chrono::seconds wall_time{0};       // until the last byte of its reply
+};
+
+// Several times what a well-formed volume with this header takes: whoever needs more means harm.
+DecodingBudget BudgetFor(const VolumeHeader& header, uint64_t encoded_bytes);
 
 // A child that decodes, seen from the server. Killed and waited for when destroyed.
 // Threads: one at a time.
@@ -23,7 +34,7 @@ class ChildProcess {
  public:
   // Returns before the child is ready. It inherits nothing but its end of the channel, ignores the
   // signals that end the server and gets none from the terminal.
-  // Shapes: the program's path, then its arguments. Errors: a Refusal.
+  // Shapes: the program's path, then its arguments. Errors: a CallError.
   static absl::StatusOr<std::unique_ptr<ChildProcess>> Start(
       const std::vector<std::string>& command);
   ~ChildProcess();
@@ -31,7 +42,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // Decodes sealed bytes whose header is `announced`. After an error the child is of no more use.
-  // Errors: a Refusal when the child was lost before it took the volume; INVALID_ARGUMENT for
+  // Errors: a CallError when the child was lost before it took the volume; INVALID_ARGUMENT for
   //         malformed bytes, and for whatever happens to the child while it has them: a crash, a
   //         limit, nonsense; RESOURCE_EXHAUSTED for a volume over the limits; CANCELLED,
   //         DEADLINE_EXCEEDED.

@@ -4,20 +4,47 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "server/decoding/descriptor.h"
 
 namespace bccskel::server {
+
+// A file descriptor that is closed with its owner.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { Close(); }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    if (this == &other) return *this;
+    Close();
+    number_ = std::exchange(other.number_, -1);
+    return *this;
+  }
+
+  int get() const { return number_; }
+  bool valid() const { return number_ >= 0; }
+
+ private:
+  void Close();
+
+  int number_ = -1;
+};
+
+// The server lacks something that decoding takes: a CallError, so that the caller tries again.
+absl::Status NoDecoder(const std::string& what, int error);
 
 // Bytes in memory that a child can be given without copying them: an upload on its way.
 class SharedBytes {
  public:
-  // Errors: a Refusal, when there is no descriptor left.
+  // Errors: a CallError, when there is no descriptor left.
   static absl::StatusOr<SharedBytes> Create();
 
-  // Errors: a Refusal, when there is no memory.
+  // Errors: a CallError, when there is no memory.
   absl::Status Append(std::span<const std::byte> bytes);
   // From now on nobody can change them, the server neither.
   absl::Status Seal();

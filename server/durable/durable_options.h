@@ -13,7 +13,7 @@ namespace bccskel::server {
 
 struct DurableOptions {
   // Made where it does not exist. Empty: nothing is durable, and
-  // there is no ledger.
+  // there is no DurableJobs.
   std::string data_directory;
   // A PostgreSQL database, when several servers share it and the directory. Empty: a file of SQLite
   // in the directory, which is then this process's alone.
@@ -41,12 +41,12 @@ struct DurableOptions {
   int max_runs = 4;                  // at the runner at the same time, besides one-call jobs
   uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
 
-  // Weights and caps as they are now. Called on the ledger's thread; must not block.
+  // Weights and caps as they are now. Called on DurableJobs' thread; must not block.
   std::function<TenantTable()> tenants = [] { return TenantTable(); };
 
   std::string algorithm_version;  // results of another one are not found again
-  // Told of every state that a job comes into, once that is on disk. Called on the ledger's thread;
-  // must not block.
+  // Told of every state that a job comes into, once that is on disk. Called on DurableJobs'
+  // thread; must not block.
   std::function<void(const JobRow& job)> on_job_state = [](const JobRow&) {};
   // Told of what somebody should look at. As on_job_state.
   std::function<void(const std::string& warning)> on_warning = [](const std::string&) {};

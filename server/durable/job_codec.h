@@ -11,7 +11,7 @@
 
 namespace bccskel::server {
 
-// Reads what the ledger stores as bytes. It keeps messages out of the ledger, so that the thread
+// Reads what DurableJobs stores as bytes. It keeps messages out of DurableJobs, so that the thread
 // sanitizer can judge it.
 // Threads: safe.
 class JobCodec {

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -14,10 +14,11 @@ namespace {
 constexpr uint64_t kLeap = uint64_t{1} << 32;
 
 absl::Status Poisoned(int crashes) {
-  return WithFault(absl::InternalError(absl::StrCat(
-                       "the server ended ", crashes,
-                       " times while it ran this job, so it does not run it again; please report")),
-                   {.reason = "POISONED", .key = "attempts", .value = absl::StrCat(crashes)});
+  return CallError(
+      Reason::kPoisoned,
+      absl::StrCat("the server ended ", crashes,
+                   " times while it ran this job, so it does not run it again; please report"),
+      {.key = "attempts", .value = absl::StrCat(crashes)});
 }
 
 }  // namespace

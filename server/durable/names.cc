@@ -5,7 +5,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "core/digest/sha256.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -31,7 +31,7 @@ absl::Status CheckUploadName(const std::string& name) {
       std::all_of(name.begin() + static_cast<ptrdiff_t>(front), name.end(), IsNameCharacter)) {
     return absl::OkStatus();
   }
-  return WrongField(
+  return InvalidField(
       "config.upload",
       absl::StrCat("must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
                    " letters, digits, '-' and '_', not ", name.size(), " bytes of others"));

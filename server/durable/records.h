@@ -17,7 +17,7 @@ namespace bccskel::server {
 // What callers see of uploads, volumes and jobs that outlive the server's process. Every name
 // belongs to one tenant; for any other it does not exist.
 
-// `declaration` and `options` are bytes that the ledger keeps and compares but does not read: see
+// `declaration` and `options` are bytes that DurableJobs keeps and compares but does not read: see
 // JobCodec. Equal bytes mean the same thing.
 struct UploadInfo {
   std::string name;  // uploads/...
@@ -96,6 +96,52 @@ struct ResultRecord {
   enum class Kind : uint8_t { kSkeletonChunk = 1, kThinVolumeChunk = 2, kSummary = 3 };
   Kind kind = Kind::kSkeletonChunk;
   std::string bytes;  // the serialized message of that name
+};
+
+// ---- What callers ask for.
+
+struct NewUpload {
+  // "uploads/" and 1 to 64 of a-z, A-Z, 0-9, '-', '_'; empty: DurableJobs makes one up. The same
+  // again, with the same declaration and job, yields the upload as it is.
+  std::string name;
+  std::string declaration;
+  // A job that is to run as soon as the volume is complete: the one-call path. It is in state
+  // kReceiving from the moment of `done`; its volume is decoded while it comes, when the runner
+  // has a place.
+  struct ThenJob {
+    std::string options;
+    int priority = 0;
+    int threads = 0;         // wanted; 0 leaves it to the server
+    std::string trace = {};  // for the log
+  };
+  std::optional<ThenJob> then_job;
+};
+
+struct NewJob {
+  enum class Mode { kCreate, kValidateOnly };
+  std::string request_id;  // the same again yields the same job; empty: never the same
+  std::string volume;
+  std::string options;
+  int priority = 0;        // a level is worth half a minute of waiting, within the tenant
+  int threads = 0;         // wanted; 0 leaves it to the server
+  std::string trace = {};  // for the log; a repeat may have another
+  Mode mode = Mode::kCreate;
+};
+
+struct JobQuery {
+  int page_size = 50;            // at most; 1..1000
+  std::string page_token;        // empty for the first page
+  std::vector<JobState> states;  // only these; none means all
+};
+
+struct DurableUsage {
+  uint64_t disk_bytes = 0;
+  uint64_t disk_available_bytes = 0;  // up to the quota, or to the end of the file system
+  int uploads = 0;                    // unfinished
+  int queued = 0;                     // jobs
+  int running = 0;                    // jobs
+  uint64_t commits = 0;               // transactions since the start
+  uint64_t cached = 0;                // jobs since the start that were given a stored result
 };
 
 }  // namespace bccskel::server

@@ -15,7 +15,7 @@
 #include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
 #include "server/jobs/task_threads.h"
-#include "server/store/checked_file.h"
+#include "server/store/file_io.h"
 
 namespace bccskel::server {
 

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/random_name.h"
 
 namespace bccskel::server {
@@ -113,10 +113,9 @@ absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& 
                                                                const BlobStore& blobs,
                                                                TaskThreads& threads) {
   if (first_record > row.records) {
-    return WithFault(
-        absl::OutOfRangeError(
-            absl::StrCat("piece ", first_record, " of a result with ", row.records)),
-        {.reason = "PIECE_INDEX", .key = "pieces", .value = absl::StrCat(row.records)});
+    return CallError(Reason::kPieceIndex,
+                     absl::StrCat("piece ", first_record, " of a result with ", row.records),
+                     {.key = "pieces", .value = absl::StrCat(row.records)});
   }
   BCCSKEL_ASSIGN_OR_RETURN(ResultFile file,
                            blobs.OpenResult(row.tenant, row.file, row.file_digest));

@@ -1,18 +1,30 @@
 #ifndef BCCSKEL_SERVER_DURABLE_STORED_RESULT_H_
 #define BCCSKEL_SERVER_DURABLE_STORED_RESULT_H_
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "server/durable/job_codec.h"
-#include "server/durable/ledger.h"
+#include "server/durable/records.h"
 #include "server/durable/run.h"
 #include "server/jobs/task_threads.h"
 #include "server/store/blob_store.h"
 #include "server/store/disk_quota.h"
 
 namespace bccskel::server {
+
+// Reads a stored result record by record. The file stays readable while the reader lives, whatever
+// is deleted or expires meanwhile.
+// Threads: one call of Next() at a time.
+class ResultReader {
+ public:
+  virtual ~ResultReader() = default;
+  // Nothing after the last record. Errors: DATA_LOSS; INTERNAL.
+  virtual void Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done) = 0;
+};
 
 // Writes the run's result into a file and counts its bytes. What the row says of the key is left to
 // the caller. After an error there is no file.

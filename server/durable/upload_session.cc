@@ -2,7 +2,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/durable/fault.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -18,8 +18,7 @@ Time UploadSession::used() const {
 
 absl::Status UploadSession::Begin() {
   if (writing_) {
-    return WithFault(absl::AbortedError(absl::StrCat(row_.name, " is being written just now")),
-                     {.reason = "SECOND_WRITER"});
+    return CallError(Reason::kSecondWriter, absl::StrCat(row_.name, " is being written just now"));
   }
   writing_ = true;
   return absl::OkStatus();
@@ -43,9 +42,10 @@ absl::Status UploadSession::BeginAppend(uint64_t offset, uint64_t size) {
 absl::Status UploadSession::BeginFinish(uint64_t size) {
   std::lock_guard lock(mutex_);
   if (size != row_.size_bytes) {
-    return WithFault(absl::InvalidArgumentError(absl::StrCat("finish states ", size, " bytes, ",
-                                                             row_.size_bytes, " were declared")),
-                     {.reason = "VOLUME_SIZE", .field = "finish.size_bytes"});
+    return CallError(
+        Reason::kVolumeSize,
+        absl::StrCat("finish states ", size, " bytes, ", row_.size_bytes, " were declared"),
+        {.field = "finish.size_bytes"});
   }
   if (!writing_ && committed_ != size) {
     return WrongOffset(absl::StrCat(row_.name, " has ", committed_, " of ", size, " bytes"),

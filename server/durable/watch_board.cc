@@ -4,6 +4,10 @@
 #include <utility>
 #include <variant>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+
 namespace bccskel::server {
 
 void Watch::Tell(const JobEvent& event) {
@@ -65,6 +69,27 @@ JobEvent EventOf(const EventRow& row) {
           .time = row.time,
           .what = JobEvent::StateChange{
               .state = row.state, .attempt = row.attempt, .error = row.error}};
+}
+
+std::string BytesOf(const JobProgress& progress) {
+  const exec::ShellProgress& shell = progress.shell;
+  return absl::StrCat(shell.shell, " ", shell.last_shell, " ", shell.points, " ", shell.removed,
+                      " ", shell.remaining, " ", progress.elapsed.count());
+}
+
+std::optional<JobProgress> ProgressOfBytes(const std::string& bytes) {
+  const std::vector<std::string> parts = absl::StrSplit(bytes, ' ');
+  JobProgress progress;
+  exec::ShellProgress& shell = progress.shell;
+  int64_t elapsed = 0;
+  if (parts.size() != 6 || !absl::SimpleAtoi(parts[0], &shell.shell) ||
+      !absl::SimpleAtoi(parts[1], &shell.last_shell) ||
+      !absl::SimpleAtoi(parts[2], &shell.points) || !absl::SimpleAtoi(parts[3], &shell.removed) ||
+      !absl::SimpleAtoi(parts[4], &shell.remaining) || !absl::SimpleAtoi(parts[5], &elapsed)) {
+    return std::nullopt;
+  }
+  progress.elapsed = std::chrono::nanoseconds(elapsed);
+  return progress;
 }
 
 }  // namespace bccskel::server

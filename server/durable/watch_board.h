@@ -6,14 +6,31 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "server/durable/ledger.h"
+#include "server/durable/records.h"
 #include "server/store/rows.h"
 
 namespace bccskel::server {
 
-// One watcher of one job. Threads: Stop() from any, the rest from the ledger's.
+// Hears of a job. Called on DurableJobs' thread; must not block.
+class JobWatcher {
+ public:
+  virtual ~JobWatcher() = default;
+  // In order of sequence. State changes are lossless; of shells only the newest is told.
+  virtual void OnEvent(const JobEvent& event) = 0;
+  // Once, last: OK after the completed event; NOT_FOUND; UNAVAILABLE when the server stops.
+  virtual void OnWatchEnd(const absl::Status& status) = 0;
+};
+
+// Ends a watch when it is destroyed: no call of the watcher begins after that.
+class WatchHandle {
+ public:
+  virtual ~WatchHandle() = default;
+};
+
+// One watcher of one job. Threads: Stop() from any, the rest from DurableJobs'.
 class Watch {
  public:
   Watch(uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher)
@@ -33,7 +50,7 @@ class Watch {
 };
 
 // Who watches which unfinished job, and the newest progress of each.
-// Threads: one at a time, the ledger's.
+// Threads: one at a time, DurableJobs'.
 class WatchBoard {
  public:
   void Add(int64_t job, std::shared_ptr<Watch> watch);
@@ -51,6 +68,10 @@ class WatchBoard {
 };
 
 JobEvent EventOf(const EventRow& row);
+
+// Progress as servers of a fleet tell it each other, and back; nothing for what is none.
+std::string BytesOf(const JobProgress& progress);
+std::optional<JobProgress> ProgressOfBytes(const std::string& bytes);
 
 }  // namespace bccskel::server
 

@@ -38,7 +38,7 @@ ComputeQueue::~ComputeQueue() {
 }
 
 ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
-  Entry entry = 0;
+  Entry entry;
   {
     std::lock_guard lock(mutex_);
     entry = queue_.Push(claim.origin, now_(),
@@ -50,7 +50,7 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
   return entry;
 }
 
-ComputeQueue::Removal ComputeQueue::Remove(Entry entry) {
+ComputeQueue::Removal ComputeQueue::Remove(const Entry& entry) {
   std::lock_guard lock(mutex_);
   return queue_.Remove(entry) ? Removal::kRemoved : Removal::kNotWaiting;
 }

@@ -36,7 +36,13 @@ class ComputeQueue {
   using Clock = std::chrono::steady_clock;
   class Turn;
   using Work = std::function<void(Turn& turn)>;
-  using Entry = uint64_t;
+  struct Waiting {
+    std::string tenant;
+    int most_threads;
+    uint64_t bricks;
+    Work work;
+  };
+  using Entry = FairQueue<Waiting>::Entry;
   struct Usage {
     int waiting = 0;
     int running = 0;  // those that gave way, not those that they gave way to
@@ -62,7 +68,7 @@ class ComputeQueue {
   // throw.
   Entry Post(const Claim& claim, Work work);
   enum class Removal { kRemoved, kNotWaiting };
-  Removal Remove(Entry entry);
+  Removal Remove(const Entry& entry);
 
   void SetTenants(const TenantTable& tenants);  // from now on
 
@@ -70,12 +76,6 @@ class ComputeQueue {
   Usage usage() const;
 
  private:
-  struct Waiting {
-    std::string tenant;
-    int most_threads;
-    uint64_t bricks;
-    Work work;
-  };
   using Taken = FairQueue<Waiting>::Taken;
 
   static constexpr uint64_t kNoBricks = UINT64_MAX;

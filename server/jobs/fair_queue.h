@@ -15,54 +15,56 @@
 
 namespace bccskel::server {
 
-// Says who is next.
+// Says who is next, among jobs in memory and durable ones alike.
 // - Tenants take turns, as many in a round as their weight is; one that comes back after a while
 //   has saved nothing up and owes nothing.
 // - A tenant with as many items at work as it may have is passed over.
 // - Of one tenant the first come is first, where a level of priority is worth half a minute of
 //   waiting: an item of low priority goes before one of high priority that came a minute later.
 // Threads: one at a time; time is what its callers say.
-template <typename Item>
+template <typename Item, typename Clock = std::chrono::steady_clock>
 class FairQueue {
  public:
-  using TimePoint = std::chrono::steady_clock::time_point;
-  using Entry = uint64_t;
+  using TimePoint = typename Clock::time_point;
   static constexpr std::chrono::seconds kWorthOfPriority{30};
 
+  // Where an item waits.
+  struct Entry {
+    std::string tenant;
+    std::pair<TimePoint, uint64_t> rank;
+  };
   struct Taken {
     std::string tenant;
     Item item;
   };
 
   // `max_at_work` of each tenant, besides what its limits say; 0 means any number.
-  explicit FairQueue(TenantTable limits, int max_at_work = 0)
+  explicit FairQueue(TenantTable limits = {}, int max_at_work = 0)
       : limits_(std::move(limits)), max_at_work_(max_at_work) {}
 
   // From now on.
   void SetLimits(TenantTable limits) { limits_ = std::move(limits); }
+  // Items of tenants that are at work, but were not taken from here.
+  void SetAtWorkElsewhere(std::map<std::string, int> at_work) { elsewhere_ = std::move(at_work); }
 
-  Entry Push(const JobOrigin& origin, TimePoint now, Item item) {
+  // `came`: when it began to wait.
+  Entry Push(const JobOrigin& origin, TimePoint came, Item item) {
     Tenant& tenant = tenants_[origin.tenant];
     if (tenant.waiting.empty()) tenant.next_turn = std::max(tenant.next_turn, time_);
-    const Entry entry = next_entry_++;
     const auto priority = static_cast<int>(origin.priority);
-    tenant.waiting.emplace(Rank{now - priority * kWorthOfPriority, entry}, std::move(item));
+    const Rank rank = {came - priority * kWorthOfPriority, next_number_++};
+    tenant.waiting.emplace(rank, std::move(item));
     ++size_;
-    return entry;
+    return {origin.tenant, rank};
   }
 
   // False when it does not wait (any more).
-  bool Remove(Entry entry) {
-    for (auto& [name, tenant] : tenants_) {
-      const auto found = std::ranges::find_if(
-          tenant.waiting, [entry](const auto& item) { return item.first.second == entry; });
-      if (found == tenant.waiting.end()) continue;
-      tenant.waiting.erase(found);
-      --size_;
-      Forget(name);
-      return true;
-    }
-    return false;
+  bool Remove(const Entry& entry) {
+    const auto tenant = tenants_.find(entry.tenant);
+    if (tenant == tenants_.end() || tenant->second.waiting.erase(entry.rank) == 0) return false;
+    --size_;
+    Forget(entry.tenant);
+    return true;
   }
 
   bool empty() const { return size_ == 0; }
@@ -107,7 +109,7 @@ class FairQueue {
   }
 
  private:
-  using Rank = std::pair<TimePoint, Entry>;
+  using Rank = std::pair<TimePoint, uint64_t>;
   struct Tenant {
     std::map<Rank, Item> waiting;
     uint64_t next_turn = 0;  // in time_'s units
@@ -120,8 +122,9 @@ class FairQueue {
 
   bool MayStart(const std::string& name, const Tenant& tenant) const {
     const int most = limits_.Of(name).max_running;
-    return (most == 0 || tenant.at_work < most) &&
-           (max_at_work_ == 0 || tenant.at_work < max_at_work_);
+    const auto elsewhere = elsewhere_.find(name);
+    const int at_work = tenant.at_work + (elsewhere == elsewhere_.end() ? 0 : elsewhere->second);
+    return (most == 0 || at_work < most) && (max_at_work_ == 0 || tenant.at_work < max_at_work_);
   }
 
   template <typename Fits>
@@ -151,7 +154,8 @@ class FairQueue {
   const int max_at_work_;
   std::map<std::string, Tenant> tenants_;  // those that wait or are at work
   uint64_t time_ = 0;                      // a round is as long for every tenant
-  Entry next_entry_ = 1;
+  std::map<std::string, int> elsewhere_;
+  uint64_t next_number_ = 1;
   size_t size_ = 0;
 };
 

@@ -10,8 +10,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/memory_budget.h"
 #include "server/admission/admission.h"
-#include "server/admission/refusal.h"
-#include "server/admission/saturating.h"
+#include "server/admission/memory_estimate.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -22,7 +22,7 @@ class JobMemory final : public exec::MemoryBudget {
  public:
   explicit JobMemory(Ticket ticket) : ticket_(std::move(ticket)), base_(ticket_.bytes()) {}
 
-  // What the job needs besides what its stages took. Errors: a Refusal.
+  // What the job needs besides what its stages took. Errors: a CallError.
   absl::Status SetBase(uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     absl::Status status = ticket_.ResizeTo(bytes + taken_);
@@ -30,7 +30,7 @@ class JobMemory final : public exec::MemoryBudget {
     return status;
   }
 
-  // Errors: a Refusal, which says what for.
+  // Errors: a CallError, which says what for.
   absl::Status Take(uint64_t bytes, const std::string& what_for) override {
     const std::lock_guard lock(mutex_);
     const absl::Status status = ticket_.ResizeTo(SaturatingAdd(base_ + taken_, bytes));
@@ -38,9 +38,7 @@ class JobMemory final : public exec::MemoryBudget {
       taken_ += bytes;
       return status;
     }
-    const auto refusal = RefusalOf(status);
-    const std::string message = absl::StrCat(what_for, ": ", std::string(status.message()));
-    return refusal.has_value() ? Refuse(*refusal, message) : absl::Status(status.code(), message);
+    return Prefixed(what_for, status);
   }
 
   void GiveBack(uint64_t bytes) override {

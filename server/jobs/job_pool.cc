@@ -5,9 +5,9 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "server/admission/demand.h"
-#include "server/admission/refusal.h"
-#include "server/decoding/child_decoder.h"
+#include "server/admission/memory_estimate.h"
+#include "server/decoding/child_pool.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/labels_work.h"
 #include "server/jobs/random_name.h"
 #include "server/jobs/skeletonize_work.h"
@@ -21,9 +21,10 @@ constexpr int kDecoderThreads = 2;
 
 absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
   if (size_bytes <= max_volume_bytes) return absl::OkStatus();
-  return Refuse(Refusal::kVolumeTooLarge,
-                absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
-                                max_volume_bytes));
+  return CallError(Reason::kVolumeTooLarge,
+                   absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
+                                   max_volume_bytes),
+                   {.quota = "max_volume_bytes"});
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
                                                                  request.shell_points)));
   PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline};
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
-  VolumeIntake::MakeDecoder make_decoder = DecoderFor(request);
+  VolumeReceiver::MakeDecoder make_decoder = DecoderFor(request);
   return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
                                                   std::move(make_decoder), listener),
                 std::move(ticket), std::move(facts), finishers, listener);
@@ -78,7 +79,7 @@ bool JobPool::InChild(const VolumeHeader& header) const {
   return children_ != nullptr && header.encoding == VolumeEncoding::kOpenExr;
 }
 
-VolumeIntake::MakeDecoder JobPool::DecoderFor(const JobRequest& request) {
+VolumeReceiver::MakeDecoder JobPool::DecoderFor(const JobRequest& request) {
   if (!InChild(request.header)) return &MakeVolumeDecoder;
   return [tenant = request.origin.tenant, &children = *children_](const VolumeHeader& header,
                                                                   const VolumeLimits& limits) {

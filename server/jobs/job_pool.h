@@ -14,7 +14,7 @@
 #include "server/jobs/job_runner.h"
 #include "server/jobs/pool_job.h"
 #include "server/jobs/task_threads.h"
-#include "server/jobs/volume_intake.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 
@@ -67,7 +67,7 @@ class JobPool : public JobRunner {
   std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket, PoolJob::Facts facts,
                               TaskThreads& finishers, std::shared_ptr<UploadListener> listener);
   bool InChild(const VolumeHeader& header) const;
-  VolumeIntake::MakeDecoder DecoderFor(const JobRequest& request);
+  VolumeReceiver::MakeDecoder DecoderFor(const JobRequest& request);
 
   const Limits limits_;
   Admission admission_;

@@ -15,8 +15,7 @@
 #include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
-#include "server/admission/demand.h"
-#include "server/admission/label_demand.h"
+#include "server/admission/memory_estimate.h"
 #include "server/jobs/job_origin.h"
 
 namespace bccskel::server {
@@ -142,7 +141,7 @@ class JobRunner {
  public:
   virtual ~JobRunner() = default;
   // Decides at once from the declaration; nothing is decoded yet.
-  // Errors: a Refusal (admission/refusal.h).
+  // Errors: a CallError (errors/call_error.h).
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                                      std::shared_ptr<JobListener> listener) = 0;
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,

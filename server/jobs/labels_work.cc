@@ -5,8 +5,7 @@
 
 #include "core/exec/status_macros.h"
 #include "core/labels/skeletonize_labels_within.h"
-#include "server/admission/demand.h"
-#include "server/admission/saturating.h"
+#include "server/admission/memory_estimate.h"
 
 namespace bccskel::server {
 namespace {
@@ -26,16 +25,16 @@ LabelsWork::LabelsWork(LabelsRequest request, const VolumeLimits& limits, int th
       limits_(limits),
       threads_(threads),
       listener_(std::move(listener)),
-      intake_(std::make_unique<LabelIntake>(request_)) {}
+      receiver_(std::make_unique<LabelReceiver>(request_)) {}
 
 absl::Status LabelsWork::Append(std::string_view bytes, const exec::Context& context) {
-  return intake_->Append(bytes, context);
+  return receiver_->Append(bytes, context);
 }
 
 absl::Status LabelsWork::Finish(const std::optional<Sha256Digest>& expected,
                                 const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(CollectedLabels collected, intake_->Finish(expected, context));
-  intake_.reset();
+  BCCSKEL_ASSIGN_OR_RETURN(CollectedLabels collected, receiver_->Finish(expected, context));
+  receiver_.reset();
   labels_ = std::move(collected.objects);
   result_.skipped = collected.skipped;
   result_.absent = collected.absent;
@@ -48,12 +47,12 @@ void LabelsWork::Plan() {
   for (const LabeledObject& object : labels_.objects) {
     const uint64_t bricks =
         MostBricksOf(object, request_.header.points, request_.options.preparing.cavities);
-    const uint64_t demand = BytesToComputeLabel(bricks);
-    demands_.push_back(demand);
+    const uint64_t estimate = BytesToComputeLabel(bricks);
+    estimates_.push_back(estimate);
     bricks_ += bricks;
     runs_bytes_ += BytesOf(object);
-    all = SaturatingAdd(all, demand);
-    largest = std::max(largest, demand);
+    all = SaturatingAdd(all, estimate);
+    largest = std::max(largest, estimate);
   }
   const uint64_t roomy =
       SaturatingMultiply(largest, kLabelsPerThread * static_cast<uint64_t>(threads_));
@@ -72,14 +71,14 @@ uint64_t LabelsWork::Room() const {
 }
 
 bool LabelsWork::MayRun() const {
-  return next_ == labels_.objects.size() || unread_->bytes() == 0 || demands_[next_] <= Room();
+  return next_ == labels_.objects.size() || unread_->bytes() == 0 || estimates_[next_] <= Room();
 }
 
 LabeledObjects LabelsWork::TakeTurn() {
   LabeledObjects turn = {labels_.grid, {}};
-  uint64_t room = std::max(Room(), demands_[next_]);
-  for (; next_ < demands_.size() && demands_[next_] <= room; ++next_) {
-    room -= demands_[next_];
+  uint64_t room = std::max(Room(), estimates_[next_]);
+  for (; next_ < estimates_.size() && estimates_[next_] <= room; ++next_) {
+    room -= estimates_[next_];
     turn.objects.push_back(std::move(labels_.objects[next_]));
   }
   return turn;
@@ -91,7 +90,7 @@ absl::StatusOr<JobWork::Turn> LabelsWork::Run(exec::Context context,
   if (next_ == 0) started_ = Clock::now();
   result_.threads = std::max(result_.threads, context.threads());
   if (next_ == 0) Report();
-  if (next_ == demands_.size()) return Turn::kDone;
+  if (next_ == estimates_.size()) return Turn::kDone;
   const LabeledObjects turn = TakeTurn();
   uint64_t turn_bytes = 0;
   for (const LabeledObject& object : turn.objects) turn_bytes += BytesOf(object);
@@ -104,7 +103,7 @@ absl::StatusOr<JobWork::Turn> LabelsWork::Run(exec::Context context,
       [&](LabelSkeleton&& skeleton) { return Deliver(std::move(skeleton), memory, wake); },
       context));
   runs_bytes_ -= turn_bytes;
-  return next_ == demands_.size() ? Turn::kDone : Turn::kMore;
+  return next_ == estimates_.size() ? Turn::kDone : Turn::kMore;
 }
 
 // A graph that takes more than was reserved for its label takes the rest of the budget, until it is
@@ -114,7 +113,7 @@ absl::Status LabelsWork::Deliver(LabelSkeleton skeleton,
                                  const std::function<void()>& wake) {
   skeleton.result.thin = Volume();
   const uint64_t bytes = kResultBytes + GraphBytes(skeleton.result.graph);
-  const uint64_t excess = bytes - std::min(bytes, demands_[result_.labels]);
+  const uint64_t excess = bytes - std::min(bytes, estimates_[result_.labels]);
   BCCSKEL_RETURN_IF_ERROR(memory->Take(excess, "results that are not read yet"));
   ++result_.labels;
   result_.voxels += skeleton.voxels;
@@ -131,12 +130,12 @@ absl::Status LabelsWork::Deliver(LabelSkeleton skeleton,
 }
 
 void LabelsWork::Report() const {
-  listener_->OnProgress(result_.labels, demands_.size(), Clock::now() - started_);
+  listener_->OnProgress(result_.labels, estimates_.size(), Clock::now() - started_);
 }
 
 void LabelsWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {
   const std::shared_ptr<LabelsListener> listener = std::move(listener_);
-  intake_.reset();
+  receiver_.reset();
   labels_ = {};
   if (!status.ok()) {
     ticket = Ticket();

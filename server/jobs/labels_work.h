@@ -1,15 +1,51 @@
 #ifndef BCCSKEL_SERVER_JOBS_LABELS_WORK_H_
 #define BCCSKEL_SERVER_JOBS_LABELS_WORK_H_
 
+#include <atomic>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "server/jobs/job_runner.h"
 #include "server/jobs/job_work.h"
-#include "server/jobs/label_intake.h"
-#include "server/jobs/unread_results.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
+
+// Counts the memory of results that were handed out and are not let go of yet.
+// Threads: safe.
+class UnreadResults : public std::enable_shared_from_this<UnreadResults> {
+ public:
+  uint64_t bytes() const { return bytes_; }
+
+  // Counts `bytes` until what it returns is let go of; then `wake` is called.
+  std::shared_ptr<void> Hold(uint64_t bytes, std::function<void()> wake) {
+    bytes_ += bytes;
+    return std::make_shared<Share>(shared_from_this(), bytes, std::move(wake));
+  }
+
+ private:
+  class Share {
+   public:
+    Share(std::shared_ptr<UnreadResults> all, uint64_t bytes, std::function<void()> wake)
+        : all_(std::move(all)), bytes_(bytes), wake_(std::move(wake)) {}
+    ~Share() {
+      all_->bytes_ -= bytes_;
+      wake_();
+    }
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+
+   private:
+    const std::shared_ptr<UnreadResults> all_;
+    const uint64_t bytes_;
+    const std::function<void()> wake_;
+  };
+
+  std::atomic<uint64_t> bytes_ = 0;
+};
 
 // A volume of labels, a skeleton for each. A turn takes as many labels as fit into the memory for
 // computing; their results wait in the same memory until they are let go of. So the memory is
@@ -46,14 +82,14 @@ class LabelsWork final : public JobWork {
   const VolumeLimits limits_;
   const int threads_;
   std::shared_ptr<LabelsListener> listener_;
-  std::unique_ptr<LabelIntake> intake_;
+  std::unique_ptr<LabelReceiver> receiver_;
 
   LabeledObjects labels_;
-  std::vector<uint64_t> demands_;  // bytes to compute each of labels_
-  size_t next_ = 0;                // of labels_; those before have no runs any more
-  uint64_t runs_bytes_ = 0;        // of the runs that are left
-  uint64_t compute_bytes_ = 0;     // for labels at work and results that are not let go of
-  uint64_t bricks_ = 0;            // of all labels
+  std::vector<uint64_t> estimates_;  // bytes to compute each of labels_
+  size_t next_ = 0;                  // of labels_; those before have no runs any more
+  uint64_t runs_bytes_ = 0;          // of the runs that are left
+  uint64_t compute_bytes_ = 0;       // for labels at work and results that are not let go of
+  uint64_t bricks_ = 0;              // of all labels
   std::shared_ptr<UnreadResults> unread_ = std::make_shared<UnreadResults>();
   Clock::time_point started_;
   LabelsResult result_;

@@ -2,14 +2,29 @@
 
 #include <malloc.h>
 
+#include <new>
+#include <system_error>
 #include <utility>
 
+#include "absl/status/status.h"
 #include "core/exec/status_macros.h"
 #include "core/exec/worker_team.h"
-#include "server/jobs/out_of_memory.h"
 
 namespace bccskel::server {
 namespace {
+
+// Runs a step of a job; memory or threads that cannot be had are the job's error, not the server's
+// end.
+template <typename Step>
+auto OrOutOfMemory(Step step) -> decltype(step()) {
+  try {
+    return step();
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError("out of memory although the job was admitted");
+  } catch (const std::system_error& error) {
+    return absl::ResourceExhaustedError(error.what());
+  }
+}
 
 // What stages take beside the bricks are many small blocks. The allocator keeps them for its
 // thread; the next job may run on another one. Giving back 100 MiB takes some 10 ms.

@@ -81,7 +81,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
   std::mutex mutex_;
   absl::Status why_;                          // guarded by mutex_; set before the stop is requested
   Phase phase_ = Phase::kReceiving;           // guarded by mutex_
-  ComputeQueue::Entry entry_ = 0;             // guarded by mutex_; valid in kWaiting
+  ComputeQueue::Entry entry_;                 // guarded by mutex_; valid in kWaiting
   Clock::time_point waiting_since_;           // guarded by mutex_; valid in kWaiting
   std::shared_ptr<UploadListener> listener_;  // guarded by mutex_; null once ended
 };

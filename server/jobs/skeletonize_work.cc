@@ -7,8 +7,8 @@
 #include "core/io/volume_encoder.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/fill_cavities.h"
-#include "server/admission/demand.h"
-#include "server/admission/refusal.h"
+#include "server/admission/memory_estimate.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -23,22 +23,22 @@ absl::StatusOr<std::string> EncodeThin(const Volume& thin, VolumeEncoding encodi
 }  // namespace
 
 SkeletonizeWork::SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
-                                 VolumeIntake::MakeDecoder make_decoder,
+                                 VolumeReceiver::MakeDecoder make_decoder,
                                  std::shared_ptr<JobListener> listener)
     : request_(std::move(request)),
       listener_(std::move(listener)),
-      intake_(std::make_unique<VolumeIntake>(request_.header, request_.size_bytes, limits,
-                                             std::move(make_decoder))) {}
+      receiver_(std::make_unique<VolumeReceiver>(request_.header, request_.size_bytes, limits,
+                                                 std::move(make_decoder))) {}
 
 absl::Status SkeletonizeWork::Append(std::string_view bytes, const exec::Context&) {
-  return intake_->Append(bytes);
+  return receiver_->Append(bytes);
 }
 
 absl::Status SkeletonizeWork::Finish(const std::optional<Sha256Digest>& expected,
                                      const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(volume_, intake_->Finish(expected, context));
-  mask_topology_ = intake_->mask_topology();
-  intake_.reset();
+  BCCSKEL_ASSIGN_OR_RETURN(volume_, receiver_->Finish(expected, context));
+  mask_topology_ = receiver_->mask_topology();
+  receiver_.reset();
   listener_->OnVolume(*volume_);
   return CountBricks(context);
 }
@@ -97,16 +97,16 @@ absl::StatusOr<JobWork::Turn> SkeletonizeWork::Run(
 absl::Status SkeletonizeWork::CheckShellPoints() const {
   const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
   if (shell_points_bytes_ <= limit) return absl::OkStatus();
-  return Refuse(Refusal::kShellPointsTooLarge,
-                absl::StrCat("the points of the shells take more than ", limit,
-                             " bytes, the limit for a volume of ", bricks_, " bricks"));
+  return CallError(Reason::kShellPointsTooLarge,
+                   absl::StrCat("the points of the shells take more than ", limit,
+                                " bytes, the limit for a volume of ", bricks_, " bricks"));
 }
 
 void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {
   const std::shared_ptr<JobListener> listener = std::move(listener_);
   JobResult result = std::exchange(result_, JobResult());
   volume_.reset();
-  intake_.reset();
+  receiver_.reset();
   if (!status.ok()) {
     result = JobResult();
     ticket = Ticket();

@@ -7,7 +7,7 @@
 #include "core/volume/volume.h"
 #include "server/jobs/job_runner.h"
 #include "server/jobs/job_work.h"
-#include "server/jobs/volume_intake.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 
@@ -15,7 +15,7 @@ namespace bccskel::server {
 class SkeletonizeWork final : public JobWork {
  public:
   SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
-                  VolumeIntake::MakeDecoder make_decoder, std::shared_ptr<JobListener> listener);
+                  VolumeReceiver::MakeDecoder make_decoder, std::shared_ptr<JobListener> listener);
 
   absl::Status Append(std::string_view bytes, const exec::Context& context) override;
   absl::Status Finish(const std::optional<Sha256Digest>& expected,
@@ -34,7 +34,7 @@ class SkeletonizeWork final : public JobWork {
 
   const JobRequest request_;
   std::shared_ptr<JobListener> listener_;
-  std::unique_ptr<VolumeIntake> intake_;
+  std::unique_ptr<VolumeReceiver> receiver_;
   std::optional<Volume> volume_;
   uint64_t bricks_ = 0;  // of the volume, with its cavities filled if that is wanted
   std::optional<BettiNumbers> mask_topology_;

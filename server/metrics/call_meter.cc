@@ -24,7 +24,7 @@ class Meter : public grpc::experimental::Interceptor {
       const grpc::Status status = methods->GetSendStatus();
       metrics_.Count(EndedCall{.method = method_,
                                .code = CodeName(status),
-                               .reason = ReasonOf(status),
+                               .reason = ReasonNameOf(status),
                                .seconds = Clock::now() - start_});
     }
     methods->Proceed();
@@ -55,7 +55,7 @@ std::string CodeName(const grpc::Status& status) {
   return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
 }
 
-std::string ReasonOf(const grpc::Status& status) {
+std::string ReasonNameOf(const grpc::Status& status) {
   if (status.ok() || status.error_details().empty()) return std::string();
   v1::Status message;
   if (!message.ParseFromString(status.error_details())) return std::string();

@@ -28,7 +28,7 @@ void ExpectCallsOf(const std::string& service, ServerMetrics& metrics);
 // "OK", "NOT_FOUND", ...
 std::string CodeName(const grpc::Status& status);
 // Of the ErrorInfo in the status's details; empty where there is none.
-std::string ReasonOf(const grpc::Status& status);
+std::string ReasonNameOf(const grpc::Status& status);
 
 }  // namespace bccskel::server
 

@@ -3,8 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
 #include "server/metrics/call_meter.h"
-#include "server/status_mapping.h"
 
 namespace bccskel::server {
 namespace {
@@ -14,7 +15,7 @@ EndedJob Ended(const std::string& tenant, const absl::Status& status) {
   EndedJob ended;
   ended.tenant = tenant;
   ended.code = CodeName(seen);
-  ended.reason = ReasonOf(seen);
+  ended.reason = ReasonNameOf(seen);
   return ended;
 }
 

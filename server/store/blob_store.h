@@ -8,7 +8,6 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "server/store/checked_file.h"
 #include "server/store/file_io.h"
 #include "server/store/result_file.h"
 #include "server/store/upload_file.h"

@@ -4,19 +4,11 @@
 #include <limits>
 #include <utility>
 
-#include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
-
-constexpr char kPayloadUrl[] = "bccskel.server/disk-quota";
-
-absl::Status Full(const char* limit, const std::string& message) {
-  absl::Status status = absl::ResourceExhaustedError(message);
-  status.SetPayload(kPayloadUrl, absl::Cord(limit));
-  return status;
-}
 
 bool Exceeds(uint64_t used, uint64_t bytes, uint64_t limit) {
   return limit > 0 && (used > limit || bytes > limit - used);
@@ -29,14 +21,15 @@ absl::Status DiskQuota::Take(const std::string& tenant, uint64_t bytes) {
   const auto found = used_of_.find(tenant);
   const uint64_t own = found == used_of_.end() ? 0 : found->second;
   if (Exceeds(own, bytes, most_of_tenant_)) {
-    return Full("max_tenant_disk_bytes",
-                absl::StrCat(bytes, " more bytes on disk: ", own, " are in use, the limit is ",
-                             most_of_tenant_));
+    return DiskFull(absl::StrCat(bytes, " more bytes on disk: ", own, " are in use, the limit is ",
+                                 most_of_tenant_),
+                    "max_tenant_disk_bytes");
   }
   if (Exceeds(used_, bytes, most_)) {
     // What is in use belongs to other tenants, too, and is none of the caller's business.
-    return Full("max_disk_bytes", absl::StrCat(bytes, " more bytes on disk are over the server's ",
-                                               "limit of ", most_, " for all"));
+    return DiskFull(absl::StrCat(bytes, " more bytes on disk are over the server's ", "limit of ",
+                                 most_, " for all"),
+                    "max_disk_bytes");
   }
   Add(tenant, bytes);
   return absl::OkStatus();
@@ -77,11 +70,6 @@ uint64_t DiskQuota::available() const {
   std::lock_guard lock(mutex_);
   if (most_ == 0) return std::numeric_limits<uint64_t>::max();
   return most_ - std::min(used_, most_);
-}
-
-std::string ExceededQuota(const absl::Status& status) {
-  const auto payload = status.GetPayload(kPayloadUrl);
-  return payload.has_value() ? std::string(*payload) : std::string();
 }
 
 }  // namespace bccskel::server

@@ -17,7 +17,7 @@ class DiskQuota {
   DiskQuota(uint64_t most, uint64_t most_of_tenant)
       : most_(most), most_of_tenant_(most_of_tenant) {}
 
-  // Errors: RESOURCE_EXHAUSTED with what is used and the limit; then nothing is taken.
+  // Errors: DISK_FULL with what is used and the limit; then nothing is taken.
   absl::Status Take(const std::string& tenant, uint64_t bytes);
   // What is there already counts, whatever the limits are now.
   void Count(const std::string& tenant, uint64_t bytes);
@@ -36,10 +36,6 @@ class DiskQuota {
   uint64_t used_ = 0;                        // guarded by mutex_
   std::map<std::string, uint64_t> used_of_;  // guarded by mutex_
 };
-
-// Which limit, "max_disk_bytes" or "max_tenant_disk_bytes", an error of Take() is about; else
-// empty.
-std::string ExceededQuota(const absl::Status& status);
 
 }  // namespace bccskel::server
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "server/store/disk_reserve.h"
+#include "server/store/data_folder.h"
 #include "server/store/job_store.h"
 
 namespace bccskel::server {

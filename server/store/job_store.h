@@ -1,15 +1,19 @@
 #ifndef BCCSKEL_SERVER_STORE_JOB_STORE_H_
 #define BCCSKEL_SERVER_STORE_JOB_STORE_H_
 
+#include <atomic>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "server/store/rows.h"
+#include "server/store/sql_database.h"
 
 namespace bccskel::server {
 
@@ -25,112 +29,156 @@ namespace bccskel::server {
 // Threads: one at a time.
 class JobStore {
  public:
-  virtual ~JobStore() = default;
+  explicit JobStore(std::unique_ptr<SqlDatabase> database) : database_(std::move(database)) {}
 
   // A store has one of its own from its first opening on.
-  virtual absl::StatusOr<std::string> Id() = 0;
+  absl::StatusOr<std::string> Id();
   // DATA_LOSS when a row was found damaged since the store was opened, and when its file is gone or
   // another one has its name: what is written then is lost. Threads: safe.
-  virtual absl::Status Health() const = 0;
-  virtual int damaged_rows() const = 0;  // found since it was opened. Threads: safe.
+  absl::Status Health() const;
+  int damaged_rows() const { return damaged_rows_; }  // found since it was opened. Threads: safe.
 
   // Errors: a file that is gone, as Health() says; UNAVAILABLE when this server was fenced off.
-  virtual absl::Status Begin() = 0;
+  absl::Status Begin();
   // After an error nothing since Begin() has happened.
-  virtual absl::Status Commit() = 0;
-  virtual void Rollback() = 0;
+  absl::Status Commit();
+  void Rollback();
   // Steps within a transaction, each of which can be taken back alone.
-  virtual absl::Status BeginStep() = 0;
-  virtual absl::Status KeepStep() = 0;
-  virtual absl::Status UndoStep() = 0;
+  absl::Status BeginStep();
+  absl::Status KeepStep();
+  absl::Status UndoStep();
 
-  virtual absl::Status InsertUpload(const UploadRow& row) = 0;
-  virtual absl::Status UpdateUpload(const UploadRow& row) = 0;  // its volume, file and last use
-  virtual absl::Status DeleteUpload(const std::string& tenant, const std::string& name) = 0;
-  virtual absl::StatusOr<std::optional<UploadRow>> FindUpload(const std::string& tenant,
-                                                              const std::string& name) = 0;
-  virtual absl::StatusOr<std::vector<UploadRow>> AllUploads() = 0;
+  absl::Status InsertUpload(const UploadRow& row);
+  absl::Status UpdateUpload(const UploadRow& row);  // its volume, file and last use
+  absl::Status DeleteUpload(const std::string& tenant, const std::string& name);
+  absl::StatusOr<std::optional<UploadRow>> FindUpload(const std::string& tenant,
+                                                      const std::string& name);
+  absl::StatusOr<std::vector<UploadRow>> AllUploads();
 
   // Replaces a row of the same name.
-  virtual absl::Status PutVolume(const VolumeRow& row) = 0;
+  absl::Status PutVolume(const VolumeRow& row);
   // With the finished uploads that it came with.
-  virtual absl::Status DeleteVolume(const std::string& tenant, const std::string& name) = 0;
-  virtual absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,
-                                                              const std::string& name) = 0;
+  absl::Status DeleteVolume(const std::string& tenant, const std::string& name);
+  absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,
+                                                      const std::string& name);
   // By blob or volume digest.
-  virtual absl::StatusOr<std::vector<VolumeRow>> FindVolumesOf(const std::string& tenant,
-                                                               const std::string& digest) = 0;
-  virtual absl::StatusOr<std::vector<VolumeRow>> AllVolumes() = 0;
+  absl::StatusOr<std::vector<VolumeRow>> FindVolumesOf(const std::string& tenant,
+                                                       const std::string& digest);
+  absl::StatusOr<std::vector<VolumeRow>> AllVolumes();
 
   // Yields its number.
-  virtual absl::StatusOr<int64_t> InsertJob(const JobRow& row) = 0;
+  absl::StatusOr<int64_t> InsertJob(const JobRow& row);
   // False, and nothing happens, when the stored job has ended already or is gone.
-  virtual absl::StatusOr<bool> UpdateJob(const JobRow& row) = 0;
+  absl::StatusOr<bool> UpdateJob(const JobRow& row);
   // With its events.
-  virtual absl::Status DeleteJob(int64_t number) = 0;
-  virtual absl::Status DeleteDamagedJob(const std::string& tenant, const std::string& name) = 0;
-  virtual absl::StatusOr<std::optional<JobRow>> FindJob(const std::string& tenant,
-                                                        const std::string& name) = 0;
-  virtual absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
-                                                                 const std::string& request_id) = 0;
+  absl::Status DeleteJob(int64_t number);
+  absl::Status DeleteDamagedJob(const std::string& tenant, const std::string& name);
+  absl::StatusOr<std::optional<JobRow>> FindJob(const std::string& tenant, const std::string& name);
+  absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
+                                                         const std::string& request_id);
   // Those that come after `after`, or all, in one of the states (a bit each, by number): newest
   // first, and by name where they are of the same time.
-  virtual absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant,
-                                                       const std::optional<JobPosition>& after,
-                                                       uint32_t states, int most) = 0;
-  virtual absl::StatusOr<std::vector<JobRow>> UnfinishedJobs() = 0;  // oldest first
-  virtual absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time, int most) = 0;
+  absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant,
+                                               const std::optional<JobPosition>& after,
+                                               uint32_t states, int most);
+  absl::StatusOr<std::vector<JobRow>> UnfinishedJobs();  // oldest first
+  absl::StatusOr<std::vector<JobRow>> JobsEndedBefore(Time time, int most);
   // The name of an unfinished job that needs the volume.
-  virtual absl::StatusOr<std::optional<std::string>> UserOfVolume(const std::string& tenant,
-                                                                  const std::string& volume) = 0;
+  absl::StatusOr<std::optional<std::string>> UserOfVolume(const std::string& tenant,
+                                                          const std::string& volume);
 
-  virtual absl::Status InsertEvent(const EventRow& row) = 0;
-  virtual absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence) = 0;
+  absl::Status InsertEvent(const EventRow& row);
+  absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence);
 
   // Yields its number, or that of the result which already has this key: then `row` is not stored.
   // Takes the place and the number of a damaged one, so that it heals the jobs that have that.
-  virtual absl::StatusOr<int64_t> InsertResult(const ResultRow& row) = 0;
+  absl::StatusOr<int64_t> InsertResult(const ResultRow& row);
   // Its file is damaged: it is not found by its key any more, but by its number.
-  virtual absl::Status DropResult(const ResultRow& row) = 0;
-  virtual absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number) = 0;
-  virtual absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
-                                                                const std::string& key) = 0;
+  absl::Status DropResult(const ResultRow& row);
+  absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number);
+  absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
+                                                        const std::string& key);
   // Deletes the result when no job has it any more, and then yields it.
-  virtual absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number) = 0;
-  virtual absl::StatusOr<std::vector<ResultRow>> AllResults() = 0;
+  absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number);
+  absl::StatusOr<std::vector<ResultRow>> AllResults();
 
-  virtual absl::Status InsertRemoval(const RemovalRow& row) = 0;
-  virtual absl::Status DeleteRemoval(const RemovalRow& row) = 0;
-  virtual absl::StatusOr<std::vector<RemovalRow>> AllRemovals() = 0;
+  absl::Status InsertRemoval(const RemovalRow& row);
+  absl::Status DeleteRemoval(const RemovalRow& row);
+  absl::StatusOr<std::vector<RemovalRow>> AllRemovals();
 
   // ---- The fleet. Where nobody shares the store, the one server that has it is all of it.
 
   // Whether other servers may use the same tables.
-  virtual bool shared() const = 0;
+  bool shared() const { return database_->shared(); }
   // From now on transactions are this server's, and fail once it was fenced off. Needs: a name that
   // no server ever had, of hexadecimal digits.
-  virtual absl::Status Join(const std::string& server) = 0;
-  virtual absl::Status Leave() = 0;
+  absl::Status Join(const std::string& server);
+  absl::Status Leave();
   // Whether a transaction has failed since, because this server was fenced off: it has to join
   // anew.
-  virtual bool fenced() const = 0;
+  bool fenced() const { return fenced_; }
   // One more sign of life of this server.
-  virtual absl::Status Beat() = 0;
-  virtual absl::StatusOr<std::vector<Member>> Members() = 0;
+  absl::Status Beat();
+  absl::StatusOr<std::vector<Member>> Members();
   // Needs: a transaction. Takes the member away, unless it has given a sign of life since. Yields
   // whether it was there: then it writes nothing any more.
-  virtual absl::StatusOr<bool> Fence(const Member& member) = 0;
+  absl::StatusOr<bool> Fence(const Member& member);
   // What has become of jobs since a change; from -1 on the unfinished ones as they are.
-  virtual absl::StatusOr<JobChanges> ChangesAfter(int64_t number) = 0;
+  absl::StatusOr<JobChanges> ChangesAfter(int64_t number);
   // A job with the same options, of the same volume, that another server runs.
-  virtual absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,
-                                             const std::string& server) = 0;
+  absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,
+                                     const std::string& server);
+  // The newest progress of a running job, for the other servers.
+  absl::Status PutProgress(int64_t job, const ProgressRow& progress);
+  absl::StatusOr<std::optional<ProgressRow>> FindProgress(int64_t job);
   // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
-  virtual absl::StatusOr<std::map<std::string, uint64_t>> DiskUse() = 0;
+  absl::StatusOr<std::map<std::string, uint64_t>> DiskUse();
 
   // What was deleted is then nowhere in the store's files any more.
-  virtual absl::Status Forget() = 0;
+  absl::Status Forget();
+
+ private:
+  enum class Damaged { kFails, kLeftOut };
+
+  template <typename... Values>
+  absl::StatusOr<std::vector<SqlRow>> Query(const std::string& sql, const Values&... values);
+  template <typename... Values>
+  absl::Status Run(const std::string& sql, const Values&... values);
+  template <typename Row>
+  absl::Status Insert(const Row& row, const std::string& replacing = {});
+  template <typename Row>
+  absl::StatusOr<int64_t> InsertNumbered(Row row, const std::string& replacing = {});
+  template <typename Row>
+  absl::Status Delete(const std::string& tenant, const std::string& name);
+  // `where` follows the table's name. For who looks after everything, and must not stop at a row
+  // that is damaged, those are left out.
+  template <typename Row, typename... Values>
+  absl::StatusOr<std::vector<Row>> All(Damaged damaged, const std::string& where,
+                                       const Values&... values);
+  template <typename Row, typename... Values>
+  absl::StatusOr<std::optional<Row>> One(Damaged damaged, const std::string& where,
+                                         const Values&... values);
+  template <typename Row>
+  absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
+  template <typename Row>
+  absl::StatusOr<std::vector<Row>> Every();
+
+  const std::unique_ptr<SqlDatabase> database_;
+  std::string server_;  // empty before it has joined
+  bool fenced_ = false;
+  std::atomic<int> damaged_rows_ = 0;
 };
+
+// A job store in a file of SQLite, which is made where it does not exist.
+// Errors: FAILED_PRECONDITION for a file of a newer version; DATA_LOSS for a damaged one.
+absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path);
+
+// A job store in a PostgreSQL database, named by a URL or libpq's words. Its tables are made where
+// they do not exist, by one server of those that come at the same time.
+// Errors: INVALID_ARGUMENT for a name that libpq does not understand, or that has a password in it;
+//         FAILED_PRECONDITION for tables of a newer version; UNAVAILABLE; UNIMPLEMENTED in a
+//         program that was built without libpq.
+absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& database);
 
 }  // namespace bccskel::server
 

@@ -1,12 +1,15 @@
-#include "server/store/postgres_database.h"
-
 #include <libpq-fe.h>
 
+#include <chrono>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/store/sql_database.h"
 
 namespace bccskel::server {
 namespace {
@@ -78,9 +81,43 @@ absl::Status CheckName(const std::string& name) {
       "or PGPASSWORD");
 }
 
-}  // namespace
+class PostgresDatabase final : public SqlDatabase {
+ public:
+  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& name);
+  ~PostgresDatabase() override;
+  PostgresDatabase(const PostgresDatabase&) = delete;
+  PostgresDatabase& operator=(const PostgresDatabase&) = delete;
 
-absl::StatusOr<std::unique_ptr<PostgresDatabase>> PostgresDatabase::Open(const std::string& name) {
+  absl::Status Execute(const std::string& sql) override;
+  absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
+                                          const std::vector<SqlValue>& values) override;
+  absl::Status Begin(const std::string& server) override;
+  bool InTransaction() const override;
+  absl::Status Health() const override;
+  absl::Status Forget() override;
+  bool shared() const override { return true; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Result = std::unique_ptr<pg_result, void (*)(pg_result*)>;
+
+  explicit PostgresDatabase(std::string name) : name_(std::move(name)) {}
+  absl::Status Connect();
+  absl::Status BeConnected();
+  absl::Status Prepare(const std::string& sql, const std::vector<SqlValue>& values,
+                       std::string& name);
+  absl::Status ErrorOf(const pg_result* result, const std::string& doing) const;
+  void NoteHealth(const absl::Status& status);
+
+  const std::string name_;
+  pg_conn* connection_ = nullptr;
+  Clock::time_point next_attempt_;
+  std::map<std::string, std::string> statements_;  // names, by their text
+  mutable std::mutex health_mutex_;
+  absl::Status health_;  // guarded by health_mutex_
+};
+
+absl::StatusOr<std::unique_ptr<SqlDatabase>> PostgresDatabase::Open(const std::string& name) {
   BCCSKEL_RETURN_IF_ERROR(CheckName(name));
   std::unique_ptr<PostgresDatabase> database(new PostgresDatabase(name));
   BCCSKEL_RETURN_IF_ERROR(database->Connect());
@@ -132,21 +169,21 @@ absl::Status PostgresDatabase::Health() const {
   return health_;
 }
 
-absl::Status PostgresDatabase::ErrorOf(const PGresult* result, const char* doing) const {
+absl::Status PostgresDatabase::ErrorOf(const PGresult* result, const std::string& doing) const {
   const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
   return absl::Status(
       CodeOf(state == nullptr ? "" : state),
       absl::StrCat("PostgreSQL: ", PQerrorMessage(connection_), " (at: ", doing, ")"));
 }
 
-absl::Status PostgresDatabase::Execute(const char* sql) {
-  const Result result(PQexec(connection_, sql), PQclear);
+absl::Status PostgresDatabase::Execute(const std::string& sql) {
+  const Result result(PQexec(connection_, sql.c_str()), PQclear);
   const ExecStatusType status = PQresultStatus(result.get());
   if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return absl::OkStatus();
   return ErrorOf(result.get(), sql);
 }
 
-absl::Status PostgresDatabase::Prepare(const char* sql, const std::vector<SqlValue>& values,
+absl::Status PostgresDatabase::Prepare(const std::string& sql, const std::vector<SqlValue>& values,
                                        std::string& name) {
   const auto found = statements_.find(sql);
   if (found != statements_.end()) {
@@ -158,15 +195,15 @@ absl::Status PostgresDatabase::Prepare(const char* sql, const std::vector<SqlVal
   for (const SqlValue& value : values) {
     types.push_back(value.kind == SqlValue::Kind::kNumber ? kInteger8 : kBytes);
   }
-  const Result result(
-      PQprepare(connection_, name.c_str(), sql, static_cast<int>(types.size()), types.data()),
-      PQclear);
+  const Result result(PQprepare(connection_, name.c_str(), sql.c_str(),
+                                static_cast<int>(types.size()), types.data()),
+                      PQclear);
   if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) return ErrorOf(result.get(), sql);
   statements_[sql] = name;
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::vector<SqlRow>> PostgresDatabase::Run(const char* sql,
+absl::StatusOr<std::vector<SqlRow>> PostgresDatabase::Run(const std::string& sql,
                                                           const std::vector<SqlValue>& values) {
   if (PQstatus(connection_) != CONNECTION_OK && !InTransaction()) {
     BCCSKEL_RETURN_IF_ERROR(BeConnected());
@@ -190,7 +227,7 @@ absl::StatusOr<std::vector<SqlRow>> PostgresDatabase::Run(const char* sql,
                       PQclear);
   const ExecStatusType status = PQresultStatus(result.get());
   if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) return ErrorOf(result.get(), sql);
-  if (std::strcmp(sql, "COMMIT") == 0 && std::strcmp(PQcmdStatus(result.get()), "COMMIT") != 0) {
+  if (sql == "COMMIT" && std::strcmp(PQcmdStatus(result.get()), "COMMIT") != 0) {
     return absl::InternalError("PostgreSQL has taken a transaction back that had failed");
   }
   std::vector<SqlRow> rows;
@@ -228,6 +265,12 @@ bool PostgresDatabase::InTransaction() const {
 absl::Status PostgresDatabase::Forget() {
   if (PQstatus(connection_) != CONNECTION_OK || InTransaction()) return absl::OkStatus();
   return Execute("DELETE FROM deleted_jobs WHERE at < now() - interval '1 hour'");
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name) {
+  return PostgresDatabase::Open(name);
 }
 
 }  // namespace bccskel::server

@@ -1,10 +1,11 @@
-#include "server/store/postgres_schema.h"
-
 #include <iterator>
+#include <memory>
 #include <string>
+#include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/store/job_store.h"
+#include "server/store/schema.h"
 
 namespace bccskel::server {
 namespace {
@@ -72,39 +73,46 @@ CREATE TABLE removals(
 CREATE TABLE servers(
   server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
 )",
+    // 2: the newest progress of running jobs, for who watches them elsewhere; may be lost.
+    R"(
+CREATE UNLOGGED TABLE progress(
+  job BIGINT PRIMARY KEY REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,
+  bytes BYTEA NOT NULL);
+)",
 };
+
+constexpr int kVersion = static_cast<int>(std::size(kMigrations));
 
 constexpr char kVersionTable[] =
     "CREATE TABLE IF NOT EXISTS store(id BYTEA NOT NULL, version BIGINT NOT NULL);"
     "INSERT INTO store SELECT convert_to(replace(gen_random_uuid()::text, '-', ''), 'UTF8'), 0"
     " WHERE NOT EXISTS (SELECT 1 FROM store);";
 
-absl::Status MigrateWithin(PostgresDatabase& database) {
+absl::Status MigrateWithin(SqlDatabase& database) {
   BCCSKEL_RETURN_IF_ERROR(database.Execute(kVersionTable));
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("SELECT version FROM store", {}));
   const auto version = static_cast<int>(rows.front().Number());
-  if (version > PostgresSchemaVersion()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("the job store has version ", version, ", this server knows versions up to ",
-                     PostgresSchemaVersion(), ": it was written by a newer server"));
-  }
-  for (int next = version; next < PostgresSchemaVersion(); ++next) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSchemaVersion(version, kVersion));
+  for (int next = version; next < kVersion; ++next) {
     BCCSKEL_RETURN_IF_ERROR(database.Execute(kMigrations[next]));
   }
-  return database.Run("UPDATE store SET version = $1", {SqlValue::Number(PostgresSchemaVersion())})
-      .status();
+  return database.Run("UPDATE store SET version = $1", {SqlValue::Number(kVersion)}).status();
 }
 
 }  // namespace
 
-int PostgresSchemaVersion() { return static_cast<int>(std::size(kMigrations)); }
-
-absl::Status Migrate(PostgresDatabase& database) {
+absl::Status MigratePostgres(SqlDatabase& database) {
   BCCSKEL_RETURN_IF_ERROR(database.Begin(""));
   absl::Status migrated = MigrateWithin(database);
   if (migrated.ok()) return database.Execute("COMMIT");
   if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
   return migrated;
+}
+
+absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& name) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenPostgres(name));
+  BCCSKEL_RETURN_IF_ERROR(MigratePostgres(*database));
+  return std::make_unique<JobStore>(std::move(database));
 }
 
 }  // namespace bccskel::server

@@ -4,8 +4,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/store/checked_file.h"
-#include "server/store/little_endian.h"
+#include "server/store/file_io.h"
+#include "server/store/stored_bytes.h"
 
 namespace bccskel::server {
 namespace {

@@ -111,6 +111,12 @@ struct RemovalRow {
   std::string name;  // of the upload; the blob's digest; of the result's or the upload's file
 };
 
+// What a running job has told last, if nothing was lost. Bytes of the one who runs it.
+struct ProgressRow {
+  uint64_t sequence = 0;
+  std::string bytes;
+};
+
 // A server of the fleet.
 struct Member {
   std::string server;

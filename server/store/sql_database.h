@@ -2,6 +2,7 @@
 #define BCCSKEL_SERVER_STORE_SQL_DATABASE_H_
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,9 +48,9 @@ class SqlDatabase {
   virtual ~SqlDatabase() = default;
 
   // Any number of statements without parameters and rows.
-  virtual absl::Status Execute(const char* sql) = 0;
-  // Needs: `sql` is a literal.
-  virtual absl::StatusOr<std::vector<SqlRow>> Run(const char* sql,
+  virtual absl::Status Execute(const std::string& sql) = 0;
+  // One statement, which is prepared once: there must not be many.
+  virtual absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
                                                   const std::vector<SqlValue>& values) = 0;
 
   // Nobody else writes until the end of the transaction. Errors: ABORTED when `server`, unless it
@@ -63,6 +64,18 @@ class SqlDatabase {
   // Whether other servers may use it, too.
   virtual bool shared() const = 0;
 };
+
+// A file of SQLite in WAL mode with full synchronization, which is made where it does not exist.
+// Health() is DATA_LOSS, and no transaction begins, when the file is no longer at its path. SQL has
+// a function checksum(...) more: CRC-32C of its arguments, their types included.
+absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path);
+
+// A PostgreSQL database that the servers of a fleet share, by a URL or libpq's words. One of them
+// writes at a time: a transaction begins when it has an advisory lock, which PostgreSQL takes from
+// who does nothing in it for four seconds. A connection that is lost is made anew by the next
+// transaction; Health() is UNAVAILABLE after an attempt has failed.
+// Errors: INVALID_ARGUMENT; UNAVAILABLE.
+absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name);
 
 }  // namespace bccskel::server
 

@@ -1,14 +1,15 @@
-#include "server/store/sqlite_database.h"
-
 #include <sqlite3.h>
 
 #include <cerrno>
+#include <map>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "server/store/file_io.h"
-#include "server/store/row_checksum.h"
+#include "server/store/sql_database.h"
+#include "server/store/stored_bytes.h"
 
 namespace bccskel::server {
 namespace {
@@ -58,9 +59,38 @@ void Checksum(sqlite3_context* context, int count, sqlite3_value** values) {
   sqlite3_result_int64(context, Crc32c(bytes));
 }
 
-}  // namespace
+class SqliteDatabase final : public SqlDatabase {
+ public:
+  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& path);
+  ~SqliteDatabase() override;
+  SqliteDatabase(const SqliteDatabase&) = delete;
+  SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
-absl::StatusOr<std::unique_ptr<SqliteDatabase>> SqliteDatabase::Open(const std::string& path) {
+  absl::Status Execute(const std::string& sql) override;
+  absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
+                                          const std::vector<SqlValue>& values) override;
+  absl::Status Begin(const std::string& server) override;
+  bool InTransaction() const override;
+  absl::Status Health() const override;
+  absl::Status Forget() override;
+  bool shared() const override { return false; }
+
+ private:
+  SqliteDatabase() = default;
+  absl::Status ErrorOf(int code, const std::string& doing) const;
+  // Prepared once.
+  absl::StatusOr<sqlite3_stmt*> Prepared(const std::string& sql);
+  absl::Status Bind(sqlite3_stmt* statement, const std::vector<SqlValue>& values,
+                    const std::string& sql);
+  absl::StatusOr<std::vector<SqlRow>> Rows(sqlite3_stmt* statement, const std::string& sql);
+
+  std::string path_;
+  std::pair<uint64_t, uint64_t> identity_;  // of the file
+  sqlite3* database_ = nullptr;
+  std::map<std::string, sqlite3_stmt*> statements_;
+};
+
+absl::StatusOr<std::unique_ptr<SqlDatabase>> SqliteDatabase::Open(const std::string& path) {
   std::unique_ptr<SqliteDatabase> database(new SqliteDatabase);
   database->path_ = path;
   const int code =
@@ -83,9 +113,9 @@ SqliteDatabase::~SqliteDatabase() {
   sqlite3_close(database_);
 }
 
-absl::Status SqliteDatabase::Execute(const char* sql) {
+absl::Status SqliteDatabase::Execute(const std::string& sql) {
   errno = 0;
-  const int code = sqlite3_exec(database_, sql, nullptr, nullptr, nullptr);
+  const int code = sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr);
   return code == SQLITE_OK ? absl::OkStatus() : ErrorOf(code, sql);
 }
 
@@ -105,7 +135,7 @@ absl::Status SqliteDatabase::Health() const {
       "the file of the tables is gone, or another one has its name: what is written now is lost");
 }
 
-absl::Status SqliteDatabase::ErrorOf(int code, const char* doing) const {
+absl::Status SqliteDatabase::ErrorOf(int code, const std::string& doing) const {
   // SQLite forgets the system's error where a COMMIT fails; errno has it still.
   int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
   if (system_error == 0) system_error = errno;
@@ -115,19 +145,19 @@ absl::Status SqliteDatabase::ErrorOf(int code, const char* doing) const {
                    " (SQLite code ", code, ", errno ", system_error, " at: ", doing, ")"));
 }
 
-absl::StatusOr<sqlite3_stmt*> SqliteDatabase::Prepared(const char* sql) {
+absl::StatusOr<sqlite3_stmt*> SqliteDatabase::Prepared(const std::string& sql) {
   const auto found = statements_.find(sql);
   if (found != statements_.end()) return found->second;
   sqlite3_stmt* statement = nullptr;
-  const int code =
-      sqlite3_prepare_v3(database_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement, nullptr);
+  const int code = sqlite3_prepare_v3(database_, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT,
+                                      &statement, nullptr);
   if (code != SQLITE_OK) return ErrorOf(code, sql);
   statements_[sql] = statement;
   return statement;
 }
 
 absl::Status SqliteDatabase::Bind(sqlite3_stmt* statement, const std::vector<SqlValue>& values,
-                                  const char* sql) {
+                                  const std::string& sql) {
   int index = 0;
   for (const SqlValue& value : values) {
     ++index;
@@ -146,7 +176,8 @@ absl::Status SqliteDatabase::Bind(sqlite3_stmt* statement, const std::vector<Sql
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Rows(sqlite3_stmt* statement, const char* sql) {
+absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Rows(sqlite3_stmt* statement,
+                                                         const std::string& sql) {
   std::vector<SqlRow> rows;
   errno = 0;
   while (true) {
@@ -166,7 +197,7 @@ absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Rows(sqlite3_stmt* statement
   }
 }
 
-absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Run(const char* sql,
+absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Run(const std::string& sql,
                                                         const std::vector<SqlValue>& values) {
   BCCSKEL_ASSIGN_OR_RETURN(sqlite3_stmt * statement, Prepared(sql));
   const absl::Status bound = Bind(statement, values, sql);
@@ -174,6 +205,12 @@ absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Run(const char* sql,
   sqlite3_reset(statement);
   sqlite3_clear_bindings(statement);
   return rows;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path) {
+  return SqliteDatabase::Open(path);
 }
 
 }  // namespace bccskel::server

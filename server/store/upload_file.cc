@@ -4,7 +4,7 @@
 
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
-#include "server/store/little_endian.h"
+#include "server/store/stored_bytes.h"
 
 namespace bccskel::server {
 namespace {

@@ -1,8 +1,8 @@
 // Any bytes as what a caller of VolumeService and JobService sends: the first byte chooses the
 // call, length-delimited requests follow. They go through the checks of order and fields to a real
-// ledger, whose jobs wait and compute nothing. "volumes/known" and "jobs/known" stand for names
-// that the tenant has. Every answer is OK or the caller's error with its details, never UNKNOWN or
-// INTERNAL.
+// DurableJobs, whose jobs wait and compute nothing. "volumes/known" and "jobs/known" stand for
+// names that the tenant has. Every answer is OK or the caller's error with its details, never
+// UNKNOWN or INTERNAL.
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
@@ -23,15 +23,12 @@
 #include "bccskel/v1/volume_service.pb.h"
 #include "core/digest/sha256.h"
 #include "core/exec/status_macros.h"
-#include "proto/wire/error_details.h"
-#include "server/durable/ledger.h"
-#include "server/durable/message_codec.h"
-#include "server/service/durable_messages.h"
-#include "server/service/job_fields.h"
-#include "server/service/job_request.h"
-#include "server/service/ledger_status.h"
-#include "server/service/request_sequence.h"
-#include "server/status_mapping.h"
+#include "server/calls/durable_messages.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/request_sequence.h"
+#include "server/calls/requests.h"
+#include "server/calls/status_mapping.h"
+#include "server/durable/durable_jobs.h"
 
 namespace bccskel::server {
 namespace {
@@ -44,7 +41,7 @@ void Insist(bool holds) {
   if (!holds) std::abort();
 }
 
-// Never asked: the ledger's jobs wait.
+// Never asked: DurableJobs' jobs wait.
 class NoRunner final : public JobRunner {
  public:
   absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest, std::shared_ptr<JobListener>) override {
@@ -68,7 +65,7 @@ absl::StatusOr<Value> Ask(Call call) {
   std::promise<absl::StatusOr<Value>> promise;
   call([&](absl::StatusOr<Value> value) { promise.set_value(std::move(value)); });
   absl::StatusOr<Value> answer = promise.get_future().get();
-  if (!answer.ok()) return LedgerError(answer.status());
+  if (!answer.ok()) return StorageError(answer.status());
   return answer;
 }
 
@@ -76,13 +73,13 @@ template <typename Call>
 absl::Status Tell(Call call) {
   std::promise<absl::Status> promise;
   call([&](absl::Status status) { promise.set_value(std::move(status)); });
-  return LedgerError(promise.get_future().get());
+  return StorageError(promise.get_future().get());
 }
 
 // One for the process: each call leaves it as it found it, but for `known` ones.
-class KeptLedger {
+class KeptJobs {
  public:
-  KeptLedger() : folder_(std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX") {
+  KeptJobs() : folder_(std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX") {
     Insist(mkdtemp(folder_.data()) != nullptr);
     Sha256Of("");  // so that OpenSSL ends after this object
     DurableOptions options;
@@ -90,33 +87,33 @@ class KeptLedger {
     options.max_runs = 0;
     options.max_tenant_disk_bytes = uint64_t{64} << 20;
     options.algorithm_version = "1";
-    ledger_ = *Ledger::Open(options, runner_, codec_);
+    durable_jobs_ = *DurableJobs::Open(options, runner_, codec_);
   }
-  ~KeptLedger() {
-    ledger_.reset();
+  ~KeptJobs() {
+    durable_jobs_.reset();
     std::filesystem::remove_all(folder_);
   }
-  Ledger& operator*() { return *ledger_; }
-  Ledger* operator->() { return ledger_.get(); }
+  DurableJobs& operator*() { return *durable_jobs_; }
+  DurableJobs* operator->() { return durable_jobs_.get(); }
 
  private:
   std::string folder_;
   NoRunner runner_;
   const MessageCodec codec_{kLimits};
-  std::unique_ptr<Ledger> ledger_;
+  std::unique_ptr<DurableJobs> durable_jobs_;
 };
 
-KeptLedger& TheLedger() {
-  static KeptLedger ledger;
-  return ledger;
+KeptJobs& TheJobs() {
+  static KeptJobs durable_jobs;
+  return durable_jobs;
 }
 
-absl::StatusOr<UploadInfo> Upload(const Ledger::NewUpload& wanted) {
+absl::StatusOr<UploadInfo> Upload(const NewUpload& wanted) {
   auto found = Ask<UploadInfo>(
-      [&](auto done) { TheLedger()->GetUpload(kTenant, wanted.name, std::move(done)); });
+      [&](auto done) { TheJobs()->GetUpload(kTenant, wanted.name, std::move(done)); });
   if (!absl::IsNotFound(found.status())) return found;
   return Ask<UploadInfo>(
-      [&](auto done) { TheLedger()->CreateUpload(kTenant, wanted, std::move(done)); });
+      [&](auto done) { TheJobs()->CreateUpload(kTenant, wanted, std::move(done)); });
 }
 
 std::optional<Sha256Digest> DigestIn(const v1::VolumeFinish& finish) {
@@ -132,9 +129,9 @@ class UploadCall {
   using Request = v1::UploadVolumeRequest;
   ~UploadCall() {
     if (name_.empty()) return;
-    TheLedger()->SenderGone(kTenant, name_);
+    TheJobs()->SenderGone(kTenant, name_);
     Tell([&](auto done) {
-      TheLedger()->DeleteUpload(kTenant, name_, std::move(done));
+      TheJobs()->DeleteUpload(kTenant, name_, std::move(done));
     }).IgnoreError();
   }
 
@@ -150,7 +147,7 @@ class UploadCall {
     v1::SkeletonizeConfig whole;
     *whole.mutable_volume() = config.volume();
     BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, kLimits).status());
-    Ledger::NewUpload wanted;
+    NewUpload wanted;
     wanted.name = config.upload();
     wanted.declaration = DeclarationBytes(config.volume());
     BCCSKEL_ASSIGN_OR_RETURN(const UploadInfo upload, Upload(wanted));
@@ -163,19 +160,19 @@ class UploadCall {
     std::optional<uint32_t> crc32c;
     if (chunk.has_crc32c()) crc32c = chunk.crc32c();
     return Ask<uint64_t>([&](auto done) {
-             TheLedger()->Append(kTenant, name_, chunk.offset(), std::move(*chunk.mutable_data()),
-                                 crc32c, std::move(done));
+             TheJobs()->Append(kTenant, name_, chunk.offset(), std::move(*chunk.mutable_data()),
+                               crc32c, std::move(done));
            })
         .status();
   }
   absl::Status Finish(const v1::VolumeFinish& finish) {
     const auto volume = Ask<VolumeInfo>([&](auto done) {
-      TheLedger()->FinishUpload(kTenant, name_, finish.size_bytes(), DigestIn(finish),
-                                std::move(done));
+      TheJobs()->FinishUpload(kTenant, name_, finish.size_bytes(), DigestIn(finish),
+                              std::move(done));
     });
     if (!volume.ok()) return volume.status();
     return Tell(
-        [&](auto done) { TheLedger()->DeleteVolume(kTenant, volume->name, std::move(done)); });
+        [&](auto done) { TheJobs()->DeleteVolume(kTenant, volume->name, std::move(done)); });
   }
 
   RequestSequence sequence_;
@@ -193,10 +190,10 @@ std::string MakeVolume() {
   const UploadInfo upload = *Upload(
       {.name = "uploads/known", .declaration = DeclarationBytes(declaration), .then_job = {}});
   Insist(Ask<uint64_t>([&](auto done) {
-           TheLedger()->Append(kTenant, upload.name, 0, std::string(8, '\0'), {}, std::move(done));
+           TheJobs()->Append(kTenant, upload.name, 0, std::string(8, '\0'), {}, std::move(done));
          }).ok());
   return Ask<VolumeInfo>([&](auto done) {
-           TheLedger()->FinishUpload(kTenant, upload.name, 8, {}, std::move(done));
+           TheJobs()->FinishUpload(kTenant, upload.name, 8, {}, std::move(done));
          })
       ->name;
 }
@@ -206,14 +203,14 @@ const std::string& KnownVolume() {
   return name;
 }
 
-absl::StatusOr<JobInfo> Create(Ledger::NewJob job) {
+absl::StatusOr<JobInfo> Create(NewJob job) {
   if (job.volume == "volumes/known") job.volume = KnownVolume();
-  return Ask<JobInfo>([&](auto done) { TheLedger()->CreateJob(kTenant, job, std::move(done)); });
+  return Ask<JobInfo>([&](auto done) { TheJobs()->CreateJob(kTenant, job, std::move(done)); });
 }
 
 const std::string& KnownJob() {
   static const std::string name = [] {
-    Ledger::NewJob job;
+    NewJob job;
     job.volume = KnownVolume();
     return Create(job)->name;
   }();
@@ -223,12 +220,12 @@ const std::string& KnownJob() {
 struct CreateJobCall {
   using Request = v1::CreateJobRequest;
   static absl::Status Take(const Request& request) {
-    BCCSKEL_ASSIGN_OR_RETURN(const Ledger::NewJob job, NewJobOf(request));
+    BCCSKEL_ASSIGN_OR_RETURN(const NewJob job, NewJobOf(request));
     BCCSKEL_ASSIGN_OR_RETURN(const JobInfo made, Create(job));
     const v1::Job message = ToMessage(made);
     Insist(message.request_id() == request.request_id());
     if (request.validate_only() || made.name == KnownJob()) return absl::OkStatus();
-    return Tell([&](auto done) { TheLedger()->DeleteJob(kTenant, made.name, std::move(done)); });
+    return Tell([&](auto done) { TheJobs()->DeleteJob(kTenant, made.name, std::move(done)); });
   }
   static absl::Status HalfClose() { return absl::OkStatus(); }
 };
@@ -236,9 +233,9 @@ struct CreateJobCall {
 struct ListJobsCall {
   using Request = v1::ListJobsRequest;
   static absl::Status Take(const Request& request) {
-    BCCSKEL_ASSIGN_OR_RETURN(const Ledger::JobQuery query, QueryOf(request));
+    BCCSKEL_ASSIGN_OR_RETURN(const JobQuery query, QueryOf(request));
     BCCSKEL_ASSIGN_OR_RETURN(const JobPage page, Ask<JobPage>([&](auto done) {
-                               TheLedger()->ListJobs(kTenant, query, std::move(done));
+                               TheJobs()->ListJobs(kTenant, query, std::move(done));
                              }));
     Insist(page.jobs.size() <= static_cast<size_t>(query.page_size));
     for (const JobInfo& job : page.jobs) ToMessage(job);
@@ -251,9 +248,9 @@ struct WatchJobCall {
   using Request = v1::WatchJobRequest;
   static absl::Status Take(const Request& request) {
     const std::string& job = request.job() == "jobs/known" ? KnownJob() : request.job();
-    const auto watch = TheLedger()->WatchJob(kTenant, job, request.after_sequence(),
-                                             std::make_shared<SilentWatcher>());
-    return Ask<JobInfo>([&](auto done) { TheLedger()->GetJob(kTenant, job, std::move(done)); })
+    const auto watch = TheJobs()->WatchJob(kTenant, job, request.after_sequence(),
+                                           std::make_shared<SilentWatcher>());
+    return Ask<JobInfo>([&](auto done) { TheJobs()->GetJob(kTenant, job, std::move(done)); })
         .status();
   }
   static absl::Status HalfClose() { return absl::OkStatus(); }

@@ -17,14 +17,11 @@
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/skeletonize.h"
-#include "server/admission/demand.h"
-#include "server/admission/label_demand.h"
-#include "server/jobs/label_intake.h"
-#include "server/jobs/volume_intake.h"
-#include "server/service/job_request.h"
-#include "server/service/labels_request.h"
-#include "server/service/request_sequence.h"
-#include "server/status_mapping.h"
+#include "server/admission/memory_estimate.h"
+#include "server/calls/request_sequence.h"
+#include "server/calls/requests.h"
+#include "server/calls/status_mapping.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 namespace {
@@ -54,12 +51,12 @@ class VolumeCall {
     if (BytesToSkeletonize(request_.header, request_.size_bytes) > 2 * kMostBytes) {
       return absl::ResourceExhaustedError("too much");
     }
-    intake_.emplace(request_.header, request_.size_bytes, kLimits);
+    receiver_.emplace(request_.header, request_.size_bytes, kLimits);
     return absl::OkStatus();
   }
-  absl::Status Append(std::string_view bytes) { return intake_->Append(bytes); }
+  absl::Status Append(std::string_view bytes) { return receiver_->Append(bytes); }
   absl::Status Finish() {
-    const auto volume = intake_->Finish(std::nullopt, {});
+    const auto volume = receiver_->Finish(std::nullopt, {});
     if (!volume.ok()) return volume.status();
     Insist(volume->brick_count() <= request_.header.max_bricks);
     return absl::OkStatus();
@@ -67,7 +64,7 @@ class VolumeCall {
 
  private:
   JobRequest request_;
-  std::optional<VolumeIntake> intake_;
+  std::optional<VolumeReceiver> receiver_;
 };
 
 class LabelsCall {
@@ -79,15 +76,15 @@ class LabelsCall {
     if (BytesToSkeletonizeLabels(request_.header, 1) > 2 * kMostBytes) {
       return absl::ResourceExhaustedError("too much");
     }
-    intake_.emplace(request_);
+    receiver_.emplace(request_);
     return absl::OkStatus();
   }
-  absl::Status Append(std::string_view bytes) { return intake_->Append(bytes, {}); }
-  absl::Status Finish() { return intake_->Finish(std::nullopt, {}).status(); }
+  absl::Status Append(std::string_view bytes) { return receiver_->Append(bytes, {}); }
+  absl::Status Finish() { return receiver_->Finish(std::nullopt, {}).status(); }
 
  private:
   LabelsRequest request_;
-  std::optional<LabelIntake> intake_;
+  std::optional<LabelReceiver> receiver_;
 };
 
 template <typename Call>

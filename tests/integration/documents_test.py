@@ -127,16 +127,11 @@ class DocumentsTest(harness.TestCase):
             return {k for inner in value for k in self.keys(inner)}
         return set()
 
-    def test_the_servers_readme_has_every_reason_of_an_error_and_no_others(self):
-        given = set()
-        for folder in ("server/admission", "server/durable", "server/service", "proto/wire"):
-            for path in (harness.SOURCES / folder).glob("*.cc"):
-                given |= reasons_in(path)
-        for path in ("server/status_mapping.cc", "server/durable/fault.h",
-                     "server/service/sender_clock.h"):
-            given |= reasons_in(harness.SOURCES / path)
-        readme = (harness.SOURCES / "server/README.md").read_text()
-        table = readme[readme.index("## Status codes"):readme.index("## Durable jobs")]
+    def test_the_page_of_errors_has_every_reason_and_no_others(self):
+        given = reasons_in(harness.SOURCES / "server/errors/call_error.cc")
+        for path in (harness.SOURCES / "proto/wire").glob("*.cc"):
+            given |= reasons_in(path)
+        table = (harness.SOURCES / "server/ERRORS.md").read_text()
         told = {reason for row in re.findall(r"(?m)^\|[^|]*\|([^|]*)\|", table)
                 for reason in re.findall(r"`([A-Z_]{4,})`", row)}
         self.assertGreater(len(given), 20)

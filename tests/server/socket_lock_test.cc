@@ -1,5 +1,3 @@
-#include "server/socket_lock.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/connection_acceptor.h"
 #include "tests/server/support/running_server.h"
 
 namespace bccskel::server {

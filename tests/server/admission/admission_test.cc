@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -59,8 +59,8 @@ TEST(Admission, ATicketGrowsWhileThereIsRoom) {
   const Ticket other = *admission.Admit(50);
   EXPECT_TRUE(ticket.ResizeTo(50).ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
-  EXPECT_EQ(RefusalOf(ticket.ResizeTo(51)), Refusal::kMemoryBusy);
-  EXPECT_EQ(RefusalOf(ticket.ResizeTo(101)), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(ticket.ResizeTo(51)), Reason::kMemoryBusy);
+  EXPECT_EQ(ReasonOf(ticket.ResizeTo(101)), Reason::kVolumeTooLarge);
   EXPECT_EQ(ticket.bytes(), 50u) << "a refused ticket stays as it was";
   EXPECT_TRUE(ticket.ResizeTo(5).ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 55, .places = 2}));
@@ -69,7 +69,7 @@ TEST(Admission, ATicketGrowsWhileThereIsRoom) {
 TEST(Admission, RefusesForGoodWhatCanNeverFit) {
   Admission admission({.bytes = 100, .places = 1});
   const absl::Status status = admission.Admit(101).status();
-  EXPECT_EQ(RefusalOf(status), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(status), Reason::kVolumeTooLarge);
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
 }
 
@@ -77,11 +77,11 @@ TEST(Admission, RefusesForNowWhenItIsFull) {
   Admission admission({.bytes = 100, .places = 2});
   const auto first = admission.Admit(60);
   const absl::Status memory = admission.Admit(60).status();
-  EXPECT_EQ(RefusalOf(memory), Refusal::kMemoryBusy);
+  EXPECT_EQ(ReasonOf(memory), Reason::kMemoryBusy);
   EXPECT_EQ(memory.code(), absl::StatusCode::kUnavailable);
   const auto second = admission.Admit(1);
   const absl::Status places = admission.Admit(1).status();
-  EXPECT_EQ(RefusalOf(places), Refusal::kQueueFull);
+  EXPECT_EQ(ReasonOf(places), Reason::kQueueFull);
   EXPECT_EQ(places.code(), absl::StatusCode::kUnavailable);
 }
 
@@ -91,10 +91,10 @@ TEST(Admission, ATenantHasItsOwnLimits) {
                        .tenants = {.each = {.max_jobs = 2, .max_bytes = 40}, .named = {}}});
   const auto first = admission.Admit("greedy", 30);
   ASSERT_TRUE(first.ok());
-  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 20).status()), Refusal::kMemoryBusy);
-  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 41).status()), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(admission.Admit("greedy", 20).status()), Reason::kMemoryBusy);
+  EXPECT_EQ(ReasonOf(admission.Admit("greedy", 41).status()), Reason::kVolumeTooLarge);
   const auto second = admission.Admit("greedy", 1);
-  EXPECT_EQ(RefusalOf(admission.Admit("greedy", 1).status()), Refusal::kQueueFull);
+  EXPECT_EQ(ReasonOf(admission.Admit("greedy", 1).status()), Reason::kQueueFull);
   const auto other = admission.Admit("small", 40);
   ASSERT_TRUE(other.ok()) << other.status();
   EXPECT_EQ(admission.usage("greedy"), (Usage{.bytes = 31, .places = 2}));
@@ -123,7 +123,7 @@ TEST(Admission, WithoutACapATenantTakesHalfOfThePlacesThatOthersLeave) {
       tickets.push_back(*std::move(ticket));
       return true;
     }
-    EXPECT_EQ(RefusalOf(ticket.status()), Refusal::kQueueFull);
+    EXPECT_EQ(ReasonOf(ticket.status()), Reason::kQueueFull);
     return false;
   };
   for (int n = 0; n < 4; ++n) EXPECT_TRUE(taken("a")) << n;
@@ -165,7 +165,7 @@ TEST(Admission, ATicketKnowsItsTenantWhenItGrowsAndGoes) {
   {
     Ticket ticket = *admission.Admit("small", 10);
     EXPECT_TRUE(ticket.ResizeTo(40).ok());
-    EXPECT_EQ(RefusalOf(ticket.ResizeTo(41)), Refusal::kTooMuchMemory);
+    EXPECT_EQ(ReasonOf(ticket.ResizeTo(41)), Reason::kVolumeTooLarge);
     EXPECT_EQ(admission.usage("small"), (Usage{.bytes = 40, .places = 1}));
   }
   EXPECT_EQ(admission.usage("small"), Usage());
@@ -175,13 +175,8 @@ TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
   Admission admission({.bytes = 100, .places = 2});
   admission.StopAdmitting();
   const absl::Status status = admission.Admit(1).status();
-  EXPECT_EQ(RefusalOf(status), Refusal::kDraining);
+  EXPECT_EQ(ReasonOf(status), Reason::kDraining);
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
-}
-
-TEST(Refusal, IsNotFoundInOtherErrors) {
-  EXPECT_EQ(RefusalOf(absl::UnavailableError("queue full")), std::nullopt);
-  EXPECT_EQ(RefusalOf(absl::OkStatus()), std::nullopt);
 }
 
 TEST(Admission, WaitsUntilTheLastTicketIsGone) {

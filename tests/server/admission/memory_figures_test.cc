@@ -11,7 +11,7 @@
 #include <random>
 
 #include "core/pipeline/skeletonize_within.h"
-#include "server/admission/demand.h"
+#include "server/admission/memory_estimate.h"
 
 namespace {
 

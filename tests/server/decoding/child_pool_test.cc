@@ -11,9 +11,8 @@
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "server/admission/refusal.h"
-#include "server/decoding/child_decoder.h"
 #include "server/decoding/decoding_child.h"
+#include "server/errors/call_error.h"
 #include "tests/server/decoding/faulty_children.h"
 
 namespace bccskel::server {
@@ -97,7 +96,7 @@ TEST(ChildPool, AnIdleChildThatWasKilledIsReplaced) {
     for (const pid_t pid : pool.idle()) kill(pid, SIGKILL);
     absl::StatusOr<Volume> volume = DecodeIn(pool, Encoded());
     // A child that dies unseen is the server's fault, and worth another try.
-    while (RefusalOf(volume.status()) == Refusal::kNoDecoder) volume = DecodeIn(pool, Encoded());
+    while (ReasonOf(volume.status()) == Reason::kDecoderBusy) volume = DecodeIn(pool, Encoded());
     ASSERT_TRUE(volume.ok()) << volume.status();
   }
 }
@@ -136,7 +135,7 @@ TEST(ChildPool, AChildKilledWithAVolumeInItsHandsIsAnInvalidArgument) {
     kill(child->pid(), SIGKILL);
   });
   const absl::Status status = child->Decode(bytes, *header, {}, {}).status();
-  EXPECT_TRUE(absl::IsInvalidArgument(status) || RefusalOf(status) == Refusal::kNoDecoder)
+  EXPECT_TRUE(absl::IsInvalidArgument(status) || ReasonOf(status) == Reason::kDecoderBusy)
       << status;
 }
 
@@ -159,7 +158,7 @@ TEST(ChildPool, AProgramThatCannotBeStartedIsNotTheCallersFault) {
   for (const char* program : {"/no/such/program", "/bin/true"}) {
     ChildPool pool({program});
     const absl::Status status = DecodeIn(pool, Encoded()).status();
-    EXPECT_EQ(RefusalOf(status), Refusal::kNoDecoder) << program << ": " << status;
+    EXPECT_EQ(ReasonOf(status), Reason::kDecoderBusy) << program << ": " << status;
     EXPECT_TRUE(absl::IsUnavailable(status));
   }
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "proto/wire/error_details.h"
+#include "server/errors/call_error.h"
 #include "tests/server/decoding/faulty_children.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
@@ -26,7 +27,7 @@ server::ServerConfig ServerWithChildren() {
   return config;
 }
 
-std::string ReasonOf(const absl::Status& status) {
+std::string WireReasonOf(const absl::Status& status) {
   const auto info = wire::ErrorInfoOf(status);
   return info.has_value() ? info->reason() : "none";
 }
@@ -60,7 +61,7 @@ TEST_P(FaultyChildCall, EndsTheCallAndNotTheServer) {
     const auto server = test::StartServer(config);
     const absl::Status status = Send(*server, TorusAs());
     EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
-    EXPECT_EQ(ReasonOf(status), "VOLUME_INVALID");
+    EXPECT_EQ(WireReasonOf(status), "VOLUME_INVALID");
     EXPECT_TRUE(Send(*server, test::SmallTorusPlanes()).ok());
     test::WaitUntilIdle(*server);
   }
@@ -76,7 +77,7 @@ TEST(DecodingCall, WithoutAProgramToStartTheCallerIsAskedToComeAgain) {
   const auto server = test::StartServer(config);
   const absl::Status status = Send(*server, TorusAs());
   EXPECT_TRUE(absl::IsUnavailable(status)) << status;
-  EXPECT_EQ(ReasonOf(status), "DECODER_BUSY");
+  EXPECT_EQ(WireReasonOf(status), "DECODER_BUSY");
   EXPECT_TRUE(wire::RetryDelayOf(status).has_value());
 }
 

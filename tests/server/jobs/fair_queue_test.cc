@@ -27,7 +27,7 @@ std::string OrderOf(Queue& queue) {
 }
 
 TEST(FairQueue, OneTenantIsServedInOrder) {
-  Queue queue({});
+  Queue queue;
   for (const char* item : {"a", "b", "c"}) queue.Push(Of("x"), kStart, item);
   EXPECT_EQ(queue.size(), 3u);
   EXPECT_EQ(OrderOf(queue), "abc");
@@ -35,7 +35,7 @@ TEST(FairQueue, OneTenantIsServedInOrder) {
 }
 
 TEST(FairQueue, TenantsTakeTurnsHoweverMuchOneOfThemAsksFor) {
-  Queue queue({});
+  Queue queue;
   for (int n = 0; n < 6; ++n) queue.Push(Of("greedy"), kStart, "g");
   for (int n = 0; n < 2; ++n) queue.Push(Of("small"), kStart, "s");
   EXPECT_EQ(OrderOf(queue), "gsgsgggg");
@@ -54,7 +54,7 @@ TEST(FairQueue, AWeightIsTurnsInARound) {
 }
 
 TEST(FairQueue, WhoComesBackHasSavedNothingUp) {
-  Queue queue({});
+  Queue queue;
   for (int n = 0; n < 4; ++n) queue.Push(Of("busy"), kStart, "b");
   for (int n = 0; n < 3; ++n) queue.Done(queue.Take()->tenant);
   for (int n = 0; n < 3; ++n) queue.Push(Of("late"), kStart, "l");
@@ -63,7 +63,7 @@ TEST(FairQueue, WhoComesBackHasSavedNothingUp) {
 }
 
 TEST(FairQueue, PriorityIsWorthHalfAMinuteOfWaiting) {
-  Queue queue({});
+  Queue queue;
   queue.Push(Of("x"), kStart, "n");
   queue.Push(Of("x", JobPriority::kHigh), kStart + seconds(29), "h");
   EXPECT_EQ(OrderOf(queue), "hn");
@@ -73,7 +73,7 @@ TEST(FairQueue, PriorityIsWorthHalfAMinuteOfWaiting) {
 }
 
 TEST(FairQueue, LowPriorityIsNotStarvedByAStreamOfHighOnes) {
-  Queue queue({});
+  Queue queue;
   queue.Push(Of("x", JobPriority::kLow), kStart, "L");
   std::string order;
   for (int second = 0; second < 100; ++second) {
@@ -86,7 +86,7 @@ TEST(FairQueue, LowPriorityIsNotStarvedByAStreamOfHighOnes) {
 }
 
 TEST(FairQueue, PriorityOfOneTenantIsNothingToOthers) {
-  Queue queue({});
+  Queue queue;
   queue.Push(Of("x"), kStart, "x");
   for (int n = 0; n < 3; ++n) queue.Push(Of("y", JobPriority::kHigh), kStart, "y");
   const std::string order = OrderOf(queue);
@@ -119,7 +119,7 @@ TEST(FairQueue, LimitsMayChangeWhileItIsInUse) {
 }
 
 TEST(FairQueue, TakesOnlyWhatFits) {
-  Queue queue({});
+  Queue queue;
   queue.Push(Of("x"), kStart, "long");
   queue.Push(Of("x"), kStart, "s");
   const auto is_short = [](const std::string& item) { return item.size() == 1; };
@@ -129,12 +129,40 @@ TEST(FairQueue, TakesOnlyWhatFits) {
 }
 
 TEST(FairQueue, WhatIsRemovedIsNeverTaken) {
-  Queue queue({});
+  Queue queue;
   const auto first = queue.Push(Of("x"), kStart, "a");
   queue.Push(Of("x"), kStart, "b");
   EXPECT_TRUE(queue.Remove(first));
   EXPECT_FALSE(queue.Remove(first));
   EXPECT_EQ(OrderOf(queue), "b");
+}
+
+// Durable jobs: the fleet's other servers run some of a tenant's.
+TEST(FairQueue, CountsWhatIsAtWorkElsewhere) {
+  FairQueue<int, std::chrono::system_clock> queue(
+      {.each = {}, .named = {{"capped", {.max_running = 2}}}});
+  const std::chrono::system_clock::time_point now;
+  queue.Push({.tenant = "capped"}, now, 1);
+  queue.SetAtWorkElsewhere({{"capped", 2}, {"other", 9}});
+  EXPECT_FALSE(queue.Has());
+  queue.SetAtWorkElsewhere({{"capped", 1}});
+  EXPECT_EQ(queue.Take()->item, 1);
+  queue.Push({.tenant = "capped"}, now, 2);
+  EXPECT_FALSE(queue.Has()) << "one here and one elsewhere";
+  queue.Done("capped");
+  EXPECT_TRUE(queue.Has());
+}
+
+TEST(FairQueue, RemovesByPlaceWhateverElseWaits) {
+  Queue queue;
+  const auto first = queue.Push(Of("x"), kStart, "a");
+  const auto second = queue.Push(Of("x"), kStart, "b");
+  queue.Push(Of("y"), kStart, "c");
+  EXPECT_TRUE(queue.Remove(second));
+  EXPECT_FALSE(queue.Remove(second));
+  EXPECT_TRUE(queue.Remove(first));
+  EXPECT_EQ(queue.size(), 1u);
+  EXPECT_EQ(queue.Take()->item, "c");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/io/volume_encoder.h"
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/job_pool.h"
 
 namespace bccskel::server {
@@ -100,7 +100,7 @@ TEST(JobMemory, EndsAJobThatLeavesTooManyPoints) {
     const Encoded encoded = Encode(dust, encoding, compression);
     JobPool pool(Limits(uint64_t{48} << 20));
     const absl::Status status = RunJob(pool, encoded)->status();
-    EXPECT_EQ(RefusalOf(status), Refusal::kTooMuchMemory) << status;
+    EXPECT_EQ(ReasonOf(status), Reason::kVolumeTooLarge) << status;
     EXPECT_NE(std::string(status.message()).find("131072 points that thinning leaves"),
               std::string::npos)
         << status;

@@ -18,8 +18,8 @@
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
-#include "server/admission/demand.h"
-#include "server/admission/refusal.h"
+#include "server/admission/memory_estimate.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -352,13 +352,13 @@ TEST(JobPool, RefusesWhatIsOverItsLimits) {
   JobPool::Limits limits = RoomyLimits();
   limits.max_volume_bytes = 10;
   JobPool small(limits);
-  EXPECT_EQ(RefusalOf(small.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
-            Refusal::kVolumeTooLarge);
+  EXPECT_EQ(ReasonOf(small.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
+            Reason::kVolumeTooLarge);
   limits = RoomyLimits();
   limits.max_bytes = 1000;
   JobPool poor(limits);
-  EXPECT_EQ(RefusalOf(poor.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
-            Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(poor.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
+            Reason::kVolumeTooLarge);
 }
 
 TEST(JobPool, RefusesForNowWhenTheQueueIsFull) {
@@ -367,8 +367,8 @@ TEST(JobPool, RefusesForNowWhenTheQueueIsFull) {
   limits.max_queue = 1;
   JobPool pool(limits);
   const Started first = Start(pool, SmallTorus()), second = Start(pool, SmallTorus());
-  EXPECT_EQ(RefusalOf(pool.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
-            Refusal::kQueueFull);
+  EXPECT_EQ(ReasonOf(pool.Start(SmallTorus().request, std::make_shared<Listener>()).status()),
+            Reason::kQueueFull);
   first.job->Cancel();
   first.listener->WaitForEnd();
   const Started third = Start(pool, SmallTorus());

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/admission/refusal.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/job_pool.h"
 
 // Jobs with many labels: turns, pauses, memory.
@@ -228,7 +228,7 @@ TEST(LabelsJob, ThinLabelsAreRefusedWhereThereIsNoMore) {
   limits.max_bytes = BytesToSkeletonizeLabels(dust.request.header, 1);
   JobPool pool(limits);
   const Started started = StartAndUpload(pool, dust);
-  EXPECT_EQ(RefusalOf(started.listener->WaitForEnd().status()), Refusal::kTooMuchMemory);
+  EXPECT_EQ(ReasonOf(started.listener->WaitForEnd().status()), Reason::kVolumeTooLarge);
   EXPECT_EQ(pool.admission_usage(), Admission::Usage());
 }
 

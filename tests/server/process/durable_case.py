@@ -48,34 +48,17 @@ def large_requests():
     yield service.SkeletonizeRequest(finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
 
 
-class DurableTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.data = pathlib.Path(folder.name) / "data"
-        self.servers = []
+class JobCalls:
+    """Calls about durable jobs to one server."""
 
-    def start(self, *flags):
-        """A server on the data directory; the one before, if any, has to be gone."""
-        server = ServerProcess("--data-dir", str(self.data), "--threads", "1", *flags)
-        self.assertTrue(server.address, server.log_text())
-        self.addCleanup(server.__exit__)
+    def connect(self, test, server):
+        test.assertTrue(server.address, server.log_text())
+        test.addCleanup(server.__exit__)
         self.channel = grpc.insecure_channel(server.address)
-        self.addCleanup(self.channel.close)
+        test.addCleanup(self.channel.close)
         grpc.channel_ready_future(self.channel).result(server_process.TIMEOUT_S)
         self.volumes = durable.volumes_grpc.VolumeServiceStub(self.channel)
         self.jobs = durable.jobs_grpc.JobServiceStub(self.channel)
-        return server
-
-    def kill(self, server):
-        server.stop(signal.SIGKILL)
-
-    def fails(self, code, reason, call):
-        with self.assertRaises(grpc.RpcError) as raised:
-            call()
-        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
-                         (code, reason), raised.exception.details())
-        return raised.exception
 
     def create(self, name, request_id="", **more):
         return self.jobs.CreateJob(jobs.CreateJobRequest(
@@ -88,6 +71,30 @@ class DurableTest(unittest.TestCase):
         """The states that a watch tells, the last one last."""
         return [event.state_change.state for event in durable.watch(self.channel, job)
                 if event.HasField("state_change")]
+
+
+class DurableTest(JobCalls, unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.data = pathlib.Path(folder.name) / "data"
+        self.servers = []
+
+    def start(self, *flags):
+        """A server on the data directory; the one before, if any, has to be gone."""
+        server = ServerProcess("--data-dir", str(self.data), "--threads", "1", *flags)
+        self.connect(self, server)
+        return server
+
+    def kill(self, server):
+        server.stop(signal.SIGKILL)
+
+    def fails(self, code, reason, call):
+        with self.assertRaises(grpc.RpcError) as raised:
+            call()
+        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
+                         (code, reason), raised.exception.details())
+        return raised.exception
 
     def files(self):
         return {path for path in self.data.rglob("*") if path.is_file()}

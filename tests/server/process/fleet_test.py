@@ -12,40 +12,23 @@ import grpc
 
 import postgres_process
 import server_process
-from durable_case import (Code, durable, example, jobs, large_requests, large_volume, service,
-                          service_grpc, volume, volume_pb2, volumes)
+from durable_case import (Code, JobCalls, durable, example, jobs, large_requests, large_volume,
+                          service, service_grpc, volume, volume_pb2, volumes)
 from server_process import ServerProcess
 
 # A few seconds of one thread, so that a server can be ended meanwhile.
 SLOW = (400.0, 130.0)
 
 
-class Server:
+class Server(JobCalls):
     """One of the fleet, and calls to it."""
 
     def __init__(self, test, process):
         self.process = process
-        test.assertTrue(self.process.address, self.process.log_text())
-        test.addCleanup(self.process.__exit__)
-        self.channel = grpc.insecure_channel(self.process.address)
-        test.addCleanup(self.channel.close)
-        grpc.channel_ready_future(self.channel).result(server_process.TIMEOUT_S)
-        self.volumes = durable.volumes_grpc.VolumeServiceStub(self.channel)
-        self.jobs = durable.jobs_grpc.JobServiceStub(self.channel)
+        self.connect(test, process)
 
     def send(self, declaration, data):
         return durable.send_volume(self.channel, declaration, data)
-
-    def create(self, name, request_id="", **more):
-        return self.jobs.CreateJob(jobs.CreateJobRequest(
-            volume=name, request_id=request_id, **more)).job
-
-    def get(self, job):
-        return self.jobs.GetJob(jobs.GetJobRequest(job=job)).job
-
-    def finish(self, job):
-        return [event.state_change.state for event in durable.watch(self.channel, job)
-                if event.HasField("state_change")]
 
     def wait_for(self, job, state):
         for event in self.jobs.WatchJob(jobs.WatchJobRequest(job=job)):
@@ -106,6 +89,21 @@ class AnyServerTest(FleetTest):
                 jobs.ListJobsRequest()).jobs], [job])
         servers[2].jobs.DeleteJob(jobs.DeleteJobRequest(job=job))
         self.fails(Code.NOT_FOUND, "NOT_FOUND", lambda: servers[0].get(job))
+
+    def test_progress_reaches_who_watches_on_any_server(self):
+        servers = self.start()
+        job = servers[0].create(servers[0].send(*volume(*SLOW))).name
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            watches = [pool.submit(lambda server=server: list(durable.watch(server.channel, job)))
+                       for server in servers]
+        for watch in watches:
+            shells = [event.shell_progress.shell for event in watch.result()
+                      if event.HasField("shell_progress")]
+            self.assertGreater(len(shells), 1)
+            self.assertEqual(shells, sorted(shells))
+            numbers = [event.sequence for event in watch.result()
+                       if not event.HasField("heartbeat")]
+            self.assertEqual(numbers, sorted(set(numbers)))
 
     def test_a_job_is_cancelled_on_a_server_that_does_not_run_it(self):
         first, second = self.start()

@@ -11,24 +11,14 @@ import grpc
 import numpy as np
 
 import server_process
-from server_process import ServerProcess
+from server_process import ServerTest
 
 STUBS = tempfile.TemporaryDirectory()
 server_process.generate_stubs(STUBS.name)
 example = server_process.example()
 
 
-class ExampleTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = ServerProcess()
-        cls.channel = grpc.insecure_channel(cls.server.address)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.channel.close()
-        cls.server.__exit__()
-
+class ExampleTest(ServerTest):
     def skeletonize(self, cells, **kwargs):
         return example.skeletonize(self.channel, cells, **kwargs)
 

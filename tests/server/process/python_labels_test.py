@@ -10,7 +10,7 @@ import grpc
 import numpy as np
 
 import server_process
-from server_process import ServerProcess
+from server_process import ServerTest
 
 STUBS = tempfile.TemporaryDirectory()
 server_process.generate_stubs(STUBS.name)
@@ -30,17 +30,7 @@ def image():
     return volume
 
 
-class LabelsTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.server = ServerProcess()
-        cls.channel = grpc.insecure_channel(cls.server.address)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.channel.close()
-        cls.server.__exit__()
-
+class LabelsTest(ServerTest):
     def skeletons(self, volume, **kwargs):
         return dict(labels_example.skeletonize_labels(self.channel, volume, **kwargs))
 

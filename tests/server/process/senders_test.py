@@ -85,6 +85,25 @@ class SilentDurableSenderTest(DurableTest):
         done = durable.patiently(lambda: example.skeletonize(self.channel, example.torus()))
         self.assertEqual(done.summary.certificate.skeleton.loops, 1)
 
+    def test_an_upload_of_a_volume_ends_in_time_and_goes_on_later(self):
+        self.start("--sender-timeout-ms", str(LIMIT_MS))
+        declaration, data = volume()
+        requests = queue.Queue()
+
+        def send(**request):
+            requests.put(volumes.UploadVolumeRequest(**request))
+
+        send(config=volumes.UploadVolumeConfig(upload="uploads/silent", volume=declaration))
+        send(chunk=volume_pb2.VolumeChunk(data=data[:10]))
+        with self.assertRaises(grpc.RpcError) as ended:
+            self.volumes.UploadVolume(iter(requests.get, None), timeout=server_process.TIMEOUT_S)
+        requests.put(None)
+        self.assertEqual((ended.exception.code(), example.error_reason(ended.exception)),
+                         (Code.ABORTED, "SENDER_TIMEOUT"))
+        found = self.volumes.GetUploadStatus(
+            volumes.GetUploadStatusRequest(upload="uploads/silent"))
+        self.assertEqual(found.upload.committed_size, 10)
+
 
 class SharesTest(unittest.TestCase):
     def test_no_tenant_takes_all_places_where_there_are_others(self):

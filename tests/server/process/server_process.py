@@ -9,7 +9,10 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 import urllib.request
+
+import grpc
 
 BINARY = os.environ["BCCSKEL_SERVER"]
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
@@ -124,3 +127,17 @@ def example(name="skeletonize"):
     sys.modules[name] = module
     spec.loader.exec_module(module)
     return module
+
+
+class ServerTest(unittest.TestCase):
+    """Tests that share one server."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = ServerProcess()
+        cls.channel = grpc.insecure_channel(cls.server.address)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.channel.close()
+        cls.server.__exit__()

@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "server/errors/call_error.h"
+#include "server/store/data_folder.h"
 #include "server/store/disk_quota.h"
-#include "server/store/folder_lock.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {
@@ -218,10 +219,10 @@ TEST(DiskQuotaTest, RefusesWhatIsOverATenantsLimitAndOverThatOfAll) {
   ASSERT_TRUE(quota.Take("clinic", 60).ok());
   const absl::Status own = quota.Take("clinic", 1);
   EXPECT_EQ(own.code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_EQ(ExceededQuota(own), "max_tenant_disk_bytes");
+  EXPECT_EQ(DetailsOf(own).quota, "max_tenant_disk_bytes");
   EXPECT_THAT(Message(own), HasSubstr("60 are in use, the limit is 60"));
   const absl::Status all = quota.Take("other", 41);
-  EXPECT_EQ(ExceededQuota(all), "max_disk_bytes");
+  EXPECT_EQ(DetailsOf(all).quota, "max_disk_bytes");
   EXPECT_EQ(Message(all).find("60"), std::string::npos) << "tells of other tenants";
   EXPECT_TRUE(quota.Take("other", 40).ok());
   quota.GiveBack("clinic", 60);

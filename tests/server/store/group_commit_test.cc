@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/store/sql_job_store.h"
+#include "server/store/job_store.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {

@@ -1,0 +1,221 @@
+#include "server/calls/call_gate.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
+#include "server/logging/json_log.h"
+
+namespace bccskel::server {
+namespace {
+
+using Clock = CallFacts::Clock;
+
+// gRPC states deadlines in wall-clock time; jobs must not be moved by clock adjustments.
+Clock::time_point SteadyDeadline(std::chrono::system_clock::time_point deadline) {
+  const auto left = deadline - std::chrono::system_clock::now();
+  constexpr auto kFar = std::chrono::hours(24 * 365);
+  return left > kFar ? Clock::time_point::max() : Clock::now() + left;
+}
+
+// W3C Trace Context: version, trace, parent and flags. What is none is left out of the log, which
+// is no place for whatever callers send.
+bool IsTraceparent(std::string_view text) {
+  constexpr std::string_view kShape = "xx-xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx-xxxxxxxxxxxxxxxx-xx";
+  const auto fits = [](char c, char shape) {
+    const bool digit = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+    return shape == '-' ? c == '-' : digit;
+  };
+  return text.size() == kShape.size() && std::ranges::equal(text, kShape, fits);
+}
+
+std::string TraceOf(const grpc::CallbackServerContext& context) {
+  const auto trace = context.client_metadata().find("traceparent");
+  if (trace == context.client_metadata().end()) return std::string();
+  const std::string_view text(trace->second.data(), trace->second.size());
+  return IsTraceparent(text) ? std::string(text) : std::string();
+}
+
+std::string FullName(const Method& method) { return absl::StrCat("/bccskel.v1.", method.name); }
+
+// The log's field for a name.
+std::string_view FieldOf(const std::string& name) {
+  if (name.compare(0, 8, "uploads/") == 0) return "upload";
+  return name.compare(0, 8, "volumes/") == 0 ? "volume" : "job";
+}
+
+LogLevel LevelOf(const Method& method, const absl::Status& end) {
+  if (!end.ok()) return LogLevel::kWarning;
+  return method.kind == Method::Kind::kQuestion ? LogLevel::kDebug : LogLevel::kInfo;
+}
+
+std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContext& context) {
+  const auto header = context.client_metadata().find("authorization");
+  if (header == context.client_metadata().end()) return std::nullopt;
+  return std::string_view(header->second.data(), header->second.size());
+}
+
+// More than any name has.
+constexpr size_t kMaxNameBytes = 128;
+
+absl::Status CheckName(const DurableGate::Name& name) {
+  if (name.name.empty()) return InvalidField(name.field, "must be set");
+  if (name.name.size() <= kMaxNameBytes) return absl::OkStatus();
+  return InvalidField(name.field,
+                      absl::StrCat(name.name.size(), " bytes, the limit is ", kMaxNameBytes));
+}
+
+}  // namespace
+
+CallFacts FactsOf(const grpc::CallbackServerContext& context) {
+  return {.deadline = SteadyDeadline(context.deadline()), .trace = TraceOf(context)};
+}
+
+void CallFacts::LookAfter(const std::shared_ptr<OpenStream>& call) const {
+  if (lasting != nullptr) lasting->Add(call, *this);
+}
+
+void CallFacts::Leave(const OpenStream& call) const {
+  if (lasting != nullptr) lasting->Remove(call);
+}
+
+absl::Status CallFacts::CancelStatus() const {
+  if (cut_off != nullptr && *cut_off) {
+    return CallError(Reason::kDraining, "the server stops and cuts the call off");
+  }
+  return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
+                                  : absl::CancelledError("the caller cancelled the call");
+}
+
+void CallFacts::LogAccepted(const std::string& job, uint64_t volume_bytes) const {
+  Log(LogLevel::kInfo, "job accepted",
+      {{"method", FullName(method)},
+       {"job", job},
+       {"tenant", tenant},
+       {"volume_bytes", static_cast<int64_t>(volume_bytes)},
+       {"traceparent", trace}});
+}
+
+void CallFacts::LogEnded(const std::string& subject, const absl::Status& status) const {
+  Log(LevelOf(method, status), "call ended",
+      {{"method", FullName(method)},
+       {FieldOf(subject), subject},
+       {"tenant", tenant},
+       {"code", absl::StatusCodeToString(status.code())},
+       {"reason", ReasonNameOf(status)},
+       {"message", std::string(status.message())},
+       {"seconds", std::chrono::duration<double>(Clock::now() - started).count()},
+       {"traceparent", trace}});
+}
+
+std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish) {
+  Sha256Digest digest;
+  const std::string& bytes = finish.sha256();
+  if (bytes.size() != digest.bytes.size()) return std::nullopt;
+  std::copy(bytes.begin(), bytes.end(), digest.bytes.begin());
+  return digest;
+}
+
+void OpenStreams::Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts) {
+  std::lock_guard lock(mutex_);
+  calls_[call.get()] = {call, facts.authorization, facts.tenant, facts.tokens};
+}
+
+void OpenStreams::Remove(const OpenStream& call) {
+  std::lock_guard lock(mutex_);
+  calls_.erase(&call);
+}
+
+absl::Status OpenStreams::CheckToken(Entry& entry, uint64_t generation) const {
+  if (std::exchange(entry.tokens, generation) == generation) return absl::OkStatus();
+  const absl::StatusOr<Caller> caller = callers_.Identify(entry.authorization);
+  if (caller.ok() && caller->tenant == entry.tenant) return absl::OkStatus();
+  return CallError(Reason::kTokenInvalid, "the token of this call is accepted no longer");
+}
+
+void OpenStreams::LookAfter() {
+  using Seen = std::pair<std::shared_ptr<OpenStream>, absl::Status>;
+  const uint64_t generation = callers_.generation();
+  std::vector<Seen> seen;
+  {
+    std::lock_guard lock(mutex_);
+    for (auto& [pointer, entry] : calls_) {
+      if (auto call = entry.call.lock()) {
+        seen.emplace_back(std::move(call), CheckToken(entry, generation));
+      }
+    }
+  }
+  const auto now = std::chrono::steady_clock::now();
+  for (auto& [call, status] : seen) {
+    if (status.ok() && sender_timeout_.count() > 0) {
+      status = call->CheckSender(now, sender_timeout_);
+    }
+    if (!status.ok()) call->EndEarly(status);
+  }
+}
+
+absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context,
+                                          const Method& method) const {
+  CallFacts facts = FactsOf(context);
+  facts.method = method;
+  facts.cut_off = &cut_off_;
+  facts.lasting = &lasting_;
+  facts.tokens = callers_.generation();  // first: a file that is read meanwhile is looked at again
+  const auto authorization = AuthorizationOf(context);
+  facts.authorization = authorization.value_or(std::string_view());
+  absl::StatusOr<Caller> caller = callers_.Identify(authorization);
+  if (!caller.ok()) {
+    facts.tenant.clear();
+    const Reason reason = authorization.has_value() ? Reason::kTokenInvalid : Reason::kTokenMissing;
+    return Refused(facts, CallError(reason, std::string(caller.status().message())));
+  }
+  facts.tenant = std::move(caller->tenant);
+  facts.role = caller->role;
+  return facts;
+}
+
+absl::StatusOr<CallFacts> CallGate::EnterAsAdmin(const grpc::CallbackServerContext& context,
+                                                 const Method& method) const {
+  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context, method));
+  if (facts.role == Role::kAdmin) return facts;
+  return Refused(facts,
+                 CallError(Reason::kAdminOnly, "this call is for admins; the token is a tenant's"));
+}
+
+absl::Status Refused(const CallFacts& facts, const absl::Status& status) {
+  facts.LogEnded(std::string(), status);
+  return status;
+}
+
+grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
+                                   const absl::Status& status) {
+  grpc::ServerUnaryReactor* reactor = context.DefaultReactor();
+  reactor->Finish(ToGrpcStatus(status));
+  return reactor;
+}
+
+absl::StatusOr<DurableCall> DurableGate::Enter(const grpc::CallbackServerContext& context,
+                                               const Method& method) const {
+  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, gate_.Enter(context, method));
+  if (durable_jobs_ != nullptr) return DurableCall{std::move(facts), *durable_jobs_};
+  return Refused(facts, CallError(Reason::kNotDurable,
+                                  "this server keeps nothing on disk: it was started without "
+                                  "--data-dir, so there are neither uploads nor durable jobs"));
+}
+
+absl::StatusOr<DurableCall> DurableGate::Enter(const grpc::CallbackServerContext& context,
+                                               const Method& method, const Name& name) const {
+  BCCSKEL_ASSIGN_OR_RETURN(DurableCall call, Enter(context, method));
+  const absl::Status checked = CheckName(name);
+  if (!checked.ok()) return Refused(call.facts, checked);
+  return call;
+}
+
+}  // namespace bccskel::server

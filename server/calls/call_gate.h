@@ -1,0 +1,183 @@
+#ifndef BCCSKEL_SERVER_CALLS_CALL_GATE_H_
+#define BCCSKEL_SERVER_CALLS_CALL_GATE_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "bccskel/v1/volume.pb.h"
+#include "core/digest/sha256.h"
+#include "core/exec/context.h"
+#include "server/durable/durable_jobs.h"
+#include "server/identity/callers.h"
+
+namespace bccskel::server {
+
+struct CallFacts;
+
+// A streaming call that is under way.
+// Threads: safe.
+class OpenStream {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  virtual ~OpenStream() = default;
+  // Ends the call with this error, unless it has ended.
+  virtual void EndEarly(const absl::Status& why) = 0;
+  // Errors: ABORTED when the caller has not sent what it promised within the limit.
+  virtual absl::Status CheckSender(TimePoint, std::chrono::milliseconds) {
+    return absl::OkStatus();
+  }
+};
+
+// Looks after all of them: ends those whose token is accepted no longer, and those of callers who
+// do not send. Threads: safe.
+class OpenStreams {
+ public:
+  // A `sender_timeout` of 0 is none. Needs: `callers` outlives this.
+  OpenStreams(const Callers& callers, std::chrono::milliseconds sender_timeout)
+      : callers_(callers), sender_timeout_(sender_timeout) {}
+
+  // Until Remove().
+  void Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts);
+  void Remove(const OpenStream& call);
+
+  // Called once a second.
+  void LookAfter();
+
+ private:
+  struct Entry {
+    std::weak_ptr<OpenStream> call;
+    std::string authorization, tenant;
+    uint64_t tokens = 0;  // Callers::generation() that accepted it
+  };
+  // Whether its token is accepted, as far as that is not known. Needs: mutex_ held.
+  absl::Status CheckToken(Entry& entry, uint64_t generation) const;
+
+  const Callers& callers_;
+  const std::chrono::milliseconds sender_timeout_;
+  std::mutex mutex_;
+  std::map<const OpenStream*, Entry> calls_;  // guarded by mutex_
+};
+
+class OpenStreams;
+
+// A method of the interface.
+struct Method {
+  const char* name = "";  // "JobService/CreateJob"
+  // Questions change nothing and come often: while all is well they are left to the debug log.
+  enum class Kind { kWork, kQuestion } kind = Kind::kWork;
+};
+
+// What is known about a call besides its messages.
+struct CallFacts {
+  using Clock = exec::Context::Clock;
+
+  Method method = {};
+  Clock::time_point started = Clock::now();
+  Clock::time_point deadline = Clock::time_point::max();
+  std::string trace;                    // the caller's traceparent, if it is one; for the log
+  std::string tenant = kDefaultTenant;  // whose call it is
+  Role role = Role::kTenant;
+  // Whether the server cuts calls off now; null: it never does. Outlives the call.
+  const std::atomic<bool>* cut_off = nullptr;
+  std::string authorization = {};  // the header, empty where there was none; never shown to anybody
+  uint64_t tokens = 0;             // Callers::generation() that accepted it
+  // Who looks after streaming calls; null: nobody does. Outlives the call.
+  OpenStreams* lasting = nullptr;
+
+  // Has a streaming call looked after, where there is somebody, until it leaves.
+  void LookAfter(const std::shared_ptr<OpenStream>& call) const;
+  void Leave(const OpenStream& call) const;
+
+  // Why gRPC says that the call is over.
+  absl::Status CancelStatus() const;
+  void LogAccepted(const std::string& job, uint64_t volume_bytes) const;
+  // `subject` is the name of the job, upload or volume that the call was about, if there is one.
+  void LogEnded(const std::string& subject, const absl::Status& status) const;
+};
+CallFacts FactsOf(const grpc::CallbackServerContext& context);
+
+// The digest that the sender states, if it states one.
+std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish);
+
+// Where every call of every service comes in: whose is it? A handler learns the tenant here and
+// nowhere else. Calls that are refused are logged here.
+// Threads: safe.
+class CallGate {
+ public:
+  // Callers who send nothing for `sender_timeout` are sent away; 0: never. Needs: `callers`
+  // outlives the gate.
+  explicit CallGate(const Callers& callers, std::chrono::milliseconds sender_timeout = {})
+      : callers_(callers), lasting_(callers, sender_timeout) {}
+
+  // Errors: UNAUTHENTICATED for a missing or wrong token.
+  absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
+                                  const Method& method) const;
+  // Errors besides: PERMISSION_DENIED for who is no admin.
+  absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context,
+                                         const Method& method) const;
+
+  // From now on calls that gRPC cancels are the server's doing.
+  void CutOff() { cut_off_ = true; }
+  // Called once a second.
+  void LookAfterCalls() { lasting_.LookAfter(); }
+
+ private:
+  const Callers& callers_;
+  mutable OpenStreams lasting_;
+  std::atomic<bool> cut_off_ = false;
+};
+
+// The error of a call that goes no further, which is logged.
+absl::Status Refused(const CallFacts& facts, const absl::Status& status);
+
+// Ends a unary call: with OK, or with the error and its details.
+grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
+                                   const absl::Status& status);
+
+// A call to something that outlives the process.
+struct DurableCall {
+  CallFacts facts;
+  DurableJobs& durable_jobs;
+
+  const std::string& tenant() const { return facts.tenant; }
+};
+
+// Where such calls come in.
+// Threads: safe.
+class DurableGate {
+ public:
+  // Needs: both outlive the gate. `DurableJobs` is null where nothing is durable.
+  DurableGate(const CallGate& gate, DurableJobs* durable_jobs)
+      : gate_(gate), durable_jobs_(durable_jobs) {}
+
+  // Errors: those of CallGate::Enter(); FAILED_PRECONDITION without durable jobs.
+  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
+                                    const Method& method) const;
+  // For calls about something that has a name, as `field` of the request says.
+  // Errors besides: INVALID_ARGUMENT for what can be nobody's name.
+  struct Name {
+    const char* field;
+    const std::string& name;
+  };
+  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
+                                    const Method& method, const Name& name) const;
+
+ private:
+  const CallGate& gate_;
+  DurableJobs* const durable_jobs_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_CALL_GATE_H_

@@ -1,0 +1,187 @@
+#include "server/calls/durable_messages.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "proto/wire/result.h"
+#include "server/calls/message_codec.h"
+#include "server/calls/requests.h"
+#include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
+
+namespace bccskel::server {
+namespace {
+
+v1::JobPriority PriorityMessage(int priority) {
+  if (priority < 0) return v1::JOB_PRIORITY_LOW;
+  return priority > 0 ? v1::JOB_PRIORITY_HIGH : v1::JOB_PRIORITY_NORMAL;
+}
+
+v1::ShellProgress ProgressMessage(const JobProgress& progress) {
+  return wire::ToMessage(progress.shell, progress.elapsed);
+}
+
+v1::Status ErrorMessage(const absl::Status& error) { return ToStatusMessage(WithJobReason(error)); }
+
+void SetOutcome(const JobInfo& job, v1::Job& message) {
+  if (!job.error.ok()) *message.mutable_error() = ErrorMessage(job.error);
+  message.set_result_pieces(static_cast<uint32_t>(job.result_records));
+  message.set_result_bytes(job.result_bytes);
+  if (!job.summary.empty()) message.mutable_summary()->ParseFromString(job.summary);
+  if (job.progress.has_value()) *message.mutable_progress() = ProgressMessage(*job.progress);
+}
+
+void SetTimes(const JobInfo& job, v1::Job& message) {
+  // A job that was only checked has not been made.
+  if (job.created != Time()) *message.mutable_create_time() = ToMessage(job.created);
+  if (job.started.has_value()) *message.mutable_start_time() = ToMessage(*job.started);
+  if (job.ended.has_value()) *message.mutable_end_time() = ToMessage(*job.ended);
+  if (job.expires.has_value()) *message.mutable_expire_time() = ToMessage(*job.expires);
+}
+
+constexpr size_t kMaxRequestIdBytes = 128;
+constexpr int kMaxPageSize = 1000, kDefaultPageSize = 50;
+
+absl::Status CheckRequestId(const std::string& id) {
+  const auto printable = [](char c) { return c > ' ' && c <= '~'; };
+  if (id.size() <= kMaxRequestIdBytes && std::ranges::all_of(id, printable)) {
+    return absl::OkStatus();
+  }
+  return InvalidField("request_id", absl::StrCat("must be up to ", kMaxRequestIdBytes,
+                                                 " printable ASCII characters"));
+}
+
+}  // namespace
+
+google::protobuf::Timestamp ToMessage(Time time) {
+  const auto since = time.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+  google::protobuf::Timestamp message;
+  message.set_seconds(seconds.count());
+  message.set_nanos(static_cast<int32_t>(std::chrono::nanoseconds(since - seconds).count()));
+  return message;
+}
+
+v1::Upload ToMessage(const UploadInfo& upload) {
+  v1::Upload message;
+  message.set_name(upload.name);
+  message.set_size_bytes(upload.size_bytes);
+  message.set_committed_size(upload.committed_bytes);
+  message.set_volume(upload.volume);
+  message.set_job(upload.job);
+  if (upload.volume.empty()) *message.mutable_expire_time() = ToMessage(upload.expires);
+  return message;
+}
+
+v1::Job ToMessage(const JobInfo& job) {
+  v1::Job message;
+  message.set_name(job.name);
+  message.set_state(ToMessage(job.state));
+  message.set_request_id(job.request_id);
+  message.set_volume(job.volume);
+  message.set_upload(job.upload);
+  v1::SkeletonizeConfig config = ConfigOf(job.options);
+  message.mutable_options()->Swap(config.mutable_options());
+  message.set_thin_volume_return(config.thin_volume_return());
+  message.set_priority(PriorityMessage(job.priority));
+  message.set_threads(job.threads);
+  message.set_attempts(job.attempts);
+  message.set_last_sequence(job.sequence);
+  SetTimes(job, message);
+  SetOutcome(job, message);
+  return message;
+}
+
+v1::WatchJobResponse ToMessage(const JobEvent& event) {
+  v1::WatchJobResponse message;
+  message.set_sequence(event.sequence);
+  *message.mutable_time() = ToMessage(event.time);
+  if (const auto* progress = std::get_if<JobProgress>(&event.what)) {
+    *message.mutable_shell_progress() = ProgressMessage(*progress);
+    return message;
+  }
+  const auto& change = std::get<JobEvent::StateChange>(event.what);
+  v1::JobStateChange& state_change = *message.mutable_state_change();
+  state_change.set_state(ToMessage(change.state));
+  state_change.set_attempt(change.attempt);
+  if (!change.error.ok()) *state_change.mutable_error() = ErrorMessage(change.error);
+  return message;
+}
+
+v1::JobState ToMessage(JobState state) {
+  switch (state) {
+    case JobState::kReceiving:
+      return v1::JOB_STATE_RECEIVING;
+    case JobState::kQueued:
+      return v1::JOB_STATE_QUEUED;
+    case JobState::kRunning:
+      return v1::JOB_STATE_RUNNING;
+    case JobState::kSucceeded:
+      return v1::JOB_STATE_SUCCEEDED;
+    case JobState::kFailed:
+      return v1::JOB_STATE_FAILED;
+    case JobState::kCancelled:
+      return v1::JOB_STATE_CANCELLED;
+  }
+  return v1::JOB_STATE_UNSPECIFIED;  // not reached: the enumerators are exhausted above
+}
+
+absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field) {
+  constexpr JobState kStates[] = {JobState::kReceiving, JobState::kQueued, JobState::kRunning,
+                                  JobState::kSucceeded, JobState::kFailed, JobState::kCancelled};
+  for (const JobState known : kStates) {
+    if (ToMessage(known) == state) return known;
+  }
+  return InvalidField(field, absl::StrCat("unknown state ", int{state}));
+}
+
+absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field) {
+  switch (priority) {
+    case v1::JOB_PRIORITY_LOW:
+      return -1;
+    case v1::JOB_PRIORITY_UNSPECIFIED:
+    case v1::JOB_PRIORITY_NORMAL:
+      return 0;
+    case v1::JOB_PRIORITY_HIGH:
+      return 1;
+    default:
+      return InvalidField(field, absl::StrCat("unknown priority ", int{priority}));
+  }
+}
+
+absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request) {
+  NewJob job;
+  BCCSKEL_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
+  BCCSKEL_ASSIGN_OR_RETURN(job.options,
+                           OptionsBytes(request.options(), request.thin_volume_return()));
+  BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
+  job.request_id = request.request_id();
+  job.volume = request.volume();
+  job.threads = request.threads();
+  if (request.validate_only()) job.mode = NewJob::Mode::kValidateOnly;
+  return job;
+}
+
+absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request) {
+  const int wanted = request.page_size();
+  if (wanted < 0 || wanted > kMaxPageSize) {
+    return InvalidField("page_size", absl::StrCat(wanted, ", must be 0 to ", kMaxPageSize));
+  }
+  JobQuery query;
+  query.page_size = wanted == 0 ? kDefaultPageSize : wanted;
+  query.page_token = request.page_token();
+  for (const int state : request.states()) {
+    BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
+    query.states.push_back(known);
+  }
+  return query;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,34 @@
+#ifndef BCCSKEL_SERVER_CALLS_DURABLE_MESSAGES_H_
+#define BCCSKEL_SERVER_CALLS_DURABLE_MESSAGES_H_
+
+#include <google/protobuf/timestamp.pb.h>
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "bccskel/v1/job_service.pb.h"
+#include "bccskel/v1/volume_service.pb.h"
+#include "server/durable/durable_jobs.h"
+#include "server/durable/records.h"
+
+namespace bccskel::server {
+
+// DurableJobs' records as callers see them.
+google::protobuf::Timestamp ToMessage(Time time);
+v1::Upload ToMessage(const UploadInfo& upload);
+v1::Job ToMessage(const JobInfo& job);
+v1::WatchJobResponse ToMessage(const JobEvent& event);
+v1::JobState ToMessage(JobState state);
+
+// Errors: INVALID_ARGUMENT, with the field, for an enumerator that this version does not know.
+absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field);
+absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field);
+
+// What callers of JobService send, as DurableJobs takes it. Errors: INVALID_ARGUMENT with the
+// field.
+absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request);
+absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request);
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_DURABLE_MESSAGES_H_

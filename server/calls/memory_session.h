@@ -1,0 +1,153 @@
+#ifndef BCCSKEL_SERVER_CALLS_MEMORY_SESSION_H_
+#define BCCSKEL_SERVER_CALLS_MEMORY_SESSION_H_
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/exec/status_macros.h"
+#include "proto/wire/labels.h"
+#include "proto/wire/result.h"
+#include "proto/wire/shell_points.h"
+#include "server/calls/label_responses.h"
+#include "server/calls/requests.h"
+#include "server/calls/session.h"
+#include "server/calls/skeleton_responses.h"
+#include "server/errors/call_error.h"
+#include "server/jobs/job_runner.h"
+
+namespace bccskel::server {
+
+// A job that lives in memory and ends with its call. `Listener` and `Result` are what a job of this
+// kind tells, `Responses` what is still to be sent.
+template <typename Request, typename Response, typename Listener, typename Result,
+          typename Responses>
+class MemorySession : public Session<Request, Response>,
+                      public Listener,
+                      public std::enable_shared_from_this<
+                          MemorySession<Request, Response, Listener, Result, Responses>> {
+ public:
+  // Needs: `runner` outlives the session.
+  MemorySession(std::shared_ptr<SessionOwner> owner, JobRunner& runner, const VolumeLimits& limits)
+      : owner_(std::move(owner)), runner_(runner), limits_(limits) {}
+
+  absl::Status Begin(const typename Session<Request, Response>::Config& config) override {
+    BCCSKEL_ASSIGN_OR_RETURN(auto request, JobRequestOf(config, limits_));
+    request.deadline = owner_->facts().deadline;
+    request.origin.tenant = owner_->facts().tenant;
+    BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<Job> job,
+                             runner_.Start(std::move(request), this->shared_from_this()));
+    owner_->Accepted(job->name(), config.volume().size_bytes());
+    std::unique_lock lock(mutex_);
+    job_ = job;
+    const std::optional<absl::Status> too_late = left_;
+    lock.unlock();
+    if (too_late.has_value()) job->EndWith(*too_late);
+    Send([&] { responses_.Accept(job->name()); });
+    owner_->ReadNext();
+    return absl::OkStatus();
+  }
+  void Append(v1::VolumeChunk& chunk) override { job_->Append(std::move(*chunk.mutable_data())); }
+  void Finish(const v1::VolumeFinish& finish) override {
+    job_->FinishVolume(DigestOf(finish));
+    owner_->ReadNext();  // sees requests that must not come
+  }
+
+  std::optional<Response> Next() override { return responses_.Next(); }
+  bool IsLast(const Response&) const override { return responses_.AtEnd(); }
+  bool HasMore() const override { return responses_.HasMore(); }
+
+  void Leave(const absl::Status& why) override {
+    std::unique_lock lock(mutex_);
+    left_ = why;
+    const std::shared_ptr<Job> job = job_;
+    lock.unlock();
+    if (job != nullptr) job->EndWith(why);
+  }
+  // The job holds this session and may go on for a while; what is not sent holds memory.
+  void Close() override { responses_ = Responses(); }
+
+  void OnBytesConsumed() override { owner_->ReadNext(); }
+  void OnEnd(absl::StatusOr<Result> result) override {
+    if (!result.ok()) return owner_->EndWith(WithJobReason(result.status()));
+    Send([&] { responses_.Complete(*std::move(result)); });
+  }
+
+ protected:
+  using Sending = SessionOwner::Sending;
+
+  // `fill` puts something into the responses, which goes out.
+  template <typename Fill>
+  void Send(Fill fill) {
+    owner_->Change([&fill] {
+      fill();
+      return Sending::kNow;
+    });
+  }
+  // The newest progress goes out, or, within kProgressInterval of the one before or the beginning,
+  // with what comes next. `elapsed` since the computation began.
+  template <typename Progress>
+  void Report(Progress progress, std::chrono::nanoseconds elapsed) {
+    owner_->Change([&] {
+      responses_.Report(std::move(progress));
+      if (elapsed < next_progress_) return Sending::kWithWhatFollows;
+      next_progress_ = elapsed + kProgressInterval;
+      return Sending::kNow;
+    });
+  }
+
+  Responses responses_;  // guarded by the call's lock
+
+ private:
+  // Every reply costs about 30 us on either side; a small object has dozens of shells in a
+  // millisecond. The newest progress is always sent.
+  static constexpr std::chrono::milliseconds kProgressInterval{1};
+
+  const std::shared_ptr<SessionOwner> owner_;
+  JobRunner& runner_;
+  const VolumeLimits limits_;
+  std::chrono::nanoseconds next_progress_ = kProgressInterval;  // guarded by the call's lock
+  std::mutex mutex_;
+  std::shared_ptr<Job> job_;          // set with mutex_ held, by Begin()
+  std::optional<absl::Status> left_;  // guarded by mutex_
+};
+
+class SkeletonSession final : public MemorySession<v1::SkeletonizeRequest, v1::SkeletonizeResponse,
+                                                   JobListener, JobResult, SkeletonResponses> {
+ public:
+  using MemorySession::MemorySession;
+
+  void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override {
+    Report(wire::ToMessage(progress, elapsed), elapsed);
+  }
+  uint64_t OnShellPoints(int32_t shell, const Volume& points) override {
+    uint64_t bytes = 0;
+    for (const v1::ShellPoints& message : wire::ShellPointsMessages(shell, points)) {
+      std::string serialized = message.SerializeAsString();
+      bytes += serialized.size();
+      Send([&] { responses_.AddShellPoints(std::move(serialized)); });
+    }
+    return bytes;
+  }
+};
+
+class LabelsSession final
+    : public MemorySession<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse,
+                           LabelsListener, LabelsResult, LabelResponses> {
+ public:
+  using MemorySession::MemorySession;
+
+  void OnProgress(uint64_t done, uint64_t total, std::chrono::nanoseconds elapsed) override {
+    Report(wire::ToMessage(wire::LabelProgress{.done = done, .total = total}, elapsed), elapsed);
+  }
+  void OnLabel(LabelResult result) override {
+    Send([&] { responses_.Add(std::move(result)); });
+  }
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_MEMORY_SESSION_H_

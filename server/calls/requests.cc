@@ -1,0 +1,289 @@
+#include "server/calls/requests.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "core/io/encoded_body.h"
+#include "core/labels/convert_label.h"
+#include "proto/wire/labels.h"
+#include "proto/wire/options.h"
+#include "proto/wire/placement.h"
+#include "server/errors/call_error.h"
+
+namespace bccskel::server {
+namespace {
+
+absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
+  switch (encoding) {
+    case v1::VOLUME_ENCODING_OPENEXR:
+      return VolumeEncoding::kOpenExr;
+    case v1::VOLUME_ENCODING_RAW_PLANES:
+      return VolumeEncoding::kRawPlanes;
+    case v1::VOLUME_ENCODING_BRICKS:
+      return VolumeEncoding::kBricks;
+    case v1::VOLUME_ENCODING_CUBIC_MASK:
+      return VolumeEncoding::kCubicMask;
+    case v1::VOLUME_ENCODING_UNSPECIFIED:
+      return InvalidField(field, "must be set");
+    default:
+      return InvalidField(field, absl::StrCat("unknown encoding ", int{encoding}));
+  }
+}
+
+absl::StatusOr<std::optional<VolumeEncoding>> ThinVolumeOf(v1::ThinVolumeReturn thin) {
+  switch (thin) {
+    case v1::THIN_VOLUME_RETURN_UNSPECIFIED:
+    case v1::THIN_VOLUME_RETURN_OMIT:
+      return std::nullopt;
+    case v1::THIN_VOLUME_RETURN_OPENEXR:
+      return VolumeEncoding::kOpenExr;
+    case v1::THIN_VOLUME_RETURN_BRICKS:
+      return VolumeEncoding::kBricks;
+    default:
+      return InvalidField("config.thin_volume_return", absl::StrCat("unknown ", int{thin}));
+  }
+}
+
+absl::StatusOr<ShellPointsWanted> ShellPointsOf(v1::ShellPointsReturn shell_points) {
+  switch (shell_points) {
+    case v1::SHELL_POINTS_RETURN_UNSPECIFIED:
+    case v1::SHELL_POINTS_RETURN_OMIT:
+      return ShellPointsWanted::kNone;
+    case v1::SHELL_POINTS_RETURN_ALL:
+      return ShellPointsWanted::kAll;
+    default:
+      return InvalidField("config.shell_points_return",
+                          absl::StrCat("unknown ", int{shell_points}));
+  }
+}
+
+// A job that is not durable always ends with its stream.
+absl::Status CheckDisconnectPolicy(v1::DisconnectPolicy policy) {
+  if (v1::DisconnectPolicy_IsValid(policy)) return absl::OkStatus();
+  return InvalidField("config.on_disconnect", absl::StrCat("unknown ", int{policy}));
+}
+
+// The compression whose decoder needs the most memory stands for those that a volume's own bytes
+// name later.
+VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
+  switch (encoding) {
+    case VolumeEncoding::kOpenExr:
+      return VolumeCompression::kZip;
+    case VolumeEncoding::kRawPlanes:
+    case VolumeEncoding::kCubicMask:
+      return declared;
+    case VolumeEncoding::kBricks:
+      return VolumeCompression::kZstd;
+  }
+  return declared;
+}
+
+// What the core finds wrong with a declaration, with the details that a caller gets.
+absl::Status DeclarationError(const absl::Status& status) {
+  if (!absl::IsResourceExhausted(status)) {
+    return InvalidField("config.volume", std::string(status.message()));
+  }
+  return CallError(Reason::kVolumeTooLarge, std::string(status.message()), {.quota = "max_bricks"});
+}
+
+// A mask declares its voxels where other encodings declare their lattice.
+absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string& field,
+                         VolumeHeader& header) {
+  MaskDeclaration mask;
+  BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement(), field));
+  BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency,
+                           AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
+  BCCSKEL_ASSIGN_OR_RETURN(mask.points,
+                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
+  header.extent = ExactExtent(mask.grid, mask.points);
+  header.placement = ExactPlacement(mask.grid, mask.points);
+  header.mask = mask;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
+                                      const VolumeLimits& limits) {
+  const std::string field = "config.volume";
+  VolumeHeader header;
+  BCCSKEL_ASSIGN_OR_RETURN(header.encoding, EncodingOf(volume.encoding(), field + ".encoding"));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeCompression compression,
+                           CompressionOf(volume.compression(), field + ".compression"));
+  header.compression = ReservedCompression(header.encoding, compression);
+  BCCSKEL_ASSIGN_OR_RETURN(header.extent, wire::FromMessage(volume.extent(), field + ".extent"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.placement,
+                           wire::FromMessage(volume.placement(), field + ".placement"));
+  if (volume.max_bricks() > 0) header.declared_bricks = volume.max_bricks();
+  if (header.encoding == VolumeEncoding::kBricks && !header.declared_bricks.has_value()) {
+    return InvalidField(field + ".max_bricks", "0, must be the number of bricks");
+  }
+  if (header.encoding == VolumeEncoding::kCubicMask) {
+    BCCSKEL_RETURN_IF_ERROR(DeclareMask(volume, field, header));
+  }
+  absl::StatusOr<VolumeHeader> complete = CompleteVolumeHeader(header, limits);
+  if (!complete.ok()) return DeclarationError(complete.status());
+  return complete;
+}
+
+absl::Status CheckSize(const VolumeHeader& header, uint64_t size_bytes) {
+  if (size_bytes == 0) return InvalidField("config.volume.size_bytes", "must be set");
+  if (size_bytes <= header.max_encoded_bytes) return absl::OkStatus();
+  return InvalidField("config.volume.size_bytes",
+                      absl::StrCat(size_bytes, " bytes, a volume of this extent and encoding has ",
+                                   header.max_encoded_bytes, " at most"));
+}
+
+absl::StatusOr<int> LabelBytesOf(v1::LabelType type, const std::string& field) {
+  if (type == v1::LABEL_TYPE_UNSPECIFIED) return InvalidField(field, "must be set");
+  const int bytes = wire::LabelBytesOf(type);
+  if (bytes == 0) return InvalidField(field, absl::StrCat("unknown type ", int{type}));
+  return bytes;
+}
+
+absl::Status CheckPromise(const char* name, uint64_t promise, uint64_t most) {
+  if (promise <= most) return absl::OkStatus();
+  return InvalidField(absl::StrCat("config.volume.", name),
+                      absl::StrCat(promise, ", must be at most ", most));
+}
+
+absl::Status CheckPromises(const v1::LabelVolumeDeclaration& volume,
+                           const LabelVolumeHeader& header) {
+  const uint64_t voxels = header.DecodedBytes() / static_cast<uint64_t>(header.label_bytes);
+  BCCSKEL_RETURN_IF_ERROR(CheckPromise("max_voxels", volume.max_voxels(), voxels));
+  return CheckPromise("max_label_voxels", volume.max_label_voxels(),
+                      volume.max_voxels() > 0 ? volume.max_voxels() : voxels);
+}
+
+absl::Status CheckDecodedBytes(uint64_t bytes, uint64_t limit) {
+  if (bytes <= limit) return absl::OkStatus();
+  return CallError(
+      Reason::kVolumeTooLarge,
+      absl::StrCat("the declared volume has ", bytes, " bytes of labels, the limit is ", limit),
+      {.quota = "max_decoded_bytes"});
+}
+
+absl::Status CheckSize(const LabelVolumeHeader& header, uint64_t size_bytes) {
+  const uint64_t decoded = header.DecodedBytes();
+  const uint64_t most = MaxBodyBytes(decoded, header.compression);
+  const uint64_t least = header.compression == VolumeCompression::kNone ? decoded : 1;
+  if (least <= size_bytes && size_bytes <= most) return absl::OkStatus();
+  return InvalidField("config.volume.size_bytes",
+                      absl::StrCat(size_bytes, ", must be ", least, " to ", most,
+                                   " bytes for this extent, type and compression"));
+}
+
+absl::StatusOr<LabelVolumeHeader> HeaderOf(const v1::LabelVolumeDeclaration& volume) {
+  const std::string field = "config.volume";
+  LabelVolumeHeader header;
+  BCCSKEL_ASSIGN_OR_RETURN(header.label_bytes, LabelBytesOf(volume.type(), field + ".type"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.compression,
+                           CompressionOf(volume.compression(), field + ".compression"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.grid, GridOf(volume.extent(), volume.placement(), field));
+  BCCSKEL_ASSIGN_OR_RETURN(header.adjacency,
+                           AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.points,
+                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
+  BCCSKEL_RETURN_IF_ERROR(CheckPromises(volume, header));
+  header.max_voxels = volume.max_voxels();
+  header.max_label_voxels = volume.max_label_voxels();
+  header.max_runs = volume.max_runs();
+  header.max_labels = volume.max_labels();
+  return header;
+}
+
+}  // namespace
+
+absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
+                                                const std::string& field) {
+  switch (compression) {
+    case v1::VOLUME_COMPRESSION_UNSPECIFIED:
+    case v1::VOLUME_COMPRESSION_NONE:
+      return VolumeCompression::kNone;
+    case v1::VOLUME_COMPRESSION_ZSTD:
+      return VolumeCompression::kZstd;
+    default:
+      return InvalidField(field, absl::StrCat("unknown compression ", int{compression}));
+  }
+}
+
+absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
+  switch (adjacency) {
+    case v1::MASK_ADJACENCY_UNSPECIFIED:
+    case v1::MASK_ADJACENCY_OBJECT_26:
+      return MaskAdjacency::k26;
+    case v1::MASK_ADJACENCY_OBJECT_6:
+      return MaskAdjacency::k6;
+    default:
+      return InvalidField(field, absl::StrCat("unknown adjacency ", int{adjacency}));
+  }
+}
+
+absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field) {
+  switch (points) {
+    case v1::VOXEL_POINTS_UNSPECIFIED:
+    case v1::VOXEL_POINTS_TWO:
+      return VoxelPoints::kTwo;
+    case v1::VOXEL_POINTS_SIXTEEN:
+      return VoxelPoints::kSixteen;
+    default:
+      return InvalidField(field, absl::StrCat("unknown number of points ", int{points}));
+  }
+}
+
+absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
+                                const std::string& field) {
+  BCCSKEL_ASSIGN_OR_RETURN(const LatticeExtent voxels,
+                           wire::FromMessage(extent, field + ".extent"));
+  MaskGrid grid = {.nx = voxels.nx, .ny = voxels.ny, .nz = voxels.nz};
+  BCCSKEL_ASSIGN_OR_RETURN(grid.placement, wire::FromMessage(placement, field + ".placement"));
+  if (absl::Status checked = CheckMaskGrid(grid); !checked.ok()) {
+    return InvalidField(field + ".extent", std::string(checked.message()));
+  }
+  return grid;
+}
+
+absl::Status CheckThreads(int32_t threads, const std::string& field) {
+  if (threads >= 0) return absl::OkStatus();
+  return InvalidField(field, absl::StrCat(threads, ", must be at least 0"));
+}
+
+absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
+                                        const VolumeLimits& limits) {
+  JobRequest request;
+  BCCSKEL_ASSIGN_OR_RETURN(request.header, HeaderOf(config.volume(), limits));
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.header, config.volume().size_bytes()));
+  request.size_bytes = config.volume().size_bytes();
+  BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
+  if (request.header.mask.has_value()) {
+    request.options = ForMask(request.options, {.points = request.header.mask->points});
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
+  BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));
+  BCCSKEL_RETURN_IF_ERROR(CheckDisconnectPolicy(config.on_disconnect()));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads(), "config.threads"));
+  request.threads_wanted = config.threads();
+  return request;
+}
+
+absl::StatusOr<LabelsRequest> JobRequestOf(const v1::SkeletonizeLabelsConfig& config,
+                                           const VolumeLimits& limits) {
+  LabelsRequest request;
+  BCCSKEL_ASSIGN_OR_RETURN(const LabelVolumeHeader header, HeaderOf(config.volume()));
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(header, config.volume().size_bytes()));
+  BCCSKEL_RETURN_IF_ERROR(CheckDecodedBytes(header.DecodedBytes(), limits.max_decoded_bytes));
+  request.size_bytes = config.volume().size_bytes();
+  request.labels.assign(config.labels().begin(), config.labels().end());
+  if (std::ranges::count(request.labels, uint64_t{0}) > 0) {
+    return InvalidField("config.labels", "0 is the background and has no skeleton");
+  }
+  request.header = WithWorstCase(header, request.labels.size());
+  request.min_voxels = config.min_voxels();
+  BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
+  BCCSKEL_RETURN_IF_ERROR(CheckThreads(config.threads(), "config.threads"));
+  request.threads_wanted = config.threads();
+  return request;
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,61 @@
+#ifndef BCCSKEL_SERVER_CALLS_SENDER_CLOCK_H_
+#define BCCSKEL_SERVER_CALLS_SENDER_CLOCK_H_
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "server/errors/call_error.h"
+
+namespace bccskel::server {
+
+// Counts the time that the server waits for the next request of a caller who sends a volume. Within
+// the limit the caller must send kBytesInTime, or the rest. While the server itself is busy with
+// what came, no time counts.
+// Threads: one at a time.
+class SenderClock {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+  static constexpr uint64_t kBytesInTime = uint64_t{1} << 20;
+
+  // The server waits from now on.
+  void Await(TimePoint now) { waiting_since_ = now; }
+
+  // A request has come, with so many bytes of the volume.
+  void Take(TimePoint now, uint64_t bytes) {
+    waited_ = Waited(now);
+    waiting_since_.reset();
+    bytes_ += bytes;
+    if (bytes_ < kBytesInTime) return;
+    waited_ = {};
+    bytes_ = 0;
+  }
+
+  // Errors: ABORTED, reason SENDER_TIMEOUT.
+  absl::Status Check(TimePoint now, std::chrono::milliseconds limit) const {
+    if (!waiting_since_.has_value() || Waited(now) <= limit) return absl::OkStatus();
+    const std::string ms = absl::StrCat(limit.count());
+    return CallError(
+        Reason::kSenderTimeout,
+        absl::StrCat("the server has waited more than ", ms, " ms for the volume; within each ", ms,
+                     " ms (sender-timeout-ms) send ", kBytesInTime,
+                     " bytes or the rest and the finish"),
+        {.key = "sender_timeout_ms", .value = ms});
+  }
+
+ private:
+  std::chrono::nanoseconds Waited(TimePoint now) const {
+    return waiting_since_.has_value() ? waited_ + (now - *waiting_since_) : waited_;
+  }
+
+  std::optional<TimePoint> waiting_since_;
+  std::chrono::nanoseconds waited_{0};
+  uint64_t bytes_ = 0;  // since waited_ was 0
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_SENDER_CLOCK_H_

@@ -1,0 +1,145 @@
+#ifndef BCCSKEL_SERVER_CALLS_SESSION_H_
+#define BCCSKEL_SERVER_CALLS_SESSION_H_
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bccskel/v1/volume.pb.h"
+#include "server/calls/stream_call.h"
+
+namespace bccskel::server {
+
+// The call for which a session works. Threads: safe.
+class SessionOwner {
+ public:
+  virtual ~SessionOwner() = default;
+  virtual const CallFacts& facts() const = 0;
+  // The job was let in.
+  virtual void Accepted(const std::string& job, uint64_t volume_bytes) = 0;
+  // There is room for the next request.
+  virtual void ReadNext() = 0;
+  // Runs `change` with the call's lock held, unless the call has ended; then sends what Next()
+  // yields, or leaves that to whatever comes next.
+  enum class Sending { kNow, kWithWhatFollows };
+  virtual void Change(const std::function<Sending()>& change) = 0;
+  virtual void EndWith(const absl::Status& status) = 0;
+};
+
+// What a call that sends a volume gets done: a job in memory, a durable one, labels. It begins with
+// the config, then hears of requests one at a time.
+template <typename Request, typename Response>
+class Session {
+ public:
+  using Config = std::decay_t<decltype(std::declval<Request>().config())>;
+
+  virtual ~Session() = default;
+  // Errors: end the call.
+  virtual absl::Status Begin(const Config& config) = 0;
+  // The next chunk, which may be taken apart, and the finish; each followed by ReadNext().
+  virtual void Append(v1::VolumeChunk& chunk) = 0;
+  virtual void Finish(const v1::VolumeFinish& finish) = 0;
+
+  // Called with the call's lock held. The next response, if there is one now; whether it was the
+  // last one; whether another one is there.
+  virtual std::optional<Response> Next() = 0;
+  virtual bool IsLast(const Response& response) const = 0;
+  virtual bool HasMore() const = 0;
+  // Whether Fetch(), called when the response was written, brings the next one at once.
+  virtual bool IsFollowedByFetch(const Response&) const { return false; }
+  virtual void Fetch() {}
+
+  // The call has failed. May come at any time.
+  virtual void Leave(const absl::Status& why) = 0;
+  // The call is over.
+  virtual void Close() = 0;
+};
+
+// A call that sends a volume, handed to a session.
+template <typename Request, typename Response>
+class SessionCall final
+    : public ReceivingCall<
+          WritingCall<StreamCall<grpc::ServerBidiReactor<Request, Response>>, Response>, Request>,
+      public SessionOwner {
+ public:
+  using Work = Session<Request, Response>;
+  using Config = typename Work::Config;
+  // Chooses by the config.
+  using MakeSession = std::function<std::shared_ptr<Work>(const Config& config,
+                                                          std::shared_ptr<SessionOwner> owner)>;
+
+  SessionCall(CallFacts facts, MakeSession make_session)
+      : Base(std::move(facts)), make_session_(std::move(make_session)) {}
+
+  void Begin() {
+    this->Read();
+    this->Open();
+  }
+  const CallFacts& facts() const override { return this->facts_; }
+  void Accepted(const std::string& job, uint64_t volume_bytes) override {
+    this->facts_.LogAccepted(job, volume_bytes);
+    std::lock_guard lock(this->mutex_);
+    this->subject_ = job;
+  }
+  void ReadNext() override { this->Read(); }
+  void Change(const std::function<Sending()>& change) override {
+    std::lock_guard lock(this->mutex_);
+    if (this->finished_ || this->end_.has_value()) return;
+    if (change() == Sending::kNow) this->Advance();
+  }
+  void EndWith(const absl::Status& status) override { this->End(status); }
+
+ private:
+  using Base =
+      ReceivingCall<WritingCall<StreamCall<grpc::ServerBidiReactor<Request, Response>>, Response>,
+                    Request>;
+  using Following = typename Base::Following;
+
+  absl::Status Take(Request& request) override {
+    if (request.has_chunk()) {
+      session_->Append(*request.mutable_chunk());
+    } else if (request.has_finish()) {
+      session_->Finish(request.finish());
+    } else {
+      auto session = make_session_(request.config(),
+                                   std::static_pointer_cast<SessionCall>(this->shared_from_this()));
+      std::unique_lock lock(this->mutex_);
+      if (this->finished_ || this->end_.has_value()) return absl::OkStatus();
+      session_ = session;
+      lock.unlock();
+      return session->Begin(request.config());
+    }
+    return absl::OkStatus();
+  }
+  std::optional<Response> Next() override {
+    return session_ == nullptr ? std::nullopt : session_->Next();
+  }
+  Following Follows(const Response& response) const override {
+    if (session_->IsLast(response)) return Following::kNothing;
+    if (session_->IsFollowedByFetch(response)) return Following::kFetchedAtOnce;
+    return session_->HasMore() ? Following::kAtOnce : Following::kLater;
+  }
+  void Fetch() override { session_->Fetch(); }
+  void Failed(const absl::Status& why) override {
+    std::unique_lock lock(this->mutex_);
+    const std::shared_ptr<Work> session = session_;
+    lock.unlock();
+    if (session != nullptr) session->Leave(why);
+  }
+  void Closed() override {
+    std::unique_lock lock(this->mutex_);
+    const std::shared_ptr<Work> session = std::move(session_);
+    lock.unlock();
+    if (session != nullptr) session->Close();
+  }
+
+  const MakeSession make_session_;
+  std::shared_ptr<Work> session_;  // guarded by mutex_; set once, by a read reaction
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_SESSION_H_

@@ -1,0 +1,94 @@
+#ifndef BCCSKEL_SERVER_CALLS_SKELETON_RESPONSES_H_
+#define BCCSKEL_SERVER_CALLS_SKELETON_RESPONSES_H_
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "bccskel/v1/skeletonization_service.pb.h"
+#include "proto/wire/skeleton_chunks.h"
+#include "server/durable/records.h"
+#include "server/jobs/job_runner.h"
+
+namespace bccskel::server {
+
+// The first response of every call.
+v1::SkeletonizeAccepted AcceptedFor(const std::string& job);
+
+// Cuts a result into pieces of at most 256 KiB, one at a time: chunks of the skeleton, then of the
+// thinned volume, then the summary.
+class ResultPieces {
+ public:
+  // Needs: `result` outlives the pieces.
+  explicit ResultPieces(const JobResult& result) : result_(result), pager_(result.skeleton.graph) {}
+
+  // Nothing after the summary.
+  std::optional<v1::SkeletonizeResponse> Next();
+  bool AtEnd() const { return at_end_; }
+
+ private:
+  const JobResult& result_;
+  wire::SkeletonChunkPager pager_;
+  bool in_skeleton_ = true;
+  size_t thin_volume_offset_ = 0;
+  bool at_end_ = false;
+};
+
+// What is still to be sent on a stream. Memory is bounded however slowly the caller reads: of the
+// progress only the latest is kept, points of shells wait in the memory that their job has reserved
+// for them, and a result is cut into responses one at a time.
+class SkeletonResponses {
+ public:
+  void Accept(const std::string& job) { accepted_ = AcceptedFor(job); }
+  void Report(v1::ShellProgress progress) { progress_ = std::move(progress); }
+  // A serialized v1.ShellPoints.
+  void AddShellPoints(std::string points) { shell_points_.push_back(std::move(points)); }
+  void Complete(JobResult result) {
+    result_ = std::make_unique<JobResult>(std::move(result));
+    pieces_ = std::make_unique<ResultPieces>(*result_);
+  }
+
+  // The next response, if there is one now.
+  std::optional<v1::SkeletonizeResponse> Next();
+  // The summary has been handed out: nothing will come any more.
+  bool AtEnd() const { return pieces_ != nullptr && pieces_->AtEnd(); }
+  // Next() has another one at once.
+  bool HasMore() const {
+    return accepted_.has_value() || progress_.has_value() || !shell_points_.empty() ||
+           (pieces_ != nullptr && !pieces_->AtEnd());
+  }
+
+ private:
+  std::optional<v1::SkeletonizeAccepted> accepted_;
+  std::optional<v1::ShellProgress> progress_;
+  std::deque<std::string> shell_points_;
+  std::unique_ptr<JobResult> result_;
+  std::unique_ptr<ResultPieces> pieces_;  // of result_
+};
+
+// A piece as it is stored.
+ResultRecord RecordOf(const v1::SkeletonizeResponse& piece);
+
+// The opposite, into any response that has these fields.
+// Error: INTERNAL where the record is no message of its kind, which the checksum rules out.
+template <typename Response>
+absl::Status SetPiece(const ResultRecord& record, Response& response) {
+  const auto parse = [&](auto* piece) { return piece->ParseFromString(record.bytes); };
+  using Kind = ResultRecord::Kind;
+  const bool parsed = record.kind == Kind::kSkeletonChunk ? parse(response.mutable_skeleton_chunk())
+                      : record.kind == Kind::kThinVolumeChunk
+                          ? parse(response.mutable_thin_volume_chunk())
+                          : parse(response.mutable_summary());
+  if (parsed) return absl::OkStatus();
+  return absl::InternalError(
+      absl::StrCat("a piece of ", record.bytes.size(), " bytes of the result cannot be read"));
+}
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_SKELETON_RESPONSES_H_

@@ -1,0 +1,231 @@
+#ifndef BCCSKEL_SERVER_CALLS_STREAM_CALL_H_
+#define BCCSKEL_SERVER_CALLS_STREAM_CALL_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "server/calls/call_gate.h"
+#include "server/calls/request_sequence.h"
+#include "server/calls/sender_clock.h"
+#include "server/calls/status_mapping.h"
+
+namespace bccskel::server {
+
+// What all streaming calls have in common: how they begin, fail and end. A call owns itself from
+// Open() until gRPC is done with it. `Reactor` is one of grpc::Server*Reactor.
+//
+// Reactions come on gRPC's threads, news of jobs on theirs; the mutex orders them. Start*() and
+// Finish() are called with the mutex held: gRPC never reacts from inside such a call.
+template <typename Reactor>
+class StreamCall : public Reactor,
+                   public OpenStream,
+                   public std::enable_shared_from_this<StreamCall<Reactor>> {
+ public:
+  using ReactorType = Reactor;
+
+  explicit StreamCall(CallFacts facts) : facts_(std::move(facts)) {}
+
+  void EndEarly(const absl::Status& why) override { End(why); }
+  void OnCancel() override {
+    const absl::Status status = facts_.CancelStatus();
+    {
+      std::lock_guard lock(mutex_);
+      // A connection that breaks looks like a half-close at first.
+      if (half_closed_ && end_.has_value()) end_ = status;
+    }
+    End(status);
+  }
+  void OnDone() override {
+    const std::shared_ptr<StreamCall> self = std::move(self_);
+    facts_.Leave(*this);
+    std::unique_lock lock(mutex_);
+    const absl::Status end = end_.value_or(absl::OkStatus());
+    facts_.LogEnded(subject_, end);
+    const bool failed_late = half_closed_ && !end.ok();
+    lock.unlock();
+    if (failed_late) Failed(end);
+    Closed();
+  }
+
+ protected:
+  void Open() {
+    self_ = this->shared_from_this();
+    facts_.LookAfter(self_);
+  }
+  // Ends the call with this status, unless it ends already.
+  void End(const absl::Status& status) {
+    {
+      std::lock_guard lock(mutex_);
+      if (finished_ || end_.has_value()) return;
+      end_ = status;
+      Advance();
+      if (half_closed_) return;  // OnDone() knows whether it was one
+    }
+    if (!status.ok()) Failed(status);
+  }
+  // Finishes the call, if it is time. Needs: mutex_ held.
+  virtual void Advance() {
+    if (finished_ || !end_.has_value()) return;
+    finished_ = true;
+    this->Finish(ToGrpcStatus(*end_));
+  }
+  // What is done for the call is not wanted any more.
+  virtual void Failed(const absl::Status&) {}
+  // gRPC is done with the call.
+  virtual void Closed() {}
+
+  const CallFacts facts_;
+  std::mutex mutex_;
+  std::string subject_;              // guarded by mutex_: as of CallFacts::LogEnded()
+  std::optional<absl::Status> end_;  // guarded by mutex_
+  bool half_closed_ = false;         // guarded by mutex_: before the finish
+  bool finished_ = false;            // guarded by mutex_: nothing more may be started
+
+ private:
+  std::shared_ptr<StreamCall> self_;
+};
+
+// A call that writes: what Next() yields, one response at a time.
+template <typename Base, typename Response>
+class WritingCall : public Base {
+ public:
+  using Base::Base;
+
+  void OnWriteDone(bool ok) override {
+    bool fetch = false;
+    {
+      std::lock_guard lock(this->mutex_);
+      writing_ = false;
+      fetch = ok && !this->end_.has_value() && IsFetched(Follows(response_));
+      // A call that has failed while it wrote waits for this moment to finish.
+      if (ok || this->end_.has_value()) Advance();
+    }
+    if (!ok) return this->End(absl::CancelledError("the caller is gone"));
+    if (fetch) Fetch();
+  }
+
+ protected:
+  // What comes after a response: the end of the call; another one that is there already; one that
+  // Fetch() brings, at once or sometime; who knows.
+  enum class Following { kNothing, kAtOnce, kFetchedAtOnce, kFetched, kLater };
+
+  // Needs of these: mutex_ held. The next response, if there is one now.
+  virtual std::optional<Response> Next() = 0;
+  virtual Following Follows(const Response&) const { return Following::kLater; }
+  // Called after a response of which Follows() says so was written.
+  virtual void Fetch() {}
+
+  void Advance() override {
+    if (this->finished_ || writing_) return;
+    const bool failed = this->end_.has_value() && !this->end_->ok();
+    std::optional<Response> response = failed ? std::nullopt : Next();
+    if (!response.has_value()) return Base::Advance();
+    response_ = *std::move(response);
+    writing_ = true;
+    grpc::WriteOptions options;
+    const Following following = Follows(response_);
+    if (following == Following::kNothing) {
+      this->finished_ = true;
+      return this->StartWriteAndFinish(&response_, options, grpc::Status::OK);
+    }
+    // What follows at once goes with it in one write to the socket.
+    if (following == Following::kAtOnce || following == Following::kFetchedAtOnce) {
+      options.set_buffer_hint();
+    }
+    this->StartWrite(&response_, options);
+  }
+  bool writing() const { return writing_; }  // Needs: mutex_ held.
+
+ private:
+  static bool IsFetched(Following following) {
+    return following == Following::kFetched || following == Following::kFetchedAtOnce;
+  }
+
+  Response response_;     // of the write in flight
+  bool writing_ = false;  // guarded by mutex_
+};
+
+// A call that reads a config, the chunks of a volume and a finish. Read() begins the next read,
+// when there is room for what it brings.
+template <typename Base, typename Request>
+class ReceivingCall : public Base {
+ public:
+  using Base::Base;
+
+  void OnReadDone(bool ok) override {
+    if (!ok) return HalfClose();
+    {
+      std::lock_guard lock(this->mutex_);
+      sender_.Take(Clock::now(), request_.has_chunk() ? request_.chunk().data().size() : 0);
+    }
+    absl::Status status = CheckWanted(request_);
+    if (status.ok()) status = sequence_.Take(request_);
+    if (status.ok()) status = Take(request_);
+    if (!status.ok()) this->End(status);
+  }
+  absl::Status CheckSender(OpenStream::TimePoint now, std::chrono::milliseconds limit) override {
+    std::lock_guard lock(this->mutex_);
+    return sender_.Check(now, limit);
+  }
+
+ protected:
+  // A request that is in its order. Errors: end the call.
+  virtual absl::Status Take(Request& request) = 0;
+  // Errors of a request that go before those of its order.
+  virtual absl::Status CheckWanted(const Request&) { return absl::OkStatus(); }
+  // The caller has sent no finish. `status`: what is wrong with that.
+  virtual void TakeHalfClose(const absl::Status& status) { this->End(status); }
+
+  void Read() {
+    std::lock_guard lock(this->mutex_);
+    if (this->finished_ || this->end_.has_value()) return;
+    if (!sequence_.finished()) sender_.Await(Clock::now());
+    this->StartRead(&request_);
+  }
+
+  RequestSequence sequence_;  // used by read reactions only, and there is one at a time
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void HalfClose() {
+    const absl::Status status = sequence_.HalfClose();
+    if (status.ok()) return;
+    {
+      std::lock_guard lock(this->mutex_);
+      this->half_closed_ = true;
+    }
+    TakeHalfClose(status);
+  }
+
+  Request request_;     // as sequence_
+  SenderClock sender_;  // guarded by mutex_
+};
+
+// A streaming call that ends before it begins.
+template <typename Reactor>
+class RefusedCall final : public Reactor {
+ public:
+  explicit RefusedCall(const absl::Status& why) { this->Finish(ToGrpcStatus(why)); }
+  void OnDone() override { delete this; }
+};
+
+// Starts a call's handler. `facts`: of a call that was let in, or why it was not. Needs: what
+// `more` refers to outlives the call.
+template <typename Call, typename Facts, typename... More>
+typename Call::ReactorType* StartCall(absl::StatusOr<Facts> facts, More&&... more) {
+  if (!facts.ok()) return new RefusedCall<typename Call::ReactorType>(facts.status());
+  const auto call = std::make_shared<Call>(*std::move(facts), std::forward<More>(more)...);
+  call->Begin();
+  return call.get();
+}
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_CALLS_STREAM_CALL_H_

@@ -1,0 +1,113 @@
+#include <grpcpp/alarm.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "server/calls/durable_calls.h"
+#include "server/calls/durable_messages.h"
+#include "server/calls/event_queue.h"
+#include "server/calls/stream_call.h"
+
+namespace bccskel::server {
+namespace {
+
+using Clock = std::chrono::system_clock;
+
+// Part of the interface: proxies that close idle streams wait longer.
+constexpr std::chrono::seconds kHeartbeat(10);
+
+using Base =
+    WritingCall<StreamCall<grpc::ServerWriteReactor<v1::WatchJobResponse>>, v1::WatchJobResponse>;
+
+// A WatchJob call: tells a job's events, and in silence a heartbeat.
+class WatchCall final : public Base, public JobWatcher {
+ public:
+  WatchCall(DurableCall call, const v1::WatchJobRequest& request)
+      : Base(std::move(call.facts)), durable_jobs_(call.durable_jobs) {
+    subject_ = request.job();
+    events_.StartAfter(request.after_sequence());
+  }
+
+  void Begin() {
+    Open();
+    std::unique_ptr<WatchHandle> handle =
+        durable_jobs_.WatchJob(facts_.tenant, subject_, events_.sequence(), Self());
+    std::lock_guard lock(mutex_);
+    handle_ = std::move(handle);
+    AwaitSilence();
+  }
+  void OnEvent(const JobEvent& event) override {
+    std::lock_guard lock(mutex_);
+    if (end_.has_value()) return;
+    events_.Add(ToMessage(event));
+    Advance();
+  }
+  void OnWatchEnd(const absl::Status& status) override { End(StorageError(status)); }
+
+ private:
+  std::optional<v1::WatchJobResponse> Next() override;
+  void Advance() override;
+  void Closed() override {
+    std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
+    std::lock_guard lock(mutex_);
+    handle = std::move(handle_);
+  }
+  void AwaitSilence();
+  void OnAlarm();
+  std::shared_ptr<WatchCall> Self() {
+    return std::static_pointer_cast<WatchCall>(shared_from_this());
+  }
+
+  DurableJobs& durable_jobs_;
+  std::unique_ptr<WatchHandle> handle_;   // guarded by mutex_, as what follows
+  std::unique_ptr<grpc::Alarm> silence_;  // null once the call has finished
+  EventQueue events_;
+  Clock::time_point written_ = Clock::now();
+  bool heartbeat_due_ = false;
+};
+
+std::optional<v1::WatchJobResponse> WatchCall::Next() {
+  std::optional<v1::WatchJobResponse> next = events_.Next();
+  if (!next.has_value() && heartbeat_due_) {
+    next.emplace().set_sequence(events_.sequence());
+    *next->mutable_time() = ToMessage(Clock::now());
+    next->mutable_heartbeat();
+  }
+  heartbeat_due_ = false;
+  if (next.has_value()) written_ = Clock::now();
+  return next;
+}
+
+void WatchCall::Advance() {
+  Base::Advance();
+  if (finished_) silence_ = nullptr;
+}
+
+void WatchCall::AwaitSilence() {
+  if (finished_) return;
+  // A new one each time: an alarm must not be set from its own reaction.
+  silence_ = std::make_unique<grpc::Alarm>();
+  silence_->Set(written_ + kHeartbeat, [self = Self()](bool ok) {
+    if (ok) self->OnAlarm();
+  });
+}
+
+void WatchCall::OnAlarm() {
+  std::lock_guard lock(mutex_);
+  heartbeat_due_ = !writing() && Clock::now() >= written_ + kHeartbeat;
+  if (heartbeat_due_) Advance();
+  if (writing()) written_ = Clock::now();
+  AwaitSilence();
+}
+
+}  // namespace
+
+grpc::ServerWriteReactor<v1::WatchJobResponse>* StartWatch(absl::StatusOr<DurableCall> call,
+                                                           const v1::WatchJobRequest& request) {
+  return StartCall<WatchCall>(std::move(call), request);
+}
+
+}  // namespace bccskel::server

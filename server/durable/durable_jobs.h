@@ -1,0 +1,399 @@
+#ifndef BCCSKEL_SERVER_DURABLE_DURABLE_JOBS_H_
+#define BCCSKEL_SERVER_DURABLE_DURABLE_JOBS_H_
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "server/durable/active_jobs.h"
+#include "server/durable/clock_guard.h"
+#include "server/durable/durable_options.h"
+#include "server/durable/job_codec.h"
+#include "server/durable/job_journal.h"
+#include "server/durable/operations.h"
+#include "server/durable/records.h"
+#include "server/durable/run.h"
+#include "server/durable/stored_result.h"
+#include "server/durable/upload_session.h"
+#include "server/durable/watch_board.h"
+#include "server/jobs/task_threads.h"
+#include "server/store/blob_store.h"
+#include "server/store/data_folder.h"
+#include "server/store/disk_quota.h"
+#include "server/store/group_commit.h"
+
+namespace bccskel::server {
+
+// Uploads, volumes, jobs and results that survive the process: what a callback has confirmed with
+// OK is on disk. Every function returns at once; `done` is called exactly once, on a thread of the
+// DurableJobs, and must not block. Every name is looked up within the tenant: those of others are
+// NOT_FOUND.
+// Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE when
+// the server is draining; INTERNAL. Threads: safe.
+//
+// What is remembered here, but for uploads, belongs to the loop: the thread of the job store. A
+// step is posted to it as a change, which alone writes the store, and an end, which runs once the
+// change is on disk and alone changes what is remembered. Bytes of files are read and written on
+// other threads.
+//
+// durable_jobs.cc opens and closes; uploads.cc, volumes.cc and jobs.cc answer callers; runs.cc and
+// results.cc compute; expiry.cc cleans up.
+//
+// Several processes may share the store and the folder. Each then remembers the unfinished jobs of
+// all, as of a moment ago; changes find out in the store how things are. fleet.cc follows
+// what others do, and takes over from those that are gone.
+class DurableJobs final : public RunObserver {
+ public:
+  template <typename Value>
+  using Done = std::function<void(absl::StatusOr<Value>)>;
+  using DoneStatus = std::function<void(absl::Status)>;
+
+  // Opens the data directory, finishes what a crash has left, and goes on with unfinished jobs.
+  // Needs: `runner` and `codec` outlive DurableJobs. Blocks; may take as long as reading all
+  //        unfinished uploads.
+  // Errors: ALREADY_EXISTS when another process owns the directory; FAILED_PRECONDITION for a
+  //         directory of a newer version, and for files that are not those of its job store;
+  //         RESOURCE_EXHAUSTED; DATA_LOSS for a damaged job store.
+  static absl::StatusOr<std::unique_ptr<DurableJobs>> Open(const DurableOptions& options,
+                                                           JobRunner& runner,
+                                                           const JobCodec& codec);
+  // Stops: running jobs go back to the queue, without an attempt lost; watches end. Waits for what
+  // is under way. Needs: no call any more, readers and handles of watches included.
+  ~DurableJobs() override;
+
+  // New uploads and jobs are refused as kDraining; no further job begins to run.
+  void StopAdmitting() { admitting_ = false; }
+
+  // ---- Uploads. Chunks have at most 1 MiB.
+
+  // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name that was used with something else;
+  //         RESOURCE_EXHAUSTED for a quota; with a job the runner's.
+  void CreateUpload(const std::string& tenant, const NewUpload& upload, Done<UploadInfo> done);
+  // Yields the committed size. `done` comes when there is room for more. Without `crc32c` (of
+  // `bytes`) no check is made.
+  // Errors: OUT_OF_RANGE with the payload CommittedSizeOf() for a wrong offset and for more than
+  //         was declared; ABORTED while another Append() or FinishUpload() is under way;
+  //         INVALID_ARGUMENT for a wrong checksum or, decoded along, a malformed volume;
+  //         FAILED_PRECONDITION after the upload was finished.
+  void Append(const std::string& tenant, const std::string& upload, uint64_t offset,
+              std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done);
+  // Nobody sends just now: what was decoded along is dropped and its memory given back. The upload
+  // stays and can be gone on with.
+  void SenderGone(const std::string& tenant, const std::string& upload);
+  void GetUpload(const std::string& tenant, const std::string& upload, Done<UploadInfo> done);
+  // Makes the upload a volume, and queues the job that waits for it. Finishing again yields the
+  // same volume.
+  // Errors: OUT_OF_RANGE with the committed size while bytes are missing; INVALID_ARGUMENT for
+  //         another size or digest than that of the bytes (then the upload is gone); ABORTED.
+  void FinishUpload(const std::string& tenant, const std::string& upload, uint64_t size_bytes,
+                    std::optional<Sha256Digest> sha256, Done<VolumeInfo> done);
+  // Also cancels the job that waits for it.
+  void DeleteUpload(const std::string& tenant, const std::string& upload, DoneStatus done);
+
+  // ---- Volumes
+
+  // Those that the tenant has, of blob or volume digests (64 hexadecimal digits). The same bytes
+  // may be several volumes, declared differently.
+  void FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
+                   Done<std::vector<VolumeInfo>> done);
+  void GetVolume(const std::string& tenant, const std::string& volume, Done<VolumeInfo> done);
+  // Erases the bytes. Errors: FAILED_PRECONDITION while an unfinished job needs it.
+  void DeleteVolume(const std::string& tenant, const std::string& volume, DoneStatus done);
+
+  // ---- Jobs
+
+  // With kValidateOnly the job that would be made, without a name.
+  // Errors: FAILED_PRECONDITION when there is no such volume; ALREADY_EXISTS for a request_id that
+  //         was used with something else; INVALID_ARGUMENT; RESOURCE_EXHAUSTED for a volume that
+  //         can never be admitted; kQueueFull.
+  void CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done);
+  void GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done);
+  // Errors: INVALID_ARGUMENT for a token that did not come with these states.
+  void ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done);
+  // Yields the job as it is then: cancelled, unless it had ended before.
+  void CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done);
+  // Erases the job, its upload if unfinished, and its result unless another job has the same. A job
+  // that has not ended is cancelled first.
+  void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done);
+  // Events after `after_sequence`, and the end in any case; 0 for all.
+  std::unique_ptr<WatchHandle> WatchJob(const std::string& tenant, const std::string& job,
+                                        uint64_t after_sequence,
+                                        std::shared_ptr<JobWatcher> watcher);
+  // Errors: FAILED_PRECONDITION for a job that has not succeeded; OUT_OF_RANGE for a record beyond
+  //         the end (the number of records itself is fine); DATA_LOSS for a damaged file.
+  void OpenResult(const std::string& tenant, const std::string& job, uint64_t first_record,
+                  Done<std::shared_ptr<ResultReader>> done);
+
+  // ---- Metrics
+
+  DurableUsage usage() const;
+  // Why what is confirmed now could be lost, or what is read be wrong: the tables are damaged or
+  // gone. OK else, and on a full disk.
+  absl::Status Health() const { return loop_.Health(); }
+
+  // Use Open(). Recover() comes next, once.
+  DurableJobs(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,
+              FolderLock lock, std::unique_ptr<JobStore> store,
+              std::unique_ptr<DiskReserve> reserve);
+  absl::Status Recover();
+
+ private:
+  using UploadKey = std::pair<std::string, std::string>;  // tenant, name
+  using Session = std::shared_ptr<UploadSession>;
+
+  struct Opening;
+  struct Finishing;
+  struct Creating;
+  struct Storing;
+  struct Claiming;
+  struct Moving;
+
+  // ---- Opening and closing
+  absl::Status RecoverStore(JobStore& store);
+  // The paths of all files that the tables name, results that are not confirmed yet among them.
+  absl::StatusOr<std::set<std::string>> KnownFiles(JobStore& store);
+  absl::Status TakeOver(JobStore& store, const std::set<std::string>& files,
+                        const std::set<std::string>& known);
+  void Sweep(JobStore& store, const std::set<std::string>& files,
+             const std::set<std::string>& known);
+  absl::Status RecoverUploads(JobStore& store);
+  absl::Status RecoverJobs(JobStore& store);
+  absl::StatusOr<std::optional<EventRow>> RecoverJob(JobStore& store, JobRow& job);
+  void Tick(std::stop_token stop);
+  void OnLoop(std::function<void()> task);  // returns when it was run
+
+  // Counts the operation until `done` was called.
+  template <typename Done>
+  Done Track(Done done) {
+    return [done = std::move(done), token = operations_.Begin()](auto value) {
+      done(std::move(value));
+    };
+  }
+  template <typename Value>
+  void Answer(Done<Value> done, absl::StatusOr<Value> value) {
+    files_.Post({}, [done = std::move(done), value = std::move(value)]() mutable {
+      done(std::move(value));
+    });
+  }
+  // A change that yields a value.
+  template <typename Value>
+  void Read(std::function<absl::StatusOr<Value>(JobStore&)> read, Done<Value> done) {
+    const auto value = std::make_shared<std::optional<Value>>();
+    loop_.Post(
+        [read = std::move(read), value](JobStore& store) -> absl::Status {
+          absl::StatusOr<Value> found = read(store);
+          if (found.ok()) *value = *std::move(found);
+          return found.status();
+        },
+        [value, done = Track(std::move(done))](absl::Status status) {
+          if (!status.ok()) return done(std::move(status));
+          done(*std::move(*value));
+        });
+  }
+  // As the runner is to be asked.
+  static JobPriority PriorityOf(const JobRow& job);
+  static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
+  absl::Status CheckAdmitting() const;
+  absl::Status CheckFits(const JobRequest& request) const;
+  absl::Status CheckRoomForJob() const;
+  // As precise as the store: what callers are told does not change when it is read back.
+  Time Now() const { return std::chrono::floor<std::chrono::microseconds>(options_.now()); }
+
+  // ---- Uploads
+  Session FindSession(const std::string& tenant, const std::string& upload) const;
+  // The session of an unfinished upload; another server's is taken over. Errors: NOT_FOUND;
+  // FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
+  void WithSession(const std::string& tenant, const std::string& upload, Done<Session> done);
+  absl::Status PrepareMove(JobStore& store, Moving& moving);
+  void MoveUpload(const std::shared_ptr<Moving>& moving);
+  absl::Status StoreMove(JobStore& store, Moving& moving) const;
+  void EndMove(const std::shared_ptr<Moving>& moving, absl::Status status);
+  // Another server has taken the upload over.
+  absl::Status Superseded(const Session& session);
+  void ForgetSession(const UploadRow& row);
+  void AddSession(const Session& session);
+  // Removes the files, too; the bytes stay counted.
+  void DropSession(const UploadRow& row);
+  static RemovalRow RemovalOf(const UploadRow& row);
+  absl::Status PrepareUpload(const NewUpload& upload, Opening& opening);
+  absl::Status StoreUpload(JobStore& store, Opening& opening);
+  absl::Status CheckSameUpload(JobStore& store, const Opening& opening) const;
+  absl::Status StoreReceivingJob(JobStore& store, Opening& opening);
+  void UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status);
+  void OpenFile(const std::shared_ptr<Opening>& opening);
+  void AppendNow(const Session& session, std::string bytes, std::optional<uint32_t> crc32c,
+                 const Done<uint64_t>& done);
+  absl::StatusOr<UploadRow> FindUploadRow(JobStore& store, const std::string& tenant,
+                                          const std::string& upload) const;
+  UploadInfo InfoOf(const UploadRow& row) const;
+  // Takes an unfinished upload away, and ends the job that waits for it.
+  void EndUpload(const std::string& tenant, const std::string& upload, JobState state,
+                 const absl::Status& error, std::function<void(absl::Status)> then);
+  absl::Status EraseUpload(JobStore& store, const UploadRow& row, JobState state,
+                           const absl::Status& error, Erased& erased);
+  void FinishAgain(const std::string& tenant, const std::string& upload, Done<VolumeInfo> done);
+  void Seal(const std::shared_ptr<Finishing>& finishing);
+  absl::Status StoreVolume(JobStore& store, Finishing& finishing);
+  absl::Status StoreVolumeOfJob(JobStore& store, Finishing& finishing);
+  void VolumeStored(Finishing& finishing, absl::Status status);
+
+  // ---- Volumes
+  VolumeInfo InfoOf(const VolumeRow& row) const;
+  absl::StatusOr<VolumeRow> FindVolumeRow(JobStore& store, const std::string& tenant,
+                                          const std::string& volume) const;
+  absl::Status EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased);
+
+  // ---- Jobs
+  absl::StatusOr<JobInfo> InfoOf(JobStore& store, const JobRow& row) const;
+  JobInfo PlainInfoOf(const JobRow& row) const;
+  void PostJob(const std::shared_ptr<Creating>& creating);
+  absl::Status StoreJob(JobStore& store, Creating& creating);
+  absl::Status InsertJob(JobStore& store, JobRow job, Creating& creating);
+  absl::Status CheckJob(JobStore& store, Creating& creating);
+  absl::StatusOr<JobRow> FindJobRow(JobStore& store, const std::string& tenant,
+                                    const std::string& job) const;
+  absl::Status CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased);
+  absl::Status EraseJob(JobStore& store, const JobRow& job, Erased& erased);
+
+  // ---- What follows a change; on the loop
+  void Apply(const Step& step);
+  void Apply(const Erased& erased);
+  // A change that erases, and what follows.
+  void Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change, DoneStatus done);
+
+  // ---- Runs; on the loop
+  std::string ResultKey(const std::string& volume_digest, const std::string& options) const;
+  // Brings the stored job into a state.
+  absl::Status EnterState(JobStore& store, int64_t job, JobState state, const absl::Status& error,
+                          int64_t result, std::vector<Step>& steps);
+  // The same for jobs that are remembered, as a change of its own; repeated until the disk takes
+  // it.
+  void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
+                  std::function<void()> then);
+  // Brings a waiting job to run here. `volume`: that is fed to it; null for a job that joins a run.
+  void Claim(int64_t job, const VolumeRow* volume, std::function<void()> then);
+  absl::Status ClaimStored(JobStore& store, Claiming& claiming);
+  void Claimed(const Claiming& claiming);
+  void Enqueue(ActiveJob& job);
+  void Dequeue(ActiveJob& job);
+  void Schedule();
+  enum class Begun { kYes, kNothingNow };
+  Begun BeginNext();
+  Begun BeginJob(const JobRow& job);
+  Begun StartRun(const JobRow& job, const VolumeRow& volume);
+  ActiveRun* EqualRun(const JobRow& job, const VolumeRow& volume);
+  std::map<std::string, int> RunsOfTenants() const;
+  int CountRunsFromFiles(int least_crashes) const;
+  ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
+  void Attach(ActiveRun& run, int64_t job);
+  void Detach(int64_t job);
+  void Feed(Run* run, const VolumeRow& volume);
+  void RunEnded(Run* run, const absl::StatusOr<ResultRow>& result);
+  void StoreResult(Run* run, const ResultRow& row);
+  absl::Status StoreResultOf(JobStore& store, Storing& storing);
+  void RunFailed(Run* run, const absl::Status& error);
+  void ReceivingFailed(int64_t job, const absl::Status& error);
+  void ForgetRun(Run* run);
+  void VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest);
+  void JoinEqual(Run* run);
+  // The stored result, read to its end: a damaged one is dropped, and there is none.
+  void WithWholeResult(const std::string& tenant, const std::string& key,
+                       std::function<void(const std::optional<ResultRow>& result)> then);
+  void DropResult(const ResultRow& row, std::function<void()> then);
+  void GiveStoredResult(Run* run, int64_t result);
+  std::map<int64_t, JobEvent> TakeProgress(Run& run);
+  absl::Status StoreProgress(JobStore& store, const std::map<int64_t, JobEvent>& events);
+  void RetryLater(std::function<void()> task);
+
+  void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) override;
+  void OnRunProgress(std::shared_ptr<Run> run) override;
+  void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
+
+  // ---- The fleet; on the loop. Where nobody shares the store, nothing happens.
+  absl::Status JoinFleet(JobStore& store);
+  void LookAfterFleet();
+  // Follows what others have changed.
+  void Sync();
+  void Follow(const JobRow& job);
+  void FollowDeleted(int64_t job);
+  // All events of the job to who watches it here.
+  void TellStored(int64_t job);
+  // The newest progress of jobs that run elsewhere to who watches them here.
+  void TellProgress();
+  std::optional<JobEvent> ProgressElsewhere(JobStore& store, const JobRow& job) const;
+  void Beat();
+  absl::Status CountFiles(JobStore& store);
+  void SweepShared();
+  void LookAtMembers();
+  void TakeOverFrom(const Member& member);
+  // After this server was fenced off: what it ran is others' now.
+  void Rejoin();
+  void QueueWaiting();
+
+  // ---- Expiry; on the loop
+  bool CleanUpIsDue() const;
+  void CleanUp();
+  std::vector<UploadRow> UnusedUploads(Time oldest);
+  void ExpireUploads();
+  void ExpireJobs();
+  void ExpireVolumes();
+  // What a crash, or the file system, has left of deleted files.
+  absl::Status RemoveFiles(JobStore& store);
+  bool ClockIsBelieved();
+
+  const DurableOptions options_;
+  JobRunner& runner_;
+  const JobCodec& codec_;
+  const bool shared_;  // with other servers
+  FolderLock lock_;
+  const BlobStore blobs_;
+  DiskQuota quota_;
+  std::atomic<bool> admitting_ = true;
+  std::array<std::atomic<int>, 6> jobs_in_state_ = {};  // unfinished ones, by JobState
+  std::atomic<uint64_t> cached_ = 0;
+
+  mutable std::mutex sessions_mutex_;
+  std::map<UploadKey, Session> sessions_;  // guarded by sessions_mutex_
+  std::set<UploadKey> opening_;            // guarded by sessions_mutex_
+
+  // These belong to the loop.
+  JobJournal journal_;
+  JobQueue queue_;
+  WatchBoard watches_;
+  std::map<int64_t, ActiveJob> active_;
+  std::map<Run*, ActiveRun> runs_;
+  std::vector<std::function<void()>> retries_;
+  std::set<int64_t>
+      waits_for_equal_;  // jobs in the queue's turn, while an equal one runs elsewhere
+  std::map<std::string, Sign> members_;  // others of the fleet
+  std::chrono::steady_clock::time_point last_beat_, last_look_, last_progress_;
+  int64_t last_change_ = -1;
+  int beats_ = 0, clean_ups_ = 0;
+  bool stopping_ = false;
+  Time next_clean_up_{};
+  ClockGuard clock_;
+
+  Operations operations_;
+  GroupCommit loop_;
+  TaskThreads files_;
+  std::atomic<bool> retry_wanted_ = false;
+  std::mutex tick_mutex_;
+  std::condition_variable_any tick_;
+  std::jthread ticker_;  // last: it uses all of these
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_DURABLE_JOBS_H_

@@ -1,0 +1,116 @@
+#include <utility>
+#include <vector>
+
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_jobs.h"
+
+namespace bccskel::server {
+
+void DurableJobs::CleanUp() {
+  next_clean_up_ = Now() + options_.clean_up_interval;
+  loop_.Post([this](JobStore& store) { return RemoveFiles(store); },
+             [this](const absl::Status&) { loop_.store().Forget().IgnoreError(); },
+             GroupCommit::Room::kReserve);
+  if (!ClockIsBelieved()) return;
+  SweepShared();
+  ExpireUploads();
+  ExpireJobs();
+  ExpireVolumes();
+}
+
+bool DurableJobs::ClockIsBelieved() {
+  const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
+  if (believed) lock_.Touch(Now());  // else the next start would believe it
+  if (!believed) {
+    options_.on_warning(
+        "the clock has leapt ahead by more than a day: nothing expires for an hour");
+  }
+  return believed;
+}
+
+// Others' are known by their files.
+std::vector<UploadRow> DurableJobs::UnusedUploads(Time oldest) {
+  std::vector<UploadRow> unused;
+  const auto uploads = loop_.store().AllUploads();
+  for (const UploadRow& row : uploads.ok() ? *uploads : std::vector<UploadRow>()) {
+    if (row.volume.empty() && InfoOf(row).expires < oldest + options_.keep_uploads) {
+      unused.push_back(row);
+    }
+  }
+  return unused;
+}
+
+void DurableJobs::ExpireUploads() {
+  const Time oldest = Now() - options_.keep_uploads;
+  for (const UploadRow& row : UnusedUploads(oldest)) {
+    EndUpload(row.tenant, row.name, JobState::kFailed,
+              absl::DeadlineExceededError("its upload was not finished in time"),
+              [token = operations_.Begin()](const absl::Status&) {});
+  }
+  loop_.Post(
+      [oldest](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+        for (const UploadRow& row : uploads) {
+          if (row.volume.empty() || row.used >= oldest) continue;
+          BCCSKEL_RETURN_IF_ERROR(store.DeleteUpload(row.tenant, row.name));
+        }
+        return absl::OkStatus();
+      },
+      nullptr, GroupCommit::Room::kReserve);
+}
+
+// A few at a time: what a full disk keeps in reserve must be enough for that.
+void DurableJobs::ExpireJobs() {
+  constexpr int kMostAtATime = 100;
+  const Time oldest = Now() - options_.keep_results;
+  const auto more = std::make_shared<bool>(false);
+  Erase(
+      [this, oldest, more](JobStore& store, Erased& erased) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs,
+                                 store.JobsEndedBefore(oldest, kMostAtATime));
+        for (const JobRow& job : jobs) BCCSKEL_RETURN_IF_ERROR(EraseJob(store, job, erased));
+        *more = jobs.size() == kMostAtATime;
+        return absl::OkStatus();
+      },
+      [this, more, token = operations_.Begin()](const absl::Status& status) {
+        if (status.ok() && *more && !stopping_) ExpireJobs();
+      });
+}
+
+void DurableJobs::ExpireVolumes() {
+  const Time oldest = Now() - options_.keep_volumes;
+  Erase(
+      [this, oldest](JobStore& store, Erased& erased) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
+        for (const VolumeRow& row : volumes) {
+          if (row.used >= oldest) continue;
+          BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(row.tenant, row.name));
+          if (!user.has_value()) BCCSKEL_RETURN_IF_ERROR(EraseVolume(store, row, erased));
+        }
+        return absl::OkStatus();
+      },
+      [token = operations_.Begin()](const absl::Status&) {});
+}
+
+absl::Status DurableJobs::RemoveFiles(JobStore& store) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<RemovalRow> removals, store.AllRemovals());
+  for (const RemovalRow& row : removals) {
+    absl::Status removed;
+    if (row.kind == RemovalRow::Kind::kUpload) {
+      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindUpload(row.tenant, row.name));
+      const bool wanted = again.has_value() && again->volume.empty();
+      if (!wanted) removed = blobs_.RemoveUpload(row.tenant, row.name);
+    } else if (row.kind == RemovalRow::Kind::kUploadFile) {
+      removed = blobs_.RemoveUpload(row.tenant, {}, row.name);
+    } else if (row.kind == RemovalRow::Kind::kBlob) {
+      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
+      if (again.empty()) removed = blobs_.RemoveBlob(row.tenant, row.name);
+    } else {
+      removed = blobs_.RemoveResult(row.tenant, row.name);
+    }
+    if (removed.ok()) BCCSKEL_RETURN_IF_ERROR(store.DeleteRemoval(row));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,378 @@
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_jobs.h"
+#include "server/durable/names.h"
+#include "server/errors/call_error.h"
+#include "server/jobs/random_name.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr int kMostPerPage = 1000;
+constexpr uint32_t kAllStates = 0x3F;
+
+uint32_t BitsOf(const std::vector<JobState>& states) {
+  uint32_t bits = 0;
+  for (const JobState state : states) bits |= uint32_t{1} << static_cast<int>(state);
+  return states.empty() ? kAllStates : bits;
+}
+
+// Of the last job of a page. Made of what its tenant knows of that job: a token tells nothing of
+// other tenants, and holds when the job is deleted meanwhile.
+std::string TokenOf(const JobPosition& last, uint32_t states) {
+  return absl::WebSafeBase64Escape(
+      absl::StrCat(last.created.time_since_epoch().count(), " ", last.name, " ", states));
+}
+
+absl::StatusOr<std::optional<JobPosition>> PositionOf(const std::string& token, uint32_t states) {
+  if (token.empty()) return std::nullopt;
+  std::string text;
+  absl::WebSafeBase64Unescape(token, &text);
+  const std::vector<std::string> parts = absl::StrSplit(text, ' ');
+  int64_t created = 0;
+  if (parts.size() == 3 && absl::SimpleAtoi(parts[0], &created)) {
+    const JobPosition position = {.created = Time(Time::duration(created)), .name = parts[1]};
+    if (TokenOf(position, states) == token) return position;
+  }
+  return InvalidField("page_token", "did not come with a page of these states");
+}
+
+// What makes two requests the same.
+std::string BodyOf(const NewJob& job) {
+  return KeyOf({job.volume, job.options, absl::StrCat(job.priority), absl::StrCat(job.threads)});
+}
+
+// Also who repeats a job with the options that the server tells of it asks for the same.
+bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
+  if (found.body == BodyOf(wanted)) return true;
+  return found.volume == wanted.volume && found.options == wanted.options &&
+         found.priority == wanted.priority && found.threads == wanted.threads;
+}
+
+class BoardWatch final : public WatchHandle {
+ public:
+  explicit BoardWatch(std::shared_ptr<Watch> watch) : watch_(std::move(watch)) {}
+  ~BoardWatch() override { watch_->Stop(); }
+
+ private:
+  const std::shared_ptr<Watch> watch_;
+};
+
+}  // namespace
+
+// A job on its way into the store.
+struct DurableJobs::Creating {
+  std::string tenant;
+  NewJob wanted;
+  VolumeRow volume;
+  std::string options;             // as they take effect on the volume
+  std::string unread_key;          // of a stored result that has to be read before it is given
+  bool looked = false;             // for that
+  std::optional<ResultRow> whole;  // that was read
+  std::optional<Step> step;        // of a job that is new
+  std::optional<JobInfo> info;
+  Done<JobInfo> done;
+};
+
+JobInfo DurableJobs::PlainInfoOf(const JobRow& row) const {
+  JobInfo info;
+  info.name = row.name;
+  info.volume = row.volume;
+  info.upload = row.upload;
+  info.request_id = row.request_id;
+  info.options = row.options;
+  info.priority = row.priority;
+  info.threads = row.threads;
+  info.state = row.state;
+  info.error = row.error;
+  info.attempts = row.attempts;
+  info.sequence = row.sequence;
+  info.created = row.created;
+  info.started = row.started;
+  info.ended = row.ended;
+  if (row.ended.has_value()) info.expires = *row.ended + options_.keep_results;
+  return info;
+}
+
+absl::StatusOr<JobInfo> DurableJobs::InfoOf(JobStore& store, const JobRow& row) const {
+  JobInfo info = PlainInfoOf(row);
+  if (row.state == JobState::kRunning) info.progress = watches_.ProgressOf(row.number);
+  if (const auto event = ProgressElsewhere(store, row); event.has_value()) {
+    info.progress = std::get<JobProgress>(event->what);
+  }
+  if (row.result == 0) return info;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> result, store.FindResult(row.result));
+  if (!result.has_value()) return info;
+  info.result_records = result->records;
+  info.result_bytes = result->bytes;
+  info.summary = result->summary;
+  return info;
+}
+
+absl::StatusOr<JobRow> DurableJobs::FindJobRow(JobStore& store, const std::string& tenant,
+                                               const std::string& job) const {
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> row, store.FindJob(tenant, job));
+  if (row.has_value()) return *std::move(row);
+  return absl::NotFoundError(absl::StrCat("there is no job ", job));
+}
+
+void DurableJobs::CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) {
+  done = Track(std::move(done));
+  if (absl::Status status = CheckAdmitting(); !status.ok()) {
+    return Answer<JobInfo>(std::move(done), std::move(status));
+  }
+  const auto creating = std::make_shared<Creating>();
+  creating->tenant = tenant;
+  creating->wanted = job;
+  creating->done = std::move(done);
+  PostJob(creating);
+}
+
+void DurableJobs::PostJob(const std::shared_ptr<Creating>& creating) {
+  loop_.Post([this, creating](JobStore& store) { return StoreJob(store, *creating); },
+             [this, creating](absl::Status status) {
+               if (!status.ok()) return creating->done(std::move(status));
+               if (!creating->unread_key.empty()) {
+                 return WithWholeResult(creating->tenant, creating->unread_key,
+                                        [this, creating](const std::optional<ResultRow>& result) {
+                                          creating->looked = true;
+                                          creating->whole = result;
+                                          PostJob(creating);
+                                        });
+               }
+               if (creating->step.has_value()) {
+                 Apply(*creating->step);
+                 if (IsTerminal(creating->step->job.state)) ++cached_;
+               }
+               creating->done(*std::move(creating->info));
+               Schedule();
+             });
+}
+
+absl::Status DurableJobs::StoreJob(JobStore& store, Creating& creating) {
+  const NewJob& wanted = creating.wanted;
+  creating.step.reset();
+  creating.unread_key.clear();
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
+                           store.FindJobOfRequest(creating.tenant, wanted.request_id));
+  if (found.has_value()) {
+    if (!AsksForTheSame(*found, wanted)) {
+      return CallError(Reason::kRequestIdReused,
+                       absl::StrCat("request_id ", wanted.request_id, " has made ", found->name,
+                                    ", which is something else"),
+                       {.key = "job", .value = found->name});
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, *found));
+    return absl::OkStatus();
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckJob(store, creating));
+  JobRow job;
+  job.tenant = creating.tenant;
+  job.request_id = wanted.request_id;
+  job.body = BodyOf(wanted);
+  job.options = creating.options;
+  job.priority = wanted.priority;
+  job.threads = wanted.threads;
+  job.trace = wanted.trace;
+  job.volume = wanted.volume;
+  if (wanted.mode == NewJob::Mode::kValidateOnly) {
+    creating.info = PlainInfoOf(job);
+    return absl::OkStatus();
+  }
+  job.name = RandomName("jobs");
+  return InsertJob(store, std::move(job), creating);
+}
+
+absl::Status DurableJobs::CheckJob(JobStore& store, Creating& creating) {
+  const absl::StatusOr<VolumeRow> volume =
+      FindVolumeRow(store, creating.tenant, creating.wanted.volume);
+  if (absl::IsNotFound(volume.status())) {
+    return CallError(Reason::kVolumeMissing, std::string(volume.status().message()));
+  }
+  BCCSKEL_RETURN_IF_ERROR(volume.status());
+  if (!blobs_.HasBlob(volume->tenant, volume->blob_digest, volume->size_bytes)) {
+    return CallError(Reason::kVolumeMissing,
+                     absl::StrCat("the bytes of ", volume->name, " are lost: send them again"));
+  }
+  creating.volume = *volume;
+  BCCSKEL_ASSIGN_OR_RETURN(const JobRequest request,
+                           codec_.RequestOf(volume->declaration, creating.wanted.options));
+  creating.options = codec_.OptionsFor(request, creating.wanted.options);
+  BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
+  return CheckRoomForJob();
+}
+
+absl::Status DurableJobs::InsertJob(JobStore& store, JobRow job, Creating& creating) {
+  VolumeRow& volume = creating.volume;
+  volume.used = Now();
+  BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
+  if (!volume.volume_digest.empty()) {
+    const std::string key = ResultKey(volume.volume_digest, job.options);
+    BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResultOf(job.tenant, key));
+    if (result.has_value()) {
+      const bool whole = creating.whole.has_value() && creating.whole->file == result->file;
+      if (!whole && !creating.looked) {
+        creating.unread_key = key;
+        return absl::OkStatus();
+      }
+      if (whole) job.state = JobState::kSucceeded;
+      if (whole) job.result = result->number;
+    }
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(EventRow event, journal_.Insert(store, job));
+  BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, job));
+  creating.step = Step{.job = std::move(job), .event = std::move(event)};
+  return absl::OkStatus();
+}
+
+void DurableJobs::GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
+  Read<JobInfo>(
+      [this, tenant, job](JobStore& store) -> absl::StatusOr<JobInfo> {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        return InfoOf(store, row);
+      },
+      std::move(done));
+}
+
+void DurableJobs::ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done) {
+  Read<JobPage>(
+      [this, tenant, query](JobStore& store) -> absl::StatusOr<JobPage> {
+        const int size = std::clamp(query.page_size, 1, kMostPerPage);
+        const uint32_t states = BitsOf(query.states);
+        BCCSKEL_ASSIGN_OR_RETURN(const auto after, PositionOf(query.page_token, states));
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> rows,
+                                 store.ListJobs(tenant, after, states, size + 1));
+        JobPage page;
+        for (const JobRow& row : rows) {
+          if (page.jobs.size() == static_cast<size_t>(size)) break;
+          page.next_token = TokenOf({.created = row.created, .name = row.name}, states);
+          BCCSKEL_ASSIGN_OR_RETURN(JobInfo info, InfoOf(store, row));
+          info.summary.clear();
+          info.progress.reset();
+          page.jobs.push_back(std::move(info));
+        }
+        if (rows.size() <= static_cast<size_t>(size)) page.next_token.clear();
+        return page;
+      },
+      std::move(done));
+}
+
+void DurableJobs::CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
+  const auto info = std::make_shared<JobInfo>();
+  Erase(
+      [this, tenant, job, info](JobStore& store, Erased& erased) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, erased));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(*info, InfoOf(store, now));
+        return absl::OkStatus();
+      },
+      [info, done = Track(std::move(done))](absl::Status status) {
+        if (!status.ok()) return done(std::move(status));
+        done(std::move(*info));
+      });
+}
+
+absl::Status DurableJobs::CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased) {
+  if (IsTerminal(job.state)) return absl::OkStatus();
+  if (job.state == JobState::kReceiving) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto upload, store.FindUpload(job.tenant, job.upload));
+    if (upload.has_value()) {
+      return EraseUpload(store, *upload, JobState::kCancelled, absl::OkStatus(), erased);
+    }
+  }
+  JobRow row = job;
+  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, row, JobState::kCancelled));
+  erased.steps.push_back({.job = row, .event = event});
+  return absl::OkStatus();
+}
+
+void DurableJobs::DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) {
+  Erase(
+      [this, tenant, job](JobStore& store, Erased& erased) -> absl::Status {
+        const absl::StatusOr<JobRow> row = FindJobRow(store, tenant, job);
+        if (absl::IsDataLoss(row.status())) return store.DeleteDamagedJob(tenant, job);
+        BCCSKEL_RETURN_IF_ERROR(row.status());
+        return EraseJob(store, *row, erased);
+      },
+      Track(std::move(done)));
+}
+
+absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& erased) {
+  erased.traces = Erased::Traces::kErase;
+  BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, job, erased));
+  BCCSKEL_RETURN_IF_ERROR(store.DeleteJob(job.number));
+  if (job.result == 0) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.TakeResultIfUnused(job.result));
+  if (result.has_value()) erased.results.push_back(*result);
+  return absl::OkStatus();
+}
+
+std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
+                                                   const std::string& job, uint64_t after_sequence,
+                                                   std::shared_ptr<JobWatcher> watcher) {
+  struct Found {
+    JobRow job;
+    std::vector<EventRow> events;
+  };
+  const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
+  const auto found = std::make_shared<Found>();
+  loop_.Post(
+      [this, tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(found->job, FindJobRow(store, tenant, job));
+        // The end is told also to a caller who knows it already.
+        const bool ended = IsTerminal(found->job.state);
+        const uint64_t after =
+            ended ? std::min(after_sequence, found->job.sequence - 1) : after_sequence;
+        BCCSKEL_ASSIGN_OR_RETURN(found->events, store.EventsAfter(found->job.number, after));
+        return absl::OkStatus();
+      },
+      [this, found, watch, token = operations_.Begin()](const absl::Status& status) {
+        if (!status.ok()) return watch->End(status);
+        for (const EventRow& event : found->events) watch->Tell(EventOf(event));
+        if (IsTerminal(found->job.state)) return watch->End(absl::OkStatus());
+        watches_.Add(found->job.number, watch);
+        TellStored(found->job.number);  // what others have added since, and was followed already
+      });
+  return std::make_unique<BoardWatch>(watch);
+}
+
+void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
+                             uint64_t first_record, Done<std::shared_ptr<ResultReader>> done) {
+  const auto found = std::make_shared<ResultRow>();
+  done = Track(std::move(done));
+  loop_.Post(
+      [this, tenant, job, found](JobStore& store) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
+        if (row.state != JobState::kSucceeded || !result.has_value()) {
+          return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
+        }
+        if (result->file.empty()) {
+          return absl::DataLossError(absl::StrCat(
+              "the result of ", job, " was damaged: the same job, created again, heals it"));
+        }
+        *found = *result;
+        return absl::OkStatus();
+      },
+      [this, found, first_record, done](absl::Status status) {
+        if (!status.ok()) return done(std::move(status));
+        files_.Post({.tenant = found->tenant}, [this, found, first_record, done] {
+          auto reader = OpenStoredResult(*found, first_record, blobs_, files_);
+          if (!absl::IsDataLoss(reader.status())) return done(std::move(reader));
+          // The next job that wants the same makes it anew, also for this one.
+          DropResult(*found,
+                     [done, status = reader.status()]() mutable { done(std::move(status)); });
+        });
+      });
+}
+
+}  // namespace bccskel::server

@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/digest/crc32c.h"
+#include "core/exec/status_macros.h"
+#include "server/durable/durable_jobs.h"
+#include "server/durable/names.h"
+#include "server/errors/call_error.h"
+#include "server/jobs/random_name.h"
+
+namespace bccskel::server {
+
+// An upload on its way into the store.
+struct DurableJobs::Opening {
+  UploadRow row;
+  std::optional<JobRow> job;
+  std::optional<JobRequest> request;  // of that job
+  std::shared_ptr<Run> run;           // that decodes along
+  std::optional<EventRow> event;
+  bool counted = false;               // by the quota
+  std::optional<UploadRow> existing;  // the same upload, which was there before
+  Done<UploadInfo> done;
+};
+
+DurableJobs::Session DurableJobs::FindSession(const std::string& tenant,
+                                              const std::string& upload) const {
+  std::lock_guard lock(sessions_mutex_);
+  const auto found = sessions_.find({tenant, upload});
+  return found == sessions_.end() ? nullptr : found->second;
+}
+
+void DurableJobs::AddSession(const Session& session) {
+  std::lock_guard lock(sessions_mutex_);
+  const UploadKey key = {session->row().tenant, session->row().name};
+  sessions_[key] = session;
+  opening_.erase(key);
+}
+
+void DurableJobs::DropSession(const UploadRow& row) {
+  {
+    std::lock_guard lock(sessions_mutex_);
+    sessions_.erase({row.tenant, row.name});
+    opening_.erase({row.tenant, row.name});
+  }
+  // Else swept at the next start.
+  blobs_.RemoveUpload(row.tenant, row.name, row.file).IgnoreError();
+}
+
+RemovalRow DurableJobs::RemovalOf(const UploadRow& row) {
+  if (row.file.empty()) return {RemovalRow::Kind::kUpload, row.tenant, row.name};
+  return {RemovalRow::Kind::kUploadFile, row.tenant, row.file};
+}
+
+void DurableJobs::CreateUpload(const std::string& tenant, const NewUpload& upload,
+                               Done<UploadInfo> done) {
+  const auto opening = std::make_shared<Opening>();
+  opening->row.tenant = tenant;
+  opening->row.name = upload.name.empty() ? RandomName("uploads") : upload.name;
+  opening->row.declaration = upload.declaration;
+  opening->row.used = Now();
+  if (shared_) opening->row.file = RandomId();
+  opening->done = Track(std::move(done));
+  if (absl::Status status = PrepareUpload(upload, *opening); !status.ok()) {
+    return Answer<UploadInfo>(std::move(opening->done), std::move(status));
+  }
+  loop_.Post([this, opening](JobStore& store) { return StoreUpload(store, *opening); },
+             [this, opening](absl::Status status) { UploadStored(opening, std::move(status)); });
+}
+
+absl::Status DurableJobs::PrepareUpload(const NewUpload& upload, Opening& opening) {
+  BCCSKEL_RETURN_IF_ERROR(CheckAdmitting());
+  BCCSKEL_RETURN_IF_ERROR(CheckUploadName(opening.row.name));
+  const std::string options = upload.then_job.has_value() ? upload.then_job->options : "";
+  BCCSKEL_ASSIGN_OR_RETURN(JobRequest request, codec_.RequestOf(upload.declaration, options));
+  opening.row.size_bytes = request.size_bytes;
+  if (!upload.then_job.has_value()) return absl::OkStatus();
+  BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
+  JobRow& job = opening.job.emplace();
+  job.tenant = opening.row.tenant;
+  job.name = RandomName("jobs");
+  job.upload = opening.row.name;
+  job.options = codec_.OptionsFor(request, options);
+  job.priority = upload.then_job->priority;
+  job.threads = upload.then_job->threads;
+  job.trace = upload.then_job->trace;
+  job.state = JobState::kReceiving;
+  opening.row.job = opening.job->name;
+  opening.request = RunnerRequest(std::move(request), *opening.job);
+  return absl::OkStatus();
+}
+
+absl::Status DurableJobs::StoreUpload(JobStore& store, Opening& opening) {
+  BCCSKEL_ASSIGN_OR_RETURN(opening.existing,
+                           store.FindUpload(opening.row.tenant, opening.row.name));
+  if (opening.existing.has_value()) return CheckSameUpload(store, opening);
+  if (shared_ && (options_.max_disk_bytes > 0 || options_.max_tenant_disk_bytes > 0)) {
+    BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
+    opening.counted = false;
+  }
+  if (!opening.counted) {
+    BCCSKEL_RETURN_IF_ERROR(quota_.Take(opening.row.tenant, opening.row.size_bytes));
+    opening.counted = true;
+  }
+  BCCSKEL_RETURN_IF_ERROR(store.InsertUpload(opening.row));
+  {
+    std::lock_guard lock(sessions_mutex_);
+    opening_.insert({opening.row.tenant, opening.row.name});
+  }
+  return opening.job.has_value() ? StoreReceivingJob(store, opening) : absl::OkStatus();
+}
+
+absl::Status DurableJobs::CheckSameUpload(JobStore& store, const Opening& opening) const {
+  const UploadRow& found = *opening.existing;
+  bool same =
+      found.declaration == opening.row.declaration && found.job.empty() == opening.row.job.empty();
+  if (same && opening.job.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.FindJob(found.tenant, found.job));
+    same = job.has_value() && job->options == opening.job->options;
+  }
+  if (same) return absl::OkStatus();
+  return CallError(Reason::kUploadExists,
+                   absl::StrCat(found.name, " was begun with another declaration or job"));
+}
+
+absl::Status DurableJobs::StoreReceivingJob(JobStore& store, Opening& opening) {
+  BCCSKEL_RETURN_IF_ERROR(CheckRoomForJob());
+  BCCSKEL_ASSIGN_OR_RETURN(opening.event, journal_.Insert(store, *opening.job));
+  if (opening.run != nullptr) return absl::OkStatus();
+  opening.run = std::make_shared<Run>(*this, opening.row.tenant, operations_.Begin());
+  absl::Status started = opening.run->Start(runner_, *std::move(opening.request));
+  if (!started.ok()) opening.run = nullptr;
+  return started;
+}
+
+void DurableJobs::UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status) {
+  if (status.ok() && opening->existing.has_value()) {
+    return opening->done(InfoOf(*opening->existing));
+  }
+  if (!status.ok()) {
+    ForgetSession(opening->row);
+    if (opening->counted) quota_.GiveBack(opening->row.tenant, opening->row.size_bytes);
+    if (opening->run != nullptr) opening->run->Cancel();
+    return opening->done(std::move(status));
+  }
+  if (opening->job.has_value()) {
+    Apply(Step{.job = *opening->job, .event = opening->event});
+    ActiveRun& run = AddRun(opening->run, *opening->job, ActiveRun::Source::kUpload);
+    Attach(run, opening->job->number);
+  }
+  files_.Post({.tenant = opening->row.tenant}, [this, opening] { OpenFile(opening); });
+}
+
+void DurableJobs::OpenFile(const std::shared_ptr<Opening>& opening) {
+  auto file = blobs_.OpenUpload(opening->row.tenant, opening->row.name, opening->row.file);
+  if (!file.ok()) {
+    const absl::Status error = file.status();
+    return EndUpload(opening->row.tenant, opening->row.name, JobState::kFailed, error,
+                     [opening, error](const absl::Status&) { opening->done(error); });
+  }
+  const auto session = std::make_shared<UploadSession>(opening->row, *std::move(file), Now());
+  session->set_along(opening->run);
+  AddSession(session);
+  opening->done(InfoOf(opening->row));
+}
+
+void DurableJobs::Append(const std::string& tenant, const std::string& upload, uint64_t offset,
+                         std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done) {
+  done = Track(std::move(done));
+  const Session session = FindSession(tenant, upload);
+  if (session == nullptr) {
+    return WithSession(tenant, upload,
+                       [this, tenant, upload, offset, bytes = std::move(bytes), crc32c,
+                        done = std::move(done)](const absl::StatusOr<Session>& found) {
+                         if (!found.ok()) return done(found.status());
+                         Append(tenant, upload, offset, bytes, crc32c, done);
+                       });
+  }
+  absl::Status status = session->BeginAppend(offset, bytes.size());
+  if (!status.ok()) return Answer<uint64_t>(std::move(done), std::move(status));
+  files_.Post({.tenant = tenant},
+              [this, session, bytes = std::move(bytes), crc32c, done = std::move(done)]() mutable {
+                AppendNow(session, std::move(bytes), crc32c, done);
+              });
+}
+
+void DurableJobs::AppendNow(const Session& session, std::string bytes,
+                            std::optional<uint32_t> crc32c, const Done<uint64_t>& done) {
+  absl::Status status;
+  if (crc32c.has_value() && *crc32c != Crc32c(bytes)) {
+    status = CallError(
+        Reason::kChunkChecksum,
+        absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes), ", the request states ", *crc32c),
+        {.field = "chunk.crc32c"});
+  }
+  if (status.ok()) status = session->file().Append(bytes);
+  if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
+  const std::shared_ptr<Run> along = session->along();
+  if (!status.ok() || along == nullptr) {
+    session->EndWriting(Now());
+    if (!status.ok()) return done(std::move(status));
+    return done(session->committed());
+  }
+  along->Append(std::move(bytes), [this, session, done](const absl::Status& decoded) {
+    session->EndWriting(Now());
+    // Whatever else has ended the decoding, the bytes are here.
+    if (absl::IsInvalidArgument(decoded))
+      return done(InvalidVolume(std::string(decoded.message())));
+    done(session->committed());
+  });
+}
+
+void DurableJobs::SenderGone(const std::string& tenant, const std::string& upload) {
+  const Session session = FindSession(tenant, upload);
+  if (session == nullptr) return;
+  const std::shared_ptr<Run> along = session->TakeAlong();
+  if (along == nullptr) return;
+  along->Cancel();
+}
+
+void DurableJobs::GetUpload(const std::string& tenant, const std::string& upload,
+                            Done<UploadInfo> done) {
+  Read<UploadInfo>(
+      [this, tenant, upload](JobStore& store) -> absl::StatusOr<UploadInfo> {
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        // Who asks may go on here with what another server has taken over meanwhile.
+        const Session session = FindSession(tenant, upload);
+        if (session != nullptr && session->row().file != row.file) ForgetSession(session->row());
+        return InfoOf(row);
+      },
+      std::move(done));
+}
+
+void DurableJobs::DeleteUpload(const std::string& tenant, const std::string& upload,
+                               DoneStatus done) {
+  EndUpload(tenant, upload, JobState::kCancelled, absl::OkStatus(), Track(std::move(done)));
+}
+
+void DurableJobs::EndUpload(const std::string& tenant, const std::string& upload, JobState state,
+                            const absl::Status& error, std::function<void(absl::Status)> then) {
+  Erase(
+      [this, tenant, upload, state, error](JobStore& store, Erased& erased) -> absl::Status {
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        return EraseUpload(store, row, state, error, erased);
+      },
+      std::move(then));
+}
+
+absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, JobState state,
+                                      const absl::Status& error, Erased& erased) {
+  BCCSKEL_RETURN_IF_ERROR(store.DeleteUpload(row.tenant, row.name));
+  erased.traces = Erased::Traces::kErase;
+  if (!row.volume.empty()) return absl::OkStatus();
+  erased.uploads.push_back(row);
+  if (row.job.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(row.tenant, row.job));
+  if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
+  erased.steps.push_back({.job = *job, .event = event});
+  return absl::OkStatus();
+}
+
+absl::StatusOr<UploadRow> DurableJobs::FindUploadRow(JobStore& store, const std::string& tenant,
+                                                     const std::string& upload) const {
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<UploadRow> row, store.FindUpload(tenant, upload));
+  if (row.has_value()) return *std::move(row);
+  return absl::NotFoundError(absl::StrCat("there is no upload ", upload));
+}
+
+UploadInfo DurableJobs::InfoOf(const UploadRow& row) const {
+  Session session = FindSession(row.tenant, row.name);
+  if (session != nullptr && session->row().file != row.file) session = nullptr;
+  UploadInfo info = {.name = row.name,
+                     .declaration = row.declaration,
+                     .size_bytes = row.size_bytes,
+                     .committed_bytes = row.volume.empty() ? 0 : row.size_bytes,
+                     .volume = row.volume,
+                     .job = row.job,
+                     .expires = row.used + options_.keep_uploads};
+  if (session != nullptr && row.volume.empty()) {
+    info.committed_bytes = session->committed();
+    info.expires = session->used() + options_.keep_uploads;
+  } else if (shared_ && row.volume.empty()) {
+    info.committed_bytes = blobs_.SizeOfUpload(row.tenant, row.name, row.file);
+    const auto facts = blobs_.FactsOfUpload(row.tenant, row.name, row.file);
+    if (facts.ok()) info.expires = std::max(row.used, facts->written) + options_.keep_uploads;
+  }
+  return info;
+}
+
+}  // namespace bccskel::server

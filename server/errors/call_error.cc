@@ -1,0 +1,205 @@
+#include "server/errors/call_error.h"
+
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+
+namespace bccskel::server {
+namespace {
+
+using absl::StatusCode;
+
+struct Meaning {
+  Reason reason;
+  const char* name;
+  StatusCode code;
+  bool worth_a_retry = false;
+};
+
+// In the order of Reason.
+constexpr Meaning kMeanings[] = {
+    {Reason::kFieldInvalid, "FIELD_INVALID", StatusCode::kInvalidArgument},
+    {Reason::kVolumeInvalid, "VOLUME_INVALID", StatusCode::kInvalidArgument},
+    {Reason::kVolumeSize, "VOLUME_SIZE", StatusCode::kInvalidArgument},
+    {Reason::kVolumeTruncated, "VOLUME_TRUNCATED", StatusCode::kInvalidArgument},
+    {Reason::kRequestOrder, "REQUEST_ORDER", StatusCode::kInvalidArgument},
+    {Reason::kRequestMalformed, "REQUEST_MALFORMED", StatusCode::kInvalidArgument},
+    {Reason::kChunkChecksum, "CHUNK_CHECKSUM", StatusCode::kInvalidArgument},
+    {Reason::kChunkOffset, "CHUNK_OFFSET", StatusCode::kOutOfRange},
+    {Reason::kPieceIndex, "PIECE_INDEX", StatusCode::kOutOfRange},
+    {Reason::kNotFound, "NOT_FOUND", StatusCode::kNotFound},
+    {Reason::kUploadExists, "UPLOAD_EXISTS", StatusCode::kAlreadyExists},
+    {Reason::kRequestIdReused, "REQUEST_ID_REUSED", StatusCode::kAlreadyExists},
+    {Reason::kNotDurable, "NOT_DURABLE", StatusCode::kFailedPrecondition},
+    {Reason::kVolumeMissing, "VOLUME_MISSING", StatusCode::kFailedPrecondition},
+    {Reason::kVolumeInUse, "VOLUME_IN_USE", StatusCode::kFailedPrecondition},
+    {Reason::kUploadFinished, "UPLOAD_FINISHED", StatusCode::kFailedPrecondition},
+    {Reason::kJobNotSucceeded, "JOB_NOT_SUCCEEDED", StatusCode::kFailedPrecondition},
+    {Reason::kSecondWriter, "SECOND_WRITER", StatusCode::kAborted},
+    {Reason::kSenderTimeout, "SENDER_TIMEOUT", StatusCode::kAborted},
+    {Reason::kVolumeTooLarge, "VOLUME_TOO_LARGE", StatusCode::kResourceExhausted},
+    {Reason::kShellPointsTooLarge, "SHELL_POINTS_TOO_LARGE", StatusCode::kResourceExhausted},
+    {Reason::kDiskFull, "DISK_FULL", StatusCode::kResourceExhausted},
+    {Reason::kQueueFull, "QUEUE_FULL", StatusCode::kUnavailable, true},
+    {Reason::kMemoryBusy, "MEMORY_BUSY", StatusCode::kUnavailable, true},
+    {Reason::kDecoderBusy, "DECODER_BUSY", StatusCode::kUnavailable, true},
+    {Reason::kDraining, "DRAINING", StatusCode::kUnavailable, true},
+    {Reason::kUnavailable, "UNAVAILABLE", StatusCode::kUnavailable},
+    {Reason::kStoredDataDamaged, "STORED_DATA_DAMAGED", StatusCode::kDataLoss},
+    {Reason::kTokenMissing, "TOKEN_MISSING", StatusCode::kUnauthenticated},
+    {Reason::kTokenInvalid, "TOKEN_INVALID", StatusCode::kUnauthenticated},
+    {Reason::kAdminOnly, "ADMIN_ONLY", StatusCode::kPermissionDenied},
+    {Reason::kCancelled, "CANCELLED", StatusCode::kCancelled},
+    {Reason::kDeadlineExceeded, "DEADLINE_EXCEEDED", StatusCode::kDeadlineExceeded},
+    {Reason::kPoisoned, "POISONED", StatusCode::kInternal},
+    {Reason::kServerDefect, "SERVER_DEFECT", StatusCode::kInternal},
+};
+
+constexpr bool InOrder() {
+  size_t next = 0;
+  for (const Meaning& meaning : kMeanings) {
+    if (static_cast<size_t>(meaning.reason) != next++) return false;
+  }
+  return next == static_cast<size_t>(Reason::kServerDefect) + 1;
+}
+static_assert(InOrder());
+
+const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(reason)]; }
+
+// Both are in stored jobs: the first as lines of reason, key, value, field and quota, of which
+// older servers have left out the last ones; the second, a number, they wrote for a few reasons.
+constexpr char kPayloadUrl[] = "bccskel.server/fault";
+constexpr char kRefusalUrl[] = "bccskel.server/refusal";
+constexpr char kWireUrl[] = "type.googleapis.com/google.rpc.ErrorInfo";
+constexpr char kCommittedSize[] = "committed_size";
+
+struct OldRefusal {
+  Reason reason;
+  const char* quota;
+};
+constexpr OldRefusal kOldRefusals[] = {{Reason::kVolumeTooLarge, "max_volume_bytes"},
+                                       {Reason::kVolumeTooLarge, "max_bricks"},
+                                       {Reason::kShellPointsTooLarge, ""},
+                                       {Reason::kVolumeTooLarge, "max_admitted_bytes"},
+                                       {Reason::kQueueFull, ""},
+                                       {Reason::kMemoryBusy, ""},
+                                       {Reason::kDraining, ""},
+                                       {Reason::kDecoderBusy, ""}};
+
+struct Stated {
+  Reason reason = Reason::kServerDefect;
+  ErrorDetails details;
+};
+
+std::optional<Stated> StatedRefusal(const absl::Status& status) {
+  const auto payload = status.GetPayload(kRefusalUrl);
+  if (!payload.has_value() || payload->empty()) return std::nullopt;
+  const auto number = static_cast<unsigned char>((*payload)[0]);
+  if (number >= std::size(kOldRefusals)) return std::nullopt;
+  return Stated{kOldRefusals[number].reason, {.quota = kOldRefusals[number].quota}};
+}
+
+std::optional<Stated> StatedBy(const absl::Status& status) {
+  const auto payload = status.GetPayload(kPayloadUrl);
+  if (!payload.has_value()) return StatedRefusal(status);
+  std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
+  if (parts.size() < 3) return std::nullopt;
+  parts.resize(5);
+  for (const Meaning& meaning : kMeanings) {
+    if (parts[0] != meaning.name) continue;
+    const bool old = meaning.reason == Reason::kDiskFull && parts[4].empty();
+    return Stated{meaning.reason,
+                  {.field = parts[3],
+                   .quota = old ? parts[2] : parts[4],
+                   .key = parts[1],
+                   .value = parts[2]}};
+  }
+  return std::nullopt;
+}
+
+std::string TextOf(const absl::Status& status) { return std::string(status.message()); }
+
+}  // namespace
+
+absl::Status CallError(Reason reason, const std::string& message, const ErrorDetails& details) {
+  const Meaning& meaning = MeaningOf(reason);
+  absl::Status status(meaning.code, message);
+  status.SetPayload(kPayloadUrl,
+                    absl::Cord(absl::StrCat(meaning.name, "\n", details.key, "\n", details.value,
+                                            "\n", details.field, "\n", details.quota)));
+  return status;
+}
+
+absl::Status InvalidField(const std::string& field, const std::string& description) {
+  return CallError(Reason::kFieldInvalid, absl::StrCat(field, ": ", description), {.field = field});
+}
+
+absl::Status InvalidVolume(const std::string& message) {
+  return CallError(Reason::kVolumeInvalid, message, {.field = "chunk.data"});
+}
+
+absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {
+  return CallError(Reason::kChunkOffset, message,
+                   {.key = kCommittedSize, .value = absl::StrCat(committed_bytes)});
+}
+
+absl::Status DiskFull(const std::string& message, const std::string& quota) {
+  return CallError(Reason::kDiskFull, message, {.quota = quota, .key = "limit", .value = quota});
+}
+
+bool StatesReason(const absl::Status& status) {
+  return ReasonOf(status).has_value() || status.GetPayload(kWireUrl).has_value();
+}
+
+std::optional<Reason> ReasonOf(const absl::Status& status) {
+  const std::optional<Stated> stated = StatedBy(status);
+  return stated.has_value() ? std::optional(stated->reason) : std::nullopt;
+}
+
+ErrorDetails DetailsOf(const absl::Status& status) {
+  return StatedBy(status).value_or(Stated()).details;
+}
+
+std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {
+  const ErrorDetails details = DetailsOf(status);
+  if (details.key != kCommittedSize) return std::nullopt;
+  return std::strtoull(details.value.c_str(), nullptr, 10);
+}
+
+const char* NameOf(Reason reason) { return MeaningOf(reason).name; }
+bool IsWorthARetry(Reason reason) { return MeaningOf(reason).worth_a_retry; }
+
+Reason DefaultReason(StatusCode code) {
+  for (const Reason reason : {Reason::kNotFound, Reason::kStoredDataDamaged, Reason::kUnavailable,
+                              Reason::kCancelled, Reason::kDeadlineExceeded}) {
+    if (MeaningOf(reason).code == code) return reason;
+  }
+  return Reason::kServerDefect;
+}
+
+absl::Status WithJobReason(const absl::Status& status) {
+  if (StatesReason(status)) return status;
+  if (absl::IsResourceExhausted(status)) {  // the number of bricks
+    return CallError(Reason::kVolumeTooLarge, TextOf(status), {.quota = "max_bricks"});
+  }
+  return absl::IsInvalidArgument(status) ? InvalidVolume(TextOf(status)) : status;
+}
+
+absl::Status WithDiskReason(const absl::Status& status) {
+  if (!absl::IsResourceExhausted(status) || ReasonOf(status).has_value()) return status;
+  return DiskFull("the server's disk is full", "max_disk_bytes");
+}
+
+absl::Status Prefixed(const std::string& what, const absl::Status& status) {
+  absl::Status prefixed(status.code(), absl::StrCat(what, ": ", TextOf(status)));
+  status.ForEachPayload([&prefixed](absl::string_view url, const absl::Cord& payload) {
+    prefixed.SetPayload(url, payload);
+  });
+  return prefixed;
+}
+
+}  // namespace bccskel::server

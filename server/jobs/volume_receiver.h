@@ -1,0 +1,115 @@
+#ifndef BCCSKEL_SERVER_JOBS_VOLUME_RECEIVER_H_
+#define BCCSKEL_SERVER_JOBS_VOLUME_RECEIVER_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/digest/sha256.h"
+#include "core/exec/context.h"
+#include "core/io/encoded_body.h"
+#include "core/io/volume_decoder.h"
+#include "core/labels/label_collector.h"
+#include "server/jobs/job_runner.h"
+
+namespace bccskel::server {
+
+// Holds the received bytes against the digest that the sender states at the end.
+class UploadDigest {
+ public:
+  void Add(std::string_view bytes) { sha256_.Add(bytes); }
+  // Called once. Errors: INVALID_ARGUMENT for another digest than `expected`.
+  absl::Status Check(const std::optional<Sha256Digest>& expected);
+
+ private:
+  Sha256 sha256_;
+};
+
+// Takes in the bytes of a declared volume: digests them, holds the volume's own header against the
+// declaration, decodes.
+// Threads: one at a time.
+class VolumeReceiver {
+ public:
+  using MakeDecoder = std::function<absl::StatusOr<std::unique_ptr<VolumeDecoder>>(
+      const VolumeHeader& header, const VolumeLimits& limits)>;
+
+  // Needs: `declared` completed under `limits`.
+  VolumeReceiver(const VolumeHeader& declared, uint64_t size_bytes, const VolumeLimits& limits,
+                 MakeDecoder make_decoder = &MakeVolumeDecoder);
+
+  // Needs: no more than `size_bytes` in all.
+  // Errors: INVALID_ARGUMENT for bytes that are malformed or not what was declared;
+  //         RESOURCE_EXHAUSTED for a volume over the limits.
+  absl::Status Append(std::string_view bytes);
+
+  // Errors: as Append(); INVALID_ARGUMENT for another digest than `expected`; CANCELLED,
+  //         DEADLINE_EXCEEDED.
+  absl::StatusOr<Volume> Finish(const std::optional<Sha256Digest>& expected,
+                                const exec::Context& context);
+
+  // Of a cubic mask, what was counted on its own grid; known after Finish().
+  std::optional<BettiNumbers> mask_topology() const { return decoder_->mask_topology(); }
+
+ private:
+  absl::Status Decode(std::string_view bytes);
+  absl::Status StartDecoder(std::string_view front);
+  absl::Status AsCallersError(absl::Status status) const;
+
+  const VolumeHeader declared_;
+  const uint64_t size_bytes_;
+  const MakeDecoder make_decoder_;
+  VolumeLimits limits_;
+  UploadDigest digest_;
+  std::string front_;  // until the header is complete
+  std::unique_ptr<VolumeDecoder> decoder_;
+};
+
+struct CollectedLabels {
+  LabeledObjects objects;
+  uint64_t skipped = 0;  // too small
+  uint64_t absent = 0;   // wanted, but without a voxel
+};
+
+// Takes in the bytes of a declared volume of labels, a slice at a time; keeps the runs of the
+// labels that are wanted. Threads: one at a time.
+class LabelReceiver {
+ public:
+  // Needs: `request` outlives the receiver.
+  explicit LabelReceiver(const LabelsRequest& request);
+
+  // Errors: INVALID_ARGUMENT for bytes that are malformed, too many or not what was declared;
+  //         CANCELLED, DEADLINE_EXCEEDED.
+  absl::Status Append(std::string_view bytes, const exec::Context& context);
+  // Called once. Errors: as Append(); INVALID_ARGUMENT when bytes are missing and for another
+  // digest than `expected`.
+  absl::StatusOr<CollectedLabels> Finish(const std::optional<Sha256Digest>& expected,
+                                         const exec::Context& context);
+
+ private:
+  absl::Status Start();
+  absl::Status AddBytes(std::span<const std::byte> bytes, const exec::Context& context);
+  absl::Status AddSlice(const exec::Context& context);
+  absl::Status CheckPromises(const LabeledObjects& objects) const;
+
+  const LabelsRequest& request_;
+  const LabelVolumeHeader& header_;
+  UploadDigest digest_;
+  std::optional<BodyReader> body_;  // what takes memory is made with the first bytes
+  std::optional<LabelCollector> collector_;
+  std::vector<std::byte> slice_;  // the next one, as far as it is here
+  size_t filled_bytes_ = 0;
+  std::vector<uint64_t> labels_;
+  uint64_t received_bytes_ = 0;  // after decompression
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_JOBS_VOLUME_RECEIVER_H_

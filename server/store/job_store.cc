@@ -1,0 +1,399 @@
+#include "server/store/job_store.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/exec/status_macros.h"
+#include "server/store/tables.h"
+
+namespace bccskel::server {
+namespace {
+
+constexpr char kByName[] = "WHERE tenant = $1 AND name = $2";
+
+absl::Status DamagedRow() {
+  return absl::DataLossError("a row of the job store is not what was stored there");
+}
+
+}  // namespace
+
+template <typename... Values>
+absl::StatusOr<std::vector<SqlRow>> JobStore::Query(const std::string& sql,
+                                                    const Values&... values) {
+  return database_->Run(sql, {ToValue(values)...});
+}
+
+template <typename... Values>
+absl::Status JobStore::Run(const std::string& sql, const Values&... values) {
+  return Query(sql, values...).status();
+}
+
+template <typename Row>
+absl::Status JobStore::Insert(const Row& row, const std::string& replacing) {
+  std::vector<SqlValue> values = ValuesOf(row);
+  values.push_back(SqlValue::Number(CheckOf(row)));
+  return database_
+      ->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row), ", row_check) VALUES(",
+                         Parameters(values.size()), ")", replacing),
+            values)
+      .status();
+}
+
+// The checksum is of the number, too, which the database gives.
+template <typename Row>
+absl::StatusOr<int64_t> JobStore::InsertNumbered(Row row, const std::string& replacing) {
+  std::vector<SqlValue> values = ValuesOf(row);
+  values.erase(values.begin());
+  const std::string columns = ColumnsOf(row).substr(sizeof("number, ") - 1);
+  BCCSKEL_ASSIGN_OR_RETURN(
+      auto rows,
+      database_->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", columns, ") VALUES(",
+                                  Parameters(values.size()), ")", replacing, " RETURNING number"),
+                     values));
+  row.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(
+      Run(absl::StrCat("UPDATE ", TableOf(row), " SET row_check = $1 WHERE number = $2"),
+          CheckOf(row), row.number));
+  return row.number;
+}
+
+template <typename Row>
+absl::Status JobStore::Delete(const std::string& tenant, const std::string& name) {
+  return Run(absl::StrCat("DELETE FROM ", TableOf(Row()), " ", kByName), tenant, name);
+}
+
+template <typename Row, typename... Values>
+absl::StatusOr<std::vector<Row>> JobStore::All(Damaged damaged, const std::string& where,
+                                               const Values&... values) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<SqlRow> found,
+                           Query(absl::StrCat("SELECT ", ColumnsOf(Row()), ", row_check FROM ",
+                                              TableOf(Row()), " ", where),
+                                 values...));
+  std::vector<Row> rows;
+  for (SqlRow& from : found) {
+    Row& row = rows.emplace_back();
+    const int64_t check = CheckOf(from, row);
+    ForEachColumn(row, [&](const char*, auto& field, Kind = Kind::kNumber) { Read(from, field); });
+    if (from.Number() == check) continue;
+    ++damaged_rows_;
+    if (damaged == Damaged::kFails) return DamagedRow();
+    rows.pop_back();
+  }
+  return rows;
+}
+
+template <typename Row>
+absl::StatusOr<std::vector<Row>> JobStore::Every() {
+  return All<Row>(Damaged::kLeftOut, "");
+}
+
+template <typename Row, typename... Values>
+absl::StatusOr<std::optional<Row>> JobStore::One(Damaged damaged, const std::string& where,
+                                                 const Values&... values) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<Row> rows, All<Row>(damaged, where, values...));
+  if (rows.empty()) return std::nullopt;
+  return std::optional<Row>(std::move(rows.front()));
+}
+
+template <typename Row>
+absl::StatusOr<std::optional<Row>> JobStore::Find(const std::string& tenant,
+                                                  const std::string& name) {
+  return One<Row>(Damaged::kFails, kByName, tenant, name);
+}
+
+absl::StatusOr<std::string> JobStore::Id() {
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT id FROM store"));
+  return rows.empty() ? std::string() : rows.front().Text();
+}
+
+absl::Status JobStore::Health() const {
+  return damaged_rows_ > 0 ? DamagedRow() : database_->Health();
+}
+
+absl::Status JobStore::Begin() {
+  const absl::Status begun = database_->Begin(server_);
+  if (!absl::IsAborted(begun)) return begun;
+  fenced_ = true;
+  return absl::UnavailableError(begun.message());
+}
+
+absl::Status JobStore::Commit() { return Run("COMMIT"); }
+
+// A database may take a transaction back by itself.
+void JobStore::Rollback() {
+  if (database_->InTransaction()) Run("ROLLBACK").IgnoreError();
+}
+
+absl::Status JobStore::BeginStep() { return Run("SAVEPOINT step"); }
+absl::Status JobStore::KeepStep() { return Run("RELEASE SAVEPOINT step"); }
+
+absl::Status JobStore::UndoStep() {
+  BCCSKEL_RETURN_IF_ERROR(Run("ROLLBACK TO SAVEPOINT step"));
+  return KeepStep();
+}
+
+absl::Status JobStore::InsertUpload(const UploadRow& row) { return Insert(row); }
+
+absl::Status JobStore::UpdateUpload(const UploadRow& row) {
+  return Run(
+      "UPDATE uploads SET volume = $1, used = $2, file = $3, row_check = $4"
+      " WHERE tenant = $5 AND name = $6",
+      row.volume, row.used, row.file, CheckOf(row), row.tenant, row.name);
+}
+
+absl::Status JobStore::DeleteUpload(const std::string& tenant, const std::string& name) {
+  return Delete<UploadRow>(tenant, name);
+}
+
+absl::StatusOr<std::optional<UploadRow>> JobStore::FindUpload(const std::string& tenant,
+                                                              const std::string& name) {
+  return Find<UploadRow>(tenant, name);
+}
+
+absl::StatusOr<std::vector<UploadRow>> JobStore::AllUploads() { return Every<UploadRow>(); }
+
+absl::Status JobStore::PutVolume(const VolumeRow& row) {
+  static const std::string replacing =
+      Replacing("tenant, name", {"declaration", "blob_digest", "volume_digest", "size_bytes",
+                                 "created", "used", "row_check"});
+  return Insert(row, replacing);
+}
+
+absl::Status JobStore::DeleteVolume(const std::string& tenant, const std::string& name) {
+  BCCSKEL_RETURN_IF_ERROR(
+      Run("DELETE FROM uploads WHERE tenant = $1 AND volume = $2 AND volume != ''", tenant, name));
+  return Delete<VolumeRow>(tenant, name);
+}
+
+absl::StatusOr<std::optional<VolumeRow>> JobStore::FindVolume(const std::string& tenant,
+                                                              const std::string& name) {
+  return Find<VolumeRow>(tenant, name);
+}
+
+absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string& tenant,
+                                                               const std::string& digest) {
+  return All<VolumeRow>(
+      Damaged::kLeftOut,
+      "WHERE tenant = $1 AND (blob_digest = $2 OR volume_digest = $2) ORDER BY name", tenant,
+      digest);
+}
+
+absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
+
+absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) { return InsertNumbered(row); }
+
+absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const auto changed,
+      Query("UPDATE jobs SET volume = $1, state = $2, attempts = $3, crashes = $4,"
+            " sequence = $5, owner = $6, error = $7, result = $8, started = $9, ended = $10,"
+            " row_check = $11 WHERE number = $12 AND state < 3 RETURNING number",
+            row.volume, row.state, row.attempts, row.crashes, row.sequence, row.owner, row.error,
+            row.result, row.started, row.ended, CheckOf(row), row.number));
+  return !changed.empty();
+}
+
+absl::Status JobStore::DeleteJob(int64_t number) {
+  return Run("DELETE FROM jobs WHERE number = $1", number);
+}
+
+absl::Status JobStore::DeleteDamagedJob(const std::string& tenant, const std::string& name) {
+  return Delete<JobRow>(tenant, name);
+}
+
+absl::StatusOr<std::optional<JobRow>> JobStore::FindJob(const std::string& tenant,
+                                                        const std::string& name) {
+  return Find<JobRow>(tenant, name);
+}
+
+absl::StatusOr<std::optional<JobRow>> JobStore::FindJobOfRequest(const std::string& tenant,
+                                                                 const std::string& request_id) {
+  return One<JobRow>(Damaged::kFails, "WHERE tenant = $1 AND request_id = $2 AND request_id != ''",
+                     tenant, request_id);
+}
+
+absl::StatusOr<std::vector<JobRow>> JobStore::ListJobs(const std::string& tenant,
+                                                       const std::optional<JobPosition>& after,
+                                                       uint32_t states, int most) {
+  const int64_t created =
+      after.has_value() ? Micros(after->created) : std::numeric_limits<int64_t>::max();
+  const std::string name = after.has_value() ? after->name : std::string();
+  return All<JobRow>(Damaged::kFails,
+                     "WHERE tenant = $1 AND (created, name) < ($2, $3) AND ((1 << state) & $4) != 0"
+                     " ORDER BY created DESC, name DESC LIMIT $5",
+                     tenant, created, name, states, most);
+}
+
+absl::StatusOr<std::vector<JobRow>> JobStore::UnfinishedJobs() {
+  return All<JobRow>(Damaged::kLeftOut, "WHERE state < 3 ORDER BY number");
+}
+
+absl::StatusOr<std::vector<JobRow>> JobStore::JobsEndedBefore(Time time, int most) {
+  return All<JobRow>(Damaged::kLeftOut, "WHERE state >= 3 AND ended < $1 ORDER BY ended LIMIT $2",
+                     time, most);
+}
+
+absl::StatusOr<std::optional<std::string>> JobStore::UserOfVolume(const std::string& tenant,
+                                                                  const std::string& volume) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      auto rows,
+      Query("SELECT name FROM jobs WHERE state < 3 AND tenant = $1 AND volume = $2 LIMIT 1", tenant,
+            volume));
+  return rows.empty() ? std::nullopt : std::optional(rows.front().Text());
+}
+
+absl::Status JobStore::InsertEvent(const EventRow& row) { return Insert(row); }
+
+absl::StatusOr<std::vector<EventRow>> JobStore::EventsAfter(int64_t job, uint64_t sequence) {
+  return All<EventRow>(Damaged::kFails, "WHERE job = $1 AND sequence > $2 ORDER BY sequence", job,
+                       sequence);
+}
+
+absl::StatusOr<int64_t> JobStore::InsertResult(const ResultRow& row) {
+  static const std::string replacing =
+      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary"});
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
+  if (found.has_value()) return found->number;
+  return InsertNumbered(row, replacing);
+}
+
+absl::Status JobStore::DropResult(const ResultRow& row) {
+  ResultRow dropped = row;
+  dropped.file.clear();
+  return Run("UPDATE results SET file = '', row_check = $1 WHERE number = $2 AND file = $3",
+             CheckOf(dropped), row.number, row.file);
+}
+
+absl::StatusOr<std::optional<ResultRow>> JobStore::FindResult(int64_t number) {
+  return One<ResultRow>(Damaged::kFails, "WHERE number = $1", number);
+}
+
+absl::StatusOr<std::optional<ResultRow>> JobStore::FindResultOf(const std::string& tenant,
+                                                                const std::string& key) {
+  return One<ResultRow>(Damaged::kLeftOut, "WHERE tenant = $1 AND key = $2 AND file != ''", tenant,
+                        key);
+}
+
+absl::StatusOr<std::optional<ResultRow>> JobStore::TakeResultIfUnused(int64_t number) {
+  static const std::string unused =
+      "WHERE number = $1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE result = $1 AND result != 0)";
+  BCCSKEL_ASSIGN_OR_RETURN(auto taken, One<ResultRow>(Damaged::kLeftOut, unused, number));
+  BCCSKEL_RETURN_IF_ERROR(Run("DELETE FROM results " + unused, number));
+  return taken;
+}
+
+absl::StatusOr<std::vector<ResultRow>> JobStore::AllResults() { return Every<ResultRow>(); }
+
+absl::Status JobStore::InsertRemoval(const RemovalRow& row) {
+  return Insert(row, Replacing("kind, tenant, name", {"row_check"}));
+}
+
+absl::Status JobStore::DeleteRemoval(const RemovalRow& row) {
+  return Run("DELETE FROM removals WHERE kind = $1 AND tenant = $2 AND name = $3", row.kind,
+             row.tenant, row.name);
+}
+
+absl::StatusOr<std::vector<RemovalRow>> JobStore::AllRemovals() { return Every<RemovalRow>(); }
+
+absl::Status JobStore::Join(const std::string& server) {
+  if (!shared()) return absl::OkStatus();
+  BCCSKEL_RETURN_IF_ERROR(Run("INSERT INTO servers(server, beats) VALUES($1, 0)", server));
+  server_ = server;
+  fenced_ = false;
+  return absl::OkStatus();
+}
+
+absl::Status JobStore::Leave() {
+  return shared() ? Run("DELETE FROM servers WHERE server = $1", server_) : absl::OkStatus();
+}
+
+absl::Status JobStore::Beat() {
+  if (!shared()) return absl::OkStatus();
+  return Run("UPDATE servers SET beats = beats + 1 WHERE server = $1", server_);
+}
+
+absl::StatusOr<std::vector<Member>> JobStore::Members() {
+  std::vector<Member> members;
+  if (!shared()) return members;
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT server, beats FROM servers"));
+  for (SqlRow& row : rows) members.push_back({.server = row.Text(), .beats = row.Number()});
+  return members;
+}
+
+absl::StatusOr<bool> JobStore::Fence(const Member& member) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const auto gone, Query("DELETE FROM servers WHERE server = $1 AND beats = $2 RETURNING beats",
+                             member.server, member.beats));
+  return !gone.empty();
+}
+
+absl::StatusOr<JobChanges> JobStore::ChangesAfter(int64_t number) {
+  JobChanges changes;
+  changes.last = number;
+  if (!shared()) return changes;
+  // Taken first: what comes in between is told again.
+  BCCSKEL_ASSIGN_OR_RETURN(auto last,
+                           Query("SELECT CAST(greatest((SELECT max(changed) FROM jobs),"
+                                 " (SELECT max(changed) FROM deleted_jobs), 0) AS BIGINT)"));
+  changes.last = std::max(number, last.front().Number());
+  if (changes.last == number) return changes;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      changes.jobs,
+      All<JobRow>(Damaged::kLeftOut,
+                  "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed", number));
+  BCCSKEL_ASSIGN_OR_RETURN(auto gone,
+                           Query("SELECT number FROM deleted_jobs WHERE changed > $1", number));
+  for (SqlRow& row : gone) changes.deleted.push_back(row.Number());
+  return changes;
+}
+
+absl::StatusOr<bool> JobStore::RunsElsewhere(const JobRow& job, const std::string& volume_digest,
+                                             const std::string& server) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const auto rows,
+      Query("SELECT 1 FROM jobs LEFT JOIN volumes"
+            " ON volumes.tenant = jobs.tenant AND volumes.name = jobs.volume"
+            " WHERE jobs.state = 2 AND jobs.tenant = $1 AND jobs.options = $2"
+            " AND jobs.owner != $3 AND (jobs.volume = $4"
+            " OR (volumes.volume_digest = $5 AND volumes.volume_digest != '')) LIMIT 1",
+            job.tenant, SqlValue::Blob(job.options), server, job.volume, volume_digest));
+  return !rows.empty();
+}
+
+absl::Status JobStore::PutProgress(int64_t job, const ProgressRow& progress) {
+  if (!shared()) return absl::OkStatus();
+  return Run("INSERT INTO progress(job, sequence, bytes) VALUES($1, $2, $3)" +
+                 Replacing("job", {"sequence", "bytes"}),
+             job, progress.sequence, progress.bytes);
+}
+
+absl::StatusOr<std::optional<ProgressRow>> JobStore::FindProgress(int64_t job) {
+  if (!shared()) return std::nullopt;
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows,
+                           Query("SELECT sequence, bytes FROM progress WHERE job = $1", job));
+  if (rows.empty()) return std::nullopt;
+  return ProgressRow{static_cast<uint64_t>(rows.front().Number()), rows.front().Text()};
+}
+
+absl::StatusOr<std::map<std::string, uint64_t>> JobStore::DiskUse() {
+  // Several volumes may have the same bytes.
+  BCCSKEL_ASSIGN_OR_RETURN(
+      auto rows, Query("SELECT tenant, CAST(sum(size) AS BIGINT) FROM"
+                       " (SELECT tenant, size_bytes AS size FROM uploads WHERE volume = ''"
+                       " UNION ALL SELECT tenant, max(size_bytes) AS size FROM volumes"
+                       " GROUP BY tenant, blob_digest"
+                       " UNION ALL SELECT tenant, bytes AS size FROM results WHERE file != '')"
+                       " AS files GROUP BY tenant"));
+  std::map<std::string, uint64_t> used;
+  for (SqlRow& row : rows) {
+    std::string tenant = row.Text();
+    used.emplace(std::move(tenant), static_cast<uint64_t>(row.Number()));
+  }
+  return used;
+}
+
+absl::Status JobStore::Forget() { return database_->Forget(); }
+
+}  // namespace bccskel::server

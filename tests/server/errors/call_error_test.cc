@@ -1,0 +1,80 @@
+#include "server/errors/call_error.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "absl/strings/cord.h"
+
+namespace bccskel::server {
+namespace {
+
+TEST(CallErrorTest, EachReasonHasANameOfItsOwnAndIsFoundByIt) {
+  std::set<std::string> names;
+  for (int n = 0; n <= static_cast<int>(Reason::kServerDefect); ++n) {
+    const auto reason = static_cast<Reason>(n);
+    EXPECT_TRUE(names.insert(NameOf(reason)).second) << NameOf(reason);
+    const absl::Status status = CallError(reason, "why");
+    EXPECT_FALSE(status.ok());
+    EXPECT_EQ(ReasonOf(status), reason);
+    EXPECT_EQ(IsWorthARetry(reason) && !absl::IsUnavailable(status), false) << NameOf(reason);
+  }
+}
+
+TEST(CallErrorTest, KeepsItsDetails) {
+  const absl::Status status = CallError(
+      Reason::kDiskFull, "full", {.field = "a.b", .quota = "limit", .key = "k", .value = "v"});
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  const ErrorDetails details = DetailsOf(Prefixed("what", status));
+  EXPECT_EQ(details.field, "a.b");
+  EXPECT_EQ(details.quota, "limit");
+  EXPECT_EQ(details.key, "k");
+  EXPECT_EQ(details.value, "v");
+  EXPECT_EQ(Prefixed("what", status).message(), "what: full");
+}
+
+TEST(CallErrorTest, IsNotFoundInOtherErrors) {
+  EXPECT_EQ(ReasonOf(absl::UnavailableError("queue full")), std::nullopt);
+  EXPECT_EQ(ReasonOf(absl::OkStatus()), std::nullopt);
+  EXPECT_EQ(CommittedSizeOf(absl::OutOfRangeError("no")), std::nullopt);
+  EXPECT_EQ(CommittedSizeOf(WrongOffset("no", 7)), 7u);
+}
+
+absl::Status Stored(absl::StatusCode code, const char* url, const std::string& payload) {
+  absl::Status status(code, "stored");
+  status.SetPayload(url, absl::Cord(payload));
+  return status;
+}
+
+TEST(CallErrorTest, ReadsWhatOlderServersHaveStored) {
+  const absl::Status full = Stored(absl::StatusCode::kResourceExhausted, "bccskel.server/fault",
+                                   "DISK_FULL\nlimit\nmax_tenant_disk_bytes");
+  EXPECT_EQ(ReasonOf(full), Reason::kDiskFull);
+  EXPECT_EQ(DetailsOf(full).quota, "max_tenant_disk_bytes");
+  const absl::Status large =
+      Stored(absl::StatusCode::kResourceExhausted, "bccskel.server/refusal", std::string(1, '\3'));
+  EXPECT_EQ(ReasonOf(large), Reason::kVolumeTooLarge);
+  EXPECT_EQ(DetailsOf(large).quota, "max_admitted_bytes");
+  for (const char* damaged : {"", "x", "NO_SUCH_REASON\n\n\n"}) {
+    EXPECT_EQ(ReasonOf(Stored(absl::StatusCode::kInternal, "bccskel.server/fault", damaged)),
+              std::nullopt);
+  }
+  EXPECT_EQ(ReasonOf(Stored(absl::StatusCode::kInternal, "bccskel.server/refusal", "\x77")),
+            std::nullopt);
+}
+
+TEST(CallErrorTest, AJobsErrorWithoutAReasonIsTheVolumes) {
+  EXPECT_EQ(ReasonOf(WithJobReason(absl::InvalidArgumentError("no magic"))),
+            Reason::kVolumeInvalid);
+  const absl::Status large = WithJobReason(absl::ResourceExhaustedError("9 of 8"));
+  EXPECT_EQ(ReasonOf(large), Reason::kVolumeTooLarge);
+  EXPECT_EQ(DetailsOf(large).quota, "max_bricks");
+  EXPECT_EQ(ReasonOf(WithJobReason(InvalidField("a", "b"))), Reason::kFieldInvalid);
+  EXPECT_EQ(DefaultReason(absl::StatusCode::kNotFound), Reason::kNotFound);
+  EXPECT_EQ(DefaultReason(absl::StatusCode::kUnavailable), Reason::kUnavailable);
+  EXPECT_EQ(DefaultReason(absl::StatusCode::kInvalidArgument), Reason::kServerDefect);
+}
+
+}  // namespace
+}  // namespace bccskel::server
