@@ -7,27 +7,11 @@
 #include "client/export/text.h"
 #include "client/view/result_graph.h"
 #include "core/exec/status_macros.h"
-#include "core/pipeline/notes.h"
 
 namespace bccskel::cli {
 namespace {
 
 std::string Known(const std::string& text) { return text == "unknown" ? "" : text; }
-
-// As exporting::MethodFactsOf() states a result that was just made.
-exporting::MethodFacts FactsOf(const view::ResultGraph& result) {
-  exporting::MethodFacts facts = {{"method", result.method},
-                                  {"algorithm_version", result.algorithm_version},
-                                  {"world", result.world},
-                                  {"unit", result.unit}};
-  facts.insert(facts.end(), result.options.begin(), result.options.end());
-  std::string prepared;
-  for (const PreparingStep& step : result.preparing) {
-    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
-  }
-  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
-  return facts;
-}
 
 std::string SummaryOf(const ConvertArguments& arguments, const std::vector<std::string>& notes) {
   exporting::Text text;
