@@ -67,6 +67,7 @@ class _FileOptions(TypedDict, total=False):
     channel: int
     time: int
     level: int
+    series: Union[str, int]
     raw_size: tuple[int, int, int]
     raw_type: str
     raw_order: Literal["little", "big"]

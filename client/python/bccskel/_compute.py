@@ -112,8 +112,8 @@ def skeletonize(mask: Any, spacing: Any = None, origin: Any = None, direction: A
     """The skeleton of a mask.
 
     mask: an array of three axes, of any real type and any strides, an `Image`, or a `Lattice`,
-        whose coordinates are x, y, z. What is not 0 is the object; NaN is background. `threshold=`, `below=`, `range=` and `label=` choose other
-        voxels.
+        whose coordinates are x, y, z. What is not 0 is the object; NaN is background. `threshold=`,
+        `below=`, `range=` and `label=` choose other voxels.
     spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
     origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
     direction: shape (3, 3); column n is what axis n of the array points to.
@@ -192,7 +192,7 @@ def read(path: Union[str, os.PathLike],
     .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
-        voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
+        series (of DICOM), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
         without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for what is no such file.
@@ -219,8 +219,8 @@ def read(path: Union[str, os.PathLike],
         return Lattice(_native.read_lattice(name), pathlib.Path(name).name)
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
-                         ".raw, ...), folders of OME-Zarr, meshes (.obj, .stl, .ply, .off), results "
-                         "(.json) and lattices (.exr, .bccb)")
+                         ".raw, ...), folders of OME-Zarr, meshes (.obj, .stl, .ply, .off), "
+                         "results (.json) and lattices (.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
     return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,
