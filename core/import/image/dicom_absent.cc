@@ -6,7 +6,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenDicom(const std::string& /*path
                                                        const ImageOptions& /*options*/) {
   return absl::UnimplementedError(
       "this is DICOM, which this build does not read; configure with -DBCCSKEL_DICOM=ON (Debian: "
-      "libgdcm-dev), or convert it to NIfTI or NRRD first");
+      "libdcmtk-dev), or convert it to NIfTI or NRRD first");
 }
 
 }  // namespace bccskel

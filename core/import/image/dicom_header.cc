@@ -1,13 +1,11 @@
 #include "core/import/image/dicom_header.h"
 
-#include <gdcmReader.h>
-#include <gdcmSequenceOfItems.h>
-#include <gdcmTrace.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/oflog/oflog.h>
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -18,68 +16,42 @@
 namespace bccskel {
 namespace {
 
-using gdcm::DataSet;
-using gdcm::Tag;
-
-// The names of DICOM's dictionary.
-const Tag kSopClass(0x0008, 0x0016), kSeriesDescription(0x0008, 0x103e);
-const Tag kSliceThickness(0x0018, 0x0050), kSpacingBetweenSlices(0x0018, 0x0088);
-const Tag kSeriesUid(0x0020, 0x000e), kSeriesNumber(0x0020, 0x0011);
-const Tag kImagePosition(0x0020, 0x0032), kImageOrientation(0x0020, 0x0037);
-const Tag kPlanePositions(0x0020, 0x9113), kPlaneOrientations(0x0020, 0x9116);
-const Tag kSamples(0x0028, 0x0002), kFrames(0x0028, 0x0008);
-const Tag kRows(0x0028, 0x0010), kColumns(0x0028, 0x0011), kPixelSpacing(0x0028, 0x0030);
-const Tag kPixelMeasures(0x0028, 0x9110);
-const Tag kSegmentationType(0x0062, 0x0001), kSegmentIdentification(0x0062, 0x000a);
-const Tag kSegmentNumber(0x0062, 0x000b);
-const Tag kShared(0x5200, 0x9229), kPerFrame(0x5200, 0x9230);
-const Tag kPixelData(0x7fe0, 0x0010);
-
 constexpr std::string_view kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
 
-const gdcm::ByteValue* Bytes(const DataSet& data, const Tag& tag) {
-  return data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
+// Several values lie between backslashes. Empty where the element is missing.
+std::string Text(DcmItem& data, const DcmTagKey& tag) {
+  OFString text;
+  if (data.findAndGetOFStringArray(tag, text).bad()) return "";
+  return std::string(Trimmed(text.c_str()));
 }
 
-// Empty where the element is missing.
-std::string Text(const DataSet& data, const Tag& tag) {
-  const gdcm::ByteValue* bytes = Bytes(data, tag);
-  if (bytes == nullptr || bytes->GetPointer() == nullptr) return "";
-  std::string text(bytes->GetPointer(), bytes->GetLength());
-  while (!text.empty() && text.back() == '\0') text.pop_back();
-  return std::string(Trimmed(text));
+std::optional<uint16_t> Short(DcmItem& data, const DcmTagKey& tag) {
+  Uint16 value = 0;
+  if (data.findAndGetUint16(tag, value).bad()) return std::nullopt;
+  return value;
 }
 
-std::optional<uint16_t> Short(const DataSet& data, const Tag& tag) {
-  const gdcm::ByteValue* bytes = Bytes(data, tag);
-  if (bytes == nullptr || bytes->GetLength() < 2) return std::nullopt;
-  const auto at = [bytes](size_t n) { return static_cast<uint8_t>(bytes->GetPointer()[n]); };
-  return static_cast<uint16_t>(at(0) | at(1) << 8);
-}
-
-// Items of a sequence; none where it is missing.
-gdcm::SmartPointer<gdcm::SequenceOfItems> Items(const DataSet& data, const Tag& tag) {
-  if (!data.FindDataElement(tag)) return nullptr;
-  return data.GetDataElement(tag).GetValueAsSQ();
+// Null where the sequence is missing.
+DcmSequenceOfItems* Items(DcmItem& data, const DcmTagKey& tag) {
+  DcmSequenceOfItems* items = nullptr;
+  return data.findAndGetSequence(tag, items).good() ? items : nullptr;
 }
 
 // The first item of a sequence of one.
-const DataSet* Item(const DataSet* data, const Tag& tag) {
-  if (data == nullptr) return nullptr;
-  const auto items = Items(*data, tag);
-  if (items == nullptr || items->GetNumberOfItems() == 0) return nullptr;
-  return &items->GetItem(1).GetNestedDataSet();
+DcmItem* Item(DcmItem* data, const DcmTagKey& tag) {
+  DcmSequenceOfItems* items = data == nullptr ? nullptr : Items(*data, tag);
+  return items == nullptr || items->card() == 0 ? nullptr : items->getItem(0);
 }
 
 // Where a frame's facts are: its own item, the shared one, or the file itself.
 struct Places {
-  const DataSet* own;
-  const DataSet* shared;
-  const DataSet* file;
+  DcmItem* own;
+  DcmItem* shared;
+  DcmItem* file;
 
   // Of the innermost place that has it.
-  std::string TextOf(const Tag& group, const Tag& tag) const {
-    for (const DataSet* place : {Item(own, group), Item(shared, group), file}) {
+  std::string TextOf(const DcmTagKey& group, const DcmTagKey& tag) const {
+    for (DcmItem* place : {Item(own, group), Item(shared, group), file}) {
       if (place == nullptr) continue;
       std::string text = Text(*place, tag);
       if (!text.empty()) return text;
@@ -120,8 +92,9 @@ absl::Status ReadOrientation(const std::string& text, DicomFrame& frame) {
 }
 
 absl::Status ReadPlace(const Places& places, DicomFrame& frame) {
-  const std::string position = places.TextOf(kPlanePositions, kImagePosition);
-  const std::string orientation = places.TextOf(kPlaneOrientations, kImageOrientation);
+  const std::string position = places.TextOf(DCM_PlanePositionSequence, DCM_ImagePositionPatient);
+  const std::string orientation =
+      places.TextOf(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient);
   if (position.empty() || orientation.empty()) {
     return absl::InvalidArgumentError(
         "there is no ImagePositionPatient or no ImageOrientationPatient, so nobody knows where the "
@@ -129,12 +102,12 @@ absl::Status ReadPlace(const Places& places, DicomFrame& frame) {
   }
   BCCSKEL_ASSIGN_OR_RETURN(frame.position, Numbers<3>("ImagePositionPatient", position));
   BCCSKEL_RETURN_IF_ERROR(ReadOrientation(orientation, frame));
-  const std::string spacing = places.TextOf(kPixelMeasures, kPixelSpacing);
+  const std::string spacing = places.TextOf(DCM_PixelMeasuresSequence, DCM_PixelSpacing);
   if (spacing.empty()) return absl::InvalidArgumentError("there is no PixelSpacing");
   BCCSKEL_ASSIGN_OR_RETURN(const auto steps, Numbers<2>("PixelSpacing", spacing));
   frame.spacing = {steps[1], steps[0]};  // the first is from row to row
-  for (const Tag& tag : {kSpacingBetweenSlices, kSliceThickness}) {
-    const std::string text = places.TextOf(kPixelMeasures, tag);
+  for (const DcmTagKey& tag : {DCM_SpacingBetweenSlices, DCM_SliceThickness}) {
+    const std::string text = places.TextOf(DCM_PixelMeasuresSequence, tag);
     if (text.empty() || frame.thickness > 0) continue;
     BCCSKEL_ASSIGN_OR_RETURN(const auto thickness, Numbers<1>("SliceThickness", text));
     frame.thickness = std::abs(thickness[0]);
@@ -142,8 +115,8 @@ absl::Status ReadPlace(const Places& places, DicomFrame& frame) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<uint32_t> CountFrames(const DataSet& data) {
-  const std::string text = Text(data, kFrames);
+absl::StatusOr<uint32_t> CountFrames(DcmItem& data) {
+  const std::string text = Text(data, DCM_NumberOfFrames);
   if (text.empty()) return 1;
   const std::optional<uint32_t> count = ParseNumber<uint32_t>(text);
   constexpr uint32_t kMostFrames = 1 << 24;
@@ -152,46 +125,45 @@ absl::StatusOr<uint32_t> CountFrames(const DataSet& data) {
 }
 
 absl::StatusOr<uint32_t> SegmentOf(const Places& places) {
-  for (const DataSet* place : {places.own, places.shared}) {
-    const DataSet* item = Item(place, kSegmentIdentification);
+  for (DcmItem* place : {places.own, places.shared}) {
+    DcmItem* item = Item(place, DCM_SegmentIdentificationSequence);
     const std::optional<uint16_t> number =
-        item == nullptr ? std::nullopt : Short(*item, kSegmentNumber);
+        item == nullptr ? std::nullopt : Short(*item, DCM_ReferencedSegmentNumber);
     if (number.value_or(0) > 0) return *number;
   }
   return absl::InvalidArgumentError("a frame does not say which segment it is of");
 }
 
-absl::StatusOr<DicomKind> KindOf(const DataSet& data) {
-  if (!Short(data, kRows).has_value()) return DicomKind::kOther;
-  if (const uint16_t samples = Short(data, kSamples).value_or(1); samples != 1) {
+absl::StatusOr<DicomKind> KindOf(DcmItem& data) {
+  if (!Short(data, DCM_Rows).has_value()) return DicomKind::kOther;
+  if (const uint16_t samples = Short(data, DCM_SamplesPerPixel).value_or(1); samples != 1) {
     return absl::UnimplementedError(
         absl::StrFormat("%d samples a pixel: colors are not read", samples));
   }
-  if (Text(data, kSopClass) != kSegmentationClass) return DicomKind::kImage;
-  if (const std::string type = Text(data, kSegmentationType); type != "BINARY") {
+  if (Text(data, DCM_SOPClassUID) != kSegmentationClass) return DicomKind::kImage;
+  if (const std::string type = Text(data, DCM_SegmentationType); type != "BINARY") {
     return absl::UnimplementedError(absl::StrFormat(
         "a segmentation of the type '%s' is not read, only BINARY", type.substr(0, 40)));
   }
   return DicomKind::kSegmentation;
 }
 
-absl::Status ReadFrames(const DataSet& data, DicomHeader& header) {
+absl::Status ReadFrames(DcmItem& data, DicomHeader& header) {
   BCCSKEL_ASSIGN_OR_RETURN(const uint32_t count, CountFrames(data));
-  const auto own = Items(data, kPerFrame);
-  if (count > 1 && (own == nullptr || own->GetNumberOfItems() != count)) {
+  DcmSequenceOfItems* const own = Items(data, DCM_PerFrameFunctionalGroupsSequence);
+  if (count > 1 && (own == nullptr || own->card() != count)) {
     return absl::InvalidArgumentError(absl::StrFormat(
         "%d frames do not say each where it lies (PerFrameFunctionalGroupsSequence)", count));
   }
-  const DataSet* shared = Item(&data, kShared);
+  DcmItem* const shared = Item(&data, DCM_SharedFunctionalGroupsSequence);
   for (uint32_t n = 0; n < count; ++n) {
-    const bool has_own = own != nullptr && n < own->GetNumberOfItems();
-    const Places places = {has_own ? &own->GetItem(n + 1).GetNestedDataSet() : nullptr, shared,
-                           &data};
+    const bool has_own = own != nullptr && n < own->card();
+    const Places places = {has_own ? own->getItem(n) : nullptr, shared, &data};
     DicomFrame frame;
     frame.name = std::filesystem::path(header.path).filename().string();
     frame.index = n;
-    frame.rows = Short(data, kRows).value_or(0);
-    frame.columns = Short(data, kColumns).value_or(0);
+    frame.rows = Short(data, DCM_Rows).value_or(0);
+    frame.columns = Short(data, DCM_Columns).value_or(0);
     BCCSKEL_RETURN_IF_ERROR(ReadPlace(places, frame));
     if (header.kind == DicomKind::kSegmentation) {
       BCCSKEL_ASSIGN_OR_RETURN(frame.segment, SegmentOf(places));
@@ -202,19 +174,19 @@ absl::Status ReadFrames(const DataSet& data, DicomHeader& header) {
 }
 
 absl::StatusOr<DicomHeader> Read(const std::string& path) {
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
-  gdcm::Reader reader;
-  reader.SetFileName(path.c_str());
-  if (!reader.ReadUpToTag(kPixelData, {kPixelData})) {
-    return absl::InvalidArgumentError("the file is damaged or no DICOM");
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+  DcmFileFormat file;
+  const OFCondition loaded = file.loadFileUntilTag(
+      path.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect, DCM_PixelData);
+  if (loaded.bad()) {
+    return absl::InvalidArgumentError(std::string("the file is damaged: ") + loaded.text());
   }
-  const DataSet& data = reader.GetFile().GetDataSet();
+  DcmDataset& data = *file.getDataset();
   DicomHeader header;
   header.path = path;
-  header.series = Text(data, kSeriesUid);
-  header.series_number = Text(data, kSeriesNumber);
-  header.series_description = Text(data, kSeriesDescription);
+  header.series = Text(data, DCM_SeriesInstanceUID);
+  header.series_number = Text(data, DCM_SeriesNumber);
+  header.series_description = Text(data, DCM_SeriesDescription);
   BCCSKEL_ASSIGN_OR_RETURN(header.kind, KindOf(data));
   if (header.kind != DicomKind::kOther) BCCSKEL_RETURN_IF_ERROR(ReadFrames(data, header));
   return header;

@@ -1,8 +1,12 @@
 #include "core/import/image/dicom_image.h"
 
-#include <gdcmImageReader.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -26,7 +30,7 @@ absl::Status InFile(const std::string& path, const absl::Status& status) {
   return absl::Status(status.code(), absl::StrFormat("'%s': %s", name, status.message()));
 }
 
-// Runs what calls GDCM; its exceptions become statuses.
+// Runs what calls DCMTK; its exceptions become statuses.
 template <typename Call>
 absl::Status Guarded(const std::string& path, Call call) {
   try {
@@ -42,72 +46,102 @@ absl::Status Guarded(const std::string& path, Call call) {
 // The expanded voxels of one file; values are those of the file, before rescaling.
 struct DicomVoxels {
   std::vector<char> bytes;
-  gdcm::PixelFormat::ScalarType type = gdcm::PixelFormat::UNKNOWN;
+  VoxelType type = VoxelType::kUint8;
   double slope = 1;
   double intercept = 0;
 };
 
-absl::StatusOr<uint64_t> BytesOfValue(gdcm::PixelFormat::ScalarType type) {
-  switch (type) {
-    case gdcm::PixelFormat::UINT8:
-    case gdcm::PixelFormat::INT8:
-      return 1;
-    case gdcm::PixelFormat::UINT12:
-    case gdcm::PixelFormat::INT12:
-    case gdcm::PixelFormat::UINT16:
-    case gdcm::PixelFormat::INT16:
-      return 2;
-    case gdcm::PixelFormat::UINT32:
-    case gdcm::PixelFormat::INT32:
-      return 4;
+absl::StatusOr<VoxelType> TypeOf(DcmDataset& data) {
+  Uint16 bits = 0, is_signed = 0;
+  data.findAndGetUint16(DCM_BitsAllocated, bits);
+  data.findAndGetUint16(DCM_PixelRepresentation, is_signed);
+  switch (bits) {
+    case 8:
+      return is_signed == 0 ? VoxelType::kUint8 : VoxelType::kInt8;
+    case 16:
+      return is_signed == 0 ? VoxelType::kUint16 : VoxelType::kInt16;
+    case 32:
+      return is_signed == 0 ? VoxelType::kUint32 : VoxelType::kInt32;
     default:
-      return absl::UnimplementedError("voxels of this type are not read");
+      return absl::UnimplementedError(absl::StrFormat("voxels of %d bits are not read", bits));
   }
 }
 
-absl::StatusOr<DicomVoxels> ExpandVoxels(const DicomHeader& header) {
-  gdcm::ImageReader reader;
-  reader.SetFileName(header.path.c_str());
-  if (!reader.Read()) return absl::InvalidArgumentError("its voxels are damaged or missing");
-  const gdcm::Image& image = reader.GetImage();
-  DicomVoxels voxels;
-  voxels.type = image.GetPixelFormat().GetScalarType();
-  voxels.slope = image.GetSlope();
-  voxels.intercept = image.GetIntercept();
-  BCCSKEL_ASSIGN_OR_RETURN(const uint64_t value, BytesOfValue(voxels.type));
+absl::StatusOr<double> NumberOf(DcmDataset& data, const DcmTagKey& tag, double without) {
+  Float64 number = without;
+  if (data.tagExistsWithValue(tag) && data.findAndGetFloat64(tag, number).bad()) {
+    return absl::InvalidArgumentError("RescaleSlope or RescaleIntercept is not a number");
+  }
+  if (std::isfinite(number)) return number;
+  return absl::InvalidArgumentError("RescaleSlope or RescaleIntercept is not finite");
+}
+
+// The file with its voxels not compressed.
+absl::Status LoadExpanded(const std::string& path, DcmFileFormat& file) {
+  [[maybe_unused]] static const bool registered = [] {
+    DJDecoderRegistration::registerCodecs();
+    DJLSDecoderRegistration::registerCodecs();
+    DcmRLEDecoderRegistration::registerCodecs();
+    return true;
+  }();
+  if (const OFCondition loaded = file.loadFile(path.c_str()); loaded.bad()) {
+    return absl::InvalidArgumentError(std::string("the file is damaged: ") + loaded.text());
+  }
+  const DcmXfer stored(file.getDataset()->getOriginalXfer());
+  const OFCondition expanded =
+      file.getDataset()->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
+  if (expanded.good()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat("its voxels (%s) cannot be expanded: %s",
+                                                    stored.getXferName(), expanded.text()));
+}
+
+// The first `needed` bytes of voxels.
+absl::StatusOr<std::vector<char>> PixelData(DcmDataset& data, uint64_t needed) {
+  const Uint8* bytes = nullptr;
+  const Uint16* words = nullptr;
+  unsigned long count = 0;  // NOLINT(google-runtime-int): DCMTK's
+  const char* from = nullptr;
+  uint64_t found = 0;
+  if (data.findAndGetUint8Array(DCM_PixelData, bytes, &count).good() && bytes != nullptr) {
+    from = reinterpret_cast<const char*>(bytes);
+    found = count;
+  } else if (data.findAndGetUint16Array(DCM_PixelData, words, &count).good() && words != nullptr) {
+    from = reinterpret_cast<const char*>(words);
+    found = 2 * uint64_t{count};
+  }
+  if (found < needed) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%d bytes of voxels are needed, the file holds %d", needed, found));
+  }
+  return std::vector<char>(from, from + needed);
+}
+
+uint64_t VoxelCount(const DicomHeader& header) {
   const DicomFrame& frame = header.frames.front();
-  const uint64_t needed = value * static_cast<uint64_t>(frame.rows) *
-                          static_cast<uint64_t>(frame.columns) * header.frames.size();
-  if (image.GetBufferLength() != needed) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "%d bytes of voxels are declared, %d are needed", image.GetBufferLength(), needed));
-  }
-  voxels.bytes.resize(needed);
-  if (!image.GetBuffer(voxels.bytes.data())) {
-    return absl::InvalidArgumentError("its voxels are damaged or cut off");
-  }
+  return static_cast<uint64_t>(frame.rows) * static_cast<uint64_t>(frame.columns) *
+         header.frames.size();
+}
+
+absl::StatusOr<DicomVoxels> ExpandVoxels(const DicomHeader& header) {
+  DcmFileFormat file;
+  BCCSKEL_RETURN_IF_ERROR(LoadExpanded(header.path, file));
+  DcmDataset& data = *file.getDataset();
+  DicomVoxels voxels;
+  BCCSKEL_ASSIGN_OR_RETURN(voxels.type, TypeOf(data));
+  BCCSKEL_ASSIGN_OR_RETURN(voxels.slope, NumberOf(data, DCM_RescaleSlope, 1));
+  BCCSKEL_ASSIGN_OR_RETURN(voxels.intercept, NumberOf(data, DCM_RescaleIntercept, 0));
+  BCCSKEL_ASSIGN_OR_RETURN(voxels.bytes,
+                           PixelData(data, VoxelCount(header) * VoxelBytes(voxels.type)));
   return voxels;
 }
 
 // The bits of a segmentation: those of all frames one after the other, the lowest of a byte first.
 absl::StatusOr<DicomVoxels> ReadBits(const DicomHeader& header) {
-  gdcm::Reader reader;
-  reader.SetFileName(header.path.c_str());
-  if (!reader.Read()) return absl::InvalidArgumentError("its voxels are damaged or missing");
-  const gdcm::DataSet& data = reader.GetFile().GetDataSet();
-  const gdcm::Tag kPixelData(0x7fe0, 0x0010);
-  const gdcm::ByteValue* bytes =
-      data.FindDataElement(kPixelData) ? data.GetDataElement(kPixelData).GetByteValue() : nullptr;
-  const DicomFrame& frame = header.frames.front();
-  const uint64_t bits = static_cast<uint64_t>(frame.rows) * static_cast<uint64_t>(frame.columns) *
-                        header.frames.size();
-  const uint64_t found = bytes == nullptr ? 0 : uint64_t{bytes->GetLength()};
-  if (found < (bits + 7) / 8) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "the segmentation needs %d bytes of voxels, the file holds %d", (bits + 7) / 8, found));
-  }
+  DcmFileFormat file;
+  BCCSKEL_RETURN_IF_ERROR(LoadExpanded(header.path, file));
   DicomVoxels voxels;
-  voxels.bytes.assign(bytes->GetPointer(), bytes->GetPointer() + found);
+  BCCSKEL_ASSIGN_OR_RETURN(voxels.bytes,
+                           PixelData(*file.getDataset(), (VoxelCount(header) + 7) / 8));
   return voxels;
 }
 
@@ -159,24 +193,6 @@ class DicomSource : public ImageSource {
   int32_t next_ = 0;
 };
 
-VoxelType TypeOf(gdcm::PixelFormat::ScalarType type) {
-  switch (type) {
-    case gdcm::PixelFormat::UINT8:
-      return VoxelType::kUint8;
-    case gdcm::PixelFormat::INT8:
-      return VoxelType::kInt8;
-    case gdcm::PixelFormat::INT12:
-    case gdcm::PixelFormat::INT16:
-      return VoxelType::kInt16;
-    case gdcm::PixelFormat::UINT32:
-      return VoxelType::kUint32;
-    case gdcm::PixelFormat::INT32:
-      return VoxelType::kInt32;
-    default:
-      return VoxelType::kUint16;
-  }
-}
-
 // Values; rescaled ones are doubles, as those of NIfTI.
 class DicomValues final : public DicomSource {
  public:
@@ -186,7 +202,7 @@ class DicomValues final : public DicomSource {
   absl::Status Begin(size_t file) {
     info_.format = "DICOM";
     BCCSKEL_ASSIGN_OR_RETURN(const DicomVoxels* voxels, VoxelsOf(file, ExpandVoxels));
-    info_.type = IsPlain(*voxels) ? TypeOf(voxels->type) : VoxelType::kFloat64;
+    info_.type = IsPlain(*voxels) ? voxels->type : VoxelType::kFloat64;
     return absl::OkStatus();
   }
 
@@ -198,7 +214,7 @@ class DicomValues final : public DicomSource {
   absl::StatusOr<SliceValues> ValuesOf(const std::vector<DicomFrame>& frames) override {
     const DicomFrame& frame = frames.front();
     BCCSKEL_ASSIGN_OR_RETURN(const DicomVoxels* voxels, VoxelsOf(frame.file, ExpandVoxels));
-    switch (TypeOf(voxels->type)) {
+    switch (voxels->type) {
       case VoxelType::kUint8:
         return Values<uint8_t>(*voxels, frame);
       case VoxelType::kInt8:
@@ -221,7 +237,7 @@ class DicomValues final : public DicomSource {
     std::memcpy(plain_.data(), from, plain_.size());
     const std::span<const T> stored(reinterpret_cast<const T*>(plain_.data()), SliceVoxels());
     if (info_.type != VoxelType::kFloat64) {
-      if (IsPlain(voxels) && TypeOf(voxels.type) == info_.type) return SliceValues(stored);
+      if (IsPlain(voxels) && voxels.type == info_.type) return SliceValues(stored);
       return absl::InvalidArgumentError(absl::StrFormat(
           "'%s' has voxels of another type or scale than the first slice", frame.name));
     }

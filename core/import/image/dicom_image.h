@@ -19,7 +19,7 @@ bool IsDicomFolder(const std::string& path);
 // Errors: INVALID_ARGUMENT for damaged files, several series without a choice
 //         (ImageOptions::series), slices that are missing, doubled or unevenly spaced, and segments
 //         that overlap where none is chosen (ImageOptions::channel); UNIMPLEMENTED for colors,
-//         fractional segmentations, and without GDCM (the build's option BCCSKEL_DICOM).
+//         fractional segmentations, and without DCMTK (the build's option BCCSKEL_DICOM).
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenDicom(const std::string& path,
                                                        const ImageOptions& options);
 

@@ -1,4 +1,5 @@
-// DICOM files written here with GDCM: what is read, chosen and refused.
+// DICOM files written here with DCMTK: what is read, chosen and refused.
+#include <dcmtk/dcmdata/dcrleerg.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +15,6 @@
 namespace bccskel {
 namespace {
 
-using gdcm::DataSet;
-using gdcm::Tag;
-using gdcm::VR;
 using ::testing::AllOf;
 using testing::CountedTo;
 using ::testing::DoubleNear;
@@ -24,29 +22,24 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 using ::testing::Pointwise;
-using testing::dicom::kOrientation;
-using testing::dicom::kPixels;
-using testing::dicom::kPixelSpacing;
-using testing::dicom::kPosition;
-using testing::dicom::kRows;
-using testing::dicom::kSeries;
 using testing::dicom::kX;
 using testing::dicom::kY;
 using testing::dicom::Position;
 using testing::dicom::Put;
 using testing::dicom::PutItems;
 using testing::dicom::PutShort;
+using testing::dicom::PutWords;
 using testing::dicom::Slice;
 using testing::dicom::WithItem;
 using testing::dicom::Write;
 
-using Change = std::function<void(int z, DataSet& slice)>;
+using Change = std::function<void(int z, DcmDataset& slice)>;
 
 // Slices at z * 2 mm, the last one in the first file.
 void WriteSeries(const ImageFolder& folder, int slices, const Change& change = nullptr,
                  const std::string& prefix = "") {
   for (int z = 0; z < slices; ++z) {
-    DataSet slice = Slice({7, 8, 9 + 2.0 * z}, 6 * z);
+    DcmDataset slice = Slice({7, 8, 9 + 2.0 * z}, 6 * z);
     if (change) change(z, slice);
     Write(absl::StrFormat("%s/%s%02d", folder.path(), prefix, slices - z), slice);
   }
@@ -74,9 +67,9 @@ TEST(Dicom, SlicesAreSortedByTheirPositions) {
 TEST(Dicom, TheOrientationIsFoldedIn) {
   const ImageFolder folder("dicom");
   // Rows go to -y, columns to -z, so slices to +x.
-  WriteSeries(folder, 3, [](int z, DataSet& slice) {
-    Put(slice, kOrientation, VR::DS, "0\\-1\\0\\0\\0\\-1");
-    Put(slice, kPosition, VR::DS, Position({3.0 * z, 50, 60}));
+  WriteSeries(folder, 3, [](int z, DcmDataset& slice) {
+    Put(slice, DCM_ImageOrientationPatient, "0\\-1\\0\\0\\0\\-1");
+    Put(slice, DCM_ImagePositionPatient, Position({3.0 * z, 50, 60}));
   });
   const auto image = folder.Read();
   ASSERT_TRUE(image.ok()) << image.status();
@@ -88,9 +81,9 @@ TEST(Dicom, TheOrientationIsFoldedIn) {
 
 TEST(Dicom, RescaledValuesAreDoubles) {
   const ImageFolder folder("dicom");
-  WriteSeries(folder, 2, [](int z, DataSet& slice) {
-    Put(slice, Tag(0x28, 0x1052), VR::DS, "-1000");
-    Put(slice, Tag(0x28, 0x1053), VR::DS, z == 0 ? "2" : "0.5");
+  WriteSeries(folder, 2, [](int z, DcmDataset& slice) {
+    Put(slice, DCM_RescaleIntercept, "-1000");
+    Put(slice, DCM_RescaleSlope, z == 0 ? "2" : "0.5");
   });
   const auto image = folder.Read();
   ASSERT_TRUE(image.ok()) << image.status();
@@ -99,15 +92,27 @@ TEST(Dicom, RescaledValuesAreDoubles) {
   EXPECT_EQ(image->values[6], -997);
 }
 
+TEST(Dicom, CompressedSlicesAreExpanded) {
+  DcmRLEEncoderRegistration::registerCodecs();
+  const ImageFolder folder("dicom");
+  for (int z = 0; z < 3; ++z) {
+    Write(absl::StrFormat("%s/%d.dcm", folder.path(), z), Slice({0, 0, 1.0 * z}, 6 * z),
+          EXS_RLELossless);
+  }
+  const auto image = folder.Read();
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(image->values, CountedTo(3 * kX * kY));
+}
+
 TEST(Dicom, OneOfSeveralSeriesIsChosen) {
   const ImageFolder folder("dicom");
   WriteSeries(folder, 3);
   WriteSeries(
       folder, 2,
-      [](int, DataSet& slice) {
-        Put(slice, kSeries, VR::UI, "1.2.3.5");
-        Put(slice, Tag(0x20, 0x11), VR::IS, "8");
-        Put(slice, Tag(8, 0x103e), VR::LO, "Localizer");
+      [](int, DcmDataset& slice) {
+        Put(slice, DCM_SeriesInstanceUID, "1.2.3.5");
+        Put(slice, DCM_SeriesNumber, "8");
+        Put(slice, DCM_SeriesDescription, "Localizer");
       },
       "b");
   EXPECT_THAT(Refusal(folder),
@@ -130,59 +135,60 @@ TEST(Dicom, WhatIsNoStackOfSlicesIsRefused) {
     const char* message;
     Change change;
   };
-  const auto at = [](DataSet& slice, const WorldPoint& p) {
-    Put(slice, kPosition, VR::DS, Position(p));
+  const auto at = [](DcmDataset& slice, const WorldPoint& p) {
+    Put(slice, DCM_ImagePositionPatient, Position(p));
   };
   const std::vector<Case> cases = {
       {"2 slices are missing between '03' and '02'",
-       [&](int z, DataSet& slice) {
+       [&](int z, DcmDataset& slice) {
          at(slice, {7, 8, z < 4 ? 2.0 * z : 2.0 * z + 4});
        }},
-      {"two slices lie at one position, '04' and '03'",
-       [&](int z, DataSet& slice) {
+      {"two slices lie at one position, '03' and '04'",
+       [&](int z, DcmDataset& slice) {
          at(slice, {7, 8, z < 3 ? 2.0 * z : 2.0 * z - 2});
        }},
       {"spaced unevenly: 2.7 mm",
-       [&](int z, DataSet& slice) {
+       [&](int z, DcmDataset& slice) {
          at(slice, {7, 8, z < 3 ? 2.0 * z : 2.0 * z + 0.7});
        }},
       {"not perpendicular",
-       [&](int z, DataSet& slice) {
+       [&](int z, DcmDataset& slice) {
          at(slice, {7, 0.5 * z, 2.0 * z});
        }},
       {"'04' lies beside the line",
-       [&](int z, DataSet& slice) {
+       [&](int z, DcmDataset& slice) {
          at(slice, {z == 2 ? 9.0 : 7.0, 8, 2.0 * z});
        }},
       {"differ in their pixel spacing",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kPixelSpacing, VR::DS, "0.5\\0.3");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_PixelSpacing, "0.5\\0.3");
        }},
       {"differ in their orientation",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kOrientation, VR::DS, "0\\1\\0\\1\\0\\0");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_ImageOrientationPatient, "0\\1\\0\\1\\0\\0");
        }},
       {"differ in their size",
-       [](int z, DataSet& slice) {
-         if (z == 2) PutShort(slice, kRows, 5);
+       [](int z, DcmDataset& slice) {
+         if (z == 2) PutShort(slice, DCM_Rows, 5);
        }},
       {"no ImagePositionPatient",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kPosition, VR::DS, "");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_ImagePositionPatient, "");
        }},
       {"ImagePositionPatient 'nan\\\\0\\\\1'",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kPosition, VR::DS, "nan\\0\\1");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_ImagePositionPatient, "nan\\0\\1");
        }},
       {"PixelSpacing '2' has not 2 numbers",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kPixelSpacing, VR::DS, "2");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_PixelSpacing, "2");
        }},
       {"unit vectors",
-       [](int z, DataSet& slice) {
-         if (z == 2) Put(slice, kOrientation, VR::DS, "0\\2\\0\\1\\0\\0");
+       [](int z, DcmDataset& slice) {
+         if (z == 2) Put(slice, DCM_ImageOrientationPatient, "0\\2\\0\\1\\0\\0");
        }},
-      {"3 samples a pixel", [](int, DataSet& slice) { PutShort(slice, Tag(0x28, 2), 3); }},
+      {"3 samples a pixel",
+       [](int, DcmDataset& slice) { PutShort(slice, DCM_SamplesPerPixel, 3); }},
   };
   for (const auto& [message, change] : cases) {
     const ImageFolder folder("dicom");
@@ -191,34 +197,37 @@ TEST(Dicom, WhatIsNoStackOfSlicesIsRefused) {
   }
 }
 
-// Frames with facts of their own, at the positions.
-DataSet Frames(const std::vector<double>& heights, const std::string& pixels) {
-  DataSet data = Slice({0, 0, 0}, 0);
-  data.Remove(kPosition);
-  data.Remove(kOrientation);
-  data.Remove(kPixelSpacing);
-  Put(data, Tag(0x28, 8), VR::IS, std::to_string(heights.size()));
-  DataSet shared = WithItem(Tag(0x20, 0x9116), kOrientation, VR::DS, "1\\0\\0\\0\\1\\0");
-  DataSet measures;
-  Put(measures, kPixelSpacing, VR::DS, "1\\1");
-  Put(measures, Tag(0x18, 0x88), VR::DS, "2");
-  PutItems(shared, Tag(0x28, 0x9110), {measures});
-  PutItems(data, Tag(0x5200, 0x9229), {shared});
-  std::vector<DataSet> own;
-  for (const double height : heights) {
-    own.push_back(WithItem(Tag(0x20, 0x9113), kPosition, VR::DS, Position({0, 0, height})));
+// Frames with facts of their own, at the heights.
+DcmDataset Frames(const std::vector<double>& heights) {
+  DcmDataset data = Slice({0, 0, 0}, 0);
+  for (const DcmTagKey& tag :
+       {DCM_ImagePositionPatient, DCM_ImageOrientationPatient, DCM_PixelSpacing}) {
+    data.findAndDeleteElement(tag);
   }
-  PutItems(data, Tag(0x5200, 0x9230), own);
-  Put(data, kPixels, VR::OW, pixels);
+  Put(data, DCM_NumberOfFrames, std::to_string(heights.size()));
+  DcmItem shared =
+      WithItem(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient, "1\\0\\0\\0\\1\\0");
+  DcmItem measures;
+  Put(measures, DCM_PixelSpacing, "1\\1");
+  Put(measures, DCM_SpacingBetweenSlices, "2");
+  PutItems(shared, DCM_PixelMeasuresSequence, {measures});
+  PutItems(data, DCM_SharedFunctionalGroupsSequence, {shared});
+  std::vector<DcmItem> own;
+  for (const double height : heights) {
+    own.push_back(
+        WithItem(DCM_PlanePositionSequence, DCM_ImagePositionPatient, Position({0, 0, height})));
+  }
+  PutItems(data, DCM_PerFrameFunctionalGroupsSequence, own);
   return data;
 }
 
 TEST(Dicom, AFileHoldsSeveralFrames) {
   const ImageFolder folder("dicom");
-  std::string pixels;
-  for (char n = 0; n < 3 * kX * kY; ++n) pixels += {n, '\0'};
-  DataSet data = Frames({4, 0, 2}, pixels);
-  Put(data, Tag(8, 0x16), VR::UI, "1.2.840.10008.5.1.4.1.1.2.1");
+  std::vector<uint16_t> words;
+  for (uint16_t n = 0; n < 3 * kX * kY; ++n) words.push_back(n);
+  DcmDataset data = Frames({4, 0, 2});
+  Put(data, DCM_SOPClassUID, UID_EnhancedCTImageStorage);
+  PutWords(data, words);
   Write(folder.path() + "/a.dcm", data);
   const auto image = testing::ReadAll(OpenImage(folder.path() + "/a.dcm"));
   ASSERT_TRUE(image.ok()) << image.status();
@@ -242,26 +251,28 @@ void WriteSegmentation(const ImageFolder& folder, const std::vector<SegmentFrame
     heights.push_back(frame.height);
     bits += frame.bits;
   }
-  std::string pixels((bits.size() + 7) / 8, '\0');
+  std::vector<uint8_t> bytes((bits.size() + 15) / 16 * 2);
   for (size_t n = 0; n < bits.size(); ++n) {
-    if (bits[n] == '1') pixels[n / 8] = static_cast<char>(pixels[n / 8] | 1 << n % 8);
+    if (bits[n] == '1') bytes[n / 8] = static_cast<uint8_t>(bytes[n / 8] | 1 << n % 8);
   }
-  DataSet data = Frames(heights, pixels);
-  Put(data, Tag(8, 0x16), VR::UI, "1.2.840.10008.5.1.4.1.1.66.4");
-  Put(data, Tag(0x62, 1), VR::CS, type);
-  PutShort(data, Tag(0x28, 0x100), 1);
-  PutShort(data, Tag(0x28, 0x101), 1);
-  PutShort(data, Tag(0x28, 0x102), 0);
-  std::vector<DataSet> own;
+  DcmDataset data = Frames(heights);
+  Put(data, DCM_SOPClassUID, UID_SegmentationStorage);
+  Put(data, DCM_SegmentationType, type);
+  PutShort(data, DCM_BitsAllocated, 1);
+  PutShort(data, DCM_BitsStored, 1);
+  PutShort(data, DCM_HighBit, 0);
+  std::vector<DcmItem> own;
   for (const SegmentFrame& frame : frames) {
-    DataSet item = WithItem(Tag(0x20, 0x9113), kPosition, VR::DS, Position({0, 0, frame.height}));
-    DataSet segment;
-    PutShort(segment, Tag(0x62, 0xb), frame.segment);
-    PutItems(item, Tag(0x62, 0xa), {segment});
+    DcmItem item = WithItem(DCM_PlanePositionSequence, DCM_ImagePositionPatient,
+                            Position({0, 0, frame.height}));
+    DcmItem segment;
+    PutShort(segment, DCM_ReferencedSegmentNumber, frame.segment);
+    PutItems(item, DCM_SegmentIdentificationSequence, {segment});
     own.push_back(item);
   }
-  PutItems(data, Tag(0x5200, 0x9230), own);
-  Put(data, kPixels, VR::OB, pixels);
+  PutItems(data, DCM_PerFrameFunctionalGroupsSequence, own);
+  data.findAndDeleteElement(DCM_PixelData);
+  ASSERT_TRUE(data.putAndInsertUint8Array(DCM_PixelData, bytes.data(), bytes.size()).good());
   Write(folder.path() + "/seg.dcm", data);
 }
 
