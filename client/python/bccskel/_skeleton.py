@@ -384,6 +384,8 @@ def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]
     """
     ordered = sorted(skeletons.items())
     world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")
-    _native.save_labels(os.fspath(path),
-                        [(int(label), skeleton._outcome) for label, skeleton in ordered],
-                        world, unit)
+    note = _native.save_labels(os.fspath(path),
+                               [(int(label), skeleton._outcome) for label, skeleton in ordered],
+                               world, unit)
+    if note:
+        warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)

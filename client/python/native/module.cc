@@ -33,12 +33,6 @@ using Options = std::vector<std::pair<std::string, std::optional<std::string>>>;
 using Server = std::shared_ptr<client::SkeletonizeClient>;
 using Triple = std::array<double, 3>;
 
-template <typename T>
-T Value(absl::StatusOr<T> value) {
-  ThrowIfError(value.status());
-  return *std::move(value);
-}
-
 cli::OptionSet SetOf(const std::string& name) {
   if (name == "mesh") return cli::OptionSet::kMesh;
   if (name == "labels") return cli::OptionSet::kLabels;

@@ -21,12 +21,6 @@ namespace {
 
 namespace py = pybind11;
 
-template <typename T>
-T Value(absl::StatusOr<T> value) {
-  ThrowIfError(value.status());
-  return *std::move(value);
-}
-
 py::object VolumeState(const std::shared_ptr<const Volume>& volume) {
   if (volume == nullptr) return py::none();
   return py::bytes(Value(EncodeVolume(

@@ -272,8 +272,8 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
 
 using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
-absl::Status WriteLabels(const std::string& path, const Labels& labels,
-                         const exporting::World& world) {
+absl::StatusOr<std::string> WriteLabels(const std::string& path, const Labels& labels,
+                                        const exporting::World& world) {
   exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
                                   world);
   for (const auto& [label, outcome] : labels) {
@@ -286,9 +286,15 @@ absl::Status WriteLabels(const std::string& path, const Labels& labels,
   return exporting::WriteLabeledFile(path, all);
 }
 
-void SaveLabels(const std::string& path, const Labels& labels, const std::string& world,
-                const std::string& unit) {
-  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels, {world, unit}); });
+// What the format could not hold; empty if it held everything.
+std::string SaveLabels(const std::string& path, const Labels& labels, const std::string& world,
+                       const std::string& unit) {
+  std::string note;
+  RunJob(py::none(), [&](Job&) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(note, WriteLabels(path, labels, {world, unit}));
+    return absl::OkStatus();
+  });
+  return note;
 }
 
 }  // namespace
