@@ -111,7 +111,10 @@ std::shared_ptr<const LabeledObject> LabelOfState(const py::object& state) {
   object->voxels = voxels;
   object->box = {low, high};
   object->runs.resize(static_cast<size_t>(runs.shape(0)));
-  std::memcpy(object->runs.data(), runs.data(), static_cast<size_t>(runs.nbytes()));
+  const auto rows = runs.unchecked<2>();
+  for (py::ssize_t n = 0; n < rows.shape(0); ++n) {
+    object->runs[static_cast<size_t>(n)] = {rows(n, 0), rows(n, 1), rows(n, 2), rows(n, 3)};
+  }
   return object;
 }
 

@@ -270,9 +270,9 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
   return array;
 }
 
-using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
+using LabelList = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
-absl::StatusOr<std::string> WriteLabels(const std::string& path, const Labels& labels,
+absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList& labels,
                                         const exporting::World& world) {
   exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
                                   world);
@@ -287,7 +287,7 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const Labels& l
 }
 
 // What the format could not hold; empty if it held everything.
-std::string SaveLabels(const std::string& path, const Labels& labels, const std::string& world,
+std::string SaveLabels(const std::string& path, const LabelList& labels, const std::string& world,
                        const std::string& unit) {
   std::string note;
   RunJob(py::none(), [&](Job&) -> absl::Status {

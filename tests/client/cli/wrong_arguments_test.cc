@@ -132,6 +132,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"threshold_of_nothing",
               {"labels", "a.tif", "-o", "a.vtp", "--pruning", "none", "--pruning-threshold", "3"},
               "not for --pruning none"},
+        Wrong{"picture_without_object",
+              {"render", "a.json", "-o", "a.png"},
+              "hint: --object names the mesh"},
         Wrong{"unknown_bench", {"bench", "core", "--shape", "sofa"}, "--shape sofa: must be ball"},
         Wrong{"unknown_shape", {"generate", "teapot", "-o", "a.exr"}, "hollow-ball"}),
     [](const auto& test) { return test.param.name; });
