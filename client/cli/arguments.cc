@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "client/cli/add_command.h"
 #include "client/cli/bench_arguments.h"
 #include "client/cli/choice_option.h"
@@ -180,7 +179,7 @@ CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
   return bench;
 }
 
-std::string_view HintFor(std::string_view error) {
+std::string HintFor(std::string_view error) {
   if (error == "--object is required") {
     return "--object names the mesh, volume or image that the result was made from; `bccskel view` "
            "also shows a result without it";
@@ -245,8 +244,8 @@ struct CommandLine {
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      const std::string_view what = error.what();
-      return absl::StrCat("bccskel: error: ", what, "\nbccskel: hint: ", HintFor(what), "\n");
+      const std::string what = error.what();
+      return "bccskel: error: " + what + "\nbccskel: hint: " + HintFor(what) + "\n";
     });
     for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
   }

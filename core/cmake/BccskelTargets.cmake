@@ -101,12 +101,16 @@ endfunction()
 # bccskel_tests(wire_tests PREFIX wire_ TESTS options result SLOW result SOURCES helper.cc LIBS deps...)
 # makes one program of options_test.cc and result_test.cc, and of each its own ctest entry,
 # wire_options_test and wire_result_test: many small programs take minutes to compile and to link.
+# ALONE: those that have names of others; SLOW: those with the label.
 function(bccskel_tests program)
-  cmake_parse_arguments(ARG "" "PREFIX" "TESTS;SLOW;SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PREFIX" "TESTS;ALONE;SLOW;SOURCES;LIBS;LABELS" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cc OUTPUT_VARIABLE sources)
   bccskel_test_program(${program} SOURCES ${sources} ${ARG_SOURCES}
                                           ${PROJECT_SOURCE_DIR}/tests/support/tests_of_source.cc
                        LIBS ${ARG_LIBS})
+  foreach(test IN LISTS ARG_ALONE)
+    set_source_files_properties(${test}_test.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endforeach()
   foreach(test IN LISTS ARG_TESTS)
     add_test(NAME ${ARG_PREFIX}${test}_test COMMAND ${program} --source=${test}_test.cc)
     set(slow)
