@@ -19,6 +19,7 @@ using ::testing::AllOf;
 using testing::CountedTo;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
+using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 using ::testing::Pointwise;
@@ -43,10 +44,6 @@ void WriteSeries(const ImageFolder& folder, int slices, const Change& change = n
     if (change) change(z, slice);
     Write(absl::StrFormat("%s/%s%02d", folder.path(), prefix, slices - z), slice);
   }
-}
-
-std::string Refusal(const ImageFolder& folder, const ImageOptions& options = {}) {
-  return std::string(folder.Read(options).status().message());
 }
 
 TEST(Dicom, SlicesAreSortedByTheirPositions) {
@@ -115,7 +112,7 @@ TEST(Dicom, OneOfSeveralSeriesIsChosen) {
         Put(slice, DCM_SeriesDescription, "Localizer");
       },
       "b");
-  EXPECT_THAT(Refusal(folder),
+  EXPECT_THAT(ErrorOf(folder),
               AllOf(HasSubstr("2 series: 3 'Thorax' (3 files, 1.2.3.4), 8 'Localizer' (2 files, "
                               "1.2.3.5)"),
                     HasSubstr("--series")));
@@ -127,7 +124,7 @@ TEST(Dicom, OneOfSeveralSeriesIsChosen) {
     EXPECT_EQ(image->info.size.nz, slices);
   }
   options.series = "9";
-  EXPECT_THAT(Refusal(folder, options), HasSubstr("'9' is no series of the folder: 3 'Thorax'"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("'9' is no series of the folder: 3 'Thorax'"));
 }
 
 TEST(Dicom, WhatIsNoStackOfSlicesIsRefused) {
@@ -193,7 +190,7 @@ TEST(Dicom, WhatIsNoStackOfSlicesIsRefused) {
   for (const auto& [message, change] : cases) {
     const ImageFolder folder("dicom");
     WriteSeries(folder, 6, change);
-    EXPECT_THAT(Refusal(folder), HasSubstr(message));
+    EXPECT_THAT(ErrorOf(folder), HasSubstr(message));
   }
 }
 
@@ -292,16 +289,16 @@ TEST(Dicom, NumbersOfSegmentsAreLabels) {
 TEST(Dicom, SegmentsThatOverlapAreChosen) {
   const ImageFolder folder("dicom");
   WriteSegmentation(folder, {{0, 1, "110000"}, {0, 2, "011000"}});
-  EXPECT_THAT(Refusal(folder), HasSubstr("segments 1 and 2 overlap; choose one with --channel"));
+  EXPECT_THAT(ErrorOf(folder), HasSubstr("segments 1 and 2 overlap; choose one with --channel"));
   ImageOptions options;
   options.channel = 2;
   const auto image = folder.Read(options);
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_THAT(image->values, ElementsAre(0, 2, 2, 0, 0, 0));
   options.channel = 3;
-  EXPECT_THAT(Refusal(folder, options), HasSubstr("no segment 3"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("no segment 3"));
   WriteSegmentation(folder, {{0, 1, "110000"}}, "FRACTIONAL");
-  EXPECT_THAT(Refusal(folder), HasSubstr("'FRACTIONAL' is not read"));
+  EXPECT_THAT(ErrorOf(folder), HasSubstr("'FRACTIONAL' is not read"));
 }
 
 TEST(Dicom, DamagedFilesAreRefused) {
@@ -336,10 +333,10 @@ TEST(Dicom, OptionsOfOtherFormatsAreRefused) {
   WriteSeries(folder, 2);
   ImageOptions options;
   options.channel = 1;
-  EXPECT_THAT(Refusal(folder, options), HasSubstr("--channel chooses in segmentations"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("--channel chooses in segmentations"));
   options = {};
   options.level = 1;
-  EXPECT_THAT(Refusal(folder, options), HasSubstr("--level"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("--level"));
   options = {};
   options.spacing = {3, 4, 5};
   EXPECT_THAT(folder.Read(options)->info.placement.spacing, ElementsAre(3, 4, 5));
