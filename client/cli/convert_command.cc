@@ -3,6 +3,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/json_text.h"
+#include "client/export/method_facts.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
 #include "client/view/result_graph.h"
@@ -51,13 +52,14 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
     if (!fits.ok()) return FailWith(ExitCode::kUsage, fits);
     order = OrderTrees(result->graph, *arguments.root);
   }
-  const auto notes =
-      WriteAll(arguments,
-               {.graph = result->graph,
-                .context = {.labels = {}, .facts = FactsOf(*result), .order = std::move(order)},
-                .world = {Known(result->world), Known(result->unit)},
-                .swc = arguments.swc},
-               stop);
+  const auto notes = WriteAll(arguments,
+                              {.graph = result->graph,
+                               .context = {.labels = {},
+                                           .facts = exporting::MethodFactsOf(*result),
+                                           .order = std::move(order)},
+                               .world = {Known(result->world), Known(result->unit)},
+                               .swc = arguments.swc},
+                              stop);
   if (!notes.ok()) return FailWith(ExitCode::kOutput, notes.status());
   return Print(SummaryOf(arguments, *notes));
 }

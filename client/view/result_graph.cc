@@ -11,7 +11,6 @@
 #include "absl/strings/str_cat.h"
 #include "client/view/result_document.h"
 #include "core/exec/status_macros.h"
-#include "core/pipeline/notes.h"
 
 namespace bccskel::view {
 namespace {
@@ -244,21 +243,6 @@ absl::StatusOr<ResultGraph> GraphOf(const ResultDocument& document) {
 }
 
 }  // namespace
-
-std::vector<std::pair<std::string, std::string>> FactsOf(const ResultGraph& result) {
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"method", result.method},
-      {"algorithm_version", result.algorithm_version},
-      {"world", result.world},
-      {"unit", result.unit}};
-  facts.insert(facts.end(), result.options.begin(), result.options.end());
-  std::string prepared;
-  for (const PreparingStep& step : result.preparing) {
-    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
-  }
-  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
-  return facts;
-}
 
 absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument document, ReadResultDocument(path));

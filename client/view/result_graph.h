@@ -26,9 +26,6 @@ struct ResultGraph {
   uint64_t object_points = 0;  // after preparing
 };
 
-// As exporting::MethodFactsOf() states a result that was just made.
-std::vector<std::pair<std::string, std::string>> FactsOf(const ResultGraph& result);
-
 // Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, as older
 //         versions wrote it, and for places that are not on its lattice.
 absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path);

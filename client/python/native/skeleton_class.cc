@@ -16,6 +16,7 @@
 #include "client/cli/local_team.h"
 #include "client/cli/named_options.h"
 #include "client/export/labeled_graph.h"
+#include "client/export/method_facts.h"
 #include "client/export/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
@@ -197,12 +198,13 @@ struct Saying {
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const std::stop_token& stop) {
-  return exporting::WriteGraphFile(path,
-                                   {.graph = outcome.result.graph,
-                                    .context = {.labels = {}, .facts = FactsOf(*outcome.read)},
-                                    .world = saying.world,
-                                    .swc = saying.swc},
-                                   stop);
+  return exporting::WriteGraphFile(
+      path,
+      {.graph = outcome.result.graph,
+       .context = {.labels = {}, .facts = exporting::MethodFactsOf(*outcome.read)},
+       .world = saying.world,
+       .swc = saying.swc},
+      stop);
 }
 
 absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying, Job& job,
