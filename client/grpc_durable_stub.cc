@@ -160,7 +160,7 @@ class GrpcDurableStub final : public DurableStub {
       const auto stream = jobs_->ReadSkeleton(&context, request);
       v1::ReadSkeletonResponse piece;
       absl::Status taken;
-      while (taken.ok() && stream->Read(&piece)) taken = Take(piece, reading);
+      while (taken.ok() && stream->Read(&piece)) taken = reading.Add(piece);
       if (!taken.ok()) context.TryCancel();
       const absl::Status ended = FromGrpcStatus(stream->Finish());
       return taken.ok() ? ended : taken;
@@ -200,24 +200,6 @@ class GrpcDurableStub final : public DurableStub {
     BCCSKEL_RETURN_IF_ERROR(FromGrpcStatus(stream->Finish()));
     if (!response.upload().volume().empty()) return response.upload().volume();
     return absl::DataLossError("the server names no volume for " + upload);
-  }
-
-  static absl::Status Take(v1::ReadSkeletonResponse& piece, SkeletonReading& reading) {
-    if (piece.piece_index() != reading.pieces()) {
-      return absl::DataLossError(
-          absl::StrCat("piece ", piece.piece_index(), " came instead of ", reading.pieces()));
-    }
-    switch (piece.piece_case()) {
-      case v1::ReadSkeletonResponse::kSkeletonChunk:
-        return reading.Add(piece.skeleton_chunk());
-      case v1::ReadSkeletonResponse::kThinVolumeChunk:
-        return reading.Add(piece.thin_volume_chunk());
-      case v1::ReadSkeletonResponse::kSummary:
-        return reading.Add(std::move(*piece.mutable_summary()));
-      case v1::ReadSkeletonResponse::PIECE_NOT_SET:
-        break;
-    }
-    return absl::DataLossError("a piece of a kind that this version does not know");
   }
 
   const std::shared_ptr<grpc::Channel> channel_;

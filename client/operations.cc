@@ -60,7 +60,7 @@ std::optional<ServerStatus::Stored> StoredOf(const v1::GetServerStatusResponse& 
                               .running_jobs = message.stored().jobs_running()};
 }
 
-ServerStatus FromMessage(const v1::GetServerStatusResponse& message) {
+ServerStatus StatusFromMessage(const v1::GetServerStatusResponse& message) {
   ServerStatus status;
   status.server_version = message.server_version();
   status.uptime = TimeOf(message.uptime());
@@ -127,7 +127,7 @@ absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout) {
         "--admin-listen");
   }
   if (!status.ok()) return FromGrpcStatus(status);
-  return FromMessage(response);
+  return StatusFromMessage(response);
 }
 
 }  // namespace bccskel::client

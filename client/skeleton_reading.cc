@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
 
@@ -25,6 +26,24 @@ absl::Status SkeletonReading::Add(v1::SkeletonSummary summary) {
   ++pieces_;
   summary_ = std::move(summary);
   return absl::OkStatus();
+}
+
+absl::Status SkeletonReading::Add(v1::ReadSkeletonResponse& piece) {
+  if (piece.piece_index() != pieces_) {
+    return absl::DataLossError(
+        absl::StrCat("piece ", piece.piece_index(), " came instead of ", pieces_));
+  }
+  switch (piece.piece_case()) {
+    case v1::ReadSkeletonResponse::kSkeletonChunk:
+      return Add(piece.skeleton_chunk());
+    case v1::ReadSkeletonResponse::kThinVolumeChunk:
+      return Add(piece.thin_volume_chunk());
+    case v1::ReadSkeletonResponse::kSummary:
+      return Add(std::move(*piece.mutable_summary()));
+    case v1::ReadSkeletonResponse::PIECE_NOT_SET:
+      break;
+  }
+  return absl::DataLossError("a piece of a kind that this version does not know");
 }
 
 absl::StatusOr<SkeletonizeResult> SkeletonReading::Finish() && {

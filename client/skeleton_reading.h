@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "bccskel/v1/skeleton.pb.h"
+#include "bccskel/v1/job_service.pb.h"
 #include "core/pipeline/skeletonize.h"
 #include "proto/wire/skeleton_chunks.h"
 
@@ -20,6 +20,8 @@ class SkeletonReading {
   absl::Status Add(const v1::SkeletonChunk& chunk);
   absl::Status Add(const v1::ThinVolumeChunk& chunk);
   absl::Status Add(v1::SkeletonSummary summary);
+  // Whichever of these it is; takes the summary out of `piece`.
+  absl::Status Add(v1::ReadSkeletonResponse& piece);
 
   // So many came: the next one has this index.
   uint32_t pieces() const { return pieces_; }

@@ -179,6 +179,14 @@ CLI::App& AddBench(CLI::App& app, BenchCoreArguments& arguments) {
   return bench;
 }
 
+std::string HintFor(std::string_view error) {
+  if (error == "--object is required") {
+    return "--object names the mesh, volume or image that the result was made from; `bccskel view` "
+           "also shows a result without it";
+  }
+  return "--help lists it all";
+}
+
 // All commands, each with what it fills in.
 struct CommandLine {
   CLI::App app{"Curve skeletons by parallel thinning on the body-centered cubic grid", "bccskel"};
@@ -236,8 +244,8 @@ struct CommandLine {
     app.set_version_flag("--version", "bccskel " + std::string(Version()));
     app.footer(kFooter);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "bccskel: error: " + std::string(error.what()) +
-             "\nbccskel: hint: --help lists it all\n";
+      const std::string what = error.what();
+      return "bccskel: error: " + what + "\nbccskel: hint: " + HintFor(what) + "\n";
     });
     for (CLI::App* command : app.get_subcommands({})) command->footer(kFooter);
   }

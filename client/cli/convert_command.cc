@@ -3,31 +3,16 @@
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
 #include "client/cli/json_text.h"
+#include "client/export/method_facts.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
 #include "client/view/result_graph.h"
 #include "core/exec/status_macros.h"
-#include "core/pipeline/notes.h"
 
 namespace bccskel::cli {
 namespace {
 
 std::string Known(const std::string& text) { return text == "unknown" ? "" : text; }
-
-// As exporting::MethodFactsOf() states a result that was just made.
-exporting::MethodFacts FactsOf(const view::ResultGraph& result) {
-  exporting::MethodFacts facts = {{"method", result.method},
-                                  {"algorithm_version", result.algorithm_version},
-                                  {"world", result.world},
-                                  {"unit", result.unit}};
-  facts.insert(facts.end(), result.options.begin(), result.options.end());
-  std::string prepared;
-  for (const PreparingStep& step : result.preparing) {
-    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
-  }
-  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
-  return facts;
-}
 
 std::string SummaryOf(const ConvertArguments& arguments, const std::vector<std::string>& notes) {
   exporting::Text text;
@@ -67,13 +52,14 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
     if (!fits.ok()) return FailWith(ExitCode::kUsage, fits);
     order = OrderTrees(result->graph, *arguments.root);
   }
-  const auto notes =
-      WriteAll(arguments,
-               {.graph = result->graph,
-                .context = {.labels = {}, .facts = FactsOf(*result), .order = std::move(order)},
-                .world = {Known(result->world), Known(result->unit)},
-                .swc = arguments.swc},
-               stop);
+  const auto notes = WriteAll(arguments,
+                              {.graph = result->graph,
+                               .context = {.labels = {},
+                                           .facts = exporting::MethodFactsOf(*result),
+                                           .order = std::move(order)},
+                               .world = {Known(result->world), Known(result->unit)},
+                               .swc = arguments.swc},
+                              stop);
   if (!notes.ok()) return FailWith(ExitCode::kOutput, notes.status());
   return Print(SummaryOf(arguments, *notes));
 }

@@ -198,6 +198,10 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
   choose("--time", arguments.open.time, "Point of time of one with several, from 0");
   choose("--level", arguments.open.level,
          "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
+  command
+      .add_option("--series", arguments.open.series,
+                  "Of a folder of DICOM with several: its number or unique identifier")
+      ->option_text("SERIES");
   AddRaw(command, arguments);
 }
 

@@ -4,14 +4,11 @@
 #include <utility>
 
 #include "client/export/atomic_file.h"
-#include "client/export/markups.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
-
-using exporting::SkeletonFormat;
 
 constexpr std::string_view kPlace = kLabelPlace;
 
@@ -73,9 +70,8 @@ absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish(const std::stop_toke
     files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
   }
   for (const std::string& path : paths_of_all_) {
-    BCCSKEL_RETURN_IF_ERROR(exporting::WriteLabeledFile(path, all_, stop));
-    const bool markups = exporting::SkeletonFormatOf(path).value() == SkeletonFormat::kMarkups;
-    files.push_back({path, markups ? exporting::NoteOn(world_) : ""});
+    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteLabeledFile(path, all_, stop));
+    files.push_back({path, std::move(note)});
   }
   return files;
 }

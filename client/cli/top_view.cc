@@ -12,7 +12,7 @@ namespace {
 
 using client::ServerStatus;
 
-double Seconds(std::chrono::nanoseconds time) {
+double InSeconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
@@ -63,7 +63,7 @@ std::string StoredJson(const ServerStatus::Stored& stored) {
 }  // namespace
 
 TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
-  const double seconds = Seconds(after.uptime - before.uptime);
+  const double seconds = InSeconds(after.uptime - before.uptime);
   const auto rate = [&](uint64_t ServerStatus::*sum) {
     return Rate(before.*sum, after.*sum, seconds);
   };
@@ -72,7 +72,7 @@ TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
   rates.jobs = rate(&ServerStatus::jobs);
   rates.points = rate(&ServerStatus::object_points);
   if (seconds > 0) {
-    rates.processors = Seconds(after.processor_time - before.processor_time) / seconds;
+    rates.processors = InSeconds(after.processor_time - before.processor_time) / seconds;
   }
   return rates;
 }
@@ -107,11 +107,12 @@ std::string TopJson(const ServerStatus& status, const std::optional<TopRates>& r
       R"("waiting":%d,"running":%d},"threads":%d,"busy_threads":%d,"admitted_bytes":%d,)"
       R"("max_admitted_bytes":%d,"resident_bytes":%d,"open_files":%d,"processor_seconds":%.3f,)"
       R"("totals":{"calls":%d,"failed_calls":%d,"jobs":%d,"failed_jobs":%d,"object_points":%d})",
-      JsonString(status.server_version), Seconds(status.uptime), status.draining ? "true" : "false",
-      status.admitted_jobs, status.waiting_jobs, status.running_jobs, status.threads,
-      status.busy_threads, status.admitted_bytes, status.max_admitted_bytes, status.resident_bytes,
-      status.open_files, Seconds(status.processor_time), status.calls, status.failed_calls,
-      status.jobs, status.failed_jobs, status.object_points);
+      JsonString(status.server_version), InSeconds(status.uptime),
+      status.draining ? "true" : "false", status.admitted_jobs, status.waiting_jobs,
+      status.running_jobs, status.threads, status.busy_threads, status.admitted_bytes,
+      status.max_admitted_bytes, status.resident_bytes, status.open_files,
+      InSeconds(status.processor_time), status.calls, status.failed_calls, status.jobs,
+      status.failed_jobs, status.object_points);
   if (status.stored.has_value()) json += StoredJson(*status.stored);
   if (rates.has_value()) {
     absl::StrAppendFormat(

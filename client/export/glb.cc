@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <string_view>
@@ -52,12 +53,24 @@ struct Vertex {
   Vector normal;
   uint32_t color;  // r, g, b, a from the lowest byte on; linear
 };
-constexpr size_t kVertexBytes = 28;
+constexpr size_t kVertexBytes = sizeof(Vertex);
+static_assert(kVertexBytes == 28);
 
-void AppendVertex(std::string& bytes, const Vertex& vertex) {
-  for (const float part : vertex.position) AppendWord(bytes, std::bit_cast<uint32_t>(part));
-  for (const float part : vertex.normal) AppendWord(bytes, std::bit_cast<uint32_t>(part));
-  AppendWord(bytes, vertex.color);
+// Items that consist of words of 4 bytes.
+template <typename Item>
+void AppendItems(std::string& bytes, const std::vector<Item>& items) {
+  static_assert(sizeof(Item) % sizeof(uint32_t) == 0);
+  const auto* const from = reinterpret_cast<const char*>(items.data());
+  const size_t size = items.size() * sizeof(Item);
+  if constexpr (std::endian::native == std::endian::little) {
+    bytes.append(from, size);
+  } else {
+    for (size_t at = 0; at < size; at += sizeof(uint32_t)) {
+      uint32_t word = 0;
+      std::memcpy(&word, from + at, sizeof word);
+      AppendWord(bytes, word);
+    }
+  }
 }
 
 // A closed surface around a curve.
@@ -180,9 +193,9 @@ class Scene {
         low[axis] = std::min(low[axis], vertex.position[axis]);
         high[axis] = std::max(high[axis], vertex.position[axis]);
       }
-      AppendVertex(vertices_, vertex);
     }
-    for (const uint32_t corner : tube.corners) AppendWord(corners_, corner);
+    AppendItems(vertices_, tube.vertices);
+    AppendItems(corners_, tube.corners);
     const size_t count = tube.vertices.size();
     AddAccessor(kVertexView, first_vertex, kFloat, "VEC3", count);
     accessor_text_.Add(",\"min\":[", low[0], ',', low[1], ',', low[2], "],\"max\":[", high[0], ',',
@@ -281,10 +294,12 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
   const TubeMaker maker(center, graph);
   Scene scene;
   for (size_t n = 0; n < graph.edges.size(); ++n) {
-    const std::vector<CurvePoint> curve = SampledCurve(graph, graph.edges[n]);
+    const SkeletonEdge& edge = graph.edges[n];
+    const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
+    const std::vector<CurvePoint> curve = SampledCurve(graph, edge, smooth);
     if (curve.empty()) continue;
     scene.Add(maker.Around(curve));
-    scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, graph.edges[n]));
+    scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, edge, smooth));
   }
   std::string json = std::move(scene).Json(center);
   json.resize(RoundedUp(json.size()), ' ');

@@ -76,13 +76,13 @@ void AddNodeName(Text& text, std::string_view key, uint32_t node) {
   text.Add("<data key=\"", key, "\">n", node, "</data>");
 }
 
-void AddNodeOrder(Text& text, const NodeOrder& order) {
+void AddNodeOrderData(Text& text, const NodeOrder& order) {
   AddNodeName(text, "root", order.root);
   if (order.parent != kNoRow) AddNodeName(text, "parent", order.parent);
   AddData(text, "root_distance", order.root_distance);
 }
 
-void AddEdgeOrder(Text& text, const EdgeOrder& order) {
+void AddEdgeOrderData(Text& text, const EdgeOrder& order) {
   if (order.ClosesLoop()) return AddData(text, "closes_loop", "true");
   AddNodeName(text, "proximal", order.proximal);
   AddData(text, "generation", order.generation);
@@ -102,7 +102,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t componen
   AddData(text, "component", component);
   if (node.at.birth > 0) AddData(text, "birth", node.at.birth);
   AddLabel(text, context.labels.of_nodes, n);
-  if (context.order.has_value()) AddNodeOrder(text, context.order->nodes[n]);
+  if (context.order.has_value()) AddNodeOrderData(text, context.order->nodes[n]);
   if (node.kind == NodeKind::kClosedSurface || node.loops > 0) AddData(text, "loops", node.loops);
   if (node.kind == NodeKind::kClosedSurface) AddData(text, "cavities", node.cavities);
   text.Add("</node>\n");
@@ -136,7 +136,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
   text.Add("<edge id=\"e", n, "\" source=\"n", edge.source, "\" target=\"n", edge.target, "\">");
   const EdgeFigures figures = FiguresOf(graph, edge);
   AddLabel(text, context.labels.of_edges, n);
-  if (context.order.has_value()) AddEdgeOrder(text, context.order->edges[n]);
+  if (context.order.has_value()) AddEdgeOrderData(text, context.order->edges[n]);
   AddData(text, "length", figures.length);
   AddData(text, "mean_radius", figures.mean_radius);
   AddData(text, "min_radius", figures.min_radius);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "client/export/atomic_file.h"
 #include "client/export/branch_table.h"
 #include "client/export/glb.h"
@@ -58,11 +59,33 @@ std::string LabeledSkeletons::Markups() const {
   return WriteMarkups(graph_, Context(), world_).text;
 }
 
-absl::Status LabeledSkeletons::WritePrecomputedFolder(const std::string& path,
-                                                      const std::stop_token& stop) const {
-  return WritePrecomputed(path, graph_, {.labels = labels_, .world = world_, .sampling = {}}, stop)
-      .status();
+absl::StatusOr<std::string> LabeledSkeletons::WritePrecomputedFolder(
+    const std::string& path, const std::stop_token& stop) const {
+  return WritePrecomputed(path, graph_, {.labels = labels_, .world = world_, .sampling = {}}, stop);
 }
+
+namespace {
+
+absl::StatusOr<std::string> BytesOf(SkeletonFormat format, const LabeledSkeletons& skeletons) {
+  switch (format) {
+    case SkeletonFormat::kVtp:
+      return VtpText(skeletons.graph(), skeletons.Context());
+    case SkeletonFormat::kGraphMl:
+      return GraphMlText(skeletons.graph(), skeletons.Context());
+    case SkeletonFormat::kJson:
+      return skeletons.Json();
+    case SkeletonFormat::kCsv:
+      return BranchTableText(skeletons.graph(), skeletons.Context());
+    case SkeletonFormat::kMarkups:
+      return skeletons.Markups();
+    case SkeletonFormat::kGlb:
+      return GlbBytes(skeletons.graph(), skeletons.Context());
+    default:
+      return absl::InvalidArgumentError("this format holds one label");
+  }
+}
+
+}  // namespace
 
 bool HoldsManyLabels(SkeletonFormat format) {
   return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
@@ -71,31 +94,17 @@ bool HoldsManyLabels(SkeletonFormat format) {
          format == SkeletonFormat::kPrecomputed;
 }
 
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
-                              const std::stop_token& stop) {
+absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
+                                             const LabeledSkeletons& skeletons,
+                                             const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
-  switch (format) {
-    case SkeletonFormat::kVtp:
-      return WriteFileAtomically(path, VtpText(skeletons.graph(), skeletons.Context()), stop);
-    case SkeletonFormat::kGraphMl:
-      return WriteFileAtomically(path, GraphMlText(skeletons.graph(), skeletons.Context()), stop);
-    case SkeletonFormat::kJson:
-      return WriteFileAtomically(path, skeletons.Json(), stop);
-    case SkeletonFormat::kCsv:
-      return WriteFileAtomically(path, BranchTableText(skeletons.graph(), skeletons.Context()),
-                                 stop);
-    case SkeletonFormat::kMarkups:
-      return WriteFileAtomically(path, skeletons.Markups(), stop);
-    case SkeletonFormat::kGlb: {
-      BCCSKEL_ASSIGN_OR_RETURN(const std::string glb,
-                               GlbBytes(skeletons.graph(), skeletons.Context()));
-      return WriteFileAtomically(path, glb, stop);
-    }
-    case SkeletonFormat::kPrecomputed:
-      return skeletons.WritePrecomputedFolder(path, stop);
-    default:
-      return absl::InvalidArgumentError(path + ": this format holds one label");
+  if (format == SkeletonFormat::kPrecomputed) return skeletons.WritePrecomputedFolder(path, stop);
+  const absl::StatusOr<std::string> bytes = BytesOf(format, skeletons);
+  if (!bytes.ok()) {
+    return absl::Status(bytes.status().code(), absl::StrCat(path, ": ", bytes.status().message()));
   }
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, *bytes, stop));
+  return format == SkeletonFormat::kMarkups ? NoteOn(skeletons.world()) : "";
 }
 
 }  // namespace bccskel::exporting

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "client/export/graph_context.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/world.h"
@@ -32,7 +32,9 @@ class LabeledSkeletons {
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
   std::string Markups() const;
   // Errors: those of WritePrecomputed().
-  absl::Status WritePrecomputedFolder(const std::string& path, const std::stop_token& stop) const;
+  absl::StatusOr<std::string> WritePrecomputedFolder(const std::string& path,
+                                                     const std::stop_token& stop) const;
+  const World& world() const { return world_; }
 
  private:
   SkeletonGraph graph_;
@@ -46,9 +48,11 @@ class LabeledSkeletons {
 // .vtp, .graphml, .json, .csv, .glb, .mrk.json and .precomputed.
 bool HoldsManyLabels(SkeletonFormat format);
 
+// Returns what the format could not hold, a sentence for the user; empty if it held everything.
 // Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().
-absl::Status WriteLabeledFile(const std::string& path, const LabeledSkeletons& skeletons,
-                              const std::stop_token& stop = {});
+absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
+                                             const LabeledSkeletons& skeletons,
+                                             const std::stop_token& stop = {});
 
 }  // namespace bccskel::exporting
 

@@ -5,6 +5,17 @@
 #include "core/pipeline/option_words.h"
 
 namespace bccskel::exporting {
+namespace {
+
+void AddPreparing(const std::vector<PreparingStep>& steps, MethodFacts& facts) {
+  std::string prepared;
+  for (const PreparingStep& step : steps) {
+    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
+  }
+  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
+}
+
+}  // namespace
 
 MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
   MethodFacts facts = {{"method", result.method},
@@ -12,11 +23,17 @@ MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
                        {"world", std::string(OrUnknown(world.axes))},
                        {"unit", std::string(OrUnknown(world.unit))}};
   for (const OptionFact& fact : FactsOf(result.options)) facts.emplace_back(fact.name, fact.value);
-  std::string prepared;
-  for (const PreparingStep& step : result.preparing) {
-    prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
-  }
-  if (!prepared.empty()) facts.emplace_back("prepared", prepared);
+  AddPreparing(result.preparing, facts);
+  return facts;
+}
+
+MethodFacts MethodFactsOf(const view::ResultGraph& result) {
+  MethodFacts facts = {{"method", result.method},
+                       {"algorithm_version", result.algorithm_version},
+                       {"world", result.world},
+                       {"unit", result.unit}};
+  facts.insert(facts.end(), result.options.begin(), result.options.end());
+  AddPreparing(result.preparing, facts);
   return facts;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/export/world.h"
+#include "client/view/result_graph.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::exporting {
@@ -15,6 +16,8 @@ namespace bccskel::exporting {
 // does not tell, and the options; `prepared` has what preparing did. Plain text, no quotes.
 using MethodFacts = std::vector<std::pair<std::string, std::string>>;
 MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world = {});
+// Of a result that was read again.
+MethodFacts MethodFactsOf(const view::ResultGraph& result);
 
 // The same as JSON values: an object of the options, and a list of the steps of preparing.
 std::string OptionsJson(const SkeletonizeOptions& options);

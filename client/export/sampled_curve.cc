@@ -42,6 +42,22 @@ Curve Resampled(const Curve& curve, size_t steps) {
   return resampled;
 }
 
+Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
+              std::span<const WorldPoint> smooth, const CurveSampling& sampling) {
+  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+  Curve curve;
+  curve.reserve(points.size());
+  for (size_t n = 0; n < points.size(); ++n) {
+    curve.push_back({smooth[n], graph.RadiusOf(points[n])});
+  }
+  if (curve.size() < 2) return curve;
+  const double most = kMostPerPoint * static_cast<double>(curve.size());
+  const double step = sampling.step.value_or(2 * std::ranges::min(graph.placement.spacing));
+  const double wanted = std::round(WaysAlong(curve).back() / step);
+  const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
+  return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));
+}
+
 }  // namespace
 
 std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve) {
@@ -54,19 +70,17 @@ std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve) {
 
 std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
                                      const CurveSampling& sampling) {
-  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
-  const bool raw = sampling.step == 0.0;
-  const std::vector<WorldPoint> smooth = raw ? std::vector<WorldPoint>() : SmoothCurve(graph, edge);
+  if (sampling.step != 0.0) return Sampled(graph, edge, SmoothCurve(graph, edge), sampling);
   Curve curve;
-  for (size_t n = 0; n < points.size(); ++n) {
-    curve.push_back({raw ? graph.PositionOf(points[n]) : smooth[n], graph.RadiusOf(points[n])});
+  for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+    curve.push_back({graph.PositionOf(p), graph.RadiusOf(p)});
   }
-  if (raw || curve.size() < 2) return curve;
-  const double most = kMostPerPoint * static_cast<double>(curve.size());
-  const double step = sampling.step.value_or(2 * std::ranges::min(graph.placement.spacing));
-  const double wanted = std::round(WaysAlong(curve).back() / step);
-  const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
-  return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));
+  return curve;
+}
+
+std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                                     std::span<const WorldPoint> smooth) {
+  return Sampled(graph, edge, smooth, {});
 }
 
 }  // namespace bccskel::exporting

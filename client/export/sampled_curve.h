@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_EXPORT_SAMPLED_CURVE_H_
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -25,6 +26,10 @@ struct CurvePoint {
 // Needs: the step is not negative.
 std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
                                      const CurveSampling& sampling = {});
+
+// The same by the default step, where SmoothCurve() of the edge is known.
+std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
+                                     std::span<const WorldPoint> smooth);
 
 // The way along the curve to each of its points; 0 for no point.
 std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve);

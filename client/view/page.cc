@@ -15,7 +15,7 @@
 namespace bccskel::view {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // The cube that everything lies in, and its 65,535 steps.
 struct Quantizer {
@@ -67,9 +67,9 @@ Quantizer QuantizerFor(Box box) {
   return {low, edge > 0 ? (edge + 2 * margin) / 65535 : 1};
 }
 
-absl::StatusOr<Json> SurfaceJson(const std::vector<WorldPoint>& vertices,
-                                 const std::vector<SurfaceTriangle>& triangles,
-                                 const Quantizer& quantize) {
+absl::StatusOr<OrderedJson> SurfaceJson(const std::vector<WorldPoint>& vertices,
+                                        const std::vector<SurfaceTriangle>& triangles,
+                                        const Quantizer& quantize) {
   std::vector<uint32_t> coordinates, corners;
   for (size_t axis = 0; axis < 3; ++axis) {  // one axis after the other: differences stay small
     for (const WorldPoint& v : vertices) coordinates.push_back(quantize(v[axis], axis));
@@ -79,31 +79,32 @@ absl::StatusOr<Json> SurfaceJson(const std::vector<WorldPoint>& vertices,
   }
   BCCSKEL_ASSIGN_OR_RETURN(std::string packed_coordinates, PackNumbers(coordinates));
   BCCSKEL_ASSIGN_OR_RETURN(std::string packed_corners, PackNumbers(corners));
-  return Json{{"vertices", vertices.size()},
-              {"triangles", triangles.size()},
-              {"coordinates", std::move(packed_coordinates)},
-              {"corners", std::move(packed_corners)}};
+  return OrderedJson{{"vertices", vertices.size()},
+                     {"triangles", triangles.size()},
+                     {"coordinates", std::move(packed_coordinates)},
+                     {"corners", std::move(packed_corners)}};
 }
 
 // Radii are in steps of the quantizer, too.
-absl::StatusOr<Json> SheetsJson(const SheetSurface& sheets, const Quantizer& quantize) {
-  BCCSKEL_ASSIGN_OR_RETURN(Json json, SurfaceJson(sheets.vertices, sheets.triangles, quantize));
+absl::StatusOr<OrderedJson> SheetsJson(const SheetSurface& sheets, const Quantizer& quantize) {
+  BCCSKEL_ASSIGN_OR_RETURN(OrderedJson json,
+                           SurfaceJson(sheets.vertices, sheets.triangles, quantize));
   std::vector<uint32_t> radii;
   for (const double radius : sheets.radii) radii.push_back(quantize(radius + quantize.low[0], 0));
   BCCSKEL_ASSIGN_OR_RETURN(json["radii"], PackNumbers(radii));
   return json;
 }
 
-absl::StatusOr<Json> DataOf(const PageContent& content) {
+absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
   const Quantizer quantize = QuantizerFor(BoxOf(content));
-  Json data = {{"title", content.title},
-               {"low", quantize.low},
-               {"step", quantize.step},
-               {"last_shell", content.peeling.last_shell},
-               {"layers", Json::array()}};
+  OrderedJson data = {{"title", content.title},
+                      {"low", quantize.low},
+                      {"step", quantize.step},
+                      {"last_shell", content.peeling.last_shell},
+                      {"layers", OrderedJson::array()}};
   for (const Peeled& layer : content.peeling.layers) {
     const auto& [vertices, triangles] = layer.surface;
-    BCCSKEL_ASSIGN_OR_RETURN(Json surface, SurfaceJson(vertices, triangles, quantize));
+    BCCSKEL_ASSIGN_OR_RETURN(OrderedJson surface, SurfaceJson(vertices, triangles, quantize));
     surface["shells"] = layer.shells;
     data["layers"].push_back(std::move(surface));
   }
@@ -114,10 +115,10 @@ absl::StatusOr<Json> DataOf(const PageContent& content) {
 
 // What the page shows of a document.
 std::string ShownOf(const std::string& document) {
-  Json result = Json::parse(document, nullptr, /*allow_exceptions=*/false);
+  OrderedJson result = OrderedJson::parse(document, nullptr, /*allow_exceptions=*/false);
   result.erase("timings");
   result.erase("sheets");  // they come as a surface
-  for (Json& edge : result["edges"]) {
+  for (OrderedJson& edge : result["edges"]) {
     if (edge.contains("curve")) edge.erase("points");
   }
   return result.dump();
@@ -143,7 +144,7 @@ void Replace(std::string& page, std::string_view mark, std::string_view by) {
 }  // namespace
 
 absl::StatusOr<std::string> PageOf(const PageContent& content) {
-  BCCSKEL_ASSIGN_OR_RETURN(const Json data, DataOf(content));
+  BCCSKEL_ASSIGN_OR_RETURN(const OrderedJson data, DataOf(content));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result.text)));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
@@ -152,8 +153,9 @@ absl::StatusOr<std::string> PageOf(const PageContent& content) {
   Replace(page, "{{viewer}}", kViewerScripts);
   Replace(page, "{{three}}", three);
   Replace(page, "{{result}}", result);
-  Replace(page, "{{data}}",
-          InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace)));
+  Replace(
+      page, "{{data}}",
+      InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, OrderedJson::error_handler_t::replace)));
   Replace(page, "{{license}}", kThreeLicense);
   Replace(page, "{{style}}", kPageStyle);
   return page;

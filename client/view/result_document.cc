@@ -101,6 +101,11 @@ class Reader {
     ReadMember(from, place, "input", to.input);
     ReadMember(from, place, "skeleton", to.skeleton);
     ReadMember(from, place, "simple_points_left", to.simple_points_left);
+    if (!status_.ok()) return;
+    if (from.contains("mask")) ReadMember(from, place, "mask", to.mask.emplace());
+    if (from.contains("unprepared")) {
+      ReadMember(from, place, "unprepared", to.unprepared.emplace());
+    }
     to.sampled = from.is_object() && from.value("sampled", Json()) == true;
   }
   template <typename T>

@@ -15,7 +15,7 @@
 namespace bccskel::view {
 namespace {
 
-using Json = nlohmann::ordered_json;  // facts keep their order
+using OrderedJson = nlohmann::ordered_json;  // facts keep their order
 
 constexpr std::array<std::pair<std::string_view, NodeKind>, 5> kKinds = {{
     {"end", NodeKind::kEnd},
@@ -46,7 +46,7 @@ auto FindName(const Names& names, std::string_view name) {
 
 // A whole number of a member; 0 where there is none.
 template <typename Integer>
-absl::Status ReadCount(const Json& from, const char* name, Integer& to) {
+absl::Status ReadCount(const OrderedJson& from, const char* name, Integer& to) {
   const auto member = from.find(name);
   if (member == from.end()) return absl::OkStatus();
   const bool fits =
@@ -102,26 +102,26 @@ class Lattice {
   double determinant_;
 };
 
-absl::Status ReadBirths(const Json& from, std::span<SkeletonPoint> points) {
+absl::Status ReadBirths(const OrderedJson& from, std::span<SkeletonPoint> points) {
   const auto births = from.find("births");
   if (births == from.end()) return absl::OkStatus();
   if (!births->is_array() || births->size() != points.size()) {
     return NoResult("births", "one for each point");
   }
   for (size_t n = 0; n < points.size(); ++n) {
-    const Json one = {{"birth", (*births)[n]}};
+    const OrderedJson one = {{"birth", (*births)[n]}};
     BCCSKEL_RETURN_IF_ERROR(ReadCount(one, "birth", points[n].birth));
   }
   return absl::OkStatus();
 }
 
-absl::Status ReadShifts(const Json& from, std::span<SkeletonPoint> points) {
+absl::Status ReadShifts(const OrderedJson& from, std::span<SkeletonPoint> points) {
   const auto shifts = from.find("shifts");
   if (shifts == from.end()) return absl::OkStatus();
   constexpr const char* kWhat = "three whole numbers for each point";
   if (!shifts->is_array() || shifts->size() != points.size()) return NoResult("shifts", kWhat);
   for (size_t n = 0; n < points.size(); ++n) {
-    const Json& shift = (*shifts)[n];
+    const OrderedJson& shift = (*shifts)[n];
     if (!shift.is_array() || shift.size() != 3) return NoResult("shifts", kWhat);
     for (size_t axis = 0; axis < 3; ++axis) {
       const bool fits =
@@ -135,7 +135,7 @@ absl::Status ReadShifts(const Json& from, std::span<SkeletonPoint> points) {
 
 class GraphReader {
  public:
-  GraphReader(const ResultDocument& document, const Json& json)
+  GraphReader(const ResultDocument& document, const OrderedJson& json)
       : document_(document), json_(json), lattice_(*document.placement) {}
 
   absl::StatusOr<SkeletonGraph> Run() && {
@@ -158,7 +158,7 @@ class GraphReader {
     if (!kind.has_value()) return NoResult("kind", "a kind of node");
     node.kind = *kind;
     BCCSKEL_ASSIGN_OR_RETURN(node.at, lattice_.PointAt(from.position, from.radius));
-    const Json& json = json_["nodes"][n];
+    const OrderedJson& json = json_["nodes"][n];
     BCCSKEL_RETURN_IF_ERROR(ReadCount(json, "birth", node.at.birth));
     BCCSKEL_RETURN_IF_ERROR(ReadCount(json, "loops", node.loops));
     return ReadCount(json, "cavities", node.cavities);
@@ -172,7 +172,7 @@ class GraphReader {
                          .point_count = from.points.size()};
     BCCSKEL_RETURN_IF_ERROR(AddPoints(from.points, from.radii, graph_.points));
     const std::span points = std::span(graph_.points).subspan(edge.first_point);
-    const Json& json = json_["edges"][n];
+    const OrderedJson& json = json_["edges"][n];
     BCCSKEL_RETURN_IF_ERROR(ReadBirths(json, points));
     BCCSKEL_RETURN_IF_ERROR(ReadShifts(json, points));
     if (const auto level = json.find("pruning_level"); level != json.end()) {
@@ -192,16 +192,16 @@ class GraphReader {
   }
 
   const ResultDocument& document_;
-  const Json& json_;
+  const OrderedJson& json_;
   const Lattice lattice_;
   SkeletonGraph graph_;
 };
 
-absl::Status ReadPreparing(const Json& json, std::vector<PreparingStep>& steps) {
+absl::Status ReadPreparing(const OrderedJson& json, std::vector<PreparingStep>& steps) {
   const auto list = json.find("preparing");
   if (list == json.end()) return absl::OkStatus();
-  for (const Json& from : *list) {
-    const Json name = from.is_object() ? from.value("step", Json()) : Json();
+  for (const OrderedJson& from : *list) {
+    const OrderedJson name = from.is_object() ? from.value("step", OrderedJson()) : OrderedJson();
     const auto kind = name.is_string() ? FindName(kSteps, name.get<std::string>()) : std::nullopt;
     if (!kind.has_value()) return NoResult("preparing", "a list of steps");
     PreparingStep& step = steps.emplace_back();
@@ -213,18 +213,18 @@ absl::Status ReadPreparing(const Json& json, std::vector<PreparingStep>& steps) 
   return absl::OkStatus();
 }
 
-std::string PlainText(const Json& value) {
+std::string PlainText(const OrderedJson& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-std::string TextOf(const Json& json, const char* name) {
+std::string TextOf(const OrderedJson& json, const char* name) {
   const auto member = json.find(name);
   return member == json.end() ? "unknown" : PlainText(*member);
 }
 
 absl::StatusOr<ResultGraph> GraphOf(const ResultDocument& document) {
   if (!document.placement.has_value()) return NoResult("placement", "there");
-  const Json json = Json::parse(document.text, nullptr, /*allow_exceptions=*/false);
+  const OrderedJson json = OrderedJson::parse(document.text, nullptr, /*allow_exceptions=*/false);
   ResultGraph result;
   BCCSKEL_ASSIGN_OR_RETURN(result.graph, GraphReader(document, json).Run());
   result.method = TextOf(json, "method");
@@ -237,6 +237,8 @@ absl::StatusOr<ResultGraph> GraphOf(const ResultDocument& document) {
     }
   }
   BCCSKEL_RETURN_IF_ERROR(ReadPreparing(json, result.preparing));
+  result.certificate = document.certificate;
+  result.object_points = document.object_points;
   return result;
 }
 

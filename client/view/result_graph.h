@@ -1,11 +1,13 @@
 #ifndef BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
 #define BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
 #include "core/prepare/prepare.h"
 #include "core/skeleton/skeleton_graph.h"
 
@@ -20,6 +22,8 @@ struct ResultGraph {
   std::string unit;
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<PreparingStep> preparing;
+  Certificate certificate;
+  uint64_t object_points = 0;  // after preparing
 };
 
 // Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, as older

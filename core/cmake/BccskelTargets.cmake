@@ -1,5 +1,27 @@
 # How every own target is built.
 
+# Compiles the sources of a target some at a time: the headers of gRPC, CLI11 and Abseil take most of
+# the time of most of them. Vector kernels include themselves once per instruction set and stay alone.
+function(bccskel_unity target)
+  if(NOT BCCSKEL_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  # It takes the classes of a source for those of a header here, since the source is included.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE path)
+    if(EXISTS ${path})
+      file(STRINGS ${path} kernel REGEX "foreach_target\\.h" LIMIT_COUNT 1)
+      if(kernel)
+        set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # Language level, include root, warnings and sanitizers of one target.
 function(bccskel_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -12,6 +34,7 @@ function(bccskel_target_defaults target)
   if(BCCSKEL_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  bccskel_unity(${target})
   if(BCCSKEL_SANITIZE)
     # Left out is what the address sanitizer stops at, too, and what takes a third of the time to
     # compile. The check of virtual tables opens a pipe to look at memory, so it reports sound objects
@@ -19,12 +42,13 @@ function(bccskel_target_defaults target)
     target_compile_options(${target} PRIVATE -fsanitize=${BCCSKEL_SANITIZE} -fno-omit-frame-pointer
                                              -fno-sanitize-recover=all
                                              -fno-sanitize=null,object-size,pointer-overflow,vptr)
-    # A sanitizer judges one vector instruction set and the plain code; each costs half a minute of
-    # compile time, most of it in checks of references to what lies on the stack.
-    target_compile_definitions(${target} PRIVATE
-      "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
     target_link_options(${target} PUBLIC -fsanitize=${BCCSKEL_SANITIZE})
   endif()
+endfunction()
+
+# For commands and calls: what must be fast is in other libraries. Compiles in two thirds of the time.
+function(bccskel_optimize_less target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # bccskel_library(thinning SOURCES a.cc PUBLIC deps... PRIVATE deps...) makes the static library
@@ -42,27 +66,57 @@ function(bccskel_library name)
   set_property(GLOBAL APPEND PROPERTY BCCSKEL_INSTALLED_TARGETS bccskel_${name})
 endfunction()
 
-# bccskel_test(thinning_test SOURCES a.cc LIBS deps...) makes one test program and its ctest entry.
-# Its labels are its folder under tests (core, proto, server, client, integration) and LABELS.
-function(bccskel_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
+# What every test program is: its sources, our defaults, GoogleTest.
+function(bccskel_test_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   bccskel_target_defaults(${name})
-  # What must be fast is in libraries; tests themselves compile in two thirds of the time so.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  bccskel_optimize_less(${name})
   if(BCCSKEL_SANITIZE)  # a quarter of the time to compile, and not what is to be tested
     target_compile_options(${name} PRIVATE -fno-sanitize=alignment)
   endif()
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest)
+endfunction()
+
+# Labels of a test: its folder under tests (core, proto, server, client, integration) and `ARGN`.
+function(bccskel_label_test name)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/tests
              OUTPUT_VARIABLE folder)
   string(REGEX REPLACE "/.*" "" folder ${folder})
-  list(APPEND ARG_LABELS ${folder})
-  list(REMOVE_DUPLICATES ARG_LABELS)
+  set(labels ${ARGN} ${folder})
+  list(REMOVE_DUPLICATES labels)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300 LABELS "${labels}")
+endfunction()
+
+# bccskel_test(thinning_test SOURCES a.cc LIBS deps... LABELS slow) makes one test program and its
+# ctest entry.
+function(bccskel_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  bccskel_test_program(${name} SOURCES ${ARG_SOURCES} LIBS ${ARG_LIBS} GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+  bccskel_label_test(${name} ${ARG_LABELS})
+endfunction()
+
+# bccskel_tests(wire_tests PREFIX wire_ TESTS options result SLOW result SOURCES helper.cc LIBS deps...)
+# makes one program of options_test.cc and result_test.cc, and of each its own ctest entry,
+# wire_options_test and wire_result_test: many small programs take minutes to compile and to link.
+# ALONE: those that have names of others; SLOW: those with the label.
+function(bccskel_tests program)
+  cmake_parse_arguments(ARG "" "PREFIX" "TESTS;ALONE;SLOW;SOURCES;LIBS;LABELS" ${ARGN})
+  list(TRANSFORM ARG_TESTS APPEND _test.cc OUTPUT_VARIABLE sources)
+  bccskel_test_program(${program} SOURCES ${sources} ${ARG_SOURCES}
+                                          ${PROJECT_SOURCE_DIR}/tests/support/tests_of_source.cc
+                       LIBS ${ARG_LIBS})
+  foreach(test IN LISTS ARG_ALONE)
+    set_source_files_properties(${test}_test.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endforeach()
+  foreach(test IN LISTS ARG_TESTS)
+    add_test(NAME ${ARG_PREFIX}${test}_test COMMAND ${program} --source=${test}_test.cc)
+    set(slow)
+    if(test IN_LIST ARG_SLOW)
+      set(slow slow)
+    endif()
+    bccskel_label_test(${ARG_PREFIX}${test}_test ${ARG_LABELS} ${slow})
+  endforeach()
 endfunction()

@@ -12,7 +12,7 @@
 namespace bccskel {
 namespace {
 
-constexpr uint32_t kMagic = 20000630;
+constexpr uint32_t kExrMagic = 20000630;
 constexpr uint32_t kVersionAndFlags = 2 | 0x1000;  // version 2, multi-part, flat, short names
 constexpr int32_t kUintPixels = 0;
 constexpr int32_t kMaxChannels = 1400;  // 22 bytes each in both parts stay below 64 KiB
@@ -27,7 +27,7 @@ struct ExrPart {
 
 absl::Status CheckMagic(ByteCursor& cursor) {
   const auto magic = cursor.TakeNumber<uint32_t>();
-  if (magic != kMagic) return absl::InvalidArgumentError("not an OpenEXR file: no magic number");
+  if (magic != kExrMagic) return absl::InvalidArgumentError("not an OpenEXR file: no magic number");
   const auto version = cursor.TakeNumber<uint32_t>();
   if (version != kVersionAndFlags) {
     return absl::InvalidArgumentError(
@@ -240,7 +240,7 @@ absl::Status CheckExrCanHold(const LatticeExtent& extent, VolumeCompression comp
 }
 
 bool BeginsLikeExr(std::span<const std::byte> front) {
-  return ByteCursor(front).TakeNumber<uint32_t>() == kMagic;
+  return ByteCursor(front).TakeNumber<uint32_t>() == kExrMagic;
 }
 
 absl::StatusOr<ExrHeader> ScanExrHeader(std::span<const std::byte> front,

@@ -340,6 +340,13 @@ class FormatsTest(harness.TestCase):
         self.assertGreater(min(v[2] for v in read_precomputed(self.path("w.precomputed"), 9)[0]),
                            max(v[2] for v in vertices))
 
+    def test_a_folder_of_labels_without_a_unit_is_noted(self):
+        numpy.save(self.path("labels.npy"), numpy.ones((3, 3, 12), "u1"))
+        for words in (("labels", self.path("labels.npy")),
+                      ("skeletonize", self.path("labels.npy"), "--local")):
+            said = self.succeed(*words, "-o", self.path("n.precomputed"))
+            self.assertRegex(said, r"n\.precomputed[, (]+the input does not say its unit")
+
     def test_precomputed_skeletons_do_not_replace_the_info_of_a_volume(self):
         (self.folder / "x.precomputed").mkdir()
         (self.folder / "x.precomputed" / "info").write_text('{"@type":"other"}')

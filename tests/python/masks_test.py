@@ -137,6 +137,8 @@ class LabelsTest(harness.TestCase):
         with open(self.path("all.vtp"), "rb") as one, open(self.path("mine.vtp"), "rb") as other:
             self.assertEqual(one.read(), other.read())
         skeletons[3].save(self.path("three.html"))
+        with self.assertWarnsRegex(UserWarning, "does not say its unit"):
+            bccskel.save_labels(self.path("mine.precomputed"), skeletons)
 
     def test_fractions_and_negative_labels_are_refused(self):
         for value in (1.5, -1.0):

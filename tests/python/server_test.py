@@ -1,9 +1,12 @@
 """The client has the functions of the package and gives the same results."""
 
+import subprocess
+
 import bccskel
 import harness
 import numpy
 
+from certificates import Authority
 from shapes import box_mesh, crossing_bars
 
 
@@ -52,6 +55,50 @@ class ServerTest(harness.TestCase):
 
     def test_descriptions(self):
         self.assertEqual(self.client.describe()["server_version"], bccskel.__version__)
+
+
+class TlsTest(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.ours, self.theirs = (Authority(self.folder, name) for name in ("ours", "theirs"))
+        self.pair = self.ours.issue("server")
+
+    def serve(self, *words):
+        server = harness.Server(self.folder, "--tls-cert", str(self.pair.certificate), "--tls-key",
+                                str(self.pair.key), *words, listen="127.0.0.1:0")
+        return self.enterContext(server).address
+
+    def test_who_trusts_the_authority_of_the_server_reaches_it(self):
+        address = self.serve()
+        client = bccskel.Client(address, tls=self.ours.pair.certificate)
+        self.assertEqual(client.skeletonize(crossing_bars()).sha256,
+                         bccskel.skeletonize(crossing_bars()).sha256)
+        self.assertEqual(client.describe()["server_version"], bccskel.__version__)
+        for tls in (self.theirs.pair.certificate, True, None):
+            with self.assertRaises((ConnectionError, TimeoutError)):
+                bccskel.Client(address, tls=tls).describe(timeout=5)
+
+    def test_a_client_shows_a_certificate_and_a_token(self):
+        authority = self.ours.pair.certificate
+        made = subprocess.run([harness.SERVER, "--new-token", "ann"], capture_output=True,
+                              text=True, check=True)
+        token, line = made.stdout.splitlines()
+        (self.folder / "tokens").write_text(line + "\n")
+        address = self.serve("--tls-client-ca", str(authority), "--tokens", self.path("tokens"))
+        mine, others = self.ours.issue("ann"), self.theirs.issue("eve")
+
+        def describe(pair, **words):
+            tls = (authority, pair.certificate, pair.key) if pair else authority
+            return bccskel.Client(address, tls=tls, **words).describe(timeout=10)
+
+        self.assertIn("algorithm_version", describe(mine, token=token))
+        with self.assertRaises(PermissionError):
+            describe(mine, token=token[::-1])
+        with self.assertRaises(PermissionError):
+            describe(mine)
+        for pair in (others, None):
+            with self.assertRaises((ConnectionError, TimeoutError)):
+                describe(pair, token=token)
 
 
 class RefusalsTest(harness.TestCase):

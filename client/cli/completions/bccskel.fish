@@ -47,6 +47,7 @@ __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l channel -d 'Channel of a TIFF file or OME-Zarr folder, from 0'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l time -d 'Point of time of one, from 0'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l level -d 'Level of an OME-Zarr or precomputed pyramid'
+__bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l series -d 'Number or identifier of a DICOM series'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-size -d 'Raw voxels along each axis'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-type -a 'u8 i8 u16 i16 u32 i32 u64 i64 f32 f64' -d 'Type of raw voxels'
 __bccskel_option 'voxelize skeletonize labels info view render reconstruct' -x -l raw-order -a 'little big' -d 'Byte order of raw voxels'

@@ -97,7 +97,7 @@ void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, double width) {
   svg.Add("</g>\n");
 }
 
-struct Dot {
+struct ColoredDot {
   PanelPoint at;
   int color;
 };
@@ -106,12 +106,12 @@ struct Dot {
 // lines without length.
 void AddSheets(Text& svg, const SkeletonGraph& graph, const RadiusRange& radii,
                const Projection& projection, double width) {
-  std::vector<Dot> dots;
+  std::vector<ColoredDot> dots;
   for (const SkeletonPoint& p : graph.sheets) {
     dots.push_back(
         {projection.Project(graph.PositionOf(p)), RadiusColorIndex(graph.RadiusOf(p), radii)});
   }
-  std::ranges::stable_sort(dots, {}, [](const Dot& dot) { return dot.at.depth; });
+  std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"", Rounded(width), "\">\n");
   for (size_t n = 0; n < dots.size(); ++n) {
     const bool starts = n == 0 || dots[n].color != dots[n - 1].color;

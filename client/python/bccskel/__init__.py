@@ -12,9 +12,9 @@ The topology is kept, and every result carries the proof of it (`Skeleton.certif
 """
 
 from ._compute import Client, read, skeletonize, skeletonize_labels, skeletonize_mesh
-from ._image import Image, Mesh
+from ._image import Image, Lattice, Mesh
 from ._native import __version__
 from ._skeleton import Page, Skeleton, save_labels
 
-__all__ = ["Client", "Image", "Mesh", "Page", "Skeleton", "__version__", "read", "save_labels",
+__all__ = ["Client", "Image", "Lattice", "Mesh", "Page", "Skeleton", "__version__", "read", "save_labels",
            "skeletonize", "skeletonize_labels", "skeletonize_mesh"]

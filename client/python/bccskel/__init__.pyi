@@ -5,6 +5,7 @@ import numpy.typing
 from typing_extensions import Unpack
 
 from ._image import Image as Image
+from ._image import Lattice as Lattice
 from ._image import Mesh as Mesh
 from ._skeleton import Page as Page
 from ._skeleton import Skeleton as Skeleton
@@ -66,13 +67,14 @@ class _FileOptions(TypedDict, total=False):
     channel: int
     time: int
     level: int
+    series: Union[str, int]
     raw_size: tuple[int, int, int]
     raw_type: str
     raw_order: Literal["little", "big"]
     raw_header: int
 
 def skeletonize(
-    mask: Union[_Array, Image],
+    mask: Union[_Array, Image, Lattice],
     spacing: Union[_Triple, None] = None,
     origin: Union[_Triple, None] = None,
     direction: Union[_Array, None] = None,
@@ -101,7 +103,9 @@ def skeletonize_mesh(
     progress: Union[_Progress, None] = None,
     **options: Unpack[_MeshOptions],
 ) -> Skeleton: ...
-def read(path: _Path, **options: Unpack[_FileOptions]) -> Union[Image, Mesh]: ...
+def read(path: _Path, **options: Unpack[_FileOptions]) -> Union[
+    Image, Mesh, Lattice, Skeleton
+]: ...
 
 class Client:
     address: str
@@ -115,7 +119,7 @@ class Client:
     def describe(self, timeout: float = 10.0) -> dict[str, str]: ...
     def skeletonize(
         self,
-        mask: Union[_Array, Image],
+        mask: Union[_Array, Image, Lattice],
         spacing: Union[_Triple, None] = None,
         origin: Union[_Triple, None] = None,
         direction: Union[_Array, None] = None,

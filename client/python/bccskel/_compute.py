@@ -11,7 +11,7 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 
 from . import _native
-from ._image import Frame, Image, Mesh, labels_for_sending, triangles_of, voxels_of
+from ._image import Frame, Image, Lattice, Mesh, labels_for_sending, triangles_of, voxels_of
 from ._options import texts_of
 from ._skeleton import Skeleton
 
@@ -46,8 +46,25 @@ def _warn(skeleton: Skeleton) -> Skeleton:
     return skeleton
 
 
+def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout: Optional[float],
+             progress: Any, options: dict) -> Skeleton:
+    if placed:
+        raise TypeError("a Lattice has its place and takes no spacing, origin, direction or axes")
+    for name in ("points", "spacing", "fill"):
+        if name in options:
+            raise TypeError(f"a Lattice takes no option {name}")
+    frame = Frame("xyz")
+    texts = texts_of("skeletonize", "mesh", options, frame.to_xyz)
+    outcome = _native.skeletonize_lattice(lattice._volume, texts,
+                                          _call(server, threads, timeout, progress))
+    return _warn(Skeleton(outcome, frame, title=lattice.name))
+
+
 def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axes: str,
           threads: int, timeout: Optional[float], progress: Any, options: dict) -> Skeleton:
+    if isinstance(mask, Lattice):
+        placed = axes != "zyx" or any(it is not None for it in (spacing, origin, direction))
+        return _lattice(server, mask, placed, threads, timeout, progress, options)
     array = voxels_of(mask, "mask")
     frame = _frame(mask, axes, spacing, origin, direction)
     texts = texts_of("skeletonize", "mask", options, frame.to_xyz)
@@ -94,9 +111,9 @@ def skeletonize(mask: Any, spacing: Any = None, origin: Any = None, direction: A
                 **options: Any) -> Skeleton:
     """The skeleton of a mask.
 
-    mask: an array of three axes, of any real type and any strides, or an `Image`. What is not 0 is
-        the object; NaN is background. `threshold=`, `below=`, `range=` and `label=` choose other
-        voxels.
+    mask: an array of three axes, of any real type and any strides, an `Image`, or a `Lattice`,
+        whose coordinates are x, y, z. What is not 0 is the object; NaN is background. `threshold=`,
+        `below=`, `range=` and `label=` choose other voxels.
     spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
     origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
     direction: shape (3, 3); column n is what axis n of the array points to.
@@ -166,13 +183,16 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
     return _mesh(None, vertices, faces, threads, timeout, progress, options)
 
 
-def read(path: Union[str, os.PathLike], **options: Any) -> Union[Image, Mesh]:
+def read(path: Union[str, os.PathLike],
+         **options: Any) -> Union[Image, Mesh, Lattice, Skeleton]:
     """An image (NIfTI, NRRD, TIFF, MetaImage, npy, vol, ...) or a mesh (OBJ, STL, PLY, OFF) from a
     file, as the command line reads it; also compressed by gzip. A folder is read as OME-Zarr 0.4, a
-    Zarr array or a Neuroglancer precomputed volume.
+    Zarr array or a Neuroglancer precomputed volume. A .json file is a result of the command line or
+    of `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
+    .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
-        voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
+        series (of DICOM), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
         without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for what is no such file.
@@ -191,9 +211,16 @@ def read(path: Union[str, os.PathLike], **options: Any) -> Union[Image, Mesh]:
     if _native.is_mesh(name) and not texts:
         vertices, faces = _native.read_mesh(name)
         return Mesh(vertices, faces, pathlib.Path(name).name)
+    ending = pathlib.Path(name).suffix.lower()
+    if ending == ".json" and not texts:
+        outcome, world, unit = _native.read_result(name)
+        return Skeleton(outcome, Frame("xyz"), pathlib.Path(name).stem, unit=unit, world=world)
+    if ending in (".exr", ".bccb") and not texts:
+        return Lattice(_native.read_lattice(name), pathlib.Path(name).name)
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
-                         ".raw, ...), folders of OME-Zarr, and meshes (.obj, .stl, .ply, .off)")
+                         ".raw, ...), folders of OME-Zarr, meshes (.obj, .stl, .ply, .off), "
+                         "results (.json) and lattices (.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
     return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,

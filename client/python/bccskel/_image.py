@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from typing import Any
 
 import numpy as np
@@ -48,6 +49,33 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<Mesh {self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces>"
+
+
+class Lattice:
+    """The points of a body-centered cubic lattice as `read()` returns them of .exr and .bccb files.
+
+    `skeletonize()` takes it in place of a mask.
+    """
+
+    def __init__(self, volume: Any, name: str = "lattice") -> None:
+        """Not for users."""
+        self._volume = volume
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"<Lattice {self.name}: {len(self.points)} points>"
+
+    @functools.cached_property
+    def points(self) -> np.ndarray:
+        """Shape (n, 3): x, y, z, all even or all odd."""
+        return self._volume.points()
+
+    @functools.cached_property
+    def coordinates(self) -> np.ndarray:
+        """Where the points are in the world, shape (n, 3), x, y, z."""
+        placement = self._volume.placement
+        steps = self.points * np.asarray(placement.spacing) / 2
+        return np.asarray(placement.origin) + steps @ np.reshape(placement.direction, (3, 3)).T
 
 
 class Frame:

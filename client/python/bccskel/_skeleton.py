@@ -39,14 +39,15 @@ class Skeleton:
     """
 
     def __init__(self, outcome: Any, frame: Frame, title: str, voxels: bool = False,
-                 label: Optional[int] = None, image: Any = None) -> None:
+                 label: Optional[int] = None, image: Any = None, unit: str = "",
+                 world: str = "") -> None:
         """Not for users."""
         self._outcome = outcome
         self._frame = frame
         self._of_voxels = voxels
-        self.unit = getattr(image, "unit", "")
+        self.unit = getattr(image, "unit", unit)
         """Of coordinates, radii and lengths: "mm", "um", ...; empty where nobody said."""
-        self.world = getattr(image, "world", "")
+        self.world = getattr(image, "world", world)
         """What the axes point to: "RAS", "LPS", ...; empty where nobody said."""
         self.title = title
         """Of pages and pictures."""
@@ -57,6 +58,11 @@ class Skeleton:
         kept = "kept" if self.certificate["topology_kept"] else "changed"
         return (f"<Skeleton of {self.title}: {len(self.nodes)} nodes, {len(self.edges)} edges, "
                 f"length {self.lengths.sum():.6g}, topology {kept}>")
+
+    def __getstate__(self) -> dict:
+        """For pickle and copy: all but the arrays, which are made again when asked for."""
+        names = ("_outcome", "_frame", "_of_voxels", "unit", "world", "title", "label")
+        return {name: self.__dict__[name] for name in names}
 
     @functools.cached_property
     def _nodes(self) -> dict:
@@ -378,6 +384,8 @@ def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]
     """
     ordered = sorted(skeletons.items())
     world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")
-    _native.save_labels(os.fspath(path),
-                        [(int(label), skeleton._outcome) for label, skeleton in ordered],
-                        world, unit)
+    note = _native.save_labels(os.fspath(path),
+                               [(int(label), skeleton._outcome) for label, skeleton in ordered],
+                               world, unit)
+    if note:
+        warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)

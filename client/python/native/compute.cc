@@ -81,13 +81,16 @@ absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, O
 
 absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
   if (object != nullptr) return object;
-  if (!make_object) {
+  if (read.has_value()) {
+    return absl::UnimplementedError("pictures and pages show the object, which JSON has not");
+  }
+  if (label == nullptr || !grid.has_value()) {
     return absl::UnimplementedError(
         "pictures and pages show the object, too: of a label that a server has computed, use "
         "skeletonize(image == label)");
   }
-  BCCSKEL_ASSIGN_OR_RETURN(Volume made, make_object());
-  return std::make_shared<const Volume>(std::move(made));
+  BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask made, ConvertLabel(*grid, *label, mask, {}));
+  return std::make_shared<const Volume>(std::move(made.volume));
 }
 
 absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
@@ -126,6 +129,13 @@ absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
   return outcome;
 }
 
+absl::StatusOr<Outcome> SkeletonizeVolume(const Volume& object,
+                                          const cli::SkeletonizeArguments& arguments,
+                                          const Run& run) {
+  Here here(run);
+  return OutcomeOf(object, arguments.skeletonize, arguments.root, run, here.context());
+}
+
 absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
                                                const cli::LabelsArguments& arguments,
                                                const Run& run) {
@@ -144,11 +154,6 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
     outcome->grid = labels->grid;
     outcome->mask = options;
     outcome->label = {labels, &labels->objects[outcomes.size()]};
-    outcome->make_object = [labels, options, n = outcomes.size()]() -> absl::StatusOr<Volume> {
-      BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask made,
-                               ConvertLabel(labels->grid, labels->objects[n], options, {}));
-      return std::move(made.volume);
-    };
     outcomes.emplace(skeleton.label, outcome);
     if (run.on_progress) run.on_progress(outcomes.size(), labels->objects.size());
     return absl::OkStatus();
@@ -185,6 +190,20 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
   };
   BCCSKEL_RETURN_IF_ERROR(run.server->SkeletonizeLabels(image, call, take).status());
   return outcomes;
+}
+
+absl::StatusOr<Outcome> ReadResult(const std::string& path) {
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultGraph read, view::ReadResultGraph(path));
+  Outcome outcome;
+  outcome.result.graph = std::exchange(read.graph, {});
+  outcome.result.certificate = read.certificate;
+  outcome.result.preparing = read.preparing;
+  outcome.result.object_points = read.object_points;
+  outcome.result.method = read.method;
+  outcome.result.algorithm_version = read.algorithm_version;
+  BCCSKEL_ASSIGN_OR_RETURN(outcome.result.sha256, SkeletonDigest(outcome.result.graph));
+  outcome.read = std::move(read);
+  return outcome;
 }
 
 }  // namespace bccskel::python

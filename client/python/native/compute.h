@@ -15,6 +15,7 @@
 #include "client/cli/arguments.h"
 #include "client/encoded_labels.h"
 #include "client/skeletonize_client.h"
+#include "client/view/result_graph.h"
 #include "core/import/image/image_source.h"
 #include "core/import/mesh/triangle_mesh.h"
 #include "core/labels/voxel_runs.h"
@@ -28,17 +29,22 @@ struct Outcome {
   SkeletonizeResult result;
   std::optional<RootChoice> root;
   std::vector<std::string> warnings;
-  uint64_t voxels = 0;                                  // of a mask or a label
-  std::shared_ptr<const Volume> object;                 // none for a label
-  std::function<absl::StatusOr<Volume>()> make_object;  // of a label, where it was computed here
-  std::optional<MaskGrid> grid;                         // of a mask or a label
+  uint64_t voxels = 0;                   // of a mask or a label
+  std::shared_ptr<const Volume> object;  // none for a label
+  std::optional<MaskGrid> grid;          // of a mask or a label
   MaskOptions mask;
   // The voxels of a label, where it was computed here; those of a mask are found in its object.
   std::shared_ptr<const LabeledObject> label;
 
-  // Errors: UNIMPLEMENTED for a label that a server has computed.
+  // Of a result that was read from JSON, how it was made; its graph is that of `result`.
+  std::optional<view::ResultGraph> read;
+
+  // Errors: UNIMPLEMENTED for a label that a server has computed, and a result that was read.
   absl::StatusOr<std::shared_ptr<const Volume>> Object() const;
 };
+
+// A JSON result. Errors: those of ReadResultGraph().
+absl::StatusOr<Outcome> ReadResult(const std::string& path);
 
 using OnProgress = std::function<void(uint64_t done, uint64_t total)>;
 
@@ -61,6 +67,11 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
 // Errors: as Voxelize(), Skeletonize() and CheckRootChoice().
 absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
                                         const cli::SkeletonizeArguments& arguments, const Run& run);
+
+// Errors: as Skeletonize() and CheckRootChoice().
+absl::StatusOr<Outcome> SkeletonizeVolume(const Volume& object,
+                                          const cli::SkeletonizeArguments& arguments,
+                                          const Run& run);
 
 using LabelOutcomes = std::map<uint64_t, std::shared_ptr<Outcome>>;
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "core/exec/context.h"
 
 namespace bccskel::python {
@@ -54,6 +55,11 @@ void RunJob(const pybind11::object& progress, const std::function<absl::Status(J
 
 // The exception of Python's that fits an error: ValueError for INVALID_ARGUMENT, and so on.
 void ThrowIfError(const absl::Status& status);
+template <typename T>
+T Value(absl::StatusOr<T> value) {
+  ThrowIfError(value.status());
+  return *std::move(value);
+}
 
 }  // namespace bccskel::python
 

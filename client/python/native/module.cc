@@ -19,6 +19,7 @@
 #include "core/exec/status_macros.h"
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
+#include "core/io/volume_file.h"
 #include "core/version/version.h"
 
 // What the Python files of this package call: coordinates in the order x, y, z, arrays in the order
@@ -31,12 +32,6 @@ namespace py = pybind11;
 using Options = std::vector<std::pair<std::string, std::optional<std::string>>>;
 using Server = std::shared_ptr<client::SkeletonizeClient>;
 using Triple = std::array<double, 3>;
-
-template <typename T>
-T Value(absl::StatusOr<T> value) {
-  ThrowIfError(value.status());
-  return *std::move(value);
-}
 
 cli::OptionSet SetOf(const std::string& name) {
   if (name == "mesh") return cli::OptionSet::kMesh;
@@ -126,6 +121,37 @@ std::shared_ptr<Outcome> Mesh(const Vertices& vertices, const Triangles& triangl
       RunCall(call, [&](const Run& run) { return SkeletonizeMesh(mesh, arguments, run); }));
 }
 
+using Lattice = std::shared_ptr<Volume>;
+
+// Options: those of a mesh.
+std::shared_ptr<Outcome> LatticeSkeleton(const Lattice& lattice, const Options& options,
+                                         const Call& call) {
+  const auto arguments = Value(cli::ReadNamedOptions(cli::OptionSet::kMesh, Named(options)));
+  return std::make_shared<Outcome>(
+      RunCall(call, [&](const Run& run) { return SkeletonizeVolume(*lattice, arguments, run); }));
+}
+
+Lattice ReadLattice(const std::string& path) {
+  Volume volume;
+  RunJob(py::none(), [&](Job& job) -> absl::Status {
+    exec::Context context;
+    context.stop = job.stop();
+    BCCSKEL_ASSIGN_OR_RETURN(volume, ReadVolumeFile(path, {}, context));
+    return absl::OkStatus();
+  });
+  return std::make_shared<Volume>(std::move(volume));
+}
+
+// Shape (points, 3): x, y, z of the lattice.
+py::array_t<int32_t> PointsOf(const Volume& volume) {
+  py::array_t<int32_t> array({static_cast<py::ssize_t>(volume.PointCount()), py::ssize_t{3}});
+  int32_t* to = array.mutable_data();
+  volume.ForEachPoint([&to](LatticePoint p) {
+    for (int32_t along : {p.x, p.y, p.z}) *to++ = along;
+  });
+  return array;
+}
+
 // Needs for a server: an array of unsigned numbers in one piece.
 LabelOutcomes Labels(const py::array& array, const Placement& placement, const Options& options,
                      const Call& call) {
@@ -170,6 +196,17 @@ py::tuple ReadImage(const std::string& path, const Options& options) {
     return ReadInto(*source, to, context);
   });
   return py::make_tuple(array, info.placement, info.unit, info.world);
+}
+
+// (outcome, world, unit); the texts are empty where the document does not say.
+py::tuple ReadJson(const std::string& path) {
+  const auto outcome = std::make_shared<Outcome>();
+  RunJob(py::none(), [&](Job&) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(*outcome, ReadResult(path));
+    return absl::OkStatus();
+  });
+  const auto known = [](const std::string& text) { return text == "unknown" ? "" : text; };
+  return py::make_tuple(outcome, known(outcome->read->world), known(outcome->read->unit));
 }
 
 // (vertices, triangles)
@@ -226,6 +263,9 @@ void AddValues(py::module_& module) {
       .def_readonly("spacing", &Placement::spacing)
       .def_readonly("origin", &Placement::origin)
       .def_readonly("direction", &Placement::direction);
+  py::class_<Volume, std::shared_ptr<Volume>>(module, "Volume")
+      .def("points", &PointsOf)
+      .def_property_readonly("placement", [](const Volume& v) { return v.placement(); });
   py::class_<client::Endpoint>(module, "Endpoint").def(py::init(&MakeEndpoint));
   py::class_<client::SkeletonizeClient, Server>(module, "Server").def(py::init(&ConnectTo));
   py::class_<Call>(module, "Call")
@@ -246,6 +286,9 @@ void AddFunctions(py::module_& module) {
   module.def("skeletonize_labels", &Labels);
   module.def("read_image", &ReadImage);
   module.def("read_mesh", &ReadMesh);
+  module.def("read_result", &ReadJson);
+  module.def("read_lattice", &ReadLattice);
+  module.def("skeletonize_lattice", &LatticeSkeleton);
   module.def("describe_server", &Describe);
 }
 

@@ -11,15 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/local_team.h"
 #include "client/cli/named_options.h"
 #include "client/export/labeled_graph.h"
+#include "client/export/method_facts.h"
 #include "client/export/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/edge_images.h"
 #include "client/python/native/job.h"
+#include "client/python/native/outcome_state.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
@@ -130,9 +133,22 @@ py::dict CertificateDict(const Certificate& certificate) {
   return dict;
 }
 
-py::dict OptionsDict(const SkeletonizeOptions& options) {
+// The number that the whole text is, or the text.
+py::object NumberOrText(const std::string& text) {
+  double number = 0;
+  if (absl::SimpleAtod(text, &number)) return py::float_(number);
+  return py::str(text);
+}
+
+py::dict OptionsDict(const Outcome& outcome) {
   py::dict dict;
-  for (const OptionFact& fact : FactsOf(options)) {
+  if (outcome.read.has_value()) {
+    for (const auto& [name, value] : outcome.read->options) {
+      dict[py::str(name)] = NumberOrText(value);
+    }
+    return dict;
+  }
+  for (const OptionFact& fact : FactsOf(outcome.result.options)) {
     const bool number = fact.type == OptionFact::Type::kNumber;
     dict[fact.name] =
         number ? py::object(py::float_(py::str(fact.value))) : py::object(py::str(fact.value));
@@ -179,6 +195,18 @@ struct Saying {
   exporting::CurveSampling swc;
 };
 
+// As `bccskel convert`.
+absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
+                                     const Saying& saying, const std::stop_token& stop) {
+  return exporting::WriteGraphFile(
+      path,
+      {.graph = outcome.result.graph,
+       .context = {.labels = {}, .facts = exporting::MethodFactsOf(*outcome.read)},
+       .world = saying.world,
+       .swc = saying.swc},
+      stop);
+}
+
 absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying, Job& job,
                     std::string& note) {
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
@@ -188,6 +216,11 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
   if (*format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
       outcome.result.skeleton_points > 0) {
     return absl::UnimplementedError("servers do not send the lattice points of labels");
+  }
+  if (outcome.read.has_value()) {
+    absl::StatusOr<std::string> written = SaveRead(outcome, path, saying, job.stop());
+    if (written.ok()) note = *std::move(written);
+    return written.status();
   }
   cli::LocalTeam team(0, job.stop());
   auto object = std::make_shared<const Volume>();
@@ -239,10 +272,10 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
   return array;
 }
 
-using Labels = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
+using LabelList = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
-absl::Status WriteLabels(const std::string& path, const Labels& labels,
-                         const exporting::World& world) {
+absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList& labels,
+                                        const exporting::World& world) {
   exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
                                   world);
   for (const auto& [label, outcome] : labels) {
@@ -255,9 +288,15 @@ absl::Status WriteLabels(const std::string& path, const Labels& labels,
   return exporting::WriteLabeledFile(path, all);
 }
 
-void SaveLabels(const std::string& path, const Labels& labels, const std::string& world,
-                const std::string& unit) {
-  RunJob(py::none(), [&](Job&) { return WriteLabels(path, labels, {world, unit}); });
+// What the format could not hold; empty if it held everything.
+std::string SaveLabels(const std::string& path, const LabelList& labels, const std::string& world,
+                       const std::string& unit) {
+  std::string note;
+  RunJob(py::none(), [&](Job&) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(note, WriteLabels(path, labels, {world, unit}));
+    return absl::OkStatus();
+  });
+  return note;
 }
 
 }  // namespace
@@ -268,6 +307,7 @@ void AddSkeletonClass(py::module_& module) {
   };
   module.def("save_labels", &SaveLabels);
   py::class_<Outcome, std::shared_ptr<Outcome>>(module, "Outcome")
+      .def(py::pickle(&StateOf, &OutcomeOfState))
       .def("nodes", [graph](const Outcome& o) { return NodesOf(graph(o)); })
       .def("edges", [graph](const Outcome& o) { return EdgesOf(graph(o)); })
       .def("sheets", [graph](const Outcome& o) { return SheetsOf(graph(o)); })
@@ -278,8 +318,7 @@ void AddSkeletonClass(py::module_& module) {
            py::arg("swc_step"))
       .def_property_readonly("certificate",
                              [](const Outcome& o) { return CertificateDict(o.result.certificate); })
-      .def_property_readonly("options",
-                             [](const Outcome& o) { return OptionsDict(o.result.options); })
+      .def_property_readonly("options", &OptionsDict)
       .def_property_readonly("timings",
                              [](const Outcome& o) { return TimingsDict(o.result.timings); })
       .def_property_readonly("notes",

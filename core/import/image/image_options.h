@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/import/image/image_info.h"
 #include "core/import/image/image_limits.h"
@@ -24,11 +25,14 @@ struct ImageOptions {
   std::optional<RawLayout> raw;
   // Replaces the spacing that the file tells, or does not tell.
   std::optional<std::array<double, 3>> spacing;
-  // Of a TIFF file or OME-Zarr folder with several; counted from 0.
+  // Of a TIFF file or OME-Zarr folder with several, counted from 0; of a segmentation of DICOM a
+  // segment, by its number.
   std::optional<int64_t> channel;
   std::optional<int64_t> time;
   // Of a pyramid (OME-Zarr, precomputed): 0, the default, is the finest.
   std::optional<int64_t> level;
+  // Of a folder of DICOM with several: the number or the unique identifier.
+  std::optional<std::string> series;
   ImageLimits limits;
 };
 

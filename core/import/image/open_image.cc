@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/dicom_image.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
 #include "core/import/image/precomputed_image.h"
@@ -23,9 +24,9 @@ namespace bccskel {
 namespace {
 
 // Each also with .gz behind it.
-constexpr std::array<std::string_view, 13> kEndings = {".nii", ".hdr",  ".img", ".nrrd", ".nhdr",
+constexpr std::array<std::string_view, 14> kEndings = {".nii", ".hdr",  ".img", ".nrrd", ".nhdr",
                                                        ".tif", ".tiff", ".mha", ".mhd",  ".inr",
-                                                       ".npy", ".vol",  ".raw"};
+                                                       ".npy", ".vol",  ".raw", ".dcm"};
 
 struct Format {
   bool (*is)(std::string_view front);
@@ -89,11 +90,17 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
   }
 }
 
+absl::Status CheckNoSeries(const ImageOptions& options) {
+  if (!options.series.has_value()) return absl::OkStatus();
+  return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+}
+
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
   if (options.level.has_value()) {
     return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
   }
+  BCCSKEL_RETURN_IF_ERROR(CheckNoSeries(options));
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
   if (!options.raw.has_value() && IsTiff(front.bytes)) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
@@ -115,10 +122,14 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
   if (options.raw.has_value()) {
     return absl::InvalidArgumentError("is a folder; raw voxels are read from files");
   }
-  if (IsZarrFolder(path)) return OpenZarr(path, options);
+  const bool zarr = IsZarrFolder(path);
+  if (!zarr && !IsPrecomputedFolder(path) && IsDicomFolder(path)) return OpenDicom(path, options);
+  BCCSKEL_RETURN_IF_ERROR(CheckNoSeries(options));
+  if (zarr) return OpenZarr(path, options);
   if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
   return absl::InvalidArgumentError(
-      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info)");
+      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info) "
+      "nor of DICOM files");
 }
 
 // Every error names the image, and no exception leaves.
@@ -170,6 +181,9 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options) {
   if (IsFolder(path)) {
     return OpenNamed(path, [&] { return OpenFolder(path, options); });
+  }
+  if (!options.raw.has_value() && IsDicomFile(path)) {
+    return OpenNamed(path, [&] { return OpenDicom(path, options); });
   }
   const std::optional<std::string> header =
       options.raw.has_value() ? std::nullopt : HeaderBeside(path);

@@ -58,4 +58,15 @@ absl::StatusOr<TriangleMesh> MeshAssembler::Finish() && {
   return std::move(mesh_);
 }
 
+absl::Status AddVertex(std::string_view format, TextScanner& text, MeshAssembler& mesh) {
+  TriangleMesh::Vertex vertex;
+  for (double& coordinate : vertex) {
+    const std::string_view token = text.Token();
+    const std::optional<double> value = ParseDouble(token);
+    if (!value) return LineError(format, text, "a coordinate is due", token);
+    coordinate = *value;
+  }
+  return mesh.AddVertex(vertex);
+}
+
 }  // namespace bccskel

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/import/mesh/mesh_limits.h"
+#include "core/import/mesh/text_scanner.h"
 #include "core/import/mesh/triangle_mesh.h"
 
 namespace bccskel {
@@ -33,6 +35,10 @@ class MeshAssembler {
   MeshLimits limits_;
   TriangleMesh mesh_;
 };
+
+// Adds the vertex that the next three tokens of the line of `text` are; `format` is for errors.
+// Errors: those of MeshAssembler::AddVertex(); INVALID_ARGUMENT for a token that is no number.
+absl::Status AddVertex(std::string_view format, TextScanner& text, MeshAssembler& mesh);
 
 }  // namespace bccskel
 

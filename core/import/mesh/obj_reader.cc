@@ -15,31 +15,16 @@
 namespace bccskel {
 namespace {
 
-absl::Status LineError(const TextScanner& text, const char* what, std::string_view token) {
-  return absl::InvalidArgumentError(absl::StrFormat(
-      "OBJ line %d: %s, found '%s'", text.line_number(), what, std::string(token.substr(0, 40))));
-}
-
-absl::Status ParseVertex(TextScanner& text, MeshAssembler& mesh) {
-  TriangleMesh::Vertex vertex;
-  for (double& coordinate : vertex) {
-    const std::string_view token = text.Token();
-    const std::optional<double> value = ParseDouble(token);
-    if (!value) return LineError(text, "a coordinate is due", token);
-    coordinate = *value;
-  }
-  return mesh.AddVertex(vertex);
-}
-
 absl::Status ParseFace(TextScanner& text, std::vector<int64_t>& corners, MeshAssembler& mesh) {
   corners.clear();
   for (std::string_view token = text.Token(); !token.empty(); token = text.Token()) {
     const std::optional<int64_t> index = ParseInteger(token.substr(0, token.find('/')));
     if (!index || *index == 0) {
-      return LineError(text, "a vertex index that is a 64-bit integer and not 0 is due", token);
+      return LineError("OBJ", text, "a vertex index that is a 64-bit integer and not 0 is due",
+                       token);
     }
     const int64_t vertices = static_cast<int64_t>(mesh.vertex_count());
-    if (*index < -vertices) return LineError(text, "a vertex before the first one", token);
+    if (*index < -vertices) return LineError("OBJ", text, "a vertex before the first one", token);
     corners.push_back(*index > 0 ? *index - 1 : vertices + *index);
   }
   return mesh.AddPolygon(corners);
@@ -54,7 +39,7 @@ absl::StatusOr<TriangleMesh> ParseObj(std::string_view bytes, const MeshLimits& 
   while (text.NextLine()) {
     const std::string_view keyword = text.Token();
     if (keyword == "v") {
-      BCCSKEL_RETURN_IF_ERROR(ParseVertex(text, mesh));
+      BCCSKEL_RETURN_IF_ERROR(AddVertex("OBJ", text, mesh));
     } else if (keyword == "f") {
       BCCSKEL_RETURN_IF_ERROR(ParseFace(text, corners, mesh));
     }

@@ -19,14 +19,9 @@ struct OffCounts {
   uint64_t faces = 0;
 };
 
-absl::Status LineError(const TextScanner& text, const char* what, std::string_view token) {
-  return absl::InvalidArgumentError(absl::StrFormat(
-      "OFF line %d: %s, found '%s'", text.line_number(), what, std::string(token.substr(0, 40))));
-}
-
 absl::StatusOr<uint64_t> ParseCount(const TextScanner& text, std::string_view token) {
   const std::optional<int64_t> count = ParseInteger(token);
-  if (!count || *count < 0) return LineError(text, "a count of 0 or more is due", token);
+  if (!count || *count < 0) return LineError("OFF", text, "a count of 0 or more is due", token);
   return static_cast<uint64_t>(*count);
 }
 
@@ -43,11 +38,11 @@ absl::StatusOr<OffCounts> ParseHeader(TextScanner& text) {
   std::string_view token = text.TokenAcrossLines();
   if (IsOffKeyword(token)) {
     if (token.find('4') != token.npos || token.find('n') != token.npos) {
-      return LineError(text, "only three dimensions are read", token);
+      return LineError("OFF", text, "only three dimensions are read", token);
     }
     token = text.TokenAcrossLines();
     if (EqualsIgnoringCase(token, "BINARY")) {
-      return LineError(text, "only text is read, not binary OFF", token);
+      return LineError("OFF", text, "only text is read, not binary OFF", token);
     }
   }
   return ParseCounts(text, token);
@@ -62,17 +57,6 @@ absl::Status CheckCounts(const OffCounts& counts, size_t bytes) {
                       counts.vertices, counts.faces, bytes));
 }
 
-absl::Status ParseVertex(TextScanner& text, MeshAssembler& mesh) {
-  TriangleMesh::Vertex vertex;
-  for (double& coordinate : vertex) {
-    const std::string_view token = text.Token();
-    const std::optional<double> value = ParseDouble(token);
-    if (!value) return LineError(text, "a coordinate is due", token);
-    coordinate = *value;
-  }
-  return mesh.AddVertex(vertex);
-}
-
 absl::Status ParseFace(TextScanner& text, uint64_t vertices, std::vector<int64_t>& corners,
                        MeshAssembler& mesh) {
   BCCSKEL_ASSIGN_OR_RETURN(const uint64_t count, ParseCount(text, text.Token()));
@@ -81,7 +65,7 @@ absl::Status ParseFace(TextScanner& text, uint64_t vertices, std::vector<int64_t
     const std::string_view token = text.Token();
     const std::optional<int64_t> corner = ParseInteger(token);
     if (!corner || *corner < 0 || static_cast<uint64_t>(*corner) >= vertices) {
-      return LineError(text, absl::StrFormat("a vertex index below %d is due", vertices).c_str(),
+      return LineError("OFF", text, absl::StrFormat("a vertex index below %d is due", vertices),
                        token);
     }
     corners.push_back(*corner);
@@ -110,7 +94,7 @@ absl::StatusOr<TriangleMesh> ParseOff(std::string_view bytes, const MeshLimits& 
   MeshAssembler mesh(limits);
   for (uint64_t n = 0; n < counts.vertices; ++n) {
     if (!text.NextLine()) return ShortfallError("vertices", n, counts.vertices);
-    BCCSKEL_RETURN_IF_ERROR(ParseVertex(text, mesh));
+    BCCSKEL_RETURN_IF_ERROR(AddVertex("OFF", text, mesh));
   }
   std::vector<int64_t> corners;
   for (uint64_t n = 0; n < counts.faces; ++n) {

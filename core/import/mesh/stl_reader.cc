@@ -31,11 +31,6 @@ uint64_t DeclaredTriangles(std::string_view bytes) {
   return bytes.size() < kHeaderBytes ? 0 : LittleEndian32(bytes.data() + kHeaderBytes - 4);
 }
 
-absl::Status LineError(const TextScanner& text, const char* what, std::string_view token) {
-  return absl::InvalidArgumentError(absl::StrFormat(
-      "STL line %d: %s, found '%s'", text.line_number(), what, std::string(token.substr(0, 40))));
-}
-
 absl::Status AddTriangle(MeshAssembler& mesh, const std::array<TriangleMesh::Vertex, 3>& corners) {
   const int64_t first = static_cast<int64_t>(mesh.vertex_count());
   for (const TriangleMesh::Vertex& corner : corners) {
@@ -46,12 +41,13 @@ absl::Status AddTriangle(MeshAssembler& mesh, const std::array<TriangleMesh::Ver
 
 absl::StatusOr<TriangleMesh::Vertex> ParseVertex(TextScanner& text) {
   const std::string_view keyword = text.TokenAcrossLines();
-  if (!EqualsIgnoringCase(keyword, "vertex")) return LineError(text, "'vertex' is due", keyword);
+  if (!EqualsIgnoringCase(keyword, "vertex"))
+    return LineError("STL", text, "'vertex' is due", keyword);
   TriangleMesh::Vertex vertex;
   for (double& coordinate : vertex) {
     const std::string_view token = text.TokenAcrossLines();
     const std::optional<double> value = ParseDouble(token);
-    if (!value) return LineError(text, "a coordinate is due", token);
+    if (!value) return LineError("STL", text, "a coordinate is due", token);
     coordinate = *value;
   }
   return vertex;
@@ -60,13 +56,13 @@ absl::StatusOr<TriangleMesh::Vertex> ParseVertex(TextScanner& text) {
 // From behind "outer" to "endloop".
 absl::Status ParseLoop(TextScanner& text, MeshAssembler& mesh) {
   const std::string_view loop = text.TokenAcrossLines();
-  if (!EqualsIgnoringCase(loop, "loop")) return LineError(text, "'loop' is due", loop);
+  if (!EqualsIgnoringCase(loop, "loop")) return LineError("STL", text, "'loop' is due", loop);
   std::array<TriangleMesh::Vertex, 3> corners;
   for (TriangleMesh::Vertex& corner : corners) {
     BCCSKEL_ASSIGN_OR_RETURN(corner, ParseVertex(text));
   }
   const std::string_view end = text.TokenAcrossLines();
-  if (!EqualsIgnoringCase(end, "endloop")) return LineError(text, "'endloop' is due", end);
+  if (!EqualsIgnoringCase(end, "endloop")) return LineError("STL", text, "'endloop' is due", end);
   return AddTriangle(mesh, corners);
 }
 
@@ -84,7 +80,7 @@ absl::StatusOr<TriangleMesh> ParseAsciiStl(std::string_view bytes, const MeshLim
     } else if (EqualsIgnoringCase(keyword, "outer")) {
       BCCSKEL_RETURN_IF_ERROR(ParseLoop(text, mesh));
     } else if (!EqualsIgnoringCase(keyword, "endfacet")) {
-      return LineError(text, "a keyword of STL is due", keyword);
+      return LineError("STL", text, "a keyword of STL is due", keyword);
     }
   }
   if (!ended) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "absl/strings/str_format.h"
+
 namespace bccskel {
 namespace {
 
@@ -77,6 +79,12 @@ std::string_view TextScanner::TokenAcrossLines() {
 
 std::optional<double> ParseDouble(std::string_view token) { return ParseWhole<double>(token); }
 std::optional<int64_t> ParseInteger(std::string_view token) { return ParseWhole<int64_t>(token); }
+
+absl::Status LineError(std::string_view format, const TextScanner& text, std::string_view what,
+                       std::string_view token) {
+  return absl::InvalidArgumentError(absl::StrFormat("%s line %d: %s, found '%s'", format,
+                                                    text.line_number(), what, token.substr(0, 40)));
+}
 
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });

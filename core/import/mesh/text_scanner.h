@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "absl/status/status.h"
+
 namespace bccskel {
 
 // Does a backslash at the end of a line join it with the next one (OBJ)?
@@ -46,6 +48,10 @@ class TextScanner {
 // "nan" and "inf" are numbers here: whoever needs finite values checks, and can name the place.
 std::optional<double> ParseDouble(std::string_view token);
 std::optional<int64_t> ParseInteger(std::string_view token);
+
+// INVALID_ARGUMENT: "OFF line 7: a coordinate is due, found 'x'".
+absl::Status LineError(std::string_view format, const TextScanner& text, std::string_view what,
+                       std::string_view token);
 
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 

@@ -30,7 +30,7 @@ Peeled Peel(const Volume& object, const SkeletonizeOptions& options, int threads
   return peeled;
 }
 
-std::vector<Volume> Objects() {
+std::vector<Volume> PeeledObjects() {
   std::vector<Volume> objects = {*GenerateShape(Shape::kTree, {.points = 20'000, .noise = 0.05}),
                                  *GenerateShape(Shape::kHollowBall, {.points = 10'000})};
   for (uint64_t seed : {1U, 2U}) {
@@ -48,7 +48,7 @@ SkeletonizeOptions With(ThinningMethod method, TipPlacement tips) {
 }
 
 TEST(ShellPoints, WithTheSkeletonAreTheObjectEachPointOnce) {
-  for (const Volume& object : Objects()) {
+  for (const Volume& object : PeeledObjects()) {
     for (ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
       const Peeled peeled = Peel(object, With(method, TipPlacement::kAsThinned));
       std::vector<LatticePoint> all = peeled.result.thin.SortedPoints();
@@ -62,7 +62,7 @@ TEST(ShellPoints, WithTheSkeletonAreTheObjectEachPointOnce) {
 }
 
 TEST(ShellPoints, ComeBackOnlyAtTips) {
-  for (const Volume& object : Objects()) {
+  for (const Volume& object : PeeledObjects()) {
     const Peeled peeled = Peel(object, With(ThinningMethod::kSymmetric, TipPlacement::kRidge));
     std::set<LatticePoint> all;
     for (const auto& [shell, points] : peeled.shells) all.insert(points.begin(), points.end());
@@ -84,7 +84,7 @@ TEST(ShellPoints, ComeShellByShellAndThenWhatPruningTakes) {
 }
 
 TEST(ShellPoints, AreTheSameForAnyThreadCountAndChangeNoResult) {
-  for (const Volume& object : Objects()) {
+  for (const Volume& object : PeeledObjects()) {
     const SkeletonizeOptions options = With(ThinningMethod::kSymmetric, TipPlacement::kRidge);
     const Peeled expected = Peel(object, options);
     EXPECT_EQ(expected.result.sha256, Skeletonize(object, options, {})->sha256);

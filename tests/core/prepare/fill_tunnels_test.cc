@@ -9,16 +9,13 @@
 #include "core/exec/worker_team.h"
 #include "tests/core/prepare/reference_prepare.h"
 #include "tests/support/random_objects.h"
-#include "tests/support/reference_betti.h"
-#include "tests/support/reference_point_set.h"
 
 namespace bccskel {
 namespace {
 
+using test::IsIn;
 using test::Points;
 using test::RandomCloud;
-using test::ReferenceBetti;
-using test::ReferencePointSet;
 
 ChangedVolume Filled(const Volume& object, double width, int threads = 1) {
   exec::WorkerTeam team(threads);
@@ -29,22 +26,6 @@ ChangedVolume Filled(const Volume& object, double width, int threads = 1) {
   auto filled = FillTunnels(object, width, memory, context);
   EXPECT_TRUE(filled.ok()) << filled.status();
   return *std::move(filled);
-}
-
-BettiNumbers BettiOf(const Volume& object) { return ReferenceBetti(ReferencePointSet(object)); }
-
-using IsIn = std::function<bool(double, double, double)>;
-
-Volume VolumeWhere(int32_t cells, const IsIn& inside) {
-  VolumeBuilder builder({cells, cells, cells});
-  for (int32_t z = 0; z < 2 * cells; ++z) {
-    for (int32_t y = z & 1; y < 2 * cells; y += 2) {
-      for (int32_t x = z & 1; x < 2 * cells; x += 2) {
-        if (inside(x, y, z)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
 }
 
 double SquaredDistance(LatticePoint a, LatticePoint b) {
@@ -74,12 +55,12 @@ TEST(FillTunnelsLaw, TakesLoopsAndNothingElse) {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const double density = 0.02 + 0.93 * static_cast<double>(seed % 20) / 19;
     const Volume object = VolumeOfPoints(RandomCloud(seed, {35, 9, 10}, density));
-    const BettiNumbers before = BettiOf(object);
+    const BettiNumbers before = test::BettiOf(object);
     for (const double width : {0.5, 1.5, 4.0, 11.0}) {
       const ChangedVolume changed = Filled(object, width);
       BettiNumbers expected = before;
       expected.loops -= static_cast<int64_t>(changed.count);
-      ASSERT_EQ(BettiOf(changed.object), expected) << "seed " << seed << ", width " << width;
+      ASSERT_EQ(test::BettiOf(changed.object), expected) << "seed " << seed << ", width " << width;
       EXPECT_EQ(changed.object.PointCount(), object.PointCount() + changed.points_added);
       EXPECT_EQ(changed.count == 0, changed.points_added == 0);
       object.ForEachPoint([&](LatticePoint p) { ASSERT_TRUE(changed.object.Contains(p)); });
@@ -113,33 +94,33 @@ IsIn PlateWithHole(double hole) {
 
 TEST(FillTunnels, FillsTheNarrowOnes) {
   for (const double hole : {4.0, 9.0, 16.0}) {
-    const Volume plate = VolumeWhere(41, PlateWithHole(hole));
-    ASSERT_EQ(BettiOf(plate), (BettiNumbers{1, 1, 0}));
+    const Volume plate = test::VolumeWhere(41, PlateWithHole(hole));
+    ASSERT_EQ(test::BettiOf(plate), (BettiNumbers{1, 1, 0}));
     EXPECT_TRUE(Filled(plate, 0.7 * hole).object == plate) << hole;
     EXPECT_EQ(Filled(plate, 1.5 * hole).count, 1u) << hole;
-    EXPECT_EQ(BettiOf(Filled(plate, 1.5 * hole).object), (BettiNumbers{1, 0, 0})) << hole;
+    EXPECT_EQ(test::BettiOf(Filled(plate, 1.5 * hole).object), (BettiNumbers{1, 0, 0})) << hole;
   }
 }
 
 // What a wide ball leaves joins the tunnel to the gap between the two.
 TEST(FillTunnels, FillsNarrowOnesBesideAnotherComponent) {
-  const Volume object = VolumeWhere(41, [](double x, double y, double z) {
+  const Volume object = test::VolumeWhere(41, [](double x, double y, double z) {
     if (std::max(std::abs(x - 40), std::abs(y - 40)) > 20) return false;
     return (z >= 52 && z <= 68) || (z >= 20 && z <= 36 && std::hypot(x - 40, y - 40) > 3);
   });
-  ASSERT_EQ(BettiOf(object), (BettiNumbers{2, 1, 0}));
+  ASSERT_EQ(test::BettiOf(object), (BettiNumbers{2, 1, 0}));
   for (const double width : {10.0, 24.0}) {
-    EXPECT_EQ(BettiOf(Filled(object, width).object), (BettiNumbers{2, 0, 0})) << width;
+    EXPECT_EQ(test::BettiOf(Filled(object, width).object), (BettiNumbers{2, 0, 0})) << width;
   }
 }
 
 // At the border of the extent there is no wall.
 TEST(FillTunnels, SeesNoWallAtTheExtent) {
-  const Volume plate =
-      VolumeWhere(16, [](double x, double y, double) { return std::hypot(x - 15, y - 15) > 12; });
-  ASSERT_EQ(BettiOf(plate).loops, 1);
+  const Volume plate = test::VolumeWhere(
+      16, [](double x, double y, double) { return std::hypot(x - 15, y - 15) > 12; });
+  ASSERT_EQ(test::BettiOf(plate).loops, 1);
   EXPECT_TRUE(Filled(plate, 12).object == plate);
-  EXPECT_EQ(BettiOf(Filled(plate, 36).object), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(test::BettiOf(Filled(plate, 36).object), (BettiNumbers{1, 0, 0}));
 }
 
 IsIn Bottle(int mouths) {
@@ -152,18 +133,18 @@ IsIn Bottle(int mouths) {
 
 TEST(FillTunnels, ClosesNoBottle) {
   for (const int mouths : {1, 2}) {
-    const Volume bottle = VolumeWhere(41, Bottle(mouths));
-    ASSERT_EQ(BettiOf(bottle), (BettiNumbers{1, mouths - 1, 0}));
-    EXPECT_EQ(BettiOf(Filled(bottle, 14).object).cavities, 0);
+    const Volume bottle = test::VolumeWhere(41, Bottle(mouths));
+    ASSERT_EQ(test::BettiOf(bottle), (BettiNumbers{1, mouths - 1, 0}));
+    EXPECT_EQ(test::BettiOf(Filled(bottle, 14).object).cavities, 0);
   }
 }
 
 TEST(FillTunnels, LeavesCavitiesAndNeighborsAlone) {
-  const Volume two = VolumeWhere(41, [](double x, double y, double z) {
+  const Volume two = test::VolumeWhere(41, [](double x, double y, double z) {
     const double r = std::hypot(x - 20, y - 40, z - 40);
     return (r <= 18 && r >= 3) || std::hypot(x - 61, y - 40, z - 40) <= 19;
   });
-  ASSERT_EQ(BettiOf(two), (BettiNumbers{2, 0, 1}));
+  ASSERT_EQ(test::BettiOf(two), (BettiNumbers{2, 0, 1}));
   EXPECT_TRUE(Filled(two, 20).object == two);
 }
 
@@ -176,7 +157,7 @@ TEST(FillTunnels, AsksForMemory) {
     void GiveBack(uint64_t) override {}
   };
   NoMemory memory;
-  const auto filled = FillTunnels(VolumeWhere(41, PlateWithHole(9)), 12, memory, {});
+  const auto filled = FillTunnels(test::VolumeWhere(41, PlateWithHole(9)), 12, memory, {});
   EXPECT_EQ(filled.status().code(), absl::StatusCode::kResourceExhausted);
 }
 

@@ -39,20 +39,6 @@ Points PointsAfter(const Points& points, const PreparingOptions& options) {
   return Prepared(VolumeOfPoints(points), options).object.SortedPoints();
 }
 
-BettiNumbers BettiOf(const Volume& object) { return ReferenceBetti(ReferencePointSet(object)); }
-
-Volume VolumeWhere(int32_t cells, const std::function<bool(double, double, double)>& inside) {
-  VolumeBuilder builder({cells, cells, cells});
-  for (int32_t z = 0; z < 2 * cells; ++z) {
-    for (int32_t y = 0; y < 2 * cells; ++y) {
-      for (int32_t x = z & 1; x < 2 * cells; ++x) {
-        if (IsOnLattice({x, y, z}) && inside(x, y, z)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
-
 std::vector<Points> RandomObjects() {
   std::vector<Points> objects;
   for (uint64_t seed = 0; seed < 60; ++seed) {
@@ -95,7 +81,7 @@ TEST(FillCavitiesLaw, CountsTheCavitiesAndPointsAndDoesNothingTheSecondTime) {
 // Cavities of single points hold no object and have no handles.
 TEST(FillCavitiesLaw, OfSinglePointsLeavesComponentsAndLoopsAlone) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
-    const Volume torus = VolumeWhere(26, [](double x, double y, double z) {
+    const Volume torus = test::VolumeWhere(26, [](double x, double y, double z) {
       return std::hypot(std::hypot(x - 26, y - 26) - 14, z - 26) <= 8;
     });
     Points points = torus.SortedPoints();
@@ -115,7 +101,7 @@ TEST(FillCavitiesLaw, OfSinglePointsLeavesComponentsAndLoopsAlone) {
     ASSERT_GT(holes, 0);
     const PreparedObject prepared = Prepared(*std::move(holed).Build(), kFill);
     EXPECT_EQ(prepared.before, (BettiNumbers{1, 1, holes}));
-    EXPECT_EQ(BettiOf(prepared.object), (BettiNumbers{1, 1, 0}));
+    EXPECT_EQ(test::BettiOf(prepared.object), (BettiNumbers{1, 1, 0}));
     EXPECT_EQ(prepared.object.SortedPoints(), points);
   }
 }
@@ -123,7 +109,7 @@ TEST(FillCavitiesLaw, OfSinglePointsLeavesComponentsAndLoopsAlone) {
 // The shell's inside has bricks that are not stored.
 TEST(FillCavities, OfAHollowBallGivesTheBall) {
   const auto ball = [](double inner) {
-    return VolumeWhere(122, [inner](double x, double y, double z) {
+    return test::VolumeWhere(122, [inner](double x, double y, double z) {
       const double r = std::hypot(x - 120, y - 120, z - 120);
       return r <= 118 && r >= inner;
     });
@@ -137,7 +123,7 @@ TEST(FillCavities, OfAHollowBallGivesTheBall) {
 }
 
 TEST(FillCavities, MakesNoObjectOfMoreBricksThanAllowed) {
-  const Volume hollow = VolumeWhere(60, [](double x, double y, double z) {
+  const Volume hollow = test::VolumeWhere(60, [](double x, double y, double z) {
     const double r = std::hypot(x - 60, y - 60, z - 60);
     return r <= 58 && r >= 54;
   });

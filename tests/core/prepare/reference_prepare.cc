@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
+#include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 
 namespace bccskel::test {
@@ -71,5 +73,19 @@ Points ReferenceDenoised(const Points& points) {
   });
   return Sorted(denoised);
 }
+
+Volume VolumeWhere(int32_t cells, const IsIn& inside) {
+  VolumeBuilder builder({cells, cells, cells});
+  for (int32_t z = 0; z < 2 * cells; ++z) {
+    for (int32_t y = z & 1; y < 2 * cells; y += 2) {
+      for (int32_t x = z & 1; x < 2 * cells; x += 2) {
+        if (inside(x, y, z)) builder.Add({x, y, z});
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+BettiNumbers BettiOf(const Volume& object) { return ReferenceBetti(ReferencePointSet(object)); }
 
 }  // namespace bccskel::test

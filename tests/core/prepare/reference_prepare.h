@@ -1,10 +1,14 @@
 #ifndef BCCSKEL_TESTS_CORE_PREPARE_REFERENCE_PREPARE_H_
 #define BCCSKEL_TESTS_CORE_PREPARE_REFERENCE_PREPARE_H_
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/certificate/certificate.h"
 #include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
 
 // Slow and plain, point by point and by flood fill: the oracle of core/prepare.
 
@@ -20,6 +24,11 @@ Points ReferenceFilled(const Points& points);
 std::vector<Points> ReferenceComponents(const Points& points);
 // One pass of the majority over all points of the lattice around.
 Points ReferenceDenoised(const Points& points);
+
+using IsIn = std::function<bool(double x, double y, double z)>;
+// The lattice points inside, of a box of `cells`^3.
+Volume VolumeWhere(int32_t cells, const IsIn& inside);
+BettiNumbers BettiOf(const Volume& object);
 
 }  // namespace bccskel::test
 

@@ -21,7 +21,7 @@ using test::RandomBlob;
 using test::RandomCloud;
 using test::ReferencePointSet;
 
-int64_t ComponentsOf(const SkeletonGraph& graph) {
+int64_t CountComponents(const SkeletonGraph& graph) {
   std::vector<size_t> root(graph.nodes.size());
   std::iota(root.begin(), root.end(), size_t{0});
   auto components = static_cast<int64_t>(root.size());
@@ -36,7 +36,7 @@ int64_t ComponentsOf(const SkeletonGraph& graph) {
 
 BettiNumbers BettiOf(const SkeletonGraph& graph) {
   BettiNumbers betti;
-  betti.components = ComponentsOf(graph);
+  betti.components = CountComponents(graph);
   betti.loops = static_cast<int64_t>(graph.edges.size()) -
                 static_cast<int64_t>(graph.nodes.size()) + betti.components;
   for (const SkeletonNode& node : graph.nodes) {

@@ -34,6 +34,11 @@ class ImageFolder {
   std::string path_;
 };
 
+inline std::string ErrorOf(const ImageFolder& folder, const ImageOptions& options = {}) {
+  const auto image = folder.Read(options);
+  return image.ok() ? "read" : std::string(image.status().ToString());
+}
+
 }  // namespace bccskel::testing
 
 #endif  // BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_

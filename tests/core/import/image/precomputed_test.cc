@@ -17,6 +17,7 @@ using ::testing::AllOf;
 using testing::Bytes;
 using testing::Counting;
 using ::testing::ElementsAre;
+using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 
@@ -110,11 +111,6 @@ void WriteChunks(const ImageFolder& folder, std::string (*chunk)(const Box& box)
   folder.Write("8_8_40/10-14_-20--17_32-34.gz",
                testing::Deflated(chunk({{0, 0, 2}, {4, 3, 4}}), gzip));
   folder.Write("8_8_40/14-15_-20--17_32-34", chunk({{4, 0, 2}, {5, 3, 4}}));
-}
-
-std::string ErrorOf(const ImageFolder& folder, const ImageOptions& options = {}) {
-  const auto image = folder.Read(options);
-  return image.ok() ? "read" : std::string(image.status().ToString());
 }
 
 TEST(Precomputed, IsReadRawAndCompressed) {

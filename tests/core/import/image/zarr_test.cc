@@ -16,6 +16,7 @@ using ::testing::AllOf;
 using testing::CountedTo;
 using testing::Counting;
 using ::testing::ElementsAre;
+using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 
@@ -44,11 +45,6 @@ ImageOptions Choice(std::optional<int64_t> channel, std::optional<int64_t> time,
   options.time = time;
   options.level = level;
   return options;
-}
-
-std::string ErrorOf(const ImageFolder& folder, const ImageOptions& options = {}) {
-  const auto image = folder.Read(options);
-  return image.ok() ? "read" : std::string(image.status().ToString());
 }
 
 std::string ErrorOfArray(const std::vector<Replaced>& changes) {
