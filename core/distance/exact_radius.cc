@@ -62,7 +62,7 @@ float ExactRadius::At(LatticePoint p) {
   if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
   if (!searches()) {
     const BrickAddress address = AddressOf(p);
-    const BrickIndex brick = *near_bricks_.Find(address.brick);
+    const BrickIndex brick = near_bricks_.Find(address.brick);
     return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));

@@ -41,7 +41,7 @@ float FirmDepth::Search(LatticePoint p) {
   float depth = radius_->At(p);
   while (filled_ == nullptr && IsPit(radius_->nearest())) {
     const LatticePoint pit = radius_->nearest();
-    if (bricks_.Find(AddressOf(pit).brick).has_value()) {
+    if (bricks_.Find(AddressOf(pit).brick) < object_.brick_count()) {
       radius_->TakeFromBackground(pit);
     } else {
       FillAllPits();

@@ -111,6 +111,7 @@ class SurfaceWalk {
       const unsigned shared = NeighborsAmongN14(d) & patch.background;
       if (shared == 0) return;
       const PointIndex r = points_.Neighbor(patch.point, d);
+      if (seen_[r] == BackgroundOf(masks_[r])) return;
       ForEachDirection(static_cast<NeighborMask>(shared), [&](Direction q) {
         Enter(r, Direction(kSeenFrom[static_cast<size_t>(d.bit())][static_cast<size_t>(q.bit())]));
       });

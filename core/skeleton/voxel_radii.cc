@@ -22,6 +22,12 @@ constexpr double kMostFarther = 1.5;
 constexpr double kOutside = 0.1;
 constexpr double kOutsideSmall = 0.2;
 
+// The whole number below. No call of the library.
+int32_t FloorOf(double v) {
+  const auto toward_zero = static_cast<int32_t>(v);
+  return v < toward_zero ? toward_zero - 1 : toward_zero;
+}
+
 class VoxelRadii {
  public:
   VoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search)
@@ -48,7 +54,7 @@ class VoxelRadii {
     const std::array<int32_t, 3> from = {p.x, p.y, p.z}, to = {q.x, q.y, q.z};
     Vector way;
     for (size_t a = 0; a < 3; ++a) {
-      const double voxel = std::floor(static_cast<double>(to[a]) / voxel_);
+      const double voxel = FloorOf(static_cast<double>(to[a]) / voxel_);
       const double at = SublatticeOf(q) == Sublattice::kOdd ? voxel_ * (voxel + 0.5) : to[a];
       way[a] = at - from[a];
     }
@@ -66,7 +72,7 @@ class VoxelRadii {
   }
   Voxel VoxelAt(const Vector& at) const {
     Voxel v;
-    for (size_t a = 0; a < 3; ++a) v[a] = static_cast<int32_t>(std::floor(at[a] * per_unit_));
+    for (size_t a = 0; a < 3; ++a) v[a] = FloorOf(at[a] * per_unit_);
     return v;
   }
 
