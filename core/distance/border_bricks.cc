@@ -45,7 +45,7 @@ void Pad(Boxes& boxes) {
 
 }  // namespace
 
-BorderBricks::BorderBricks(const Volume& object) {
+BorderBricks::BorderBricks(const Volume& object) : place_of_(object.brick_count()) {
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     AddBackgroundOf(object, n);
     AddBackgroundBeside(object, n);
@@ -76,6 +76,7 @@ void BorderBricks::AddBackgroundOf(const Volume& object, BrickIndex n) {
   const BrickBits& bits = object.bricks()[n];
   if (IsFull(bits)) return;
   const BrickCoordinates brick = object.keys()[n].coordinates();
+  place_of_[n] = static_cast<uint32_t>(places_.size());
   Add({n, PointOf(brick, 0)}, BoxAround(BackgroundIn(bits), brick));
 }
 

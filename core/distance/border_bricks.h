@@ -48,6 +48,8 @@ class BorderBricks {
 
   // Place n has box n; places are not padded.
   std::span<const Place> places() const { return places_; }
+  // The number of its place. Needs: a stored brick with background.
+  uint32_t PlaceOf(BrickIndex brick) const { return place_of_[brick]; }
   const Boxes& boxes() const { return boxes_; }
   // Box n is around the boxes from n * kBoxGroup on.
   const Boxes& groups() const { return groups_; }
@@ -63,6 +65,7 @@ class BorderBricks {
   void Group();
 
   std::vector<Place> places_;
+  std::vector<uint32_t> place_of_;  // by brick
   Boxes boxes_;
   Boxes groups_;
 };

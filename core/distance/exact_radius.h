@@ -40,6 +40,9 @@ class ExactRadius {
   // Afterwards, which of equally near points nearest() says depends on the next point alone, not on
   // those asked for before.
   void ForgetNearest() { last_ = kOutside; }
+  // What nearest() says after ForgetNearest() and At(p), which is `radius`: mostly found in the few
+  // bricks around. Needs: this searches; an object point.
+  LatticePoint NearestAt(LatticePoint p, float radius);
   // From p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 
@@ -53,7 +56,11 @@ class ExactRadius {
   std::span<const BrickBits> Bricks() const;
   static constexpr NearestPoint kOutside = {{-1, -1, -1}, 0};
 
+  PointSearch SearchFrom(LatticePoint p, int32_t most);
   bool SearchWithin(float reach, LatticePoint p);
+  void FindBricksAround(LatticePoint p, float radius);
+  bool SearchAround(LatticePoint p, float radius);
+  size_t FirstSearched(std::span<const size_t> around, const PointSearch& search);
   float SquareOf(LatticePoint way, int32_t most) const;
 
   const Volume& object_;
@@ -66,6 +73,9 @@ class ExactRadius {
   std::array<float, 3> squares_;  // of a lattice coordinate along each axis
   SquaredWays<1> squared_y_;
   SquaredWays<kBrickY> squared_z_;
+  std::vector<BorderBricks::Place> bricks_around_;
+  std::vector<NearestPoint> found_around_;  // of each of them
+  std::vector<size_t> nearest_around_;      // those of them with the nearest
   NearestPoint last_ = kOutside;  // of the point asked for before, which is mostly close by
 };
 

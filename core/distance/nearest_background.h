@@ -77,6 +77,12 @@ void FindNearestBackground(const BorderBricks& border, size_t group,
                            std::span<const BrickBits> object, const PointSearch& search,
                            NearestPoint& nearest);
 
+// The nearest background point of each brick, with an infinite square where there is none.
+// Shapes: `found` has room for all places.
+void FindNearestOfEach(std::span<const BorderBricks::Place> places,
+                       std::span<const BrickBits> object, const PointSearch& search,
+                       NearestPoint* found);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_DISTANCE_NEAREST_BACKGROUND_H_

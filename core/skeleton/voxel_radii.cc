@@ -37,12 +37,10 @@ class VoxelRadii {
         search_(search),
         bricks_(object) {}
 
-  // A function of the point alone: the search begins anew, since a tie's answer depends on what was
-  // found before.
-  float At(LatticePoint p) {
-    search_.ForgetNearest();
-    if (search_.At(p) == 0) return 0;
-    const Vector way = WayTo(p, search_.nearest());
+  // `radius` is the distance of p to the nearest background point.
+  float At(LatticePoint p, float radius) {
+    if (radius == 0) return 0;
+    const Vector way = WayTo(p, search_.NearestAt(p, radius));
     const double near = NearSide(p, way);
     const double far = FarSide(p, way, near);
     return static_cast<float>((near + far) / 2);
@@ -162,7 +160,7 @@ absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
       for (size_t n = mine.begin; n < mine.end; ++n) {
-        const float radius = radii.At(points[firsts[n]]->point);
+        const float radius = radii.At(points[firsts[n]]->point, points[firsts[n]]->radius);
         for (size_t k = firsts[n]; k < firsts[n + 1]; ++k) points[k]->radius = radius;
       }
     }
