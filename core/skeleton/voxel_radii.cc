@@ -120,10 +120,14 @@ class VoxelRadii {
     const double length = LengthOf(way), voxel = VoxelAlong(way), step = voxel / kStepsPerVoxel;
     const double begin = std::max(near - voxel, 0.0);
     const auto steps = static_cast<int>((near + kMostFarther * voxel - begin) / step);
+    Voxel passed = {-1, -1, -1};  // no voxel
     for (int n = 0; n < steps; ++n) {
       const double along = (begin + (n + 0.5) * step) / length;
       const Vector at = {p.x - along * way[0], p.y - along * way[1], p.z - along * way[2]};
-      if (!IsObject(VoxelAt(at))) return begin + n * step;
+      const Voxel voxel_here = VoxelAt(at);
+      if (voxel_here == passed) continue;
+      if (!IsObject(voxel_here)) return begin + n * step;
+      passed = voxel_here;
     }
     return near;
   }
