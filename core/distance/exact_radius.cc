@@ -7,6 +7,9 @@
 #include <span>
 #include <utility>
 
+#include "core/lattice/directions.h"
+#include "core/volume/brick_neighbors.h"
+
 // Does:  looks for the nearest background point among the bricks where the background begins.
 // Why it is right: the search reaches farther until a background point is known within its reach,
 //   and every brick that could hold a nearer one is looked at. Sums are formed in the order of
@@ -61,6 +64,10 @@ std::span<const BrickBits> ExactRadius::Bricks() const {
   return changed_bricks_.empty() ? object_.padded_bricks() : changed_bricks_;
 }
 
+std::span<const BorderBricks::Place> ExactRadius::Places() const {
+  return changed_places_.empty() ? border_->places() : changed_places_;
+}
+
 float ExactRadius::At(LatticePoint p) {
   if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
   if (!searches()) {
@@ -89,7 +96,7 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   PutNearestFirst(groups);
   for (const NearBox& group : groups) {
     if (group.squared >= last_.squared) continue;
-    FindNearestBackground(*border_, group.box, Bricks(), search, last_);
+    FindNearestBackground(Places(), border_->boxes(), group.box, Bricks(), search, last_);
   }
   return last_.squared < reach * reach;
 }
@@ -164,7 +171,9 @@ size_t ExactRadius::FirstSearched(std::span<const size_t> around, const PointSea
   const auto groups = std::span(near_groups_).first(count);
   const size_t nearest = std::ranges::min_element(groups, {}, &NearBox::squared)->box;
   return *std::ranges::min_element(around, {}, [&](size_t n) {
-    const size_t place = border_->PlaceOf(bricks_around_[n].index), group = place / kBoxGroup;
+    const auto places = border_->PlacesOf(bricks_around_[n].index);
+    const auto place = static_cast<size_t>(places.data() - border_->places().data());
+    const size_t group = place / kBoxGroup;
     const size_t turn = group == nearest ? 0 : 1 + (group == groups[0].box ? nearest : group);
     return std::pair(turn, place);
   });
@@ -189,10 +198,33 @@ float ExactRadius::Between(LatticePoint p, LatticePoint background) const {
 void ExactRadius::TakeFromBackground(LatticePoint q) {
   if (changed_bricks_.empty()) {
     changed_bricks_.assign(object_.padded_bricks().begin(), object_.padded_bricks().end());
+    changed_places_.assign(border_->places().begin(), border_->places().end());
   }
   const BrickAddress address = AddressOf(q);
-  changed_bricks_[*object_.Find(BrickKey(address.brick))].Set(address.bit);
+  changed_bricks_[ChangedBrick(address.brick)].Set(address.bit);
   if (last_.at == q) last_ = kOutside;
+}
+
+// A brick that is not stored is made one, which all its places have then.
+BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
+  const BrickIndex stored = near_bricks_.Find(brick), none = near_bricks_.none();
+  if (stored != none) return stored;
+  const auto added = static_cast<BrickIndex>(changed_bricks_.size());
+  const LatticePoint low = PointOf(brick, 0);
+  for (int position = 0; position < kNeighborCount; ++position) {
+    const BrickIndex beside = near_bricks_.Find(NeighborBrick(brick, position));
+    if (beside == none) continue;
+    const std::span<const BorderBricks::Place> places = border_->PlacesOf(beside);
+    const auto first = static_cast<size_t>(places.data() - border_->places().data());
+    for (size_t n = first; n < first + places.size(); ++n) {
+      BorderBricks::Place& place = changed_places_[n];
+      if (place.low != low) continue;
+      if (place.index != none) return place.index;
+      place.index = added;
+    }
+  }
+  changed_bricks_.emplace_back();
+  return added;
 }
 
 absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const ExactRadius& untouched,

@@ -160,17 +160,18 @@ HWY_INLINE SeenFrom Seen(const BorderBricks::Place& place, const PointSearch& se
           search.z.From(place.low.z - search.at.z)};
 }
 
-void FindNearestTarget(const BorderBricks& border, size_t group, std::span<const BrickBits> object,
-                       const PointSearch& search, NearestPoint& nearest) {
+void FindNearestTarget(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                       size_t group, std::span<const BrickBits> object, const PointSearch& search,
+                       NearestPoint& nearest) {
   const Floats f32;
   alignas(64) float squares[16];
   for (size_t n = group * kBoxGroup; n < (group + 1) * kBoxGroup; n += hn::Lanes(f32)) {
-    const auto squared = SquaresToBoxes(border.boxes(), n, search);
+    const auto squared = SquaresToBoxes(boxes, n, search);
     hn::Store(squared, f32, squares);
     for (uint32_t near = LanesBelow(squared, nearest.squared); near != 0; near &= near - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(near));
       if (squares[lane] >= nearest.squared) continue;
-      const BorderBricks::Place& place = border.places()[n + lane];
+      const BorderBricks::Place& place = places[n + lane];
       SearchBrick(Seen(place, search), search.squares[0], object[place.index], place.low, nearest);
     }
   }
@@ -200,10 +201,10 @@ size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below,
   return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(boxes, search, below, found);
 }
 
-void FindNearestBackground(const BorderBricks& border, size_t group,
-                           std::span<const BrickBits> object, const PointSearch& search,
-                           NearestPoint& nearest) {
-  HWY_DYNAMIC_DISPATCH(FindNearestTarget)(border, group, object, search, nearest);
+void FindNearestBackground(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                           size_t group, std::span<const BrickBits> object,
+                           const PointSearch& search, NearestPoint& nearest) {
+  HWY_DYNAMIC_DISPATCH(FindNearestTarget)(places, boxes, group, object, search, nearest);
 }
 
 void FindNearestOfEach(std::span<const BorderBricks::Place> places,

@@ -77,15 +77,16 @@ class NearbyBricks {
  public:
   // Needs: `object` outlives this.
   explicit NearbyBricks(const Volume& object) : object_(object) {
-    found_.fill({BrickKey(), static_cast<BrickIndex>(object.brick_count())});
+    found_.fill({BrickKey(), none()});
   }
+  BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
-  // The padding brick if it is not stored.
+  // The padding brick, none(), if it is not stored.
   BrickIndex Find(const BrickCoordinates& brick) {
     Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
     if (found.key != key) {
-      found = {key, object_.Find(key).value_or(static_cast<BrickIndex>(object_.brick_count()))};
+      found = {key, object_.Find(key).value_or(none())};
     }
     return found.brick;
   }

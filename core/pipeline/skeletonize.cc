@@ -93,11 +93,14 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
   return *std::move(builder).Build();
 }
 
+bool IsConverted(ObjectSource source) {
+  return source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
+}
+
 // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
 // points beyond them.
 BorderPoints LastPointsOf(ObjectSource source) {
-  const bool converted = source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
-  return converted ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+  return IsConverted(source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
 }
 
 DistanceField NoDistances(DistanceKind kind) {
@@ -220,11 +223,10 @@ class Pipeline {
   }
 
   absl::Status MeasureVoxels(const Volume& object) {
-    const bool converted =
-        options_.source == ObjectSource::kVoxels || options_.source == ObjectSource::kRefinedVoxels;
-    if (!converted) return absl::OkStatus();
-    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), context_,
-                         result_.graph);
+    if (!IsConverted(options_.source)) return absl::OkStatus();
+    if (!search_.has_value()) search_.emplace(object);
+    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
+                         context_, result_.graph);
   }
 
   // The directional methods only look at shells, and radii are found without chamfer distances.
@@ -285,7 +287,11 @@ class Pipeline {
     }
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
-    if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, radius, radii));
+    if (IsConverted(options_.source) && !continued_.has_value()) search_.emplace(object);
+    if (HasCurves(options_.thinning)) {
+      const ExactRadius& single = search_.has_value() ? *search_ : radius;
+      BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, single, radii));
+    }
     if (HasSheets(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneSurface(radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
@@ -333,7 +339,8 @@ class Pipeline {
   std::vector<IsthmusBirth> isthmuses_;
   PruningLevels levels_;
   std::optional<ContinuedObject> continued_;
-  LatticeExtent extent_;  // of the object as it was given, where that is continued
+  std::optional<ExactRadius> search_;  // where radii of voxels are measured
+  LatticeExtent extent_;               // of the object as it was given, where that is continued
   SkeletonizeResult result_;
 };
 

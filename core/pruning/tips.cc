@@ -37,12 +37,12 @@ constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, double noise, const exec::Context& context)
+            const PointSet& keep, double noise)
       : set_(set),
         bricks_(object),
         radius_(radius),
         searching_(radius.searches() ? radius : ExactRadius(space)),
-        depth_(space, searching_, context),
+        depth_(space, searching_),
         flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
@@ -299,7 +299,7 @@ absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
                        const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, noise, context);
+  TipPlacer placer(set, object, space, radius, keep, noise);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

@@ -141,8 +141,8 @@ class VoxelRadii {
 
 }  // namespace
 
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec::Context& context,
-                           SkeletonGraph& graph) {
+absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
+                           const exec::Context& context, SkeletonGraph& graph) {
   std::vector<SkeletonPoint*> points;
   for (SkeletonNode& node : graph.nodes) points.push_back(&node.at);
   for (SkeletonPoint& p : graph.points) points.push_back(&p);
@@ -156,7 +156,6 @@ absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec
     if (n == 0 || points[n]->point != points[n - 1]->point) firsts.push_back(n);
   }
   firsts.push_back(points.size());
-  const ExactRadius search(object);
   exec::Portions portions(firsts.size() - 1, 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
   context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
