@@ -145,9 +145,10 @@ bool ExactRadius::SearchAround(LatticePoint p, float radius) {
   found_around_.resize(bricks_around_.size());
   const PointSearch search = SearchFrom(p, kFirstWays);
   FindNearestOfEach(bricks_around_, Bricks(), search, found_around_.data());
-  const float least = std::ranges::min(found_around_, {}, &NearestPoint::squared).squared;
-  if (least >= kFirstReach * kFirstReach) return false;
   nearest_around_.clear();
+  float least = std::numeric_limits<float>::infinity();
+  for (const NearestPoint& found : found_around_) least = std::min(least, found.squared);
+  if (static_cast<float>(std::sqrt(double{least})) != radius) return false;  // another point's
   for (size_t n = 0; n < found_around_.size(); ++n) {
     if (found_around_[n].squared == least) nearest_around_.push_back(n);
   }

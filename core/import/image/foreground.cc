@@ -64,7 +64,8 @@ bool AreZeros(const T* values) {
 // where it knows their number. Most of an image is empty mostly.
 template <typename T, typename Test>
 uint64_t WordOf(const T* values, size_t count, const Test& test) {
-  if (count == kWordBits && AreZeros(values)) return test(T{0}) ? ~uint64_t{0} : 0;
+  if (count == kWordBits && values[0] == T{0} && AreZeros(values))
+    return test(T{0}) ? ~uint64_t{0} : 0;
   std::array<uint8_t, kWordBits> flags;
   if (count == flags.size()) {
     for (size_t n = 0; n < flags.size(); ++n) flags[n] = test(values[n]) ? 1 : 0;
