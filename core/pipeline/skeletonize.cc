@@ -97,12 +97,6 @@ bool IsConverted(ObjectSource source) {
   return source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
 }
 
-// The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
-// points beyond them.
-BorderPoints LastPointsOf(ObjectSource source) {
-  return IsConverted(source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
-}
-
 DistanceField NoDistances(DistanceKind kind) {
   return DistanceField(kind, ChamferWeights(), DistanceField::Values(), 0);
 }
@@ -165,9 +159,12 @@ class Pipeline {
 
   // All stages work on the shifted object; what they made goes back.
   absl::Status RunBeyondBorder(const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        ContinuedObject continued,
-        ContinueBeyondBorder(object, LastPointsOf(options_.source), memory_, context_));
+    // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
+    // points beyond them.
+    const BorderPoints last =
+        IsConverted(options_.source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+    BCCSKEL_ASSIGN_OR_RETURN(ContinuedObject continued,
+                             ContinueBeyondBorder(object, last, memory_, context_));
     continued_.emplace(std::move(continued));
     const LatticePoint shift = ShiftOf(continued_->room);
     for (LatticePoint& p : thinning_.keep) p = p + shift;
@@ -343,10 +340,6 @@ class Pipeline {
   LatticeExtent extent_;               // of the object as it was given, where that is continued
   SkeletonizeResult result_;
 };
-
-}  // namespace
-
-namespace {
 
 bool IsForSheets(PruningRule rule) {
   return rule == PruningOptions().rule || rule == PruningRule::kNone;
