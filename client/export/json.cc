@@ -1,5 +1,7 @@
 #include "client/export/json.h"
 
+#include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <string_view>
@@ -63,11 +65,38 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
   text.Add('}');
 }
 
+// Many points have the same radius, and digits take long to find.
+class RadiusTexts {
+ public:
+  explicit RadiusTexts(const SkeletonGraph& graph) : graph_(graph) {}
+
+  std::string_view Of(const SkeletonPoint& p) {
+    constexpr int kBits = 9;
+    static_assert(kKept == size_t{1} << kBits);
+    Known& known = known_[std::bit_cast<uint32_t>(p.radius) * 0x9e3779b1u >> (32 - kBits)];
+    if (known.text.empty() || known.radius != p.radius) {
+      known = {p.radius, std::move(Text().Add(graph_.RadiusOf(p))).Take()};
+    }
+    return known.text;
+  }
+
+ private:
+  static constexpr size_t kKept = 512;
+  struct Known {
+    float radius = 0;
+    std::string text;
+  };
+
+  const SkeletonGraph& graph_;
+  std::array<Known, kKept> known_;
+};
+
 // What is found out once for all edges.
 struct EdgeContext {
   const std::optional<TreeOrder>& order;
   bool has_births;
   bool has_shifts;
+  RadiusTexts& radii;
 };
 
 void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
@@ -77,7 +106,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
   AddList(text, ",", points,
           [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
-  AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
+  AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(context.radii.Of(p)); });
   if (context.has_births) {
     text.Add(",\"births\":");
     AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(p.birth); });
@@ -102,12 +131,12 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
   text.Add('}');
 }
 
-void AddSheets(Text& text, const SkeletonGraph& graph) {
+void AddSheets(Text& text, const SkeletonGraph& graph, RadiusTexts& radii) {
   text.Add("{\"points\":");
   AddList(text, ",", graph.sheets,
           [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
-  AddList(text, ",", graph.sheets, [&](const SkeletonPoint& p) { text.Add(graph.RadiusOf(p)); });
+  AddList(text, ",", graph.sheets, [&](const SkeletonPoint& p) { text.Add(radii.Of(p)); });
   if (graph.HasBirths()) {
     text.Add(",\"births\":");
     AddList(text, ",", graph.sheets, [&](const SkeletonPoint& p) { text.Add(p.birth); });
@@ -189,11 +218,12 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
     AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
             order);
   });
-  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts()};
+  RadiusTexts radii(graph);
+  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts(), radii};
   text.Add(",\n\"edges\":");
   AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, edges); });
   text.Add(",\n\"sheets\":");
-  AddSheets(text, graph);
+  AddSheets(text, graph, radii);
   text.Add(",\n\"components\":");
   AddList(text, ",\n", components.figures,
           [&](const ComponentFigures& figures) { AddFigures(text, figures); });

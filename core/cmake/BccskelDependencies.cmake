@@ -2,12 +2,12 @@
 # The Debian packages that hold them are listed in docker/packages/build.txt.
 
 # What a program needs that links our core; bccskelConfig.cmake repeats this list.
-set(BCCSKEL_CORE_PACKAGES Threads absl OpenSSL ZLIB zstd OpenEXR TIFF hwy nlohmann_json)
+set(BCCSKEL_CORE_PACKAGES Threads absl ZLIB zstd OpenEXR TIFF hwy nlohmann_json)
 # What a program needs besides that links our client.
 set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC meshoptimizer)
 
 # The server keeps its jobs in SQLite; the sanitizers build that part without gRPC, too.
-set(bccskel_packages ${BCCSKEL_CORE_PACKAGES} SQLite3)
+set(bccskel_packages ${BCCSKEL_CORE_PACKAGES} OpenSSL SQLite3)
 if(BCCSKEL_BUILD_SERVER OR BCCSKEL_BUILD_CLIENT)
   list(APPEND bccskel_packages ${BCCSKEL_CLIENT_PACKAGES} CLI11)
 endif()

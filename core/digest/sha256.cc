@@ -1,28 +1,15 @@
 #include "core/digest/sha256.h"
 
-// The calls that OpenSSL 3 calls old do not first load its configuration and its algorithms, which
-// takes as long as the skeleton of a small object.
-#define OPENSSL_SUPPRESS_DEPRECATED
-#include <openssl/sha.h>
+#include <algorithm>
 
 namespace bccskel {
+namespace {
 
-class Sha256::State {
- public:
-  State() { SHA256_Init(&context_); }
-  void Add(std::span<const std::byte> bytes) {
-    SHA256_Update(&context_, bytes.data(), bytes.size());
-  }
-  Sha256Digest Finish() {
-    Sha256Digest digest;
-    SHA256_Final(digest.bytes.data(), &context_);
-    SHA256_Init(&context_);
-    return digest;
-  }
+constexpr Sha256State kStart = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+constexpr std::array<std::byte, kSha256Block> kPadding = {std::byte{0x80}};
 
- private:
-  SHA256_CTX context_;
-};
+}  // namespace
 
 std::string Sha256Digest::Hex() const {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -35,14 +22,39 @@ std::string Sha256Digest::Hex() const {
   return hex;
 }
 
-Sha256::Sha256() : state_(std::make_unique<State>()) {}
-Sha256::~Sha256() = default;
-Sha256::Sha256(Sha256&&) noexcept = default;
-Sha256& Sha256::operator=(Sha256&&) noexcept = default;
+Sha256::Sha256() : state_(kStart) {}
 
-void Sha256::Add(std::span<const std::byte> bytes) { state_->Add(bytes); }
+void Sha256::Add(std::span<const std::byte> bytes) {
+  size_t used = size_ % kSha256Block;
+  size_ += bytes.size();
+  if (used > 0) {
+    const size_t count = std::min(bytes.size(), kSha256Block - used);
+    std::ranges::copy(bytes.first(count), rest_.begin() + static_cast<ptrdiff_t>(used));
+    bytes = bytes.subspan(count);
+    used += count;
+    if (used < kSha256Block) return;
+    AddSha256Blocks(rest_, state_);
+  }
+  const size_t whole = bytes.size() - bytes.size() % kSha256Block;
+  AddSha256Blocks(bytes.first(whole), state_);
+  std::ranges::copy(bytes.subspan(whole), rest_.begin());
+}
 
-Sha256Digest Sha256::Finish() { return state_->Finish(); }
+Sha256Digest Sha256::Finish() {
+  const uint64_t bits = 8 * size_;
+  const size_t length = sizeof(bits);
+  const size_t used = (size_ + length) % kSha256Block;
+  Add(std::span(kPadding).first(kSha256Block - used));
+  std::array<std::byte, length> end;
+  for (size_t n = 0; n < length; ++n) end[n] = static_cast<std::byte>(bits >> (56 - 8 * n));
+  Add(end);
+  Sha256Digest digest;
+  for (size_t n = 0; n < digest.bytes.size(); ++n) {
+    digest.bytes[n] = static_cast<uint8_t>(state_[n / 4] >> (24 - 8 * (n % 4)));
+  }
+  *this = Sha256();
+  return digest;
+}
 
 Sha256Digest Sha256Of(std::span<const std::byte> bytes) {
   Sha256 sha;

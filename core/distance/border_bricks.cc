@@ -46,10 +46,13 @@ void Pad(Boxes& boxes) {
 }  // namespace
 
 BorderBricks::BorderBricks(const Volume& object) {
+  const std::span<const BrickNeighborhood> neighbors = object.neighbors();
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    first_of_.push_back(static_cast<uint32_t>(places_.size()));
     AddBackgroundOf(object, n);
-    AddBackgroundBeside(object, n);
+    AddBackgroundBeside(object, neighbors[n], n);
   }
+  first_of_.push_back(static_cast<uint32_t>(places_.size()));
   Pad(boxes_);
   Group();
 }
@@ -80,9 +83,9 @@ void BorderBricks::AddBackgroundOf(const Volume& object, BrickIndex n) {
 }
 
 // Of bricks that are not stored, what may lie beside points of brick n.
-void BorderBricks::AddBackgroundBeside(const Volume& object, BrickIndex n) {
+void BorderBricks::AddBackgroundBeside(const Volume& object, const BrickNeighborhood& near,
+                                       BrickIndex n) {
   const auto none = static_cast<BrickIndex>(object.brick_count());
-  const BrickNeighborhood& near = object.neighbors()[n];
   if (std::ranges::find(near, none) == near.end()) return;
   const BrickCoordinates brick = object.keys()[n].coordinates();
   const CellBox points = BoxAround(object.bricks()[n], brick);

@@ -48,6 +48,10 @@ class BorderBricks {
 
   // Place n has box n; places are not padded.
   std::span<const Place> places() const { return places_; }
+  // A stored brick's place, if it has background, and the places beside it that are not stored.
+  std::span<const Place> PlacesOf(BrickIndex brick) const {
+    return places().subspan(first_of_[brick], first_of_[brick + 1] - first_of_[brick]);
+  }
   const Boxes& boxes() const { return boxes_; }
   // Box n is around the boxes from n * kBoxGroup on.
   const Boxes& groups() const { return groups_; }
@@ -58,11 +62,12 @@ class BorderBricks {
   };
   static CellBox BoxAround(const BrickBits& bits, BrickCoordinates brick);
   void AddBackgroundOf(const Volume& object, BrickIndex n);
-  void AddBackgroundBeside(const Volume& object, BrickIndex n);
+  void AddBackgroundBeside(const Volume& object, const BrickNeighborhood& near, BrickIndex n);
   void Add(const Place& place, const CellBox& box);
   void Group();
 
   std::vector<Place> places_;
+  std::vector<uint32_t> first_of_;  // by brick, and the end
   Boxes boxes_;
   Boxes groups_;
 };

@@ -5,6 +5,10 @@
 #include <cstdlib>
 #include <limits>
 #include <span>
+#include <utility>
+
+#include "core/lattice/directions.h"
+#include "core/volume/brick_neighbors.h"
 
 // Does:  looks for the nearest background point among the bricks where the background begins.
 // Why it is right: the search reaches farther until a background point is known within its reach,
@@ -25,6 +29,8 @@ constexpr float kReachFactor = 1.25f;
 // Rounding must not take a brick out of the tables, nor the rest of a brick beyond its box.
 constexpr float kRoundingSlack = 1.001f;
 constexpr int32_t kBrickLength = 2 * kBrickZ;
+constexpr int32_t kFirstWays = static_cast<int32_t>(kRoundingSlack * kFirstReach) + kBrickLength;
+constexpr float kFewBricks = 12;  // a ball of this radius lies in few bricks
 
 float Square(double unit) { return static_cast<float>(unit * unit); }
 
@@ -58,11 +64,15 @@ std::span<const BrickBits> ExactRadius::Bricks() const {
   return changed_bricks_.empty() ? object_.padded_bricks() : changed_bricks_;
 }
 
+std::span<const BorderBricks::Place> ExactRadius::Places() const {
+  return changed_places_.empty() ? border_->places() : changed_places_;
+}
+
 float ExactRadius::At(LatticePoint p) {
   if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
   if (!searches()) {
     const BrickAddress address = AddressOf(p);
-    const BrickIndex brick = *near_bricks_.Find(address.brick);
+    const BrickIndex brick = near_bricks_.Find(address.brick);
     return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));
@@ -70,21 +80,104 @@ float ExactRadius::At(LatticePoint p) {
   return static_cast<float>(std::sqrt(double{last_.squared}));
 }
 
+PointSearch ExactRadius::SearchFrom(LatticePoint p, int32_t most) {
+  squared_y_.Reach(most);
+  squared_z_.Reach(most);
+  return {.at = p, .squares = squares_, .y = squared_y_, .z = squared_z_};
+}
+
 // Whether there is background within reach.
 bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
-  squared_y_.Reach(most);
-  squared_z_.Reach(most);
-  const PointSearch search = {.at = p, .squares = squares_, .y = squared_y_, .z = squared_z_};
+  const PointSearch search = SearchFrom(p, most);
   last_.squared = std::min(SquareOf(last_.at - p, most), reach * reach);
   const size_t count = FindNearBoxes(border_->groups(), search, last_.squared, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   PutNearestFirst(groups);
   for (const NearBox& group : groups) {
     if (group.squared >= last_.squared) continue;
-    FindNearestBackground(*border_, group.box, Bricks(), search, last_);
+    FindNearestBackground(Places(), border_->boxes(), group.box, Bricks(), search, last_);
   }
   return last_.squared < reach * reach;
+}
+
+LatticePoint ExactRadius::NearestAt(LatticePoint p, float radius) {
+  ForgetNearest();
+  if (radius > kFewBricks || !SearchAround(p, radius)) At(p);
+  return last_.at;
+}
+
+// With the same spacing along all axes, squares to points of the same sublattice are multiples of
+// 4, and others to those of the other.
+void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
+  const float reach = kRoundingSlack * radius, squared = reach * reach;
+  const auto most = static_cast<int32_t>(reach);
+  const bool is_known = scale_ == kIsotropic;
+  const bool is_same = static_cast<int32_t>(std::lround(radius * radius)) % 4 == 0;
+  bricks_around_.clear();
+  for (Sublattice sublattice : kSublattices) {
+    if (is_known && (sublattice == SublatticeOf(p)) != is_same) continue;
+    const auto odd = static_cast<int32_t>(sublattice);
+    const auto cell = [&](int32_t at) { return (at - odd) >> 1; };
+    // From a coordinate to the cells of a brick along an axis.
+    const auto to_brick = [&](size_t axis, int32_t at, int32_t low, int32_t cells) {
+      const int32_t way = std::max({low - at, at - (low + 2 * (cells - 1)), 0});
+      return squares_[axis] * static_cast<float>(way) * static_cast<float>(way);
+    };
+    for (int32_t bz = cell(p.z - most) >> 3; bz <= cell(p.z + most) >> 3; ++bz) {
+      const float z = to_brick(2, p.z, 2 * kBrickZ * bz + odd, kBrickZ);
+      for (int32_t by = cell(p.y - most) >> 2; by <= cell(p.y + most) >> 2; ++by) {
+        const float zy = z + to_brick(1, p.y, 2 * kBrickY * by + odd, kBrickY);
+        for (int32_t bx = cell(p.x - most) >> 4; bx <= cell(p.x + most) >> 4; ++bx) {
+          if (zy + to_brick(0, p.x, 2 * kBrickX * bx + odd, kBrickX) > squared) continue;
+          const BrickCoordinates at = {bx, by, bz, sublattice};
+          bricks_around_.push_back({near_bricks_.Find(at), PointOf(at, 0)});
+        }
+      }
+    }
+  }
+}
+
+// Whether it is certain to which of equally near points At() would come first. It searches a brick
+// that is not stored when it comes to the first object brick beside it.
+bool ExactRadius::SearchAround(LatticePoint p, float radius) {
+  FindBricksAround(p, radius);
+  found_around_.resize(bricks_around_.size());
+  const PointSearch search = SearchFrom(p, kFirstWays);
+  FindNearestOfEach(bricks_around_, Bricks(), search, found_around_.data());
+  nearest_around_.clear();
+  float least = std::numeric_limits<float>::infinity();
+  for (const NearestPoint& found : found_around_) least = std::min(least, found.squared);
+  if (static_cast<float>(std::sqrt(double{least})) != radius) return false;  // another point's
+  for (size_t n = 0; n < found_around_.size(); ++n) {
+    if (found_around_[n].squared == least) nearest_around_.push_back(n);
+  }
+  if (nearest_around_.size() > 1) {
+    const auto is_stored = [&](size_t n) {
+      return bricks_around_[n].index < object_.brick_count();
+    };
+    if (!std::ranges::all_of(nearest_around_, is_stored)) return false;
+    nearest_around_[0] = FirstSearched(nearest_around_, search);
+  }
+  last_ = found_around_[nearest_around_[0]];
+  return true;
+}
+
+// To which of stored bricks around At() comes first: it begins with the nearest group, in place of
+// which comes the first.
+size_t ExactRadius::FirstSearched(std::span<const size_t> around, const PointSearch& search) {
+  const float below =
+      std::min(SquareOf(kOutside.at - search.at, kFirstWays), kFirstReach * kFirstReach);
+  const size_t count = FindNearBoxes(border_->groups(), search, below, near_groups_.data());
+  const auto groups = std::span(near_groups_).first(count);
+  const size_t nearest = std::ranges::min_element(groups, {}, &NearBox::squared)->box;
+  return *std::ranges::min_element(around, {}, [&](size_t n) {
+    const auto places = border_->PlacesOf(bricks_around_[n].index);
+    const auto place = static_cast<size_t>(places.data() - border_->places().data());
+    const size_t group = place / kBoxGroup;
+    const size_t turn = group == nearest ? 0 : 1 + (group == groups[0].box ? nearest : group);
+    return std::pair(turn, place);
+  });
 }
 
 // Infinite where a way along y or z is longer than `most`.
@@ -106,10 +199,33 @@ float ExactRadius::Between(LatticePoint p, LatticePoint background) const {
 void ExactRadius::TakeFromBackground(LatticePoint q) {
   if (changed_bricks_.empty()) {
     changed_bricks_.assign(object_.padded_bricks().begin(), object_.padded_bricks().end());
+    changed_places_.assign(border_->places().begin(), border_->places().end());
   }
   const BrickAddress address = AddressOf(q);
-  changed_bricks_[*object_.Find(BrickKey(address.brick))].Set(address.bit);
+  changed_bricks_[ChangedBrick(address.brick)].Set(address.bit);
   if (last_.at == q) last_ = kOutside;
+}
+
+// A brick that is not stored is made one, which all its places have then.
+BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
+  const BrickIndex stored = near_bricks_.Find(brick), none = near_bricks_.none();
+  if (stored != none) return stored;
+  const auto added = static_cast<BrickIndex>(changed_bricks_.size());
+  const LatticePoint low = PointOf(brick, 0);
+  for (int position = 0; position < kNeighborCount; ++position) {
+    const BrickIndex beside = near_bricks_.Find(NeighborBrick(brick, position));
+    if (beside == none) continue;
+    const std::span<const BorderBricks::Place> places = border_->PlacesOf(beside);
+    const auto first = static_cast<size_t>(places.data() - border_->places().data());
+    for (size_t n = first; n < first + places.size(); ++n) {
+      BorderBricks::Place& place = changed_places_[n];
+      if (place.low != low) continue;
+      if (place.index != none) return place.index;
+      place.index = added;
+    }
+  }
+  changed_bricks_.emplace_back();
+  return added;
 }
 
 absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const ExactRadius& untouched,

@@ -40,32 +40,46 @@ class ExactRadius {
   // Afterwards, which of equally near points nearest() says depends on the next point alone, not on
   // those asked for before.
   void ForgetNearest() { last_ = kOutside; }
+  // What nearest() says after ForgetNearest() and At(p), which is `radius`: mostly found in the few
+  // bricks around. Needs: this searches and nothing was taken; an object point.
+  LatticePoint NearestAt(LatticePoint p, float radius);
   // From p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 
   // From now on this copy does not find q. Background that has no object point beside it might not
   // be found either, so q must have enough of them around: see FirmDepth.
-  // Needs: this searches; q lies in a stored brick.
+  // Needs: this searches.
   void TakeFromBackground(LatticePoint q);
 
  private:
   ExactRadius(const Volume& object, const DistanceField* field);
   std::span<const BrickBits> Bricks() const;
+  std::span<const BorderBricks::Place> Places() const;
   static constexpr NearestPoint kOutside = {{-1, -1, -1}, 0};
 
+  PointSearch SearchFrom(LatticePoint p, int32_t most);
   bool SearchWithin(float reach, LatticePoint p);
+  void FindBricksAround(LatticePoint p, float radius);
+  bool SearchAround(LatticePoint p, float radius);
+  BrickIndex ChangedBrick(const BrickCoordinates& brick);
+  size_t FirstSearched(std::span<const size_t> around, const PointSearch& search);
   float SquareOf(LatticePoint way, int32_t most) const;
 
   const Volume& object_;
   const DistanceField* field_;                  // null where background is searched for
   std::shared_ptr<const BorderBricks> border_;  // null where it is not
-  std::vector<BrickBits> changed_bricks_;       // padded; empty where nothing was taken
-  std::vector<NearBox> near_groups_;            // room for all
+  // Empty where nothing was taken. Behind the padding brick come those that are not stored.
+  std::vector<BrickBits> changed_bricks_;
+  std::vector<BorderBricks::Place> changed_places_;
+  std::vector<NearBox> near_groups_;  // room for all
   NearbyBricks near_bricks_;
   AxisScale scale_;
   std::array<float, 3> squares_;  // of a lattice coordinate along each axis
   SquaredWays<1> squared_y_;
   SquaredWays<kBrickY> squared_z_;
+  std::vector<BorderBricks::Place> bricks_around_;
+  std::vector<NearestPoint> found_around_;  // of each of them
+  std::vector<size_t> nearest_around_;      // those of them with the nearest
   NearestPoint last_ = kOutside;  // of the point asked for before, which is mostly close by
 };
 

@@ -155,21 +155,34 @@ HWY_INLINE void SearchBrick(const SeenFrom& seen, float square_x, const BrickBit
   TakeNearest(seen, squares, hn::GetLane(hn::MinOfLanes(f32, least)), object, low, nearest);
 }
 
-void FindNearestTarget(const BorderBricks& border, size_t group, std::span<const BrickBits> object,
-                       const PointSearch& search, NearestPoint& nearest) {
+HWY_INLINE SeenFrom Seen(const BorderBricks::Place& place, const PointSearch& search) {
+  return {search.at.x - place.low.x, search.y.From(place.low.y - search.at.y),
+          search.z.From(place.low.z - search.at.z)};
+}
+
+void FindNearestTarget(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                       size_t group, std::span<const BrickBits> object, const PointSearch& search,
+                       NearestPoint& nearest) {
   const Floats f32;
   alignas(64) float squares[16];
   for (size_t n = group * kBoxGroup; n < (group + 1) * kBoxGroup; n += hn::Lanes(f32)) {
-    const auto squared = SquaresToBoxes(border.boxes(), n, search);
+    const auto squared = SquaresToBoxes(boxes, n, search);
     hn::Store(squared, f32, squares);
     for (uint32_t near = LanesBelow(squared, nearest.squared); near != 0; near &= near - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(near));
       if (squares[lane] >= nearest.squared) continue;
-      const BorderBricks::Place& place = border.places()[n + lane];
-      const SeenFrom seen = {search.at.x - place.low.x, search.y.From(place.low.y - search.at.y),
-                             search.z.From(place.low.z - search.at.z)};
-      SearchBrick(seen, search.squares[0], object[place.index], place.low, nearest);
+      const BorderBricks::Place& place = places[n + lane];
+      SearchBrick(Seen(place, search), search.squares[0], object[place.index], place.low, nearest);
     }
+  }
+}
+
+void FindNearestOfEachTarget(std::span<const BorderBricks::Place> places,
+                             std::span<const BrickBits> object, const PointSearch& search,
+                             NearestPoint* found) {
+  for (const BorderBricks::Place& place : places) {
+    found->squared = std::numeric_limits<float>::infinity();
+    SearchBrick(Seen(place, search), search.squares[0], object[place.index], place.low, *found++);
   }
 }
 
@@ -182,15 +195,22 @@ namespace bccskel {
 
 HWY_EXPORT(FindNearBoxesTarget);
 HWY_EXPORT(FindNearestTarget);
+HWY_EXPORT(FindNearestOfEachTarget);
 
 size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found) {
   return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(boxes, search, below, found);
 }
 
-void FindNearestBackground(const BorderBricks& border, size_t group,
-                           std::span<const BrickBits> object, const PointSearch& search,
-                           NearestPoint& nearest) {
-  HWY_DYNAMIC_DISPATCH(FindNearestTarget)(border, group, object, search, nearest);
+void FindNearestBackground(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                           size_t group, std::span<const BrickBits> object,
+                           const PointSearch& search, NearestPoint& nearest) {
+  HWY_DYNAMIC_DISPATCH(FindNearestTarget)(places, boxes, group, object, search, nearest);
+}
+
+void FindNearestOfEach(std::span<const BorderBricks::Place> places,
+                       std::span<const BrickBits> object, const PointSearch& search,
+                       NearestPoint* found) {
+  HWY_DYNAMIC_DISPATCH(FindNearestOfEachTarget)(places, object, search, found);
 }
 
 }  // namespace bccskel

@@ -73,9 +73,16 @@ size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below,
 
 // Looks for a nearer background point in a group of bricks. The square of a distance is
 // x * x * squares[0] + y + z in this order, with a rounding after each step.
-void FindNearestBackground(const BorderBricks& border, size_t group,
-                           std::span<const BrickBits> object, const PointSearch& search,
-                           NearestPoint& nearest);
+// `places` and `boxes` belong to each other.
+void FindNearestBackground(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                           size_t group, std::span<const BrickBits> object,
+                           const PointSearch& search, NearestPoint& nearest);
+
+// The nearest background point of each brick, with an infinite square where there is none.
+// Shapes: `found` has room for all places.
+void FindNearestOfEach(std::span<const BorderBricks::Place> places,
+                       std::span<const BrickBits> object, const PointSearch& search,
+                       NearestPoint* found);
 
 }  // namespace bccskel
 

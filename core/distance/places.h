@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "core/distance/chamfer_weights.h"
 #include "core/volume/volume.h"
@@ -77,27 +76,32 @@ inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) 
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
-  explicit NearbyBricks(const Volume& object) : object_(object) {}
+  explicit NearbyBricks(const Volume& object) : object_(object) {
+    found_.fill({BrickKey(), none()});
+  }
+  BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
-  std::optional<BrickIndex> Find(const BrickCoordinates& brick) {
+  // The padding brick, none(), if it is not stored.
+  BrickIndex Find(const BrickCoordinates& brick) {
     Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
-    if (found.key != key) found = {key, object_.Find(key)};
+    if (found.key != key) {
+      found = {key, object_.Find(key).value_or(none())};
+    }
     return found.brick;
   }
 
-  // As Volume::Contains(). Needs: a lattice point.
+  // As Volume::Contains(): beside the extent there are no bricks, and no points in those at its
+  // end. Needs: a lattice point that lies less than 2^20 units outside of the extent.
   bool Contains(LatticePoint p) {
-    if (!object_.extent().Contains(p)) return false;
     const BrickAddress address = AddressOf(p);
-    const std::optional<BrickIndex> brick = Find(address.brick);
-    return brick.has_value() && object_.bricks()[*brick].Test(address.bit);
+    return object_.padded_bricks()[Find(address.brick)].Test(address.bit);
   }
 
  private:
   struct Found {
     BrickKey key;  // the default is that of no brick
-    std::optional<BrickIndex> brick;
+    BrickIndex brick = 0;
   };
 
   // Bricks of a box of 128 x 64 x 64 lattice units have different places.

@@ -93,11 +93,8 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
   return *std::move(builder).Build();
 }
 
-// The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
-// points beyond them.
-BorderPoints LastPointsOf(ObjectSource source) {
-  const bool converted = source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
-  return converted ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+bool IsConverted(ObjectSource source) {
+  return source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
 }
 
 DistanceField NoDistances(DistanceKind kind) {
@@ -162,9 +159,12 @@ class Pipeline {
 
   // All stages work on the shifted object; what they made goes back.
   absl::Status RunBeyondBorder(const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        ContinuedObject continued,
-        ContinueBeyondBorder(object, LastPointsOf(options_.source), memory_, context_));
+    // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
+    // points beyond them.
+    const BorderPoints last =
+        IsConverted(options_.source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+    BCCSKEL_ASSIGN_OR_RETURN(ContinuedObject continued,
+                             ContinueBeyondBorder(object, last, memory_, context_));
     continued_.emplace(std::move(continued));
     const LatticePoint shift = ShiftOf(continued_->room);
     for (LatticePoint& p : thinning_.keep) p = p + shift;
@@ -220,11 +220,10 @@ class Pipeline {
   }
 
   absl::Status MeasureVoxels(const Volume& object) {
-    const bool converted =
-        options_.source == ObjectSource::kVoxels || options_.source == ObjectSource::kRefinedVoxels;
-    if (!converted) return absl::OkStatus();
-    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), context_,
-                         result_.graph);
+    if (!IsConverted(options_.source)) return absl::OkStatus();
+    if (!search_.has_value()) search_.emplace(object);
+    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
+                         context_, result_.graph);
   }
 
   // The directional methods only look at shells, and radii are found without chamfer distances.
@@ -285,7 +284,11 @@ class Pipeline {
     }
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
-    if (HasCurves(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, radius, radii));
+    if (IsConverted(options_.source) && !continued_.has_value()) search_.emplace(object);
+    if (HasCurves(options_.thinning)) {
+      const ExactRadius& single = search_.has_value() ? *search_ : radius;
+      BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, single, radii));
+    }
     if (HasSheets(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneSurface(radii));
     result_.skeleton_points = result_.thin.PointCount();
     result_.timings.pruning = clock_.Lap();
@@ -333,13 +336,10 @@ class Pipeline {
   std::vector<IsthmusBirth> isthmuses_;
   PruningLevels levels_;
   std::optional<ContinuedObject> continued_;
-  LatticeExtent extent_;  // of the object as it was given, where that is continued
+  std::optional<ExactRadius> search_;  // where radii of voxels are measured
+  LatticeExtent extent_;               // of the object as it was given, where that is continued
   SkeletonizeResult result_;
 };
-
-}  // namespace
-
-namespace {
 
 bool IsForSheets(PruningRule rule) {
   return rule == PruningOptions().rule || rule == PruningRule::kNone;

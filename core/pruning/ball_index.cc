@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace bccskel {
 namespace {
@@ -19,43 +19,63 @@ size_t LevelOf(float radius) {
 }  // namespace
 
 BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale) : scale_(scale) {
+  std::vector<std::pair<uint32_t, Ball>> found;  // with the number of its cube
   set.ForEachPoint([&](LatticePoint p) {
     const float radius = set.RadiusOf(p);
     const size_t level = std::min(LevelOf(radius), kLevels - 1);
-    const LatticePoint cube = CubeOf(PlaceOf(p, scale_), level);
-    uint32_t* first = levels_[level].Find(cube);
-    const auto here = static_cast<uint32_t>(balls_.size());
-    balls_.push_back({p, radius, first != nullptr ? *first : kLast});
-    if (first != nullptr) {
-      *first = here;
-    } else {
-      levels_[level].Set(cube, here);
+    const LatticePoint at = CubeOf(PlaceOf(p, scale_), level);
+    const uint32_t* known = levels_[level].Find(at);
+    const auto cube = known != nullptr ? *known : static_cast<uint32_t>(cubes_.size());
+    if (known == nullptr) {
+      levels_[level].Set(at, cube);
+      cubes_.emplace_back();
     }
+    ++cubes_[cube].end;  // how many there are, for now
+    found.push_back({cube, {p, radius}});
   });
+  uint32_t first = 0;
+  for (Cube& cube : cubes_) {
+    const uint32_t count = cube.end;
+    cube = {first, first};
+    first += count;
+  }
+  balls_.resize(found.size());
+  ball_at_.Reserve(found.size());
+  for (const auto& [cube, ball] : found) {
+    ball_at_.Set(ball.center, cubes_[cube].end);
+    balls_[cubes_[cube].end++] = ball;
+  }
 }
 
-bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set,
-                          const PointSet& own) const {
+void BallIndex::SetOwn(std::span<const LatticePoint> own) {
+  ++branch_;
+  for (LatticePoint p : own) {
+    if (const uint32_t* ball = ball_at_.Find(p); ball != nullptr) balls_[*ball].branch = branch_;
+  }
+}
+
+bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set) const {
   const Coordinates place = PlaceOf(p, scale_);
   const auto covers = [&](const Ball& ball) {
     const Coordinates between = Sum(PlaceOf(ball.center, scale_), -1, place);
     const double reach = kInside * ball.radius;
-    return Dot(between, between) < reach * reach && 2 * ball.radius < way &&
-           !own.contains(ball.center) && set.Contains(ball.center);
+    return Dot(between, between) < reach * reach && ball.branch != branch_ &&
+           2 * ball.radius < way && set.Contains(ball.center);
   };
   // Balls of a level have at least half the radius of its cubes' width.
-  for (size_t level = 0; level < kLevels && std::ldexp(1.0, static_cast<int>(level)) <= way;
-       ++level) {
-    const Cubes& cubes = levels_[level];
+  double width = 1;
+  for (size_t level = 0; level < kLevels && width <= way; ++level, width *= 2) {
+    const PointTable<uint32_t>& cubes = levels_[level];
     if (cubes.empty()) continue;
-    const double reach = kInside * std::ldexp(1.0, static_cast<int>(level));
+    const double reach = kInside * width;
     const LatticePoint low = CubeOf(Sum(place, -reach, kAlongAll), level);
     const LatticePoint high = CubeOf(Sum(place, reach, kAlongAll), level);
     for (int32_t z = low.z; z <= high.z; ++z) {
       for (int32_t y = low.y; y <= high.y; ++y) {
         for (int32_t x = low.x; x <= high.x; ++x) {
-          const uint32_t* first = cubes.Find({x, y, z});
-          for (uint32_t n = first != nullptr ? *first : kLast; n != kLast; n = balls_[n].next) {
+          const uint32_t* number = cubes.Find({x, y, z});
+          const Cube cube = number != nullptr ? cubes_[*number] : Cube();
+          for (uint32_t n = cube.first; n < cube.end; ++n) {
             if (covers(balls_[n])) return true;
           }
         }
@@ -65,10 +85,13 @@ bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set,
   return false;
 }
 
+// Rounded, but no place has a cube before that of a smaller one, so what lies between two places
+// lies between their cubes. No call of the library.
 LatticePoint BallIndex::CubeOf(const Coordinates& place, size_t level) {
-  const double cubes_per_unit = std::ldexp(1.0, -static_cast<int>(level) - 1);
+  constexpr int32_t kMost = 1 << 20;
+  const double cubes_per_unit = 1 / static_cast<double>(uint64_t{2} << level);
   const auto at = [&](size_t axis) {
-    return static_cast<int32_t>(std::floor(place[axis] * cubes_per_unit));
+    return static_cast<int32_t>(place[axis] * cubes_per_unit + kMost) - kMost;
   };
   return {at(0), at(1), at(2)};
 }

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/lattice/directions.h"
-#include "core/prepare/denoise.h"
 
 namespace bccskel {
 namespace {
@@ -15,11 +13,8 @@ constexpr int kMajority = 8;  // of a background point's 14 neighbors and itself
 
 }  // namespace
 
-FirmDepth::FirmDepth(const Volume& object, const ExactRadius& radius, const exec::Context& context)
-    : object_(object),
-      context_(context),
-      bricks_(object),
-      radius_(radius.searches() ? radius : ExactRadius(object)) {
+FirmDepth::FirmDepth(const Volume& object, const ExactRadius& radius)
+    : bricks_(object), radius_(radius.searches() ? radius : ExactRadius(object)) {
   lately_.fill(kOutside);
 }
 
@@ -33,35 +28,23 @@ float FirmDepth::At(LatticePoint p) {
 float FirmDepth::AtMost(LatticePoint p) const {
   if (const float* known = known_.Find(p); known != nullptr) return *known;
   float least = std::numeric_limits<float>::infinity();
-  for (LatticePoint q : lately_) least = std::min(least, radius_->Between(p, q));
+  for (LatticePoint q : lately_) least = std::min(least, radius_.Between(p, q));
   return least;
 }
 
 float FirmDepth::Search(LatticePoint p) {
-  float depth = radius_->At(p);
-  while (filled_ == nullptr && IsPit(radius_->nearest())) {
-    const LatticePoint pit = radius_->nearest();
-    if (bricks_.Find(AddressOf(pit).brick).has_value()) {
-      radius_->TakeFromBackground(pit);
-    } else {
-      FillAllPits();
-    }
-    depth = radius_->At(p);
+  float depth = radius_.At(p);
+  while (IsPit(radius_.nearest())) {
+    radius_.TakeFromBackground(radius_.nearest());
+    depth = radius_.At(p);
   }
-  Remember(radius_->nearest());
+  Remember(radius_.nearest());
   return depth;
 }
 
 bool FirmDepth::IsPit(LatticePoint q) {
   const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(q + offset); };
   return std::ranges::count_if(kDirections14, in_object) >= kMajority;
-}
-
-void FirmDepth::FillAllPits() {
-  absl::StatusOr<ChangedVolume> filled = FillPits(object_, context_);
-  filled_ = filled.ok() ? std::make_unique<const Volume>(std::move(filled->object))
-                        : std::make_unique<const Volume>(object_);
-  radius_.emplace(*filled_);
 }
 
 void FirmDepth::Remember(LatticePoint background) {

@@ -83,8 +83,8 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
   bool flat = false;  // so far
   for (size_t n = path.size(); n-- > 0;) {
     const double back = set.Between(path[n], path.back()), radius = depth_.At(path[n]);
-    const double width =
-        WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n), kMostFlatness * radius + kMostMargin);
+    const double width = WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n, set),
+                                 kMostFlatness * radius + kMostMargin);
     if (back > kCutWidths * width + kMargin) break;
     const bool is_flat = width > kFlatness * radius + kFlatMargin;
     flat = flat || is_flat;
@@ -97,24 +97,25 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
 }
 
 // Noise may lie between a place and the background, so the normal is the mean of a few places'.
-Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t position) {
+Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t position,
+                              const ThinSet& set) {
   const size_t first = position - std::min(position, kNormalReach);
   const size_t last = std::min(position + kNormalReach, path.size() - 1);
   Coordinates sum = {0, 0, 0};
   for (size_t n = first; n <= last; ++n) {
-    const Coordinates way = WayToBackground(path, n);
+    const Coordinates way = WayToBackground(path, n, set);
     sum = Sum(sum, Dot(sum, way) < 0 ? -1 : 1, way);
   }
   return Unit(sum);
 }
 
 // Of length 1.
-Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t position) {
+Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t position,
+                                     const ThinSet& set) {
   std::optional<Coordinates>& way = ways_[position];
   if (!way.has_value()) {
-    radius_.ForgetNearest();
-    radius_.At(path[position]);
-    way = Unit(Sum(PlaceOf(radius_.nearest(), scale_), -1, PlaceOf(path[position], scale_)));
+    const LatticePoint p = path[position], background = radius_.NearestAt(p, set.RadiusOf(p));
+    way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
   }
   return *way;
 }

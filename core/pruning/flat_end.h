@@ -43,8 +43,9 @@ class FlatEnd {
 
  private:
   std::vector<Place> WidePlaces(std::span<const LatticePoint> path, const ThinSet& set);
-  Coordinates WayToBackground(std::span<const LatticePoint> path, size_t position);
-  Coordinates NormalAt(std::span<const LatticePoint> path, size_t position);
+  Coordinates WayToBackground(std::span<const LatticePoint> path, size_t position,
+                              const ThinSet& set);
+  Coordinates NormalAt(std::span<const LatticePoint> path, size_t position, const ThinSet& set);
   double WidthAt(const Coordinates& place, const Coordinates& normal, double longest);
   double WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
                   double longest);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/distance/points_along.h"
+
 namespace bccskel {
 namespace {
 
@@ -139,12 +141,12 @@ double Significance::BestRoot(const ThinSet& set, std::span<const LatticePoint> 
 // Points near the junction are not counted: there, other branches have to be near.
 double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run) {
   if (!balls_.has_value()) balls_.emplace(set, scale_);
-  const PointSet own(branch.points.begin(), branch.points.end());
+  balls_->SetOwn(branch.points);
   const size_t stride = (run.to - run.from) / kCoverSamples + 1;
   size_t covered = 0, samples = 0;
   for (size_t n = std::max<size_t>(run.from, 1); n <= run.to; n += stride, ++samples) {
     const LatticePoint p = branch.points[branch.points.size() - n];
-    if (balls_->IsCovered(p, set.Between(p, *branch.junction), set, own)) ++covered;
+    if (balls_->IsCovered(p, set.Between(p, *branch.junction), set)) ++covered;
   }
   return 1 - static_cast<double>(covered) / static_cast<double>(samples);
 }
@@ -188,19 +190,22 @@ bool Significance::Widen(const Coordinates& side, double reach, Section& section
   return true;
 }
 
-// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`.
-// A single missing point is noise and passed over.
+// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`,
+// a whole number. A single missing point is noise and passed over.
 double Significance::WayOut(const Coordinates& from, const Coordinates& way, double start,
                             double reach) {
   double out = start;
+  PointsAlong ahead;
+  size_t passed = PointsAlong::kCount;  // of those ahead
   while (out < reach) {
-    if (InObject(Sum(from, out + 1, way))) {
-      out += 1;
-    } else if (InObject(Sum(from, out + 2, way))) {
-      out += 2;
-    } else {
-      break;
+    if (passed + 2 > PointsAlong::kCount) {
+      ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
+      passed = 0;
     }
+    const size_t steps = bricks_.Contains(ahead[passed]) ? 1 : 2;
+    if (steps == 2 && !bricks_.Contains(ahead[passed + 1])) break;
+    passed += steps;
+    out += static_cast<double>(steps);
   }
   return out;
 }

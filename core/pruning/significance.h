@@ -84,7 +84,6 @@ class Significance {
   double BestRoot(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
                   const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
-  bool InObject(const Coordinates& place) { return bricks_.Contains(PointNear(place, scale_)); }
 
   const double noise_;
   const AxisScale scale_;

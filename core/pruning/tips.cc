@@ -37,12 +37,12 @@ constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, double noise, const exec::Context& context)
+            const PointSet& keep, double noise)
       : set_(set),
         bricks_(object),
         radius_(radius),
         searching_(radius.searches() ? radius : ExactRadius(space)),
-        depth_(space, searching_, context),
+        depth_(space, searching_),
         flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
@@ -70,7 +70,7 @@ class TipPlacer {
   void FindRoot(const FreeBranch& branch) {
     std::vector<LatticePoint> path(branch.points.rbegin(), branch.points.rend());
     junction_ = branch.junction;
-    own_ = PointSet(path.begin(), path.end());
+    own_ = path;
     if (junction_.has_value()) {
       path.insert(path.begin(), *junction_);
     } else {
@@ -187,6 +187,7 @@ class TipPlacer {
   }
 
   void Extend() {
+    balls_.SetOwn(own_);
     double best = Merit(path_.back());
     const LatticePoint start = path_.back();
     const double longest = root_radius_ + kGrowthMargin;
@@ -201,7 +202,7 @@ class TipPlacer {
   }
 
   bool IsInBallOfAnother(LatticePoint p) const {
-    return junction_.has_value() && balls_.IsCovered(p, set_.Between(p, *junction_), set_, own_);
+    return junction_.has_value() && balls_.IsCovered(p, set_.Between(p, *junction_), set_);
   }
 
   // Its radius is measured once it is sure to stay: most points do not.
@@ -279,10 +280,10 @@ class TipPlacer {
   FirmDepth depth_;
   FlatEnd flat_;
   const PointSet& keep_;
-  const BallIndex balls_;
+  BallIndex balls_;
   const double noise_;
   std::optional<LatticePoint> junction_;  // of the branch
-  PointSet own_;                          // its points
+  std::vector<LatticePoint> own_;         // its points
   LatticePoint root_;                     // where the limb begins; it may be cut off
   double root_radius_ = 0;
   LatticePoint anchor_;
@@ -298,7 +299,7 @@ absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
                        const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, noise, context);
+  TipPlacer placer(set, object, space, radius, keep, noise);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

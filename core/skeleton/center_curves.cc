@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/distance/points_along.h"
 #include "core/exec/stop_poll.h"
 #include "core/skeleton/curve_smoothing.h"
 
 namespace bccskel {
 namespace {
 
-constexpr int kRings = 3;         // of samples from the curve to the rim of the disc
+constexpr int kRings = 3;  // of samples from the curve to the rim of the disc
+static_assert(2 * kRings + 1 <= PointsAlong::kCount);
 constexpr double kLeastStep = 1;  // between samples, in lattice units
 constexpr size_t kPointsAtOnce = 1024;
 constexpr size_t kPointWork = 16;    // in the unit of Context::WorkersFor()
@@ -23,29 +25,15 @@ constexpr size_t kTangentReach = 2;  // points on either side that give the curv
 class DiscCenters {
  public:
   DiscCenters(const Volume& object, const DistanceField& field)
-      : object_(object), field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+      : field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
 
   Coordinates PlaceOf(LatticePoint p) const { return bccskel::PlaceOf(p, scale_); }
 
   // The way from `middle` to the center of the disc across `way` around it, along the disc.
   Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) {
-    const double step = std::max(radius / kRings, kLeastStep);
-    const int rings = static_cast<int>(radius / step);
-    const auto [u, v] = Across(way);
-    Coordinates sum = {0, 0, 0};
-    double weights = 0;
-    for (int i = -rings; i <= rings; ++i) {
-      for (int j = -rings; j <= rings; ++j) {
-        if (i * i + j * j > rings * rings) continue;
-        const LatticePoint p = PointNear(Sum(Sum(middle, i * step, u), j * step, v), scale_);
-        const double weight = SquaredDistance(p);
-        sum = Sum(sum, weight, Sum(PlaceOf(p), -1, middle));
-        weights += weight;
-      }
-    }
-    if (weights == 0) return {0, 0, 0};
-    const Coordinates center = Sum({0, 0, 0}, 1 / weights, sum);
-    return Sum(center, -Dot(center, way), way);
+    return std::visit(
+        [&](const auto& squares) { return WayToCenter(squares, middle, way, radius); },
+        field_.values());
   }
 
   std::array<int16_t, 3> ShiftOf(const Coordinates& way) const {
@@ -58,16 +46,33 @@ class DiscCenters {
   }
 
  private:
-  double SquaredDistance(LatticePoint p) {
-    if (!object_.extent().Contains(p)) return 0;
-    const BrickAddress address = AddressOf(p);
-    const std::optional<BrickIndex> brick = bricks_.Find(address.brick);
-    if (!brick.has_value()) return 0;
-    const double distance = field_.ToLatticeUnits(field_.At(*brick, address.bit));
-    return distance * distance;
+  template <typename Squares>
+  Coordinates WayToCenter(const Squares& squares, const Coordinates& middle, const Coordinates& way,
+                          double radius) {
+    const double step = std::max(radius / kRings, kLeastStep);
+    const int rings = static_cast<int>(radius / step);
+    const auto [u, v] = Across(way);
+    Coordinates sum = {0, 0, 0};
+    double weights = 0;
+    for (int i = -rings; i <= rings; ++i) {
+      const PointsAlong row = FindPointsAlong(Sum(middle, i * step, u), v, -rings, step, scale_);
+      for (int j = -rings; j <= rings; ++j) {
+        if (i * i + j * j > rings * rings) continue;
+        const LatticePoint p = row[static_cast<size_t>(j + rings)];
+        const BrickAddress address = AddressOf(p);
+        const size_t brick = bricks_.Find(address.brick);
+        const double distance = std::sqrt(
+            static_cast<double>(squares[brick * kBrickPoints + static_cast<size_t>(address.bit)]));
+        const double weight = distance * distance;
+        sum = Sum(sum, weight, Sum(PlaceOf(p), -1, middle));
+        weights += weight;
+      }
+    }
+    if (weights == 0) return {0, 0, 0};
+    const Coordinates center = Sum({0, 0, 0}, 1 / weights, sum);
+    return Sum(center, -Dot(center, way), way);
   }
 
-  const Volume& object_;
   const DistanceField& field_;
   const AxisScale scale_;
   NearbyBricks bricks_;

@@ -64,12 +64,15 @@ NeighborMask BackgroundOf(NeighborMask mask) {
 
 // The component of `start` among the neighbors in `mask`.
 NeighborMask ComponentAround(NeighborMask start, NeighborMask mask) {
-  for (;;) {
-    unsigned grown = start;
-    ForEachDirection(start, [&](Direction d) { grown |= NeighborsAmongN14(d) & mask; });
-    if (grown == start) return start;
-    start = static_cast<NeighborMask>(grown);
+  unsigned component = start;
+  for (unsigned fresh = start; fresh != 0;) {
+    unsigned reached = 0;
+    ForEachDirection(static_cast<NeighborMask>(fresh),
+                     [&](Direction d) { reached |= NeighborsAmongN14(d); });
+    fresh = reached & mask & ~component;
+    component |= fresh;
   }
+  return static_cast<NeighborMask>(component);
 }
 
 struct Patch {
@@ -86,7 +89,8 @@ class SurfaceWalk {
   // The number of surfaces that start at p and that no earlier call has walked over.
   uint32_t CountNewSurfaces(PointIndex p) {
     uint32_t surfaces = 0;
-    ForEachDirection(BackgroundOf(masks_[p]), [&](Direction q) {
+    const unsigned unseen = BackgroundOf(masks_[p]) & ~unsigned{seen_[p]};
+    ForEachDirection(static_cast<NeighborMask>(unseen), [&](Direction q) {
       if (!Enter(p, q)) return;
       ++surfaces;
       while (!open_.empty() && !poll_.Stopped()) LeavePatch();
@@ -111,6 +115,7 @@ class SurfaceWalk {
       const unsigned shared = NeighborsAmongN14(d) & patch.background;
       if (shared == 0) return;
       const PointIndex r = points_.Neighbor(patch.point, d);
+      if (seen_[r] == BackgroundOf(masks_[r])) return;
       ForEachDirection(static_cast<NeighborMask>(shared), [&](Direction q) {
         Enter(r, Direction(kSeenFrom[static_cast<size_t>(d.bit())][static_cast<size_t>(q.bit())]));
       });

@@ -29,16 +29,15 @@ Clusters::Clusters(const ThinPoints& points, StopPoll& poll)
 // End points keep an empty inner mask, so an end beside a cluster, or two ends side by side, stay
 // clusters of their own.
 void Clusters::Classify(const ThinPoints& points, StopPoll& poll) {
-  const auto is_single = [&](PointIndex p) {
-    return IsPlainCurvePoint(p) || NeighborsIn(points.mask(p)) < 2;
-  };
+  std::vector<uint8_t> is_single(points.size());
   for (PointIndex p = 0; p < points.size() && !poll.Stopped(); ++p) {
     plain_[p] = HasPlainCurveMask(points.mask(p)) ? 1 : 0;
+    is_single[p] = plain_[p] != 0 || NeighborsIn(points.mask(p)) < 2 ? 1 : 0;
   }
   for (PointIndex p = 0; p < points.size() && !poll.Stopped(); ++p) {
-    if (is_single(p)) continue;
+    if (is_single[p] != 0) continue;
     ForEachDirection(points.mask(p), [&](Direction d) {
-      if (is_single(points.Neighbor(p, d))) return;
+      if (is_single[points.Neighbor(p, d)] != 0) return;
       inner_masks_[p] = static_cast<NeighborMask>(inner_masks_[p] | d.mask());
     });
   }

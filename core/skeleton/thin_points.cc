@@ -1,16 +1,27 @@
 #include "core/skeleton/thin_points.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "absl/numeric/int128.h"
 
 namespace bccskel {
 namespace {
 
-// Sorts like the point. Fields have room for a step beyond either end of the largest extent, so
-// that adding a step never carries from one into the next.
-absl::uint128 KeyOf(LatticePoint p) {
-  constexpr int32_t kRoom = 2;
-  const auto field = [](int32_t v) { return static_cast<uint64_t>(v + kRoom); };
-  return absl::MakeUint128(field(p.z), field(p.y) << 32 | field(p.x));
+// Fields have room for a step beyond either end, so that adding a step never carries from one into
+// the next.
+constexpr int32_t kRoom = 2;
+
+// Sorts like the point.
+template <typename Key>
+Key KeyOf(LatticePoint p) {
+  constexpr int kBits = sizeof(Key) * 8 / 3;
+  const auto field = [](int32_t v) { return Key{static_cast<uint32_t>(v + kRoom)}; };
+  return field(p.z) << (2 * kBits) | field(p.y) << kBits | field(p.x);
+}
+
+bool FitsShortKeys(const LatticeExtent& extent) {
+  return 2 * std::max({extent.nx, extent.ny, extent.nz}) + 2 * kRoom < 1 << 21;
 }
 
 // One of each pair of opposite directions: the one to larger points.
@@ -20,7 +31,11 @@ bool IsForward(Direction d) { return LatticePoint{} < d.offset(); }
 
 ThinPoints::ThinPoints(const Volume& thin, std::span<const float> radii, StopPoll& poll) {
   Gather(thin, radii, poll);
-  FindNeighbors(poll);
+  if (FitsShortKeys(thin.extent())) {
+    FindNeighbors<uint64_t>(poll);
+  } else {
+    FindNeighbors<absl::uint128>(poll);
+  }
 }
 
 PointIndex ThinPoints::DeepestOf(std::span<const PointIndex> some) const {
@@ -53,26 +68,28 @@ void ThinPoints::Gather(const Volume& thin, std::span<const float> radii, StopPo
   sort_layer();
 }
 
+template <typename Key>
 void ThinPoints::FindNeighbors(StopPoll& poll) {
   masks_.assign(size(), 0);
   neighbors_.resize(size());
-  std::vector<absl::uint128> keys;
+  std::vector<Key> keys;
   keys.reserve(size() + 1);
-  for (const SkeletonPoint& p : points_) keys.push_back(KeyOf(p.point));
-  keys.push_back(absl::Uint128Max());
+  for (const SkeletonPoint& p : points_) keys.push_back(KeyOf<Key>(p.point));
+  keys.push_back(std::numeric_limits<Key>::max());
   if (poll.StoppedNow()) return;
   for (int bit = 0; bit < kNeighborCount; ++bit) {
-    if (IsForward(Direction(bit))) LinkAlong(Direction(bit), keys, poll);
+    if (IsForward(Direction(bit))) LinkAlong<Key>(Direction(bit), keys, poll);
   }
 }
 
 // The wanted neighbors come in the order of the points, so one walk through the list finds them
 // all, and with them the neighbors the other way.
-void ThinPoints::LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll) {
-  const absl::uint128 step = KeyOf(d.offset()) - KeyOf({});
+template <typename Key>
+void ThinPoints::LinkAlong(Direction d, std::span<const Key> keys, StopPoll& poll) {
+  const Key step = KeyOf<Key>(d.offset()) - KeyOf<Key>({});
   PointIndex at = 0;
   for (PointIndex p = 0; p < size() && !poll.Stopped(); ++p) {
-    const absl::uint128 wanted = keys[p] + step;
+    const Key wanted = keys[p] + step;
     while (keys[at] < wanted) ++at;
     if (keys[at] != wanted) continue;
     masks_[p] = static_cast<NeighborMask>(masks_[p] | d.mask());

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "absl/numeric/int128.h"
 #include "core/exec/stop_poll.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
@@ -43,8 +42,10 @@ class ThinPoints {
 
  private:
   void Gather(const Volume& thin, std::span<const float> radii, StopPoll& poll);
+  template <typename Key>
   void FindNeighbors(StopPoll& poll);
-  void LinkAlong(Direction d, std::span<const absl::uint128> keys, StopPoll& poll);
+  template <typename Key>
+  void LinkAlong(Direction d, std::span<const Key> keys, StopPoll& poll);
 
   std::vector<SkeletonPoint> points_;
   std::vector<NeighborMask> masks_;

@@ -22,6 +22,12 @@ constexpr double kMostFarther = 1.5;
 constexpr double kOutside = 0.1;
 constexpr double kOutsideSmall = 0.2;
 
+// The whole number below. No call of the library.
+int32_t FloorOf(double v) {
+  const auto toward_zero = static_cast<int32_t>(v);
+  return v < toward_zero ? toward_zero - 1 : toward_zero;
+}
+
 class VoxelRadii {
  public:
   VoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search)
@@ -31,12 +37,10 @@ class VoxelRadii {
         search_(search),
         bricks_(object) {}
 
-  // A function of the point alone: the search begins anew, since a tie's answer depends on what was
-  // found before.
-  float At(LatticePoint p) {
-    search_.ForgetNearest();
-    if (search_.At(p) == 0) return 0;
-    const Vector way = WayTo(p, search_.nearest());
+  // `radius` is the distance of p to the nearest background point.
+  float At(LatticePoint p, float radius) {
+    if (radius == 0) return 0;
+    const Vector way = WayTo(p, search_.NearestAt(p, radius));
     const double near = NearSide(p, way);
     const double far = FarSide(p, way, near);
     return static_cast<float>((near + far) / 2);
@@ -48,7 +52,7 @@ class VoxelRadii {
     const std::array<int32_t, 3> from = {p.x, p.y, p.z}, to = {q.x, q.y, q.z};
     Vector way;
     for (size_t a = 0; a < 3; ++a) {
-      const double voxel = std::floor(static_cast<double>(to[a]) / voxel_);
+      const double voxel = FloorOf(static_cast<double>(to[a]) / voxel_);
       const double at = SublatticeOf(q) == Sublattice::kOdd ? voxel_ * (voxel + 0.5) : to[a];
       way[a] = at - from[a];
     }
@@ -66,7 +70,7 @@ class VoxelRadii {
   }
   Voxel VoxelAt(const Vector& at) const {
     Voxel v;
-    for (size_t a = 0; a < 3; ++a) v[a] = static_cast<int32_t>(std::floor(at[a] * per_unit_));
+    for (size_t a = 0; a < 3; ++a) v[a] = FloorOf(at[a] * per_unit_);
     return v;
   }
 
@@ -116,10 +120,14 @@ class VoxelRadii {
     const double length = LengthOf(way), voxel = VoxelAlong(way), step = voxel / kStepsPerVoxel;
     const double begin = std::max(near - voxel, 0.0);
     const auto steps = static_cast<int>((near + kMostFarther * voxel - begin) / step);
+    Voxel passed = {-1, -1, -1};  // no voxel
     for (int n = 0; n < steps; ++n) {
       const double along = (begin + (n + 0.5) * step) / length;
       const Vector at = {p.x - along * way[0], p.y - along * way[1], p.z - along * way[2]};
-      if (!IsObject(VoxelAt(at))) return begin + n * step;
+      const Voxel voxel_here = VoxelAt(at);
+      if (voxel_here == passed) continue;
+      if (!IsObject(voxel_here)) return begin + n * step;
+      passed = voxel_here;
     }
     return near;
   }
@@ -133,8 +141,8 @@ class VoxelRadii {
 
 }  // namespace
 
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec::Context& context,
-                           SkeletonGraph& graph) {
+absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
+                           const exec::Context& context, SkeletonGraph& graph) {
   std::vector<SkeletonPoint*> points;
   for (SkeletonNode& node : graph.nodes) points.push_back(&node.at);
   for (SkeletonPoint& p : graph.points) points.push_back(&p);
@@ -148,7 +156,6 @@ absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec
     if (n == 0 || points[n]->point != points[n - 1]->point) firsts.push_back(n);
   }
   firsts.push_back(points.size());
-  const ExactRadius search(object);
   exec::Portions portions(firsts.size() - 1, 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
   context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
@@ -156,7 +163,7 @@ absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
       for (size_t n = mine.begin; n < mine.end; ++n) {
-        const float radius = radii.At(points[firsts[n]]->point);
+        const float radius = radii.At(points[firsts[n]]->point, points[firsts[n]]->radius);
         for (size_t k = firsts[n]; k < firsts[n + 1]; ++k) points[k]->radius = radius;
       }
     }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "absl/status/status.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/volume/volume.h"
@@ -18,11 +19,13 @@ namespace bccskel {
 //        is flat, and the chord goes on to the face where it leaves the object on the other side.
 //        Where the other side is more than a voxel and a half farther, the point is near no middle
 //        and the near side alone counts.
-// Cost:  a search for the nearest background (see ExactRadius) and a dozen look-ups per point.
-// Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2 or 4).
+// Cost:  a search for background at a known distance (see ExactRadius) and a dozen look-ups per
+// point. Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2
+// or 4);
+//        exact radii; `search`, which belongs to it, searches.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const exec::Context& context,
-                           SkeletonGraph& graph);
+absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
+                           const exec::Context& context, SkeletonGraph& graph);
 
 }  // namespace bccskel
 

@@ -49,11 +49,24 @@ uint64_t GatherBits(const uint8_t* flags) {
   return (bytes * 0x0102040810204080U) >> 56;
 }
 
+constexpr size_t kWordBits = 64;
+
+template <typename T>
+bool AreZeros(const T* values) {
+  std::array<uint64_t, sizeof(T) * kWordBits / sizeof(uint64_t)> words;
+  std::memcpy(words.data(), values, sizeof(words));
+  uint64_t any = 0;
+  for (uint64_t word : words) any |= word;
+  return any == 0;
+}
+
 // Flags first and bits after: the compiler turns the first loop into vector instructions, best
-// where it knows their number.
+// where it knows their number. Most of an image is empty mostly.
 template <typename T, typename Test>
 uint64_t WordOf(const T* values, size_t count, const Test& test) {
-  std::array<uint8_t, 64> flags;
+  if (count == kWordBits && values[0] == T{0} && AreZeros(values))
+    return test(T{0}) ? ~uint64_t{0} : 0;
+  std::array<uint8_t, kWordBits> flags;
   if (count == flags.size()) {
     for (size_t n = 0; n < flags.size(); ++n) flags[n] = test(values[n]) ? 1 : 0;
   } else {

@@ -95,13 +95,28 @@ absl::Status CheckNoSeries(const ImageOptions& options) {
   return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
 }
 
+// What most headers need: what is expanded to look for a longer one is expanded again for voxels.
+constexpr uint64_t kShortFront = uint64_t{1} << 14;
+
+// Headers of NRRD may end with their file, so that a part of one looks whole.
+absl::StatusOr<StoredImage> ParseFront(const ImageFront& front,
+                                       const std::shared_ptr<const ImageFile>& file,
+                                       const ImageOptions& options) {
+  absl::StatusOr<StoredImage> image = ParseStored(front, options);
+  if (front.bytes.size() < kShortFront || (image.ok() && !IsNrrd(front.bytes))) return image;
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront whole, ReadFront(file, options.limits));
+  return ParseStored(whole, options);
+}
+
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
   if (options.level.has_value()) {
     return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
   }
   BCCSKEL_RETURN_IF_ERROR(CheckNoSeries(options));
-  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, options.limits));
+  ImageLimits limits = options.limits;
+  limits.max_header_bytes = std::min(limits.max_header_bytes, kShortFront);
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, limits));
   if (!options.raw.has_value() && IsTiff(front.bytes)) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
     return OpenTiff(std::move(file), options);
@@ -109,7 +124,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   if (options.channel.has_value() || options.time.has_value()) {
     return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
   }
-  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseStored(front, options));
+  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseFront(front, file, options));
   if (options.spacing.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
                              WithSpacing(image.info.placement, *options.spacing));

@@ -124,12 +124,21 @@ Reading ChooseReading(const TriangleMesh& mesh) {
   return best;
 }
 
+bool IsReverse(const Triangle& a, const Triangle& b) {
+  for (size_t n = 0; n < 3; ++n) {
+    if (a[0] == b[n] && a[1] == b[(n + 2) % 3] && a[2] == b[(n + 1) % 3]) return true;
+  }
+  return false;
+}
+
 // The place of each triangle's reverse, where every triangle has one: a surface whose facets are
 // all there from both sides encloses nothing by any rule. Empty otherwise.
 std::vector<uint32_t> ReversesOf(const std::vector<Triangle>& triangles) {
   using Corners = std::array<uint32_t, 4>;  // sorted, and whether the triangle turns as they do
   std::vector<std::pair<Corners, uint32_t>> sorted;
+  const auto is_reverse_of_first = [&](const Triangle& t) { return IsReverse(triangles[0], t); };
   if (triangles.size() % 2 != 0) return {};
+  if (std::ranges::none_of(triangles, is_reverse_of_first)) return {};  // mostly
   for (const Triangle& t : triangles) {
     const auto first = static_cast<size_t>(std::ranges::min_element(t) - t.begin());
     const uint32_t second = t[(first + 1) % 3], third = t[(first + 2) % 3];

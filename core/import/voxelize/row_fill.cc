@@ -41,9 +41,14 @@ class SlabPlan {
   explicit SlabPlan(const FillRequest& request) {
     const int layers = (request.extent.nz + kBrickZ - 1) / kBrickZ;
     const size_t most = 8 * request.triangles.size() + (1 << 20);
+    std::vector<Slab> layers_of;  // by triangle
+    layers_of.reserve(request.triangles.size());
+    for (size_t t = 0; t < request.triangles.size(); ++t) {
+      layers_of.push_back(LayersOf(request, t));
+    }
     int slabs = std::min(layers, kMaxSlabs);
-    while (slabs > 1 && CountVisits(request, layers, slabs) > most) slabs /= 2;
-    Assign(request, layers, slabs);
+    while (slabs > 1 && CountVisits(layers_of, layers, slabs) > most) slabs /= 2;
+    Assign(layers_of, layers, slabs);
   }
 
   size_t size() const { return slabs_.size(); }
@@ -62,32 +67,27 @@ class SlabPlan {
   }
 
   template <typename Visit>
-  void ForEachSlabOf(const FillRequest& request, size_t triangle, Visit visit) const {
-    const Slab layers = LayersOf(request, triangle);
+  void ForEachSlabIn(Slab layers, Visit visit) const {
     const int last = std::min((layers.end_bz - 1) / thickness_, static_cast<int>(size()) - 1);
     for (int n = layers.begin_bz / thickness_; n <= last; ++n) visit(static_cast<size_t>(n));
   }
 
-  size_t CountVisits(const FillRequest& request, int layers, int slabs) {
+  size_t CountVisits(std::span<const Slab> layers_of, int layers, int slabs) {
     SetSlabs(layers, slabs);
     size_t visits = 0;
-    for (size_t t = 0; t < request.triangles.size(); ++t) {
-      ForEachSlabOf(request, t, [&](size_t) { ++visits; });
-    }
+    for (Slab reached : layers_of) ForEachSlabIn(reached, [&](size_t) { ++visits; });
     return visits;
   }
 
-  void Assign(const FillRequest& request, int layers, int slabs) {
+  void Assign(std::span<const Slab> layers_of, int layers, int slabs) {
     SetSlabs(layers, slabs);
     begin_.assign(size() + 1, 0);
-    for (size_t t = 0; t < request.triangles.size(); ++t) {
-      ForEachSlabOf(request, t, [&](size_t n) { ++begin_[n + 1]; });
-    }
+    for (Slab reached : layers_of) ForEachSlabIn(reached, [&](size_t n) { ++begin_[n + 1]; });
     for (size_t n = 0; n < size(); ++n) begin_[n + 1] += begin_[n];
     triangles_.resize(begin_.back());
     std::vector<size_t> next(begin_.begin(), begin_.end() - 1);
-    for (size_t t = 0; t < request.triangles.size(); ++t) {
-      ForEachSlabOf(request, t,
+    for (size_t t = 0; t < layers_of.size(); ++t) {
+      ForEachSlabIn(layers_of[t],
                     [&](size_t n) { triangles_[next[n]++] = static_cast<uint32_t>(t); });
     }
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace bccskel {
 namespace {
@@ -24,6 +25,27 @@ TEST(Sha256, IsTheSameHoweverTheMessageIsCut) {
     sha.Add(std::string_view(message).substr(cut));
     EXPECT_EQ(sha.Finish(), Sha256Of(message)) << "cut at " << cut;
   }
+}
+
+TEST(Sha256, IsTheSameByInstructionsAndWithoutThem) {
+  std::vector<std::byte> blocks;
+  Sha256State state = {1, 2, 3, 4, 5, 6, 7, 8}, plain = state;
+  for (size_t n = 0; n < 20 * kSha256Block; ++n) {
+    blocks.push_back(static_cast<std::byte>(n * n + n / 7));
+  }
+  for (size_t count = 0; count <= 20; ++count) {
+    const auto some = std::span(blocks).first(count * kSha256Block);
+    AddSha256Blocks(some, state);
+    AddPlainSha256Blocks(some, plain);
+    ASSERT_EQ(state, plain) << count;
+  }
+}
+
+// The digest of the digests of the messages of 0 to 199 bytes.
+TEST(Sha256, PadsMessagesOfEveryLength) {
+  Sha256 all;
+  for (size_t size = 0; size < 200; ++size) all.Add(Sha256Of(std::string(size, 'x')).Hex());
+  EXPECT_EQ(all.Finish().Hex(), "f61ffcc417e1f0e59eba2da7fa32fbe05b64e478b68c6bacf990455f00248b98");
 }
 
 TEST(Sha256, StartsANewMessageAfterFinish) {

@@ -93,6 +93,9 @@ TEST(ExactRadius, ThatForgetsFindsTheSameNearestPointAsANewOne) {
     forgets.ForgetNearest();
     ASSERT_EQ(forgets.At(p), fresh.At(p));
     ASSERT_EQ(forgets.nearest(), fresh.nearest());
+    for (const float share : {1.0F, 0.5F}) {  // of a radius that is too small nothing is taken
+      ASSERT_EQ(forgets.NearestAt(p, share * fresh.At(p)), fresh.nearest()) << share;
+    }
     remembers.At(p);
     if (remembers.nearest() != fresh.nearest()) ++otherwise;
   });

@@ -22,8 +22,7 @@ Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 
 void ExpectDepths(const Volume& object, const ExactRadius& radius) {
   const Volume filled = FillPits(object, {})->object;
   ExactRadius expected(filled);
-  const exec::Context context;
-  FirmDepth depth(object, radius, context);
+  FirmDepth depth(object, radius);
   size_t n = 0;
   object.ForEachPoint([&](LatticePoint p) {
     if (n++ % 3 != 0) return;
@@ -61,16 +60,6 @@ TEST(FirmDepth, PassesOverPitsInsideOfTheBody) {
   const Volume object = VolumeOfPoints(points);
   ASSERT_EQ(FillPits(object, {})->points_added, 3u);
   ExpectDepths(object, ExactRadius(object));
-}
-
-TEST(FirmDepth, IsSomeNumberOnceStopped) {
-  const Volume object = VolumeOfPoints(test::RandomCloud(1, {40, 20, 20}, 0.7));
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
-  FirmDepth depth(object, ExactRadius(object), context);
-  object.ForEachPoint([&](LatticePoint p) { ASSERT_GT(depth.At(p), 0); });
 }
 
 }  // namespace
