@@ -25,6 +25,8 @@ class ShellSweep {
         last_(plan.last),
         stubble_(plan.stubble),
         after_shell_(plan.after_shell),
+        partners_(plan.partners),
+        own_(plan.partners == nullptr ? exec::Share{0, state.brick_count()} : plan.partners->own()),
         rule_(rule),
         context_(context),
         state_(state),
@@ -36,7 +38,8 @@ class ShellSweep {
         changed_(unsettled_.size(), -1),
         workers_(static_cast<size_t>(context.MeetingWorkersFor(state.brick_count(), rule.work()))),
         barrier_(static_cast<int>(workers_.size())),
-        points_at_start_(CountPoints(state.object)),
+        points_at_start_(
+            CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))),
         patience_(context.patience) {
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
@@ -45,14 +48,20 @@ class ShellSweep {
   }
 
   absl::StatusOr<SweepTotals> Run() {
+    if (partners_ != nullptr) partners_->Sum({&points_at_start_, 1});
     context_.Run(static_cast<int>(workers_.size()),
                  [this](int index) { barrier_.Guard([&] { Work(index); }); });
     if (workers_.size() > 1) patience_.Tell(context_.team->confidence());
-    if (stopped_) return context_.StopStatus();
+    if (stopped_) return WhyStopped();
     return SweepTotals{TotalRemoved(), passes_};
   }
 
  private:
+  absl::Status WhyStopped() const {
+    absl::Status own = context_.StopStatus();
+    return own.ok() ? absl::CancelledError("the job was stopped by a partner") : own;
+  }
+
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
@@ -70,6 +79,7 @@ class ShellSweep {
           alone_ = patience_.Lost() || context_.usable_threads() == 1;
         }
         Meet(index);  // the new object is complete, and so are the sums
+        if (partners_ != nullptr && !Agree(index, shell)) return;
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
       } while (shell == last_ && TotalRemoved() != before);
@@ -81,9 +91,18 @@ class ShellSweep {
     const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
     worker.bricks = {share.begin * kUnsettledGroup,
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
-    worker.opener.Begin(shells_, worker.bricks);
+    BeginOpening(worker);
     if (workers_.size() > 1) MarkBorder(worker);
     Split(worker);
+  }
+
+  void BeginOpening(Worker& worker) const {
+    const auto [begin, end] = worker.bricks;
+    const size_t first = std::clamp(own_.begin, begin, end);
+    const size_t last = std::clamp(own_.end, first, end);
+    worker.opener.Begin(shells_, {first, last});
+    worker.ghost_openers[0].Begin(shells_, {begin, first});
+    worker.ghost_openers[1].Begin(shells_, {last, end});
   }
 
   // Whether a point goes depends on points three steps away, so bricks with a layer of bricks
@@ -135,6 +154,7 @@ class ShellSweep {
   void TakeOver(Worker& other, Worker& first) {
     for (BrickIndex n : other.seen_elsewhere) UnsettledView().Add(n, enabled_[n]);
     first.opener.TakeOver(other.opener);
+    for (size_t n = 0; n < 2; ++n) first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
@@ -161,6 +181,8 @@ class ShellSweep {
         .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
     };
     worker.shell_points[static_cast<size_t>(shell & 1)] = worker.opener.Open(view, shell);
+    if (partners_ == nullptr) return;
+    for (ShellOpener& opener : worker.ghost_openers) opener.Open(view, shell);
   }
 
   // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.
@@ -212,7 +234,7 @@ class ShellSweep {
   bool Pass(int index, Worker& worker, PassStep at) {
     Await(index);  // what others removed near here is gone
     if (index == 0) {
-      stopped_ = context_.ShouldStop();
+      if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
     TakeOverUnsettled(worker);
@@ -225,8 +247,52 @@ class ShellSweep {
     if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(worker);
     worker.seen_elsewhere.clear();
+    if (partners_ != nullptr) TradeMarks(index, at.cycle, worker);
     BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
     return true;
+  }
+
+  // What ghosts lose their owners know.
+  void TradeMarks(int index, int32_t cycle, Worker& worker) {
+    for (Part& part : worker.parts) {
+      part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrUnsettle(m.brick); });
+    }
+    Meet(index);
+    if (index == 0) {
+      for (const Worker& each : workers_) {
+        for (const Part& part : each.parts) {
+          for (const MarkedBrick& m : part.marks.marked()) partners_->Tell(m);
+        }
+      }
+      lost_by_ghosts_ = partners_->Hear();
+    }
+    Meet(index);
+    worker.ghost_marks.clear();
+    for (const MarkedBrick& m : lost_by_ghosts_) {
+      if (Owns(worker, m.brick)) worker.ghost_marks.push_back(m);
+    }
+    RemoveMarked(ViewFor(cycle, worker), worker.ghost_marks, worker.seen_elsewhere);
+  }
+
+  // A ghost whose marks are dropped has simple points still, so it must be looked at again.
+  bool IsOwnOrUnsettle(BrickIndex n) {
+    if (n >= own_.begin && n < own_.end) return true;
+    UnsettledView().Add(n, enabled_[n]);
+    return false;
+  }
+
+  // Returns whether all go on; the sums are then those of all partners.
+  bool Agree(int index, int32_t shell) {
+    if (index == 0) {
+      std::array<uint64_t, 3> sums = {RemovedHere(), ShellPointsHere(shell),
+                                      context_.ShouldStop() ? 1u : 0u};
+      partners_->Sum(sums);
+      all_removed_ = sums[0];
+      all_shell_points_ = sums[1];
+      stopped_ = sums[2] != 0;
+    }
+    Meet(index);
+    return !stopped_;
   }
 
   // The bricks near others' first: while this worker is at the rest, others learn that they are
@@ -294,17 +360,21 @@ class ShellSweep {
 
   void Remove(int32_t cycle, Part& part, Worker& worker) {
     rule_.Finish(part.to_do);
-    const RemovalView view = {.object = state_.object.data(),
-                              .candidates = state_.candidates.data(),
-                              .neighbors = state_.neighbors.data(),
-                              .unsettled = UnsettledView(),
-                              .enabled = enabled_.data(),
-                              .changed = changed_.data(),
-                              .cycle = cycle,
-                              .first = static_cast<BrickIndex>(worker.bricks.begin),
-                              .last = static_cast<BrickIndex>(worker.bricks.end),
-                              .none = static_cast<BrickIndex>(state_.brick_count())};
-    worker.removed += RemoveMarked(view, part.marks.marked(), worker.seen_elsewhere);
+    worker.removed +=
+        RemoveMarked(ViewFor(cycle, worker), part.marks.marked(), worker.seen_elsewhere);
+  }
+
+  RemovalView ViewFor(int32_t cycle, const Worker& worker) {
+    return {.object = state_.object.data(),
+            .candidates = state_.candidates.data(),
+            .neighbors = state_.neighbors.data(),
+            .unsettled = UnsettledView(),
+            .enabled = enabled_.data(),
+            .changed = changed_.data(),
+            .cycle = cycle,
+            .first = static_cast<BrickIndex>(worker.bricks.begin),
+            .last = static_cast<BrickIndex>(worker.bricks.end),
+            .none = static_cast<BrickIndex>(state_.brick_count())};
   }
 
   static bool Owns(const Worker& worker, BrickIndex n) {
@@ -313,17 +383,23 @@ class ShellSweep {
 
   // Needs: called between the second meeting of a pass and the first of the next, when no worker
   // removes anything.
-  uint64_t TotalRemoved() const {
+  uint64_t TotalRemoved() const { return partners_ == nullptr ? RemovedHere() : all_removed_; }
+  uint64_t RemovedHere() const {
     uint64_t total = 0;
     for (const Worker& worker : workers_) total += worker.removed;
     return total;
   }
 
-  void Report(int32_t shell) const {
+  uint64_t ShellPointsHere(int32_t shell) const {
     uint64_t points = 0;
     for (const Worker& worker : workers_) {
       points += worker.shell_points[static_cast<size_t>(shell & 1)];
     }
+    return points;
+  }
+
+  void Report(int32_t shell) const {
+    const uint64_t points = partners_ == nullptr ? ShellPointsHere(shell) : all_shell_points_;
     const uint64_t removed = TotalRemoved();
     context_.Report({.shell = shell,
                      .last_shell = shells_.last(),
@@ -337,6 +413,8 @@ class ShellSweep {
   const int32_t last_;
   const StubblePolicy stubble_;
   const std::function<void(int32_t)>& after_shell_;
+  SweepPartners* const partners_;
+  const exec::Share own_;  // the other bricks are ghosts
   PassRule& rule_;
   const exec::Context& context_;
   ThinningState& state_;
@@ -347,10 +425,15 @@ class ShellSweep {
   std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
   std::vector<Worker> workers_;
   exec::Barrier barrier_;
-  const uint64_t points_at_start_;
+  uint64_t points_at_start_;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass
   bool alone_ = false;    // written by worker 0 between the meetings of a pass
+
+  // Of all partners; written by worker 0 between the meetings of Agree() and TradeMarks().
+  uint64_t all_removed_ = 0;
+  uint64_t all_shell_points_ = 0;
+  std::span<const MarkedBrick> lost_by_ghosts_;
 
   // Worker 0's own.
   exec::Patience patience_;

@@ -30,12 +30,15 @@ struct alignas(128) SweepWorker {
   // Its bricks near others' below and above, and those between.
   std::array<SweepPart, 3> parts;
   ShellOpener opener;
+  // Of partners' bricks below and above its own, whose points do not count here.
+  std::array<ShellOpener, 2> ghost_openers;
 
   // Bricks of other workers that border on points removed here. Written while points are removed
   // and read by their owners before the next marks.
   std::vector<BrickIndex> seen_elsewhere;
   // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
   std::vector<BrickIndex> beside_sleepers_elsewhere;
+  std::vector<MarkedBrick> ghost_marks;  // what its ghosts lose in this pass
   uint64_t removed = 0;
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
