@@ -8,6 +8,7 @@
 
 #include "core/thinning/stubble.h"
 #include "core/thinning/sweep_worker.h"
+#include "core/thinning/symmetric_rule.h"
 #include "core/thinning/unsettled.h"
 #include "core/volume/count_points.h"
 
@@ -441,6 +442,15 @@ class ShellSweep {
 };
 
 }  // namespace
+
+int32_t LastShellOf(const ThinningOptions& options, const Shells& shells) {
+  return options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
+}
+
+StubblePolicy StubbleOf(const ThinningOptions& options) {
+  const bool has_stubble = EndPointsOf(options.kind) == EndPoints::kStay;
+  return has_stubble ? options.stubble : StubblePolicy::kNone;
+}
 
 absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
                                         const exec::Context& context, ThinningState& state) {

@@ -24,6 +24,10 @@ struct SweepPlan {
   SweepPartners* partners = nullptr;
 };
 
+// What the options make of a plan.
+int32_t LastShellOf(const ThinningOptions& options, const Shells& shells);
+StubblePolicy StubbleOf(const ThinningOptions& options);
+
 struct SweepTotals {
   uint64_t removed = 0;
   uint32_t passes = 0;
