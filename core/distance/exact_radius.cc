@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <span>
 
 // Does:  looks for the nearest background point among the bricks where the background begins.
@@ -59,15 +60,19 @@ std::span<const BrickBits> ExactRadius::Bricks() const {
 }
 
 float ExactRadius::At(LatticePoint p) {
-  if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
-  if (!searches()) {
-    const BrickAddress address = AddressOf(p);
-    const BrickIndex brick = *near_bricks_.Find(address.brick);
-    return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
-  }
+  return static_cast<float>(std::sqrt(double{SquaredAt(p)}));
+}
+
+float ExactRadius::SquaredAt(LatticePoint p) {
+  if (!IsOnLattice(p) || !object_.extent().Contains(p)) return 0;
+  const BrickAddress address = AddressOf(p);
+  const std::optional<BrickIndex> brick = near_bricks_.Find(address.brick);
+  if (!brick.has_value()) return 0;
+  if (!searches()) return field_->SquareAt(*brick, address.bit);
+  if (!object_.bricks()[*brick].Test(address.bit)) return 0;
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));
   while (!SearchWithin(reach, p)) reach *= 2;
-  return static_cast<float>(std::sqrt(double{last_.squared}));
+  return last_.squared;
 }
 
 // Whether there is background within reach.

@@ -118,13 +118,15 @@ absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceFiel
 // The stages, in their order, and what they hand to each other.
 class Pipeline {
  public:
+  // `peeler` may be null: this process peels.
   Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
-           const exec::Context& context, const OnShellPoints& on_points)
+           const exec::Context& context, const OnShellPoints& on_points, const Peeler* peeler)
       : options_(options),
         thinning_(options.thinning),
         memory_(memory),
         context_(context),
-        on_points_(on_points) {
+        on_points_(on_points),
+        peeler_(peeler) {
     result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
     result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
@@ -192,9 +194,10 @@ class Pipeline {
   }
 
   absl::Status RunIn(const Volume& object) {
-    DistanceField distance = NoDistances(options_.distance);
-    BCCSKEL_RETURN_IF_ERROR(NeedsDistances() ? ThinInField(object, distance)
-                                             : ThinInShells(object));
+    // Those who peel elsewhere keep the distances, so radii are searched for.
+    DistanceField distance =
+        NoDistances(peeler_ == nullptr ? options_.distance : DistanceKind::kChamfer);
+    BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
     BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
                                             "points that thinning leaves"));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
@@ -209,7 +212,8 @@ class Pipeline {
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
     SetBirths(isthmuses_, result_.graph);
     if (options_.distance == DistanceKind::kEuclidean) {
-      BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
+      BCCSKEL_RETURN_IF_ERROR(CenterCurves(object.placement(), ExactRadius(object, distance),
+                                           context_, result_.graph));
     }
     BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(SpaceOf(object)));
     if (continued_.has_value()) ShiftGraphBack();
@@ -239,6 +243,17 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field,
                              ComputeDistance(continued_->space, kind, context_));
     return FieldOfPart(object, continued_->space, field);
+  }
+
+  absl::Status Thin(const Volume& object, DistanceField& distance) {
+    if (peeler_ != nullptr) return ThinElsewhere(object);
+    return NeedsDistances() ? ThinInField(object, distance) : ThinInShells(object);
+  }
+
+  absl::Status ThinElsewhere(const Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned, (*peeler_)(object, thinning_));
+    TakeOver(std::move(thinned));
+    return absl::OkStatus();
   }
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
@@ -278,9 +293,9 @@ class Pipeline {
   // Returns the radii of the points that stay.
   absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
                                                      DistanceField& distance) {
-    if (!continued_.has_value()) {
+    if (peeler_ == nullptr && !continued_.has_value()) {
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
-    } else if (distance.kind() != DistanceKind::kEuclidean) {
+    } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
       distance = std::move(continued_->distance);
     }
     const ExactRadius radius(object, distance);
@@ -329,6 +344,7 @@ class Pipeline {
   exec::MemoryBudget& memory_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
+  const Peeler* const peeler_;
   exec::StageClock clock_;
   std::vector<IsthmusBirth> isthmuses_;
   PruningLevels levels_;
@@ -393,7 +409,20 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  return Pipeline(options, memory, context, on_points).Run(object);
+  return Pipeline(options, memory, context, on_points, nullptr).Run(object);
+}
+
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+                                                const SkeletonizeOptions& options,
+                                                const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
+  if (options.distance != DistanceKind::kEuclidean || options.border != Border::kEnds) {
+    return absl::InvalidArgumentError(
+        "an object that is peeled elsewhere: distances must be Euclidean, and its border an end");
+  }
+  exec::UnlimitedMemory memory;
+  const OnShellPoints nobody;
+  return Pipeline(options, memory, context, nobody, &peeler).Run(object);
 }
 
 }  // namespace bccskel

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +21,8 @@ constexpr size_t kTangentReach = 2;  // points on either side that give the curv
 
 class DiscCenters {
  public:
-  DiscCenters(const Volume& object, const DistanceField& field)
-      : object_(object), field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+  DiscCenters(const Placement& placement, const ExactRadius& radius)
+      : scale_(AxisScaleOf(placement)), radius_(radius) {}
 
   Coordinates PlaceOf(LatticePoint p) const { return bccskel::PlaceOf(p, scale_); }
 
@@ -59,18 +58,12 @@ class DiscCenters {
 
  private:
   double SquaredDistance(LatticePoint p) {
-    if (!object_.extent().Contains(p)) return 0;
-    const BrickAddress address = AddressOf(p);
-    const std::optional<BrickIndex> brick = bricks_.Find(address.brick);
-    if (!brick.has_value()) return 0;
-    const double distance = field_.ToLatticeUnits(field_.At(*brick, address.bit));
+    const double distance = std::sqrt(double{radius_.SquaredAt(p)});
     return distance * distance;
   }
 
-  const Volume& object_;
-  const DistanceField& field_;
   const AxisScale scale_;
-  NearbyBricks bricks_;
+  ExactRadius radius_;
 };
 
 // A part of the smooth curve of one edge: shares of a long edge cost what their points cost.
@@ -129,12 +122,12 @@ std::vector<SkeletonEdge>::const_iterator FirstEdgeAt(const SkeletonGraph& graph
 
 }  // namespace
 
-absl::Status CenterCurves(const Volume& object, const DistanceField& field,
+absl::Status CenterCurves(const Placement& placement, const ExactRadius& radius,
                           const exec::Context& context, SkeletonGraph& graph) {
   const int workers = context.WorkersFor(graph.points.size(), kPointWork);
   exec::Portions portions(graph.points.size(), kPointsAtOnce);
   context.Offer(workers, [&](int) {
-    DiscCenters centers(object, field);
+    DiscCenters centers(placement, radius);
     StopPoll poll(context);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (poll.StoppedNow()) return;

@@ -2,7 +2,7 @@
 #define BCCSKEL_CORE_SKELETON_CENTER_CURVES_H_
 
 #include "absl/status/status.h"
-#include "core/distance/distance_field.h"
+#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/volume/volume.h"
@@ -17,10 +17,10 @@ namespace bccskel {
 //        middle. Inside the ball everything is object, so no neighboring limb draws the curve to
 //        its side.
 // Cost:  up to 29 distances per point of the graph.
-// Shapes: `field` belongs to `object`, whose points the graph's are; the points of its edges follow
-//         each other in the order of the edges.
+// Shapes: `radius` is of the object whose points the graph's are; the points of its edges follow each
+//         other in the order of the edges.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status CenterCurves(const Volume& object, const DistanceField& field,
+absl::Status CenterCurves(const Placement& placement, const ExactRadius& radius,
                           const exec::Context& context, SkeletonGraph& graph);
 
 }  // namespace bccskel

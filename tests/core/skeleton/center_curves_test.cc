@@ -53,7 +53,7 @@ TEST(CenterCurves, PullsACurveToTheMiddle) {
     SkeletonGraph graph = Beside(bar);
     const double before = MeanOffset(graph);
     EXPECT_GT(before, 2.5);
-    ASSERT_TRUE(CenterCurves(bar, *field, {}, graph).ok());
+    ASSERT_TRUE(CenterCurves(bar.placement(), ExactRadius(bar, *field), {}, graph).ok());
     EXPECT_TRUE(graph.HasShifts());
     EXPECT_LT(MeanOffset(graph), 0.65 * before) << height;
   }
@@ -63,7 +63,7 @@ TEST(CenterCurves, LeavesNodesWhereTheyAre) {
   const Volume bar = Bar(2);
   const auto field = ComputeDistance(bar, DistanceKind::kEuclidean, {});
   SkeletonGraph graph = Beside(bar);
-  ASSERT_TRUE(CenterCurves(bar, *field, {}, graph).ok());
+  ASSERT_TRUE(CenterCurves(bar.placement(), ExactRadius(bar, *field), {}, graph).ok());
   const std::vector<WorldPoint> curve = SmoothCurve(graph, graph.edges[0]);
   EXPECT_EQ(curve.front(), graph.PositionOf(graph.points.front()));
   EXPECT_EQ(curve.back(), graph.PositionOf(graph.points.back()));
@@ -79,7 +79,7 @@ TEST(CenterCurves, StopsWhenAsked) {
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(CenterCurves(bar, *field, context, graph).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(CenterCurves(bar.placement(), ExactRadius(bar, *field), context, graph).code(), absl::StatusCode::kCancelled);
 }
 
 SkeletonGraph Unshifted(SkeletonGraph graph) {
