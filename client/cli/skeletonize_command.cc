@@ -257,8 +257,7 @@ ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& given
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);
   }
-  absl::StatusOr<Computed> computed =
-      Compute(arguments, object->volume, team.context(), compute);
+  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), compute);
   if (!computed.ok()) return FailComputing(arguments, computed.status());
   SkeletonizeResult* const result = &computed->result;
   const absl::Status rooted = CheckRoot(arguments, result->graph);

@@ -104,7 +104,7 @@ ExitCode RunOrAbort(const bccskel::cli::SkeletonizeArguments& arguments, MpiExch
 
 ExitCode Main(std::vector<char*> words) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // as in client/cli/main.cc
-  const bccskel::cli::Interrupt interrupt;  // before MPI's threads
+  const bccskel::cli::Interrupt interrupt;                              // before MPI's threads
   std::signal(SIGPIPE, SIG_IGN);
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);

@@ -13,8 +13,8 @@ namespace bccskel::cli {
 struct ExchangeCounts {
   uint64_t trades = 0;
   uint64_t sums = 0;
-  uint64_t letters = 0;     // sent to one other rank
-  uint64_t bytes = 0;       // in these
+  uint64_t letters = 0;  // sent to one other rank
+  uint64_t bytes = 0;    // in these
 };
 
 // The ranks of an MPI job. Waits without burning the processor: after some microseconds of looking

@@ -18,8 +18,9 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
     const auto format = exporting::SkeletonFormatOf(path);
     if (!format.ok() || *format != exporting::SkeletonFormat::kHtml) continue;
     return absl::InvalidArgumentError(
-        path + ": ranks do not collect the points of each shell that a page shows; write .json, "
-               "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
+        path +
+        ": ranks do not collect the points of each shell that a page shows; write .json, "
+        "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
   }
   return absl::OkStatus();
 }

@@ -212,8 +212,8 @@ class Pipeline {
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
     SetBirths(isthmuses_, result_.graph);
     if (options_.distance == DistanceKind::kEuclidean) {
-      BCCSKEL_RETURN_IF_ERROR(CenterCurves(object.placement(), ExactRadius(object, distance),
-                                           context_, result_.graph));
+      BCCSKEL_RETURN_IF_ERROR(
+          CenterCurves(object.placement(), ExactRadius(object, distance), context_, result_.graph));
     }
     BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(SpaceOf(object)));
     if (continued_.has_value()) ShiftGraphBack();

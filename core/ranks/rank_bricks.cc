@@ -96,7 +96,8 @@ int Owners::OwnerOf(BrickKey key) const {
 Volume ShareEvenly(Exchange& exchange, const Volume& part) {
   const std::vector<uint64_t> counts = ShareNumber(exchange, part.brick_count());
   const auto total = std::accumulate(counts.begin(), counts.end(), size_t{0});
-  const size_t before = std::accumulate(counts.begin(), counts.begin() + exchange.rank(), size_t{0});
+  const size_t before =
+      std::accumulate(counts.begin(), counts.begin() + exchange.rank(), size_t{0});
   std::vector<Bytes> out(counts.size());
   for (int rank = 0; rank < exchange.size(); ++rank) {
     const exec::Share share = exec::ShareOf(total, rank, exchange.size());

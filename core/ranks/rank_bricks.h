@@ -37,9 +37,9 @@ struct RankBricks {
     std::vector<BrickIndex> heard;  // ghosts that are the peer's bricks, in the order of its told
   };
 
-  Volume local;                // own bricks and ghosts
-  exec::Share own = {0, 0};    // own bricks within `local`
-  std::vector<Peer> peers;     // by rank
+  Volume local;              // own bricks and ghosts
+  exec::Share own = {0, 0};  // own bricks within `local`
+  std::vector<Peer> peers;   // by rank
   Owners owners;
 };
 

@@ -87,8 +87,7 @@ class Peeling {
       Pack(state.candidates[n].words, points);
     }
     for (const IsthmusBirth& birth : isthmuses_) {
-      const std::optional<BrickIndex> n =
-          bricks.local.Find(BrickKey(AddressOf(birth.point).brick));
+      const std::optional<BrickIndex> n = bricks.local.Find(BrickKey(AddressOf(birth.point).brick));
       if (*n >= bricks.own.begin && *n < bricks.own.end) Pack(birth, births);
     }
     Remains remains;

@@ -46,8 +46,8 @@ class LayerOwners {
 
   // Of the nearest layer where there is none.
   size_t RankOf(int32_t layer) const {
-    return static_cast<size_t>(ranks_[std::min(static_cast<size_t>(std::max(layer, 0)),
-                                               ranks_.size() - 1)]);
+    return static_cast<size_t>(
+        ranks_[std::min(static_cast<size_t>(std::max(layer, 0)), ranks_.size() - 1)]);
   }
 
  private:

@@ -51,8 +51,7 @@ class ThreadExchange : public Exchange {
   int rank() const override { return rank_; }
   int size() const override { return mail_.size(); }
 
-  void Trade(std::span<const int> peers, std::span<const Bytes> out,
-             std::span<Bytes> in) override {
+  void Trade(std::span<const int> peers, std::span<const Bytes> out, std::span<Bytes> in) override {
     for (size_t n = 0; n < peers.size(); ++n) mail_.Send(rank_, peers[n], out[n]);
     for (size_t n = 0; n < peers.size(); ++n) in[n] = mail_.Receive(peers[n], rank_);
   }

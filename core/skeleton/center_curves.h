@@ -17,7 +17,8 @@ namespace bccskel {
 //        middle. Inside the ball everything is object, so no neighboring limb draws the curve to
 //        its side.
 // Cost:  up to 29 distances per point of the graph.
-// Shapes: `radius` is of the object whose points the graph's are; the points of its edges follow each
+// Shapes: `radius` is of the object whose points the graph's are; the points of its edges follow
+// each
 //         other in the order of the edges.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status CenterCurves(const Placement& placement, const ExactRadius& radius,

@@ -8,7 +8,6 @@
 
 #include "core/thinning/stubble.h"
 #include "core/thinning/sweep_worker.h"
-#include "core/thinning/symmetric_rule.h"
 #include "core/thinning/unsettled.h"
 #include "core/volume/count_points.h"
 
@@ -92,48 +91,9 @@ class ShellSweep {
     const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
     worker.bricks = {share.begin * kUnsettledGroup,
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
-    BeginOpening(worker);
-    if (workers_.size() > 1) MarkBorder(worker);
-    Split(worker);
-  }
-
-  void BeginOpening(Worker& worker) const {
-    const auto [begin, end] = worker.bricks;
-    const size_t first = std::clamp(own_.begin, begin, end);
-    const size_t last = std::clamp(own_.end, first, end);
-    worker.opener.Begin(shells_, {first, last});
-    worker.ghost_openers[0].Begin(shells_, {begin, first});
-    worker.ghost_openers[1].Begin(shells_, {last, end});
-  }
-
-  // Whether a point goes depends on points three steps away, so bricks with a layer of bricks
-  // between them and others' have nothing to do with those.
-  void Split(Worker& worker) const {
-    const auto [begin, end] = worker.bricks;
-    size_t low = begin, high = end;
-    if (begin > 0 && begin < end) low = FirstFromLayer(LayerOf(begin - 1) + 2);
-    if (begin < end && end < state_.brick_count()) high = FirstFromLayer(LayerOf(end) - 1);
-    low = std::clamp(RoundUp(low), begin, end);
-    high = std::clamp(high / kUnsettledGroup * kUnsettledGroup, low, end);
-    worker.parts[0].bricks = {begin, low};
-    worker.parts[1].bricks = {high, end};
-    worker.parts[2].bricks = {low, high};
-    for (Part& part : worker.parts) {
-      const size_t bricks = part.bricks.end - part.bricks.begin;
-      part.to_do.Reserve(bricks);
-      part.end_points_to_do.Reserve(bricks);
-      part.thin.Reserve(bricks);
-    }
-  }
-
-  static size_t RoundUp(size_t n) {
-    return (n + kUnsettledGroup - 1) / kUnsettledGroup * kUnsettledGroup;
-  }
-  int32_t LayerOf(size_t brick) const { return state_.keys[brick].coordinates().bz; }
-  size_t FirstFromLayer(int32_t layer) const {
-    const auto first = std::ranges::lower_bound(state_.keys, layer, {},
-                                                [](BrickKey key) { return key.coordinates().bz; });
-    return static_cast<size_t>(first - state_.keys.begin());
+    BeginOpening(shells_, own_, worker);
+    if (workers_.size() > 1) MarkBorder(state_, worker, unsettled_);
+    SplitParts(state_, worker);
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
@@ -144,7 +104,7 @@ class ShellSweep {
     joined_ = true;
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
-    Split(first);
+    SplitParts(state_, first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -159,15 +119,6 @@ class ShellSweep {
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
-  }
-
-  void MarkBorder(const Worker& worker) {
-    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
-      const bool border = std::ranges::any_of(state_.neighbors[n], [&](BrickIndex other) {
-        return other < state_.brick_count() && !Owns(worker, other);
-      });
-      if (border) unsettled_[n] |= kBorderBrick;
-    }
   }
 
   // Condition 5: the points of this shell become candidates.
@@ -260,11 +211,7 @@ class ShellSweep {
     }
     Meet(index);
     if (index == 0) {
-      for (const Worker& each : workers_) {
-        for (const Part& part : each.parts) {
-          for (const MarkedBrick& m : part.marks.marked()) partners_->Tell(m);
-        }
-      }
+      TellMarks(workers_, *partners_);
       lost_by_ghosts_ = partners_->Hear();
     }
     Meet(index);
@@ -442,15 +389,6 @@ class ShellSweep {
 };
 
 }  // namespace
-
-int32_t LastShellOf(const ThinningOptions& options, const Shells& shells) {
-  return options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
-}
-
-StubblePolicy StubbleOf(const ThinningOptions& options) {
-  const bool has_stubble = EndPointsOf(options.kind) == EndPoints::kStay;
-  return has_stubble ? options.stubble : StubblePolicy::kNone;
-}
 
 absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
                                         const exec::Context& context, ThinningState& state) {

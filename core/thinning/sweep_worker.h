@@ -4,11 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/exec/worker_team.h"
 #include "core/thinning/pass_rule.h"
 #include "core/thinning/shell_opener.h"
+#include "core/thinning/sweep_partners.h"
+#include "core/thinning/thinning_state.h"
 #include "core/thinning/unsettled.h"
 
 namespace bccskel {
@@ -42,6 +45,20 @@ struct alignas(128) SweepWorker {
   uint64_t removed = 0;
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
+
+// Makes the parts of a worker's bricks. Whether a point goes depends on points three steps away, so
+// bricks with a layer of bricks between them and others' have nothing to do with those.
+void SplitParts(const ThinningState& state, SweepWorker& worker);
+
+// Marks the bricks that border on other workers'.
+void MarkBorder(const ThinningState& state, const SweepWorker& worker,
+                std::span<Unsettled> unsettled);
+
+// Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
+void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
+
+// Tells partners all marks of a pass. Needs: those of ghosts are gone.
+void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel
 

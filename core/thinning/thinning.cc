@@ -32,6 +32,15 @@ absl::Status CheckThinningOptions(const ThinningOptions& options) {
   return absl::OkStatus();
 }
 
+int32_t LastShellOf(const ThinningOptions& options, const Shells& shells) {
+  return options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
+}
+
+StubblePolicy StubbleOf(const ThinningOptions& options) {
+  const bool has_stubble = EndPointsOf(options.kind) == EndPoints::kStay;
+  return has_stubble ? options.stubble : StubblePolicy::kNone;
+}
+
 namespace {
 
 // One run, stage by stage.

@@ -25,7 +25,8 @@ std::vector<LatticePoint> Grid(LatticeExtent extent, int every) {
     for (int k = 0; k < extent.nz; ++k) {
       for (int j = 0; j < extent.ny; ++j) {
         for (int i = 0; i < extent.nx; ++i) {
-          const int on = (i % every < 3 ? 1 : 0) + (j % every < 3 ? 1 : 0) + (k % every < 3 ? 1 : 0);
+          const int on =
+              (i % every < 3 ? 1 : 0) + (j % every < 3 ? 1 : 0) + (k % every < 3 ? 1 : 0);
           if (on >= 2) points.push_back(PointAt(sublattice, i, j, k));
         }
       }
@@ -68,10 +69,9 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
     context.team = &team;
     context.min_bricks_per_worker = 1;
     context.patience = 1e9;
-    const Volume nothing =
-        Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
-    auto peeled = ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, options,
-                                       context);
+    const Volume nothing = Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
+    auto peeled =
+        ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, options, context);
     ASSERT_TRUE(peeled.ok()) << peeled.status();
     if (exchange.rank() == 0) result = *std::move(peeled);
   });
@@ -130,8 +130,8 @@ TEST_P(Peeling, OptionsAreThoseOfOneMachine) {
 INSTANTIATE_TEST_SUITE_P(Seeds, Peeling, testing::Range(uint64_t{1}, uint64_t{5}));
 
 TEST(PeelOverRanks, ThreadsOfRanksDoNotMatter) {
-  const Volume object = VolumeOfPoints(
-      test::WithNoisyBoundary(7, test::RandomBlob(7, {60, 60, 60}, 20, 16), 0.05));
+  const Volume object =
+      VolumeOfPoints(test::WithNoisyBoundary(7, test::RandomBlob(7, {60, 60, 60}, 20, 16), 0.05));
   for (const ThinningMethod method : {ThinningMethod::kSymmetric, ThinningMethod::kDirectional}) {
     const ThinningOptions options = {.method = method};
     const ThinningResult wanted = OnOneMachine(object, options);

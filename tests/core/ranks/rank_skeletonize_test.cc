@@ -82,8 +82,7 @@ TEST(RankSkeletonize, KindsGiveTheResultOfOneMachine) {
 TEST(RankSkeletonize, UnequalSpacingGivesTheResultOfOneMachine) {
   for (const Volume& object : Objects()) {
     const Volume stretched = Volume::FromSortedBricks(
-        object.extent(), {.spacing = {0.3, 0.7, 1.1}},
-        {object.keys().begin(), object.keys().end()},
+        object.extent(), {.spacing = {0.3, 0.7, 1.1}}, {object.keys().begin(), object.keys().end()},
         {object.bricks().begin(), object.bricks().end()});
     ExpectSame(stretched, {});
   }
@@ -117,13 +116,11 @@ TEST(RankSkeletonize, ADeepObjectGivesTheResultOfOneMachine) {
 
 TEST(RankSkeletonize, OptionsThatRanksCannotKeepToAreRefused) {
   const Volume object = Objects().front();
-  EXPECT_THAT(std::string(OnRanks(object, {.distance = DistanceKind::kChamfer}, 2)
-                              .status()
-                              .message()),
-              HasSubstr("--distance"));
   EXPECT_THAT(
-      std::string(OnRanks(object, {.border = Border::kContinues}, 2).status().message()),
-      HasSubstr("--border"));
+      std::string(OnRanks(object, {.distance = DistanceKind::kChamfer}, 2).status().message()),
+      HasSubstr("--distance"));
+  EXPECT_THAT(std::string(OnRanks(object, {.border = Border::kContinues}, 2).status().message()),
+              HasSubstr("--border"));
 }
 
 TEST(RankSkeletonize, AStopOnAnyRankStopsAll) {

@@ -79,7 +79,8 @@ TEST(CenterCurves, StopsWhenAsked) {
   exec::Context context;
   context.stop = source.get_token();
   source.request_stop();
-  EXPECT_EQ(CenterCurves(bar.placement(), ExactRadius(bar, *field), context, graph).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(CenterCurves(bar.placement(), ExactRadius(bar, *field), context, graph).code(),
+            absl::StatusCode::kCancelled);
 }
 
 SkeletonGraph Unshifted(SkeletonGraph graph) {
