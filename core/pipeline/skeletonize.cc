@@ -376,9 +376,8 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volu
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  if (options.distance != DistanceKind::kEuclidean || options.border != Border::kEnds) {
-    return absl::InvalidArgumentError(
-        "an object that is peeled elsewhere: distances must be Euclidean, and its border an end");
+  if (options.border != Border::kEnds) {
+    return absl::InvalidArgumentError("an object that is peeled elsewhere must end at its border");
   }
   exec::UnlimitedMemory memory;
   const OnShellPoints nobody;

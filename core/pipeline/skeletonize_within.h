@@ -24,13 +24,13 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points = nullptr);
 
-// Thins in place of ThinToCurve(), from Euclidean distances, with the same result.
+// Thins in place of ThinToCurve(), with the same result.
 using Peeler = std::function<absl::StatusOr<ThinningResult>(const Volume& object,
                                                             const ThinningOptions& options)>;
 
 // Skeletonize() where others peel the object; the same result. All other stages run here.
-// Errors: as Skeletonize(); the peeler's; INVALID_ARGUMENT for distances that are not Euclidean and
-//         objects that continue beyond their border.
+// Errors: as Skeletonize(); the peeler's; INVALID_ARGUMENT for objects that continue beyond their
+//         border.
 absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context);

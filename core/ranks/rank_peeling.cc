@@ -30,14 +30,15 @@ struct Remains {
 
 class Peeling {
  public:
-  Peeling(Exchange& exchange, const ThinningOptions& options, const exec::Context& context)
-      : exchange_(exchange), options_(options), context_(context) {}
+  Peeling(Exchange& exchange, DistanceKind distance, const ThinningOptions& options,
+          const exec::Context& context)
+      : exchange_(exchange), distance_(distance), options_(options), context_(context) {}
 
   absl::StatusOr<ThinningResult> Run(const Volume& part) && {
     const RankBricks bricks = AddGhosts(exchange_, ShareEvenly(exchange_, part));
     BCCSKEL_ASSIGN_OR_RETURN(
         const RankShells shells,
-        MeasureShells(exchange_, bricks, options_.shell_width,
+        MeasureShells(exchange_, bricks, distance_, options_.shell_width,
                       IsSymmetric() ? Depths::kWanted : Depths::kNone, context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
@@ -122,6 +123,7 @@ class Peeling {
   }
 
   Exchange& exchange_;
+  const DistanceKind distance_;
   const ThinningOptions& options_;
   const exec::Context& context_;
   exec::StageClock clock_;
@@ -132,10 +134,10 @@ class Peeling {
 }  // namespace
 
 absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
-                                             const ThinningOptions& options,
+                                             DistanceKind distance, const ThinningOptions& options,
                                              const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  return Peeling(exchange, options, context).Run(part);
+  return Peeling(exchange, distance, options, context).Run(part);
 }
 
 }  // namespace bccskel::ranks

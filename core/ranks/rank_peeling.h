@@ -9,7 +9,7 @@
 
 namespace bccskel::ranks {
 
-// Does:  ThinToCurve() with Euclidean distances by all ranks together; the same bits for any number
+// Does:  ThinToCurve() by all ranks together; the same bits for any number
 //        of ranks, and of threads on each.
 // Needs: the bricks of each rank come before those of the next; all have the same options, extent
 //        and placement.
@@ -19,7 +19,7 @@ namespace bccskel::ranks {
 //        shell one Sum().
 // Errors: INVALID_ARGUMENT; CANCELLED and DEADLINE_EXCEEDED on all ranks where one has to stop.
 absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
-                                             const ThinningOptions& options,
+                                             DistanceKind distance, const ThinningOptions& options,
                                              const exec::Context& context);
 
 }  // namespace bccskel::ranks

@@ -18,6 +18,7 @@ struct Order {
   Task task = Task::kLeave;
   LatticeExtent extent;
   Placement placement;
+  DistanceKind distance = DistanceKind::kEuclidean;
   ThinningOptions thinning;
 };
 
@@ -27,6 +28,7 @@ Bytes Packed(const Order& order) {
   Pack(order.task, bytes);
   Pack(order.extent, bytes);
   Pack(order.placement, bytes);
+  Pack(order.distance, bytes);
   Pack(thinning.method, bytes);
   Pack(thinning.kind, bytes);
   Pack(thinning.stubble, bytes);
@@ -43,6 +45,7 @@ Order Unpacked(const Bytes& bytes) {
   order.task = from.Take<Task>();
   order.extent = from.Take<LatticeExtent>();
   order.placement = from.Take<Placement>();
+  order.distance = from.Take<DistanceKind>();
   order.thinning.method = from.Take<ThinningMethod>();
   order.thinning.kind = from.Take<SkeletonKind>();
   order.thinning.stubble = from.Take<StubblePolicy>();
@@ -72,11 +75,6 @@ Order Receive(Exchange& exchange) {
 }  // namespace
 
 absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
-  if (options.distance != DistanceKind::kEuclidean) {
-    return absl::InvalidArgumentError(
-        "chamfer distances: ranks measure Euclidean ones only; leave --distance out, or run "
-        "`bccskel skeletonize --local` on one machine");
-  }
   if (options.border == Border::kContinues) {
     return absl::InvalidArgumentError(
         "an object that continues beyond the border: ranks take the border for an end; leave "
@@ -92,8 +90,9 @@ absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(const Volume& object,
                                                     const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckRankOptions(options));
   const Peeler peeler = [&](const Volume& prepared, const ThinningOptions& thinning) {
-    Send(exchange_, {Task::kPeel, prepared.extent(), prepared.placement(), thinning});
-    return PeelOverRanks(exchange_, prepared, thinning, context);
+    Send(exchange_,
+         {Task::kPeel, prepared.extent(), prepared.placement(), options.distance, thinning});
+    return PeelOverRanks(exchange_, prepared, options.distance, thinning, context);
   };
   return SkeletonizeBy(peeler, object, options, context);
 }
@@ -104,7 +103,7 @@ absl::Status FollowLead(Exchange& exchange, const exec::Context& context) {
     const Order order = Receive(exchange);
     if (order.task == Task::kLeave) return last;
     const Volume nothing = Volume::FromSortedBricks(order.extent, order.placement, {}, {});
-    last = PeelOverRanks(exchange, nothing, order.thinning, context).status();
+    last = PeelOverRanks(exchange, nothing, order.distance, order.thinning, context).status();
   }
 }
 

@@ -53,15 +53,16 @@ std::vector<Named> ObjectsOf(uint64_t seed) {
   return objects;
 }
 
-ThinningResult OnOneMachine(const Volume& object, const ThinningOptions& options) {
-  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
+ThinningResult OnOneMachine(const Volume& object, const ThinningOptions& options,
+                            DistanceKind kind = DistanceKind::kEuclidean) {
+  const auto distance = ComputeDistance(object, kind, {});
   auto result = ThinToCurve(object, *distance, options, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
 
 ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int ranks,
-                       int threads = 1) {
+                       int threads = 1, DistanceKind kind = DistanceKind::kEuclidean) {
   ThinningResult result;
   ranks::RunAsThreads(ranks, [&](ranks::Exchange& exchange) {
     exec::WorkerTeam team(threads);
@@ -70,8 +71,8 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
     context.min_bricks_per_worker = 1;
     context.patience = 1e9;
     const Volume nothing = Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
-    auto peeled =
-        ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, options, context);
+    auto peeled = ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, kind,
+                                       options, context);
     ASSERT_TRUE(peeled.ok()) << peeled.status();
     if (exchange.rank() == 0) result = *std::move(peeled);
   });
@@ -89,12 +90,13 @@ void ExpectSame(const ThinningResult& got, const ThinningResult& wanted) {
 
 class Peeling : public testing::TestWithParam<uint64_t> {};
 
-void ExpectSameForAllRanks(const ThinningOptions& options, uint64_t seed) {
+void ExpectSameForAllRanks(const ThinningOptions& options, uint64_t seed,
+                           DistanceKind kind = DistanceKind::kEuclidean) {
   for (const Named& object : ObjectsOf(seed)) {
-    const ThinningResult wanted = OnOneMachine(object.volume, options);
+    const ThinningResult wanted = OnOneMachine(object.volume, options, kind);
     for (const int ranks : kRanks) {
       SCOPED_TRACE(object.name + " on " + std::to_string(ranks) + " ranks");
-      ExpectSame(OnRanks(object.volume, options, ranks), wanted);
+      ExpectSame(OnRanks(object.volume, options, ranks, 1, kind), wanted);
     }
   }
 }
@@ -113,6 +115,13 @@ TEST_P(Peeling, DirectionalMethodsAreThoseOfOneMachine) {
     SCOPED_TRACE(static_cast<int>(method));
     ExpectSameForAllRanks({.method = method}, GetParam());
   }
+}
+
+TEST_P(Peeling, ChamferDistancesAreThoseOfOneMachine) {
+  for (const ThinningMethod method : {ThinningMethod::kSymmetric, ThinningMethod::kDirectional}) {
+    ExpectSameForAllRanks({.method = method}, GetParam(), DistanceKind::kChamfer);
+  }
+  ExpectSameForAllRanks({}, GetParam(), DistanceKind::kChamferOptimal);
 }
 
 TEST_P(Peeling, OptionsAreThoseOfOneMachine) {

@@ -69,6 +69,14 @@ TEST(RankSkeletonize, TheDirectionalMethodGivesTheResultOfOneMachine) {
   }
 }
 
+TEST(RankSkeletonize, ChamferDistancesGiveTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) {
+    ExpectSame(object, {.distance = DistanceKind::kChamfer});
+    ExpectSame(object, {.thinning = {.method = ThinningMethod::kDirectional},
+                        .distance = DistanceKind::kChamferOptimal});
+  }
+}
+
 TEST(RankSkeletonize, KindsGiveTheResultOfOneMachine) {
   for (const SkeletonKind kind :
        {SkeletonKind::kSurface, SkeletonKind::kKernel, SkeletonKind::kIsthmusCurve}) {
@@ -107,18 +115,18 @@ TEST(RankSkeletonize, ADeepObjectGivesTheResultOfOneMachine) {
     }
   }
   const Volume object = VolumeOfPoints(points);
-  const SkeletonizeOptions options = {
-      .thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel}};
-  const auto wanted = Skeletonize(object, options, {});
-  ASSERT_TRUE(wanted.ok());
-  EXPECT_EQ(OnRanks(object, options, 3)->sha256, wanted->sha256);
+  for (const DistanceKind kind : {DistanceKind::kEuclidean, DistanceKind::kChamfer}) {
+    const SkeletonizeOptions options = {
+        .thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel},
+        .distance = kind};
+    const auto wanted = Skeletonize(object, options, {});
+    ASSERT_TRUE(wanted.ok());
+    EXPECT_EQ(OnRanks(object, options, 3)->sha256, wanted->sha256);
+  }
 }
 
 TEST(RankSkeletonize, OptionsThatRanksCannotKeepToAreRefused) {
   const Volume object = Objects().front();
-  EXPECT_THAT(
-      std::string(OnRanks(object, {.distance = DistanceKind::kChamfer}, 2).status().message()),
-      HasSubstr("--distance"));
   EXPECT_THAT(std::string(OnRanks(object, {.border = Border::kContinues}, 2).status().message()),
               HasSubstr("--border"));
 }
