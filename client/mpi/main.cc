@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "client/cli/interrupt.h"
 #include "client/mpi/mpi_exchange.h"
 #include "client/mpi/rank_command.h"
+#include "client/mpi/rank_options.h"
 
 namespace {
 
@@ -54,20 +54,23 @@ class Silence {
   int kept_[2] = {-1, -1};
 };
 
-constexpr std::string_view kReport = "--report-exchange";
+struct Command {
+  bccskel::cli::SkeletonizeArguments arguments;
+  bccskel::cli::RankOptions options;
+};
 
-// Its own option, which `bccskel` does not have.
-bool TakeReportOption(std::vector<char*>& words) {
-  return std::erase_if(words, [](const char* word) { return word == kReport; }) > 0;
-}
-
-std::variant<bccskel::cli::SkeletonizeArguments, ExitCode> Parse(const std::vector<char*>& words) {
+std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
+  const auto options = bccskel::cli::TakeRankOptions(words);
+  if (!options.ok()) return bccskel::cli::FailWith(ExitCode::kUsage, options.status());
   auto parsed = bccskel::cli::ParseArguments(static_cast<int>(words.size()), words.data());
-  if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
+  if (const auto* code = std::get_if<ExitCode>(&parsed)) {
+    if (*code == ExitCode::kOk) return bccskel::cli::Print(bccskel::cli::kRankOptionsHelp);
+    return *code;
+  }
   auto arguments =
       bccskel::cli::RankArguments(std::get<bccskel::cli::Arguments>(std::move(parsed)));
   if (!arguments.ok()) return bccskel::cli::FailWith(ExitCode::kUsage, arguments.status());
-  return *std::move(arguments);
+  return Command{*std::move(arguments), *options};
 }
 
 long PeakMebibytes() {
@@ -88,10 +91,9 @@ void Report(const MpiExchange& exchange) {
 }
 
 // Whoever cannot go on takes the others along, who would wait for ever.
-ExitCode RunOrAbort(const bccskel::cli::SkeletonizeArguments& arguments, MpiExchange& exchange,
-                    const std::stop_token& stop) {
+ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::stop_token& stop) {
   try {
-    return bccskel::cli::RunRank(arguments, exchange, stop);
+    return bccskel::cli::RunRank(command.arguments, command.options, exchange, stop);
   } catch (const std::exception& error) {
     std::fprintf(stderr,
                  "bccskel-mpi: error: rank %d of %d: out of memory or another failure of the "
@@ -111,7 +113,6 @@ ExitCode Main(std::vector<char*> words) {
   ExitCode code = ExitCode::kOk;
   {
     MpiExchange exchange(MPI_COMM_WORLD);
-    const bool report = TakeReportOption(words);
     const auto parsed = [&] {
       const Silence silence(exchange.rank() != 0);
       return Parse(words);
@@ -119,9 +120,9 @@ ExitCode Main(std::vector<char*> words) {
     if (const auto* end = std::get_if<ExitCode>(&parsed)) {
       code = *end;
     } else {
-      code = RunOrAbort(std::get<bccskel::cli::SkeletonizeArguments>(parsed), exchange,
-                        interrupt.token());
-      if (report) Report(exchange);
+      const Command& command = std::get<Command>(parsed);
+      code = RunOrAbort(command, exchange, interrupt.token());
+      if (command.options.report == bccskel::cli::ExchangeReport::kYes) Report(exchange);
     }
   }
   MPI_Finalize();

@@ -7,6 +7,7 @@
 #include "client/cli/local_team.h"
 #include "client/cli/output_check.h"
 #include "client/export/skeleton_file.h"
+#include "client/mpi/file_folder.h"
 #include "core/exec/status_macros.h"
 #include "core/ranks/rank_skeletonize.h"
 
@@ -26,9 +27,11 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
 }
 
 ExitCode RunLead(const SkeletonizeArguments& arguments, ranks::Exchange& exchange,
+                 const ranks::CheckpointOptions& checkpoints, const FileFolder& folder,
                  const std::stop_token& stop) {
-  ranks::Lead lead(exchange);
-  const absl::Status writable = CheckOutputs(arguments);
+  ranks::Lead lead(exchange, checkpoints);
+  absl::Status writable = CheckOutputs(arguments);
+  if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
   if (!writable.ok()) return FailWith(ExitCode::kOutput, writable);
   return RunBy(
       [&](const Volume& object, const SkeletonizeOptions& options, const exec::Context& context) {
@@ -56,11 +59,16 @@ absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments) {
   return std::move(*chosen);
 }
 
-ExitCode RunRank(const SkeletonizeArguments& arguments, ranks::Exchange& exchange,
-                 const std::stop_token& stop) {
-  if (exchange.rank() == 0) return RunLead(arguments, exchange, stop);
+ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+                 ranks::Exchange& exchange, const std::stop_token& stop) {
+  FileFolder folder(options.checkpoint_folder);
+  const ranks::CheckpointOptions checkpoints = {
+      options.checkpoint_folder.empty() ? nullptr : &folder, options.resuming,
+      options.checkpoint_interval};
+  if (exchange.rank() == 0) return RunLead(arguments, exchange, checkpoints, folder, stop);
   LocalTeam team(arguments.common.threads, stop);
-  (void)ranks::FollowLead(exchange, team.context());  // rank 0 reports how the job ends
+  // Rank 0 reports how the job ends.
+  (void)ranks::FollowLead(exchange, team.context(), checkpoints);
   return ExitCode::kOk;
 }
 

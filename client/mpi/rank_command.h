@@ -7,6 +7,7 @@
 #include "absl/status/status.h"
 #include "client/cli/arguments.h"
 #include "client/cli/exit_code.h"
+#include "client/mpi/rank_options.h"
 #include "core/ranks/exchange.h"
 
 namespace bccskel::cli {
@@ -16,8 +17,8 @@ namespace bccskel::cli {
 absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments);
 
 // Runs the command as this rank of all. Rank 0 reads, writes and reports.
-ExitCode RunRank(const SkeletonizeArguments& arguments, ranks::Exchange& exchange,
-                 const std::stop_token& stop);
+ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+                 ranks::Exchange& exchange, const std::stop_token& stop);
 
 }  // namespace bccskel::cli
 

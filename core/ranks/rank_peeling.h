@@ -3,6 +3,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/ranks/checkpoints.h"
 #include "core/ranks/exchange.h"
 #include "core/thinning/thinning.h"
 #include "core/volume/volume.h"
@@ -17,7 +18,8 @@ namespace bccskel::ranks {
 // Cost:  a rank owns its share of the bricks (rank_bricks.h). Per pass one Trade() with those who
 //        have bricks beside its own, 68 bytes for each brick on the border that loses points; per
 //        shell one Sum().
-// Errors: INVALID_ARGUMENT; CANCELLED and DEADLINE_EXCEEDED on all ranks where one has to stop.
+// Errors: INVALID_ARGUMENT; those of Checkpoints; CANCELLED and DEADLINE_EXCEEDED on all ranks
+// where one has to stop.
 absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
                                              DistanceKind distance, const ThinningOptions& options,
                                              const exec::Context& context);

@@ -92,18 +92,20 @@ absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(const Volume& object,
   const Peeler peeler = [&](const Volume& prepared, const ThinningOptions& thinning) {
     Send(exchange_,
          {Task::kPeel, prepared.extent(), prepared.placement(), options.distance, thinning});
-    return PeelOverRanks(exchange_, prepared, options.distance, thinning, context);
+    return PeelOverRanks(exchange_, prepared, options.distance, thinning, checkpoints_, context);
   };
   return SkeletonizeBy(peeler, object, options, context);
 }
 
-absl::Status FollowLead(Exchange& exchange, const exec::Context& context) {
+absl::Status FollowLead(Exchange& exchange, const exec::Context& context,
+                        const CheckpointOptions& checkpoints) {
   absl::Status last;
   while (true) {
     const Order order = Receive(exchange);
     if (order.task == Task::kLeave) return last;
     const Volume nothing = Volume::FromSortedBricks(order.extent, order.placement, {}, {});
-    last = PeelOverRanks(exchange, nothing, order.distance, order.thinning, context).status();
+    last = PeelOverRanks(exchange, nothing, order.distance, order.thinning, checkpoints, context)
+               .status();
   }
 }
 

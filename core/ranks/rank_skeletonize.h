@@ -5,6 +5,7 @@
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/ranks/checkpoints.h"
 #include "core/ranks/exchange.h"
 #include "core/volume/volume.h"
 
@@ -16,8 +17,9 @@ absl::Status CheckRankOptions(const SkeletonizeOptions& options);
 // Rank 0's side of a job. The others are in FollowLead() meanwhile.
 class Lead {
  public:
-  // Needs: `exchange` outlives this.
-  explicit Lead(Exchange& exchange) : exchange_(exchange) {}
+  // Needs: `exchange` outlives this; all ranks have equal checkpoint options.
+  explicit Lead(Exchange& exchange, const CheckpointOptions& checkpoints = {})
+      : exchange_(exchange), checkpoints_(checkpoints) {}
   ~Lead();  // lets the others go
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
@@ -32,11 +34,13 @@ class Lead {
 
  private:
   Exchange& exchange_;
+  const CheckpointOptions checkpoints_;
 };
 
 // What ranks other than 0 do until rank 0 lets them go.
 // Errors: of the last job.
-absl::Status FollowLead(Exchange& exchange, const exec::Context& context);
+absl::Status FollowLead(Exchange& exchange, const exec::Context& context,
+                        const CheckpointOptions& checkpoints = {});
 
 }  // namespace bccskel::ranks
 

@@ -23,6 +23,7 @@ class ShellSweep {
              ThinningState& state)
       : shells_(plan.shells),
         last_(plan.last),
+        done_(plan.done),
         stubble_(plan.stubble),
         after_shell_(plan.after_shell),
         partners_(plan.partners),
@@ -65,8 +66,9 @@ class ShellSweep {
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
-    int32_t cycle = 0;
-    for (int32_t shell = 1; shell <= last_; ++shell) {
+    int32_t cycle = done_;  // each of those shells had one
+    for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
+    for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
       if (alone_ && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
@@ -359,6 +361,7 @@ class ShellSweep {
 
   const Shells& shells_;
   const int32_t last_;
+  const int32_t done_;
   const StubblePolicy stubble_;
   const std::function<void(int32_t)>& after_shell_;
   SweepPartners* const partners_;

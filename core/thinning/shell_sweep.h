@@ -22,6 +22,9 @@ struct SweepPlan {
   std::function<void(int32_t shell)> after_shell = nullptr;
   // Null: the object is all here.
   SweepPartners* partners = nullptr;
+  // Shells that were thinned before, less than `last`: the state is what they left. Totals are of
+  // the rest.
+  int32_t done = 0;
 };
 
 // What the options make of a plan.

@@ -107,6 +107,7 @@ class Refusals(TestCase):
         self.expect_refused(2, "--server", "skeletonize", source, "-o", out, "--server",
                             "localhost:1")
         self.expect_refused(2, "skeletonize", "info", source)
+        self.expect_refused(2, "--checkpoint FOLDER", "skeletonize", source, "-o", out, "--resume")
 
     def test_input_that_is_not_there(self):
         self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",
@@ -119,6 +120,37 @@ class Refusals(TestCase):
     def test_too_little_time(self):
         self.expect_refused(5, "deadline", "skeletonize", self.generate("ball", 400_000), "-o",
                             self.folder / "out.json", "--timeout", "0.001")
+
+
+class Checkpoints(TestCase):
+    def test_a_job_that_ran_out_of_time_is_resumed_on_other_ranks(self):
+        source = self.generate("ball", 4_000_000)
+        wanted, got = self.folder / "wanted.json", self.folder / "got.json"
+        bccskel("skeletonize", "--local", source, "-o", wanted)
+        folder = self.folder / "shells"
+        words = ("skeletonize", source, "-o", got, "--checkpoint", folder, "--checkpoint-every",
+                 "0", "--resume", "--progress", "always")
+        with subprocess.Popen(words_of(3, words), env=ENVIRONMENT, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True) as job:
+            for line in job.stdout:
+                if "shell 9/" in line:
+                    break
+            job.kill()
+        self.assertTrue((folder / "checkpoint").exists())
+        run = run_ranks(2, *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("shell 3/", run.stderr)
+        self.assertEqual(result_of(got), result_of(wanted))
+
+    def test_a_checkpoint_of_another_object_is_refused(self):
+        folder = self.folder / "shells"
+        options = ("-o", self.folder / "out.json", "--checkpoint", folder, "--checkpoint-every",
+                   "0", "--resume")
+        run = run_ranks(2, "skeletonize", self.generate("ball", 20_000), *options)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = run_ranks(2, "skeletonize", self.generate("torus", 20_000), *options)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("another object", run.stderr)
 
 
 class Ends(TestCase):
