@@ -200,6 +200,7 @@ class Peeling {
 
 absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
                                              DistanceKind distance, const ThinningOptions& options,
+                                             const CheckpointOptions& checkpoints,
                                              const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
   return Peeling(exchange, distance, options, checkpoints, context).Run(part);

@@ -22,6 +22,7 @@ namespace bccskel::ranks {
 // where one has to stop.
 absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
                                              DistanceKind distance, const ThinningOptions& options,
+                                             const CheckpointOptions& checkpoints,
                                              const exec::Context& context);
 
 }  // namespace bccskel::ranks

@@ -53,8 +53,8 @@ struct Job {
   int32_t stop_after = 0;  // shell; 0: never
 };
 
-absl::StatusOr<SkeletonizeResult> Run(const Job& job, const Volume& object,
-                                      const SkeletonizeOptions& options, MemoryFolder& folder) {
+absl::StatusOr<SkeletonizeResult> RunJob(const Job& job, const Volume& object,
+                                         const SkeletonizeOptions& options, MemoryFolder& folder) {
   absl::StatusOr<SkeletonizeResult> result = absl::UnknownError("nobody has led");
   const ranks::CheckpointOptions checkpoints = {&folder, job.resuming,
                                                 std::chrono::milliseconds(0)};
@@ -101,10 +101,10 @@ TEST(Checkpoints, AResumedJobGivesTheResultOfOneThatWasNotStopped) {
         SCOPED_TRACE(testing::Message() << static_cast<int>(options.thinning.kind) << " shell "
                                         << shell << " resumed on " << ranks);
         MemoryFolder folder;
-        const auto stopped = Run({.ranks = 3, .stop_after = shell}, object, options, folder);
+        const auto stopped = RunJob({.ranks = 3, .stop_after = shell}, object, options, folder);
         EXPECT_EQ(stopped.status().code(), absl::StatusCode::kCancelled);
-        const auto resumed =
-            Run({.ranks = ranks, .resuming = ranks::Resuming::kWhereDone}, object, options, folder);
+        const auto resumed = RunJob({.ranks = ranks, .resuming = ranks::Resuming::kWhereDone},
+                                    object, options, folder);
         ASSERT_TRUE(resumed.ok()) << resumed.status();
         EXPECT_EQ(resumed->sha256, wanted->sha256);
         EXPECT_EQ(resumed->thin, wanted->thin);
@@ -117,7 +117,7 @@ TEST(Checkpoints, AResumedJobGivesTheResultOfOneThatWasNotStopped) {
 TEST(Checkpoints, AResumedJobGoesOnWhereItWas) {
   const Volume object = NoisyBlob(2);
   MemoryFolder folder;
-  (void)Run({.ranks = 2, .stop_after = 3}, object, {}, folder);
+  (void)RunJob({.ranks = 2, .stop_after = 3}, object, {}, folder);
   std::vector<int32_t> shells;
   ranks::RunAsThreads(1, [&](ranks::Exchange& exchange) {
     exec::Context context;
@@ -132,7 +132,7 @@ TEST(Checkpoints, AResumedJobGoesOnWhereItWas) {
 
 TEST(Checkpoints, OnlyTheLastOneStays) {
   MemoryFolder folder;
-  ASSERT_TRUE(Run({.ranks = 3}, NoisyBlob(3), {}, folder).ok());
+  ASSERT_TRUE(RunJob({.ranks = 3}, NoisyBlob(3), {}, folder).ok());
   EXPECT_EQ(folder.files().size(), 4u);
 }
 
@@ -140,19 +140,19 @@ TEST(Checkpoints, WithoutOneAJobBeginsAnew) {
   const Volume object = NoisyBlob(4);
   MemoryFolder folder;
   const auto result =
-      Run({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, object, {}, folder);
+      RunJob({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, object, {}, folder);
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result->sha256, Skeletonize(object, {}, {})->sha256);
 }
 
 TEST(Checkpoints, ThoseOfOtherObjectsOrOptionsAreRefused) {
   MemoryFolder folder;
-  ASSERT_TRUE(Run({.ranks = 2}, NoisyBlob(5), {}, folder).ok());
+  ASSERT_TRUE(RunJob({.ranks = 2}, NoisyBlob(5), {}, folder).ok());
   const Job resume = {.ranks = 2, .resuming = ranks::Resuming::kWhereDone};
-  EXPECT_EQ(Run(resume, NoisyBlob(6), {}, folder).status().code(),
+  EXPECT_EQ(RunJob(resume, NoisyBlob(6), {}, folder).status().code(),
             absl::StatusCode::kFailedPrecondition);
   EXPECT_EQ(
-      Run(resume, NoisyBlob(5), {.thinning = {.method = ThinningMethod::kDirectional}}, folder)
+      RunJob(resume, NoisyBlob(5), {.thinning = {.method = ThinningMethod::kDirectional}}, folder)
           .status()
           .code(),
       absl::StatusCode::kFailedPrecondition);
@@ -161,12 +161,12 @@ TEST(Checkpoints, ThoseOfOtherObjectsOrOptionsAreRefused) {
 TEST(Checkpoints, DamageIsSeenOnAllRanks) {
   for (const std::string name : {"checkpoint", "part-2"}) {
     MemoryFolder folder;
-    ASSERT_TRUE(Run({.ranks = 3}, NoisyBlob(7), {}, folder).ok());
+    ASSERT_TRUE(RunJob({.ranks = 3}, NoisyBlob(7), {}, folder).ok());
     for (auto& [file, bytes] : folder.files()) {
       if (file.find(name) != std::string::npos) bytes[bytes.size() / 2] ^= std::byte{1};
     }
     const auto result =
-        Run({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, NoisyBlob(7), {}, folder);
+        RunJob({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, NoisyBlob(7), {}, folder);
     EXPECT_FALSE(result.ok());
     EXPECT_THAT(std::string(result.status().message()), HasSubstr("checkpoint"));
   }
@@ -176,11 +176,11 @@ TEST(Checkpoints, AFullDiskLeavesTheOneBefore) {
   const Volume object = NoisyBlob(8);
   MemoryFolder folder;
   folder.SetRoom(2 * 4 + 1);  // two of three parts and their mark
-  const auto full = Run({.ranks = 3}, object, {}, folder);
+  const auto full = RunJob({.ranks = 3}, object, {}, folder);
   EXPECT_FALSE(full.ok());
   folder.SetRoom(1000);
   const auto resumed =
-      Run({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, object, {}, folder);
+      RunJob({.ranks = 2, .resuming = ranks::Resuming::kWhereDone}, object, {}, folder);
   ASSERT_TRUE(resumed.ok()) << resumed.status();
   EXPECT_EQ(resumed->sha256, Skeletonize(object, {}, {})->sha256);
 }

@@ -72,7 +72,7 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
     context.patience = 1e9;
     const Volume nothing = Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
     auto peeled = ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, kind,
-                                       options, context);
+                                       options, {}, context);
     ASSERT_TRUE(peeled.ok()) << peeled.status();
     if (exchange.rank() == 0) result = *std::move(peeled);
   });
