@@ -73,21 +73,19 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
   return Command{*std::move(arguments), *options};
 }
 
-long PeakMebibytes() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
-}
-
 void Report(const MpiExchange& exchange) {
   const bccskel::cli::ExchangeCounts& counts = exchange.counts();
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const double seconds = static_cast<double>(usage.ru_utime.tv_sec) +
+                         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
   std::fprintf(stderr,
                "bccskel-mpi: rank %d of %d: %llu trades, %llu sums, %llu letters, %llu bytes sent, "
-               "%ld MiB at most\n",
+               "%.2f s of processor time, %ld MiB at most\n",
                exchange.rank(), exchange.size(), static_cast<unsigned long long>(counts.trades),
                static_cast<unsigned long long>(counts.sums),
                static_cast<unsigned long long>(counts.letters),
-               static_cast<unsigned long long>(counts.bytes), PeakMebibytes());
+               static_cast<unsigned long long>(counts.bytes), seconds, usage.ru_maxrss / 1024);
 }
 
 // Whoever cannot go on takes the others along, who would wait for ever.

@@ -8,6 +8,7 @@
 #include "core/distance/chamfer_scan.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/euclidean_parts.h"
+#include "core/exec/large_blocks.h"
 #include "core/exec/status_macros.h"
 #include "core/ranks/agreement.h"
 #include "core/ranks/layer_owners.h"
@@ -18,7 +19,7 @@ namespace bccskel::ranks {
 namespace {
 
 // Squares of a round of columns that a rank gets.
-constexpr size_t kBytesPerRound = size_t{32} << 20;
+constexpr size_t kBytesPerRound = size_t{8} << 20;
 
 uint64_t ColumnHash(const BrickCoordinates& at) {
   uint64_t hash = static_cast<uint64_t>(at.by) << 32 | static_cast<uint64_t>(at.bx);
@@ -208,6 +209,9 @@ absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& b
                                 ? MeasureEuclidean(exchange, bricks, layers, volume, context, store)
                                 : MeasureChamfer(exchange, layers, volume, kind, context, store));
   }
+  // A rank thins for long and measures once, so blocks of squares are not kept for another time.
+  exec::ProcessLargeBlocks().ReleaseUnused();
+  exec::ProcessLargeBlocks().ReleaseUnused();
   return std::move(store).Finish();
 }
 

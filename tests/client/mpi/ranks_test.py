@@ -98,7 +98,7 @@ class Refusals(TestCase):
         self.assertIn(told, run.stderr)
 
     def test_what_ranks_cannot_do(self):
-        source = self.generate("ball", 1000)
+        source = self.generate("ball", 20_000)
         out = self.folder / "out.json"
         self.expect_refused(2, "--border", "skeletonize", source, "-o", out, "--border",
                             "continues")
@@ -114,7 +114,7 @@ class Refusals(TestCase):
                             self.folder / "out.json")
 
     def test_output_that_cannot_be_written(self):
-        self.expect_refused(8, "no/such", "skeletonize", self.generate("ball", 1000), "-o",
+        self.expect_refused(8, "no/such", "skeletonize", self.generate("ball", 20_000), "-o",
                             self.folder / "no/such/out.json")
 
     def test_too_little_time(self):
