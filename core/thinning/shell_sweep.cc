@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 #include <vector>
 
@@ -59,8 +58,8 @@ class ShellSweep {
 
  private:
   absl::Status WhyStopped() const {
-    absl::Status own = context_.StopStatus();
-    return own.ok() ? absl::CancelledError("the job was stopped by a partner") : own;
+    const absl::Status own = context_.StopStatus();
+    return own.ok() ? absl::CancelledError("a partner stopped the job") : own;
   }
 
   void Work(int index) {

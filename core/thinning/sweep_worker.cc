@@ -41,10 +41,10 @@ void SplitParts(const ThinningState& state, SweepWorker& worker) {
 
 void MarkBorder(const ThinningState& state, const SweepWorker& worker,
                 std::span<Unsettled> unsettled) {
-  const auto [begin, end] = worker.bricks;
-  for (size_t n = begin; n < end; ++n) {
+  const exec::Share own = worker.bricks;
+  for (size_t n = own.begin; n < own.end; ++n) {
     const bool border = std::ranges::any_of(state.neighbors[n], [&](BrickIndex other) {
-      return other < state.brick_count() && (other < begin || other >= end);
+      return other < state.brick_count() && (other < own.begin || other >= own.end);
     });
     if (border) unsettled[n] |= kBorderBrick;
   }
