@@ -1,8 +1,10 @@
 #ifndef BCCSKEL_CLIENT_CLI_COMMANDS_H_
 #define BCCSKEL_CLIENT_CLI_COMMANDS_H_
 
+#include <functional>
 #include <stop_token>
 
+#include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
 #include "client/cli/exit_code.h"
 
@@ -27,6 +29,13 @@ ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
+
+// Skeletonize() by others than the threads of this process.
+using ComputeSkeleton = std::function<absl::StatusOr<SkeletonizeResult>(
+    const Volume& object, const SkeletonizeOptions& options, const exec::Context& context)>;
+// `skeletonize` on this machine, where `compute` does what lies between reading and writing.
+ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& arguments,
+               const std::stop_token& stop);
 
 }  // namespace bccskel::cli
 

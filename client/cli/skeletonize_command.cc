@@ -114,11 +114,14 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
   return client::SkeletonizeClient(std::move(connection)).Skeletonize(object, options);
 }
 
+// `compute` may be null: this process computes.
 absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,
                                                 const Volume& object, Listeners& listeners,
-                                                exec::Context context) {
+                                                exec::Context context,
+                                                const ComputeSkeleton& compute) {
   context.deadline = Clock::now() + arguments.timeout;
   context.on_shell = listeners.bar.Callback();
+  if (compute) return compute(object, arguments.skeletonize, context);
   OnShellPoints on_points;
   if (listeners.shells.has_value()) {
     on_points = [&](int32_t shell, const Volume& points) {
@@ -134,11 +137,11 @@ struct Computed {
 };
 
 absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, const Volume& object,
-                                 const exec::Context& context) {
+                                 const exec::Context& context, const ComputeSkeleton& compute) {
   Listeners listeners(arguments, object);
   const bool local = arguments.place != Place::kServer;
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result,
-                           local ? OnThisMachine(arguments, object, listeners, context)
+                           local ? OnThisMachine(arguments, object, listeners, context, compute)
                                  : OnServer(arguments, object, listeners, context.stop));
   Computed computed = {std::move(result), std::nullopt};
   if (listeners.shells.has_value()) computed.shells = std::move(*listeners.shells).Take();
@@ -237,7 +240,12 @@ double SecondsSince(Clock::time_point start) {
 
 }  // namespace
 
-ExitCode Run(const SkeletonizeArguments& given, const std::stop_token& stop) {
+ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
+  return RunBy(nullptr, arguments, stop);
+}
+
+ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& given,
+               const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   if (given.place == Place::kHere) {
     Note("computing on this machine, as with --local; --server HOST:PORT names a server");
@@ -249,7 +257,7 @@ ExitCode Run(const SkeletonizeArguments& given, const std::stop_token& stop) {
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);
   }
-  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context());
+  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), compute);
   if (!computed.ok()) return FailComputing(arguments, computed.status());
   SkeletonizeResult* const result = &computed->result;
   const absl::Status rooted = CheckRoot(arguments, result->graph);

@@ -39,6 +39,16 @@ python3 (<< 3.${next_minor}), python3-numpy")
       "Python package that turns masks, label images and meshes into curve skeletons.")
 endif()
 
+# Only those who run MPI jobs need it.
+if(TARGET bccskel-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME bccskel-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "Curve skeletons of one object on the ranks of an MPI job.")
+endif()
+
 # The development package needs what a program that links the libraries needs: our build list
 # without the tools.
 file(STRINGS ${PROJECT_SOURCE_DIR}/docker/packages/build.txt bccskel_build_packages

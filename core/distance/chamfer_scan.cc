@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "core/distance/chamfer_rows.h"
@@ -225,6 +227,63 @@ class Stream {
   Layer bottom_;                // of the section above
 };
 
+// What a holder tells the next: the layer of bricks that the distances are of, and these.
+template <typename T>
+LayerRelay::Bytes PackLayer(int32_t bz, const exec::UninitializedVector<T>& layer) {
+  LayerRelay::Bytes bytes(sizeof(bz) + layer.size() * sizeof(T));
+  std::memcpy(bytes.data(), &bz, sizeof(bz));
+  std::memcpy(bytes.data() + sizeof(bz), layer.data(), layer.size() * sizeof(T));
+  return bytes;
+}
+
+// Nothing where the distances are of another layer: then none lies beside the section.
+template <typename T>
+std::optional<exec::UninitializedVector<T>> UnpackLayer(const LayerRelay::Bytes& bytes,
+                                                        int32_t wanted) {
+  int32_t bz = -1;
+  if (bytes.size() < sizeof(bz)) return std::nullopt;
+  std::memcpy(&bz, bytes.data(), sizeof(bz));
+  if (bz != wanted) return std::nullopt;
+  exec::UninitializedVector<T> layer((bytes.size() - sizeof(bz)) / sizeof(T));
+  std::memcpy(layer.data(), bytes.data() + sizeof(bz), layer.size() * sizeof(T));
+  return layer;
+}
+
+// Both scans over one holder's layers.
+template <typename T>
+exec::UninitializedVector<T> ScanLayersOfHolder(const Volume& object, int32_t first_bz,
+                                                int32_t end_bz, const ChamferWeights& weights,
+                                                const RunTables* runs, const exec::Context& context,
+                                                LayerRelay& relay) {
+  const std::vector<BrickSlab> slabs = SlabsOf(object);
+  const auto bz_of = [&](size_t slab) { return object.keys()[slabs[slab].first].coordinates().bz; };
+  size_t first = 0, last = slabs.size();
+  while (first < last && bz_of(first) < first_bz) ++first;
+  while (last > first && bz_of(last - 1) >= end_bz) --last;
+  exec::UninitializedVector<T> values((object.brick_count() + 1) * kBrickPoints);
+  std::ranges::fill(values, T{0});
+  if (first == last) {
+    relay.GiveAbove(relay.TakeFromBelow());
+    relay.GiveBelow(relay.TakeFromAbove());
+    return values;
+  }
+  ChamferSection<T> section(object, slabs, first, last);
+  const SectionScan<T> scan(section, weights, runs, context);
+  const auto below = UnpackLayer<T>(relay.TakeFromBelow(), first > 0 ? bz_of(first - 1) : -2);
+  if (below.has_value()) section.SetLayerBelow(*below);
+  scan.Rise();
+  relay.GiveAbove(PackLayer(bz_of(last - 1), section.TopLayer()));
+  const auto above = UnpackLayer<T>(relay.TakeFromAbove(), last < slabs.size() ? bz_of(last) : -2);
+  if (above.has_value()) section.SetLayerAbove(*above);
+  scan.Fall([](BrickIndex, BrickIndex) {});
+  relay.GiveBelow(PackLayer(bz_of(first), section.BottomLayer()));
+  for (BrickIndex n = slabs[first].first; n < slabs[last - 1].last; ++n) {
+    std::copy_n(section.Of(n - section.start()), kBrickPoints,
+                values.data() + size_t{n} * kBrickPoints);
+  }
+  return values;
+}
+
 // Made once for equal spacing: small objects would spend more time on them than on their points.
 RunTables RunTablesOf(const ChamferWeights& weights) {
   static const RunTables equal_spacing = RunTablesFor(kShortChamfer);
@@ -254,6 +313,25 @@ absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind 
   const ChamferWeights wide = LongWeights(scale);
   BCCSKEL_ASSIGN_OR_RETURN(auto values, Scan<uint32_t>(object, wide, nullptr, context));
   const uint32_t largest = LargestOf(std::span<const uint32_t>(values));
+  return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
+}
+
+DistanceField ComputeChamferOfLayers(const Volume& object, int32_t first, int32_t end,
+                                     DistanceKind kind, const exec::Context& context,
+                                     LayerRelay& relay) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  const ChamferWeights weights = ShortWeights(scale);
+  if (FitShortRows(weights)) {
+    const RunTables runs = RunTablesOf(weights);
+    auto values = ScanLayersOfHolder<uint16_t>(object, first, end, weights, &runs, context, relay);
+    const uint32_t largest = relay.Largest(LargestOf(std::span<const uint16_t>(values)));
+    if (largest < runs.limit()) {
+      return DistanceField(kind, InUnitOf(kind, weights, scale), std::move(values), largest);
+    }
+  }
+  const ChamferWeights wide = LongWeights(scale);
+  auto values = ScanLayersOfHolder<uint32_t>(object, first, end, wide, nullptr, context, relay);
+  const uint32_t largest = relay.Largest(LargestOf(std::span<const uint32_t>(values)));
   return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -39,6 +40,30 @@ inline constexpr size_t kMostPointsAtOnce = size_t{1} << 24;
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::Context& context,
                            DistanceSink& sink, size_t at_once = kMostPointsAtOnce);
+
+// Passes layers of distances along the holders of an object that is cut into runs of brick layers,
+// from the lowest to the highest and back. Each holder calls these four once for a scan, in this
+// order; the lowest takes nothing from below and the highest nothing from above.
+class LayerRelay {
+ public:
+  using Bytes = std::vector<std::byte>;
+  virtual ~LayerRelay() = default;
+
+  virtual Bytes TakeFromBelow() = 0;
+  virtual void GiveAbove(const Bytes& layer) = 0;
+  virtual Bytes TakeFromAbove() = 0;
+  virtual void GiveBelow(const Bytes& layer) = 0;
+  // The largest of all holders' numbers, for all of them.
+  virtual uint32_t Largest(uint32_t own) = 0;
+};
+
+// ComputeChamfer() for one holder's brick layers [first, end): `object` are its bricks and those of
+// the layers below and above, whose values are 0 in the result. The holders scan one after the
+// other. The largest distance is that of all.
+// Errors: none; where the context stops a scan its values are void.
+DistanceField ComputeChamferOfLayers(const Volume& object, int32_t first, int32_t end,
+                                     DistanceKind kind, const exec::Context& context,
+                                     LayerRelay& relay);
 
 }  // namespace bccskel
 

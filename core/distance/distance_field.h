@@ -54,6 +54,11 @@ class DistanceField {
     const size_t n = size_t{brick} * kBrickPoints + static_cast<size_t>(bit);
     return std::visit([n](const auto& v) { return RankOf(v[n]); }, values_);
   }
+  // Of Euclidean distances: the squared lattice units themselves.
+  float SquareAt(BrickIndex brick, int bit) const {
+    const size_t n = size_t{brick} * kBrickPoints + static_cast<size_t>(bit);
+    return std::visit([n](const auto& v) { return static_cast<float>(v[n]); }, values_);
+  }
   uint32_t largest() const { return largest_; }  // At() of the deepest point
 
   // `rank` as from At().

@@ -6,6 +6,7 @@
 
 #include "core/distance/border_bricks.h"
 #include "core/distance/chamfer_rows.h"
+#include "core/distance/euclidean_parts.h"
 #include "core/distance/euclidean_rows.h"
 #include "core/exec/status_macros.h"
 
@@ -39,11 +40,11 @@ struct Slab {
 template <typename T>
 class EuclideanScan {
  public:
-  EuclideanScan(const Volume& object, std::span<T> own)
+  EuclideanScan(const Volume& object, EuclideanParts<T>& parts)
       : object_(object),
-        beside_(object.brick_count() * kLayersBeside * kLayerPoints),
         view_{object.padded_bricks().data(), object.neighbors().data(),
-              static_cast<BrickIndex>(object.brick_count()), own.data(), beside_.data()} {
+              static_cast<BrickIndex>(object.brick_count()), parts.own.data(),
+              parts.beside.data()} {
     const std::span<const BrickKey> keys = object.keys();
     for (BrickIndex n = 0; n < keys.size(); ++n) {
       if (n == 0 || keys[n].coordinates().bz != keys[n - 1].coordinates().bz) {
@@ -55,14 +56,16 @@ class EuclideanScan {
     MeasureSteps();
   }
 
-  absl::Status Run(const exec::Context& context) {
+  void RunWithinLayers(const exec::Context& context) {
     Share(context, object_.brick_count(), 256, [this](size_t n) { FillBeside(n); });
     Share(context, slabs_.size(), 1, [&](size_t n) { ScanSlab(slabs_[n], context); });
+  }
+
+  void RunAcrossLayers(const exec::Context& context) {
     Share(context, stack_feet_.size(), 8, [this](size_t n) {
       const BrickIndex foot = stack_feet_[n];
       ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveZ));
     });
-    return context.StopStatus();
   }
 
  private:
@@ -146,7 +149,6 @@ class EuclideanScan {
   }
 
   const Volume& object_;
-  exec::UninitializedVector<T> beside_;
   const EuclideanView<T> view_;
   std::vector<Slab> slabs_;
   std::vector<BrickIndex> stack_feet_;  // the lowest brick of every stack along z
@@ -179,6 +181,18 @@ bool IsDeepInside(const Volume& object, BrickIndex brick) {
   return true;
 }
 
+template <typename T>
+absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context& context) {
+  EuclideanParts<T> parts(object.brick_count());
+  EuclideanScan<T> scan(object, parts);
+  scan.RunWithinLayers(context);
+  scan.RunAcrossLayers(context);
+  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  return EuclideanFieldOf(std::move(parts));
+}
+
+}  // namespace
+
 bool IsDeep(const Volume& object) {
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     if (IsDeepInside(object, n)) return true;
@@ -187,15 +201,27 @@ bool IsDeep(const Volume& object) {
 }
 
 template <typename T>
-absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context& context) {
-  exec::UninitializedVector<T> squares((object.brick_count() + 1) * kBrickPoints);
-  std::fill(squares.end() - kBrickPoints, squares.end(), T{0});  // the padding brick
-  BCCSKEL_RETURN_IF_ERROR(EuclideanScan<T>(object, squares).Run(context));
-  const uint32_t largest = LargestRank(squares);
-  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(squares), largest);
+void MeasureWithinLayers(const Volume& object, const exec::Context& context,
+                         EuclideanParts<T>& parts) {
+  EuclideanScan<T>(object, parts).RunWithinLayers(context);
+}
+template <typename T>
+void MeasureAcrossLayers(const Volume& object, const exec::Context& context,
+                         EuclideanParts<T>& parts) {
+  EuclideanScan<T>(object, parts).RunAcrossLayers(context);
+}
+template <typename T>
+DistanceField EuclideanFieldOf(EuclideanParts<T> parts) {
+  const uint32_t largest = LargestRank(parts.own);
+  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(parts.own), largest);
 }
 
-}  // namespace
+template void MeasureWithinLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&);
+template void MeasureWithinLayers(const Volume&, const exec::Context&, EuclideanParts<float>&);
+template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&);
+template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&);
+template DistanceField EuclideanFieldOf(EuclideanParts<uint16_t>);
+template DistanceField EuclideanFieldOf(EuclideanParts<float>);
 
 absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec::Context& context) {
   if (AxisScaleOf(object.placement()) == kIsotropic && !IsDeep(object)) {

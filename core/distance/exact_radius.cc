@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -69,15 +70,18 @@ std::span<const BorderBricks::Place> ExactRadius::Places() const {
 }
 
 float ExactRadius::At(LatticePoint p) {
+  return static_cast<float>(std::sqrt(double{SquaredAt(p)}));
+}
+
+float ExactRadius::SquaredAt(LatticePoint p) {
   if (!IsOnLattice(p) || !near_bricks_.Contains(p)) return 0;
   if (!searches()) {
     const BrickAddress address = AddressOf(p);
-    const BrickIndex brick = near_bricks_.Find(address.brick);
-    return static_cast<float>(field_->ToLatticeUnits(field_->At(brick, address.bit)));
+    return field_->SquareAt(near_bricks_.Find(address.brick), address.bit);
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));
   while (!SearchWithin(reach, p)) reach *= 2;
-  return static_cast<float>(std::sqrt(double{last_.squared}));
+  return last_.squared;
 }
 
 PointSearch ExactRadius::SearchFrom(LatticePoint p, int32_t most) {

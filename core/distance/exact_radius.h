@@ -34,6 +34,8 @@ class ExactRadius {
 
   // Lattice units; 0 for background points. The same bits however it is found.
   float At(LatticePoint p);
+  // Its square, which At() takes the root of.
+  float SquaredAt(LatticePoint p);
   // A background point as far away as At() said last.
   // Needs: this searches, and At() was asked for an object point.
   LatticePoint nearest() const { return last_.at; }

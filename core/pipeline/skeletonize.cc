@@ -115,13 +115,15 @@ absl::Status PrepareRadii(const Volume& object, const Volume& thin, DistanceFiel
 // The stages, in their order, and what they hand to each other.
 class Pipeline {
  public:
+  // `peeler` may be null: this process peels.
   Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
-           const exec::Context& context, const OnShellPoints& on_points)
+           const exec::Context& context, const OnShellPoints& on_points, const Peeler* peeler)
       : options_(options),
         thinning_(options.thinning),
         memory_(memory),
         context_(context),
-        on_points_(on_points) {
+        on_points_(on_points),
+        peeler_(peeler) {
     result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
     result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
@@ -192,9 +194,10 @@ class Pipeline {
   }
 
   absl::Status RunIn(const Volume& object) {
-    DistanceField distance = NoDistances(options_.distance);
-    BCCSKEL_RETURN_IF_ERROR(NeedsDistances() ? ThinInField(object, distance)
-                                             : ThinInShells(object));
+    // Those who peel elsewhere keep the distances, so radii are searched for.
+    DistanceField distance =
+        NoDistances(peeler_ == nullptr ? options_.distance : DistanceKind::kChamfer);
+    BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
     BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
                                             "points that thinning leaves"));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
@@ -240,6 +243,17 @@ class Pipeline {
     return FieldOfPart(object, continued_->space, field);
   }
 
+  absl::Status Thin(const Volume& object, DistanceField& distance) {
+    if (peeler_ != nullptr) return ThinElsewhere(object);
+    return NeedsDistances() ? ThinInField(object, distance) : ThinInShells(object);
+  }
+
+  absl::Status ThinElsewhere(const Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned, (*peeler_)(object, thinning_));
+    TakeOver(std::move(thinned));
+    return absl::OkStatus();
+  }
+
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
     result_.timings.distance = clock_.Lap();
@@ -277,9 +291,9 @@ class Pipeline {
   // Returns the radii of the points that stay.
   absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
                                                      DistanceField& distance) {
-    if (!continued_.has_value()) {
+    if (peeler_ == nullptr && !continued_.has_value()) {
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, result_.thin, distance, context_));
-    } else if (distance.kind() != DistanceKind::kEuclidean) {
+    } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
       distance = std::move(continued_->distance);
     }
     const ExactRadius radius(object, distance);
@@ -332,6 +346,7 @@ class Pipeline {
   exec::MemoryBudget& memory_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
+  const Peeler* const peeler_;
   exec::StageClock clock_;
   std::vector<IsthmusBirth> isthmuses_;
   PruningLevels levels_;
@@ -341,43 +356,7 @@ class Pipeline {
   SkeletonizeResult result_;
 };
 
-bool IsForSheets(PruningRule rule) {
-  return rule == PruningOptions().rule || rule == PruningRule::kNone;
-}
-
 }  // namespace
-
-double SurfaceStepOf(ObjectSource source) {
-  switch (source) {
-    case ObjectSource::kPoints:
-      return 1;
-    case ObjectSource::kVoxels:
-    case ObjectSource::kSampledVoxels:
-      return 2;
-    case ObjectSource::kRefinedVoxels:
-      return 4;
-  }
-  return 1;
-}
-
-absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
-  BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options.preparing));
-  BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
-  BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options.pruning));
-  BCCSKEL_RETURN_IF_ERROR(CheckJunctionReach(options.junction_reach));
-  if (options.thinning.kind == SkeletonKind::kSurface && !IsForSheets(options.pruning.rule)) {
-    return absl::InvalidArgumentError(
-        "pruning by length, relative length or persistence: is for curves; the kind surface is "
-        "pruned by the default rule, the thickness of its sheets, or by none");
-  }
-  if (options.pruning.rule == PruningRule::kPersistence &&
-      options.thinning.kind != SkeletonKind::kIsthmusCurve) {
-    return absl::InvalidArgumentError(
-        "pruning by persistence: needs the kind isthmus-curve, which knows when each point became "
-        "an isthmus");
-  }
-  return absl::OkStatus();
-}
 
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
@@ -393,7 +372,19 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  return Pipeline(options, memory, context, on_points).Run(object);
+  return Pipeline(options, memory, context, on_points, nullptr).Run(object);
+}
+
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+                                                const SkeletonizeOptions& options,
+                                                const exec::Context& context) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
+  if (options.border != Border::kEnds) {
+    return absl::InvalidArgumentError("an object that is peeled elsewhere must end at its border");
+  }
+  exec::UnlimitedMemory memory;
+  const OnShellPoints nobody;
+  return Pipeline(options, memory, context, nobody, &peeler).Run(object);
 }
 
 }  // namespace bccskel

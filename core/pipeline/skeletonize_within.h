@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_
 
 #include <cstdint>
+#include <functional>
 
 #include "core/exec/memory_budget.h"
 #include "core/pipeline/skeletonize.h"
@@ -22,6 +23,17 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const SkeletonizeOptions& options,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points = nullptr);
+
+// Thins in place of ThinToCurve(), with the same result.
+using Peeler = std::function<absl::StatusOr<ThinningResult>(const Volume& object,
+                                                            const ThinningOptions& options)>;
+
+// Skeletonize() where others peel the object; the same result. All other stages run here.
+// Errors: as Skeletonize(); the peeler's; INVALID_ARGUMENT for objects that continue beyond their
+//         border.
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+                                                const SkeletonizeOptions& options,
+                                                const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -41,6 +41,8 @@ class Shells {
   Shells(exec::UninitializedVector<ShellPlanes> planes, std::vector<Range> ranges);
 
   int32_t last() const { return last_; }
+  // Where these are a part of the object's: its deepest shell.
+  void SetLast(int32_t last) { last_ = last; }
   const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
   size_t brick_count() const { return ranges_.size(); }
 

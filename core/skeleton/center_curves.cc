@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
 #include "core/distance/points_along.h"
 #include "core/exec/stop_poll.h"
@@ -24,15 +25,27 @@ constexpr size_t kTangentReach = 2;  // points on either side that give the curv
 
 class DiscCenters {
  public:
-  DiscCenters(const Volume& object, const DistanceField& field)
-      : field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+  // `radius` is of the same object and field.
+  DiscCenters(const Volume& object, const DistanceField& field, const ExactRadius& radius)
+      : field_(field), scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius) {}
 
   Coordinates PlaceOf(LatticePoint p) const { return bccskel::PlaceOf(p, scale_); }
 
   // The way from `middle` to the center of the disc across `way` around it, along the disc.
   Coordinates WayToCenter(const Coordinates& middle, const Coordinates& way, double radius) {
+    if (radius_.searches()) {
+      const auto square_at = [&](LatticePoint p) { return radius_.SquaredAt(p); };
+      return WayToCenter(square_at, middle, way, radius);
+    }
     return std::visit(
-        [&](const auto& squares) { return WayToCenter(squares, middle, way, radius); },
+        [&](const auto& squares) {
+          const auto square_at = [&](LatticePoint p) {
+            const BrickAddress address = AddressOf(p);
+            const size_t brick = bricks_.Find(address.brick);
+            return squares[brick * kBrickPoints + static_cast<size_t>(address.bit)];
+          };
+          return WayToCenter(square_at, middle, way, radius);
+        },
         field_.values());
   }
 
@@ -46,8 +59,8 @@ class DiscCenters {
   }
 
  private:
-  template <typename Squares>
-  Coordinates WayToCenter(const Squares& squares, const Coordinates& middle, const Coordinates& way,
+  template <typename SquareAt>
+  Coordinates WayToCenter(SquareAt square_at, const Coordinates& middle, const Coordinates& way,
                           double radius) {
     const double step = std::max(radius / kRings, kLeastStep);
     const int rings = static_cast<int>(radius / step);
@@ -59,10 +72,7 @@ class DiscCenters {
       for (int j = -rings; j <= rings; ++j) {
         if (i * i + j * j > rings * rings) continue;
         const LatticePoint p = row[static_cast<size_t>(j + rings)];
-        const BrickAddress address = AddressOf(p);
-        const size_t brick = bricks_.Find(address.brick);
-        const double distance = std::sqrt(
-            static_cast<double>(squares[brick * kBrickPoints + static_cast<size_t>(address.bit)]));
+        const double distance = std::sqrt(static_cast<double>(square_at(p)));
         const double weight = distance * distance;
         sum = Sum(sum, weight, Sum(PlaceOf(p), -1, middle));
         weights += weight;
@@ -76,6 +86,7 @@ class DiscCenters {
   const DistanceField& field_;
   const AxisScale scale_;
   NearbyBricks bricks_;
+  ExactRadius radius_;
 };
 
 // A part of the smooth curve of one edge: shares of a long edge cost what their points cost.
@@ -136,10 +147,11 @@ std::vector<SkeletonEdge>::const_iterator FirstEdgeAt(const SkeletonGraph& graph
 
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph) {
+  const ExactRadius radius(object, field);
   const int workers = context.WorkersFor(graph.points.size(), kPointWork);
   exec::Portions portions(graph.points.size(), kPointsAtOnce);
   context.Offer(workers, [&](int) {
-    DiscCenters centers(object, field);
+    DiscCenters centers(object, field, radius);
     StopPoll poll(context);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (poll.StoppedNow()) return;

@@ -17,8 +17,9 @@ namespace bccskel {
 //        middle. Inside the ball everything is object, so no neighboring limb draws the curve to
 //        its side.
 // Cost:  up to 29 distances per point of the graph.
-// Shapes: `field` belongs to `object`, whose points the graph's are; the points of its edges follow
-//         each other in the order of the edges.
+// Shapes: `field` belongs to `object`, whose points the graph's are; distances are searched for
+//         unless it is Euclidean. The points of its edges follow each other in the order of the
+//         edges.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph);

@@ -21,6 +21,15 @@ class MarkBuffer {
   }
   void Add(size_t count) { count_ += count; }
   void Clear() { count_ = 0; }
+  // Keeps the bricks that `stays` says yes to.
+  template <typename Stays>
+  void Filter(Stays stays) {
+    size_t kept = 0;
+    for (size_t n = 0; n < count_; ++n) {
+      if (stays(marked_[n])) marked_[kept++] = marked_[n];
+    }
+    count_ = kept;
+  }
   std::span<const MarkedBrick> marked() const { return std::span(marked_).first(count_); }
 
  private:

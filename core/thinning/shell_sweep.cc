@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 #include <vector>
 
@@ -23,8 +22,11 @@ class ShellSweep {
              ThinningState& state)
       : shells_(plan.shells),
         last_(plan.last),
+        done_(plan.done),
         stubble_(plan.stubble),
         after_shell_(plan.after_shell),
+        partners_(plan.partners),
+        own_(plan.partners == nullptr ? exec::Share{0, state.brick_count()} : plan.partners->own()),
         rule_(rule),
         context_(context),
         state_(state),
@@ -36,7 +38,8 @@ class ShellSweep {
         changed_(unsettled_.size(), -1),
         workers_(static_cast<size_t>(context.MeetingWorkersFor(state.brick_count(), rule.work()))),
         barrier_(static_cast<int>(workers_.size())),
-        points_at_start_(CountPoints(state.object)),
+        points_at_start_(
+            CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))),
         patience_(context.patience) {
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
@@ -45,19 +48,26 @@ class ShellSweep {
   }
 
   absl::StatusOr<SweepTotals> Run() {
+    if (partners_ != nullptr) partners_->Sum({&points_at_start_, 1});
     context_.Run(static_cast<int>(workers_.size()),
                  [this](int index) { barrier_.Guard([&] { Work(index); }); });
     if (workers_.size() > 1) patience_.Tell(context_.team->confidence());
-    if (stopped_) return context_.StopStatus();
+    if (stopped_) return WhyStopped();
     return SweepTotals{TotalRemoved(), passes_};
   }
 
  private:
+  absl::Status WhyStopped() const {
+    const absl::Status own = context_.StopStatus();
+    return own.ok() ? absl::CancelledError("a partner stopped the job") : own;
+  }
+
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
-    int32_t cycle = 0;
-    for (int32_t shell = 1; shell <= last_; ++shell) {
+    int32_t cycle = done_;  // each of those shells had one
+    for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
+    for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
       if (alone_ && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
@@ -70,6 +80,7 @@ class ShellSweep {
           alone_ = patience_.Lost() || context_.usable_threads() == 1;
         }
         Meet(index);  // the new object is complete, and so are the sums
+        if (partners_ != nullptr && !Agree(index, shell)) return;
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
       } while (shell == last_ && TotalRemoved() != before);
@@ -81,39 +92,9 @@ class ShellSweep {
     const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
     worker.bricks = {share.begin * kUnsettledGroup,
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
-    worker.opener.Begin(shells_, worker.bricks);
-    if (workers_.size() > 1) MarkBorder(worker);
-    Split(worker);
-  }
-
-  // Whether a point goes depends on points three steps away, so bricks with a layer of bricks
-  // between them and others' have nothing to do with those.
-  void Split(Worker& worker) const {
-    const auto [begin, end] = worker.bricks;
-    size_t low = begin, high = end;
-    if (begin > 0 && begin < end) low = FirstFromLayer(LayerOf(begin - 1) + 2);
-    if (begin < end && end < state_.brick_count()) high = FirstFromLayer(LayerOf(end) - 1);
-    low = std::clamp(RoundUp(low), begin, end);
-    high = std::clamp(high / kUnsettledGroup * kUnsettledGroup, low, end);
-    worker.parts[0].bricks = {begin, low};
-    worker.parts[1].bricks = {high, end};
-    worker.parts[2].bricks = {low, high};
-    for (Part& part : worker.parts) {
-      const size_t bricks = part.bricks.end - part.bricks.begin;
-      part.to_do.Reserve(bricks);
-      part.end_points_to_do.Reserve(bricks);
-      part.thin.Reserve(bricks);
-    }
-  }
-
-  static size_t RoundUp(size_t n) {
-    return (n + kUnsettledGroup - 1) / kUnsettledGroup * kUnsettledGroup;
-  }
-  int32_t LayerOf(size_t brick) const { return state_.keys[brick].coordinates().bz; }
-  size_t FirstFromLayer(int32_t layer) const {
-    const auto first = std::ranges::lower_bound(state_.keys, layer, {},
-                                                [](BrickKey key) { return key.coordinates().bz; });
-    return static_cast<size_t>(first - state_.keys.begin());
+    BeginOpening(shells_, own_, worker);
+    if (workers_.size() > 1) MarkBorder(state_, worker, unsettled_);
+    SplitParts(state_, worker);
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
@@ -124,7 +105,7 @@ class ShellSweep {
     joined_ = true;
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
-    Split(first);
+    SplitParts(state_, first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -135,18 +116,10 @@ class ShellSweep {
   void TakeOver(Worker& other, Worker& first) {
     for (BrickIndex n : other.seen_elsewhere) UnsettledView().Add(n, enabled_[n]);
     first.opener.TakeOver(other.opener);
+    for (size_t n = 0; n < 2; ++n) first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
-  }
-
-  void MarkBorder(const Worker& worker) {
-    for (size_t n = worker.bricks.begin; n < worker.bricks.end; ++n) {
-      const bool border = std::ranges::any_of(state_.neighbors[n], [&](BrickIndex other) {
-        return other < state_.brick_count() && !Owns(worker, other);
-      });
-      if (border) unsettled_[n] |= kBorderBrick;
-    }
   }
 
   // Condition 5: the points of this shell become candidates.
@@ -161,6 +134,8 @@ class ShellSweep {
         .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
     };
     worker.shell_points[static_cast<size_t>(shell & 1)] = worker.opener.Open(view, shell);
+    if (partners_ == nullptr) return;
+    for (ShellOpener& opener : worker.ghost_openers) opener.Open(view, shell);
   }
 
   // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.
@@ -212,7 +187,7 @@ class ShellSweep {
   bool Pass(int index, Worker& worker, PassStep at) {
     Await(index);  // what others removed near here is gone
     if (index == 0) {
-      stopped_ = context_.ShouldStop();
+      if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
     TakeOverUnsettled(worker);
@@ -225,8 +200,48 @@ class ShellSweep {
     if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(worker);
     worker.seen_elsewhere.clear();
+    if (partners_ != nullptr) TradeMarks(index, at.cycle, worker);
     BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
     return true;
+  }
+
+  // What ghosts lose their owners know.
+  void TradeMarks(int index, int32_t cycle, Worker& worker) {
+    for (Part& part : worker.parts) {
+      part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrUnsettle(m.brick); });
+    }
+    Meet(index);
+    if (index == 0) {
+      TellMarks(workers_, *partners_);
+      lost_by_ghosts_ = partners_->Hear();
+    }
+    Meet(index);
+    worker.ghost_marks.clear();
+    for (const MarkedBrick& m : lost_by_ghosts_) {
+      if (Owns(worker, m.brick)) worker.ghost_marks.push_back(m);
+    }
+    RemoveMarked(ViewFor(cycle, worker), worker.ghost_marks, worker.seen_elsewhere);
+  }
+
+  // A ghost whose marks are dropped has simple points still, so it must be looked at again.
+  bool IsOwnOrUnsettle(BrickIndex n) {
+    if (n >= own_.begin && n < own_.end) return true;
+    UnsettledView().Add(n, enabled_[n]);
+    return false;
+  }
+
+  // Returns whether all go on; the sums are then those of all partners.
+  bool Agree(int index, int32_t shell) {
+    if (index == 0) {
+      std::array<uint64_t, 3> sums = {RemovedHere(), ShellPointsHere(shell),
+                                      context_.ShouldStop() ? 1u : 0u};
+      partners_->Sum(sums);
+      all_removed_ = sums[0];
+      all_shell_points_ = sums[1];
+      stopped_ = sums[2] != 0;
+    }
+    Meet(index);
+    return !stopped_;
   }
 
   // The bricks near others' first: while this worker is at the rest, others learn that they are
@@ -294,17 +309,21 @@ class ShellSweep {
 
   void Remove(int32_t cycle, Part& part, Worker& worker) {
     rule_.Finish(part.to_do);
-    const RemovalView view = {.object = state_.object.data(),
-                              .candidates = state_.candidates.data(),
-                              .neighbors = state_.neighbors.data(),
-                              .unsettled = UnsettledView(),
-                              .enabled = enabled_.data(),
-                              .changed = changed_.data(),
-                              .cycle = cycle,
-                              .first = static_cast<BrickIndex>(worker.bricks.begin),
-                              .last = static_cast<BrickIndex>(worker.bricks.end),
-                              .none = static_cast<BrickIndex>(state_.brick_count())};
-    worker.removed += RemoveMarked(view, part.marks.marked(), worker.seen_elsewhere);
+    worker.removed +=
+        RemoveMarked(ViewFor(cycle, worker), part.marks.marked(), worker.seen_elsewhere);
+  }
+
+  RemovalView ViewFor(int32_t cycle, const Worker& worker) {
+    return {.object = state_.object.data(),
+            .candidates = state_.candidates.data(),
+            .neighbors = state_.neighbors.data(),
+            .unsettled = UnsettledView(),
+            .enabled = enabled_.data(),
+            .changed = changed_.data(),
+            .cycle = cycle,
+            .first = static_cast<BrickIndex>(worker.bricks.begin),
+            .last = static_cast<BrickIndex>(worker.bricks.end),
+            .none = static_cast<BrickIndex>(state_.brick_count())};
   }
 
   static bool Owns(const Worker& worker, BrickIndex n) {
@@ -313,17 +332,23 @@ class ShellSweep {
 
   // Needs: called between the second meeting of a pass and the first of the next, when no worker
   // removes anything.
-  uint64_t TotalRemoved() const {
+  uint64_t TotalRemoved() const { return partners_ == nullptr ? RemovedHere() : all_removed_; }
+  uint64_t RemovedHere() const {
     uint64_t total = 0;
     for (const Worker& worker : workers_) total += worker.removed;
     return total;
   }
 
-  void Report(int32_t shell) const {
+  uint64_t ShellPointsHere(int32_t shell) const {
     uint64_t points = 0;
     for (const Worker& worker : workers_) {
       points += worker.shell_points[static_cast<size_t>(shell & 1)];
     }
+    return points;
+  }
+
+  void Report(int32_t shell) const {
+    const uint64_t points = partners_ == nullptr ? ShellPointsHere(shell) : all_shell_points_;
     const uint64_t removed = TotalRemoved();
     context_.Report({.shell = shell,
                      .last_shell = shells_.last(),
@@ -335,8 +360,11 @@ class ShellSweep {
 
   const Shells& shells_;
   const int32_t last_;
+  const int32_t done_;
   const StubblePolicy stubble_;
   const std::function<void(int32_t)>& after_shell_;
+  SweepPartners* const partners_;
+  const exec::Share own_;  // the other bricks are ghosts
   PassRule& rule_;
   const exec::Context& context_;
   ThinningState& state_;
@@ -347,10 +375,15 @@ class ShellSweep {
   std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
   std::vector<Worker> workers_;
   exec::Barrier barrier_;
-  const uint64_t points_at_start_;
+  uint64_t points_at_start_;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass
   bool alone_ = false;    // written by worker 0 between the meetings of a pass
+
+  // Of all partners; written by worker 0 between the meetings of Agree() and TradeMarks().
+  uint64_t all_removed_ = 0;
+  uint64_t all_shell_points_ = 0;
+  std::span<const MarkedBrick> lost_by_ghosts_;
 
   // Worker 0's own.
   exec::Patience patience_;

@@ -8,6 +8,7 @@
 #include "core/exec/context.h"
 #include "core/shells/shells.h"
 #include "core/thinning/pass_rule.h"
+#include "core/thinning/sweep_partners.h"
 #include "core/thinning/thinning.h"
 #include "core/thinning/thinning_state.h"
 
@@ -19,7 +20,16 @@ struct SweepPlan {
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
   // Called on worker 0 after each shell, while nobody removes anything.
   std::function<void(int32_t shell)> after_shell = nullptr;
+  // Null: the object is all here.
+  SweepPartners* partners = nullptr;
+  // Shells that were thinned before, less than `last`: the state is what they left. Totals are of
+  // the rest.
+  int32_t done = 0;
 };
+
+// What the options make of a plan.
+int32_t LastShellOf(const ThinningOptions& options, const Shells& shells);
+StubblePolicy StubbleOf(const ThinningOptions& options);
 
 struct SweepTotals {
   uint64_t removed = 0;
@@ -37,6 +47,8 @@ struct SweepTotals {
 //        a change.
 // Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
 // Threads: worker w owns a contiguous range of bricks; one more meeting per pass than it has steps.
+// Partners: trade what bricks lose once per pass, and sums once per cycle; the same points removed.
+//        Totals and progress are those of all; kept to until a cycle ends: requests to stop.
 // Errors:  CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
                                         const exec::Context& context, ThinningState& state);

@@ -4,11 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/exec/worker_team.h"
 #include "core/thinning/pass_rule.h"
 #include "core/thinning/shell_opener.h"
+#include "core/thinning/sweep_partners.h"
+#include "core/thinning/thinning_state.h"
 #include "core/thinning/unsettled.h"
 
 namespace bccskel {
@@ -30,15 +33,32 @@ struct alignas(128) SweepWorker {
   // Its bricks near others' below and above, and those between.
   std::array<SweepPart, 3> parts;
   ShellOpener opener;
+  // Of partners' bricks below and above its own, whose points do not count here.
+  std::array<ShellOpener, 2> ghost_openers;
 
   // Bricks of other workers that border on points removed here. Written while points are removed
   // and read by their owners before the next marks.
   std::vector<BrickIndex> seen_elsewhere;
   // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
   std::vector<BrickIndex> beside_sleepers_elsewhere;
+  std::vector<MarkedBrick> ghost_marks;  // what its ghosts lose in this pass
   uint64_t removed = 0;
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
+
+// Makes the parts of a worker's bricks. Whether a point goes depends on points three steps away, so
+// bricks with a layer of bricks between them and others' have nothing to do with those.
+void SplitParts(const ThinningState& state, SweepWorker& worker);
+
+// Marks the bricks that border on other workers'.
+void MarkBorder(const ThinningState& state, const SweepWorker& worker,
+                std::span<Unsettled> unsettled);
+
+// Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
+void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
+
+// Tells partners all marks of a pass. Needs: those of ghosts are gone.
+void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel
 

@@ -32,6 +32,15 @@ absl::Status CheckThinningOptions(const ThinningOptions& options) {
   return absl::OkStatus();
 }
 
+int32_t LastShellOf(const ThinningOptions& options, const Shells& shells) {
+  return options.last_shell == 0 ? shells.last() : std::min(options.last_shell, shells.last());
+}
+
+StubblePolicy StubbleOf(const ThinningOptions& options) {
+  const bool has_stubble = EndPointsOf(options.kind) == EndPoints::kStay;
+  return has_stubble ? options.stubble : StubblePolicy::kNone;
+}
+
 namespace {
 
 // One run, stage by stage.
@@ -90,10 +99,7 @@ class Thinning {
   absl::Status Sweep(const Shells& shells, PassRule& rule) {
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.last();
-    const int32_t last =
-        options_.last_shell == 0 ? shells.last() : std::min(options_.last_shell, shells.last());
-    const bool has_stubble = EndPointsOf(options_.kind) == EndPoints::kStay;
-    SweepPlan plan = {shells, last, has_stubble ? options_.stubble : StubblePolicy::kNone};
+    SweepPlan plan = {shells, LastShellOf(options_, shells), StubbleOf(options_)};
     if (on_points_) {
       peeled_.emplace(object_);
       plan.after_shell = [this](int32_t shell) { on_points_(shell, peeled_->Take(state_.object)); };

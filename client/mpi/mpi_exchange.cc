@@ -1,0 +1,100 @@
+#include "client/mpi/mpi_exchange.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace bccskel::cli {
+namespace {
+
+using ranks::Bytes;
+
+constexpr int kTag = 19;
+// MPI counts in int. A letter is sent in pieces of this size and a shorter last one, so that nobody
+// has to be told its length before.
+constexpr size_t kPieceBytes = size_t{1} << 30;
+
+// Between looks at whether something has come.
+class Lookout {
+ public:
+  void Rest() {
+    constexpr auto kSpinTime = std::chrono::microseconds(100);
+    constexpr auto kSleepTime = std::chrono::microseconds(50);
+    if (std::chrono::steady_clock::now() - start_ < kSpinTime) {
+      std::this_thread::yield();
+    } else {
+      std::this_thread::sleep_for(kSleepTime);
+    }
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Takes a piece of the letter if one has come. Returns whether it was the last.
+bool TakePiece(int peer, MPI_Comm communicator, Bytes& letter) {
+  int has_come = 0;
+  MPI_Message message;
+  MPI_Status status;
+  MPI_Improbe(peer, kTag, communicator, &has_come, &message, &status);
+  if (has_come == 0) return false;
+  int count = 0;
+  MPI_Get_count(&status, MPI_BYTE, &count);
+  const size_t at = letter.size();
+  letter.resize(at + static_cast<size_t>(count));
+  MPI_Mrecv(letter.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+  return static_cast<size_t>(count) < kPieceBytes;
+}
+
+}  // namespace
+
+MpiExchange::MpiExchange(MPI_Comm communicator) {
+  MPI_Comm_dup(communicator, &communicator_);
+  MPI_Comm_rank(communicator_, &rank_);
+  MPI_Comm_size(communicator_, &size_);
+}
+
+MpiExchange::~MpiExchange() { MPI_Comm_free(&communicator_); }
+
+void MpiExchange::Send(int peer, const Bytes& letter, std::vector<MPI_Request>& requests) {
+  size_t at = 0, piece = 0;
+  do {
+    piece = std::min(letter.size() - at, kPieceBytes);
+    MPI_Isend(letter.data() + at, static_cast<int>(piece), MPI_BYTE, peer, kTag, communicator_,
+              &requests.emplace_back());
+    at += piece;
+  } while (piece == kPieceBytes);
+  ++counts_.letters;
+  counts_.bytes += letter.size();
+}
+
+void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
+                        std::span<Bytes> in) {
+  ++counts_.trades;
+  std::vector<MPI_Request> sent;
+  for (size_t n = 0; n < peers.size(); ++n) Send(peers[n], out[n], sent);
+  for (Bytes& letter : in) letter.clear();
+  std::vector<size_t> awaited(peers.size());
+  for (size_t n = 0; n < awaited.size(); ++n) awaited[n] = n;
+  int all_sent = 0;
+  for (Lookout lookout; !awaited.empty() || all_sent == 0; lookout.Rest()) {
+    std::erase_if(awaited, [&](size_t n) { return TakePiece(peers[n], communicator_, in[n]); });
+    MPI_Testall(static_cast<int>(sent.size()), sent.data(), &all_sent, MPI_STATUSES_IGNORE);
+    if (awaited.empty() && all_sent != 0) return;
+  }
+}
+
+void MpiExchange::Reduce(std::span<uint64_t> numbers, MPI_Op operation) {
+  ++counts_.sums;
+  MPI_Request request;
+  MPI_Iallreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T,
+                 operation, communicator_, &request);
+  int done = 0;
+  Lookout lookout;
+  for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); done == 0;
+       MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
+    lookout.Rest();
+  }
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,51 @@
+#ifndef BCCSKEL_CLIENT_MPI_MPI_EXCHANGE_H_
+#define BCCSKEL_CLIENT_MPI_MPI_EXCHANGE_H_
+
+#include <mpi.h>
+
+#include <cstdint>
+
+#include "core/ranks/exchange.h"
+
+namespace bccskel::cli {
+
+// What a rank has said so far.
+struct ExchangeCounts {
+  uint64_t trades = 0;
+  uint64_t sums = 0;
+  uint64_t letters = 0;  // sent to one other rank
+  uint64_t bytes = 0;    // in these
+};
+
+// The ranks of an MPI job. Waits without burning the processor: after some microseconds of looking
+// out it sleeps between looks. What goes wrong in MPI ends the job, by its default error handler.
+// Needs: MPI is initialized, and is finalized after this is gone; one thread at a time.
+class MpiExchange : public ranks::Exchange {
+ public:
+  explicit MpiExchange(MPI_Comm communicator);
+  ~MpiExchange() override;
+  MpiExchange(const MpiExchange&) = delete;
+  MpiExchange& operator=(const MpiExchange&) = delete;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  void Trade(std::span<const int> peers, std::span<const ranks::Bytes> out,
+             std::span<ranks::Bytes> in) override;
+  void Sum(std::span<uint64_t> numbers) override { Reduce(numbers, MPI_SUM); }
+  void Max(std::span<uint64_t> numbers) override { Reduce(numbers, MPI_MAX); }
+
+  const ExchangeCounts& counts() const { return counts_; }
+
+ private:
+  void Reduce(std::span<uint64_t> numbers, MPI_Op operation);
+  void Send(int peer, const ranks::Bytes& letter, std::vector<MPI_Request>& requests);
+
+  MPI_Comm communicator_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+  ExchangeCounts counts_;
+};
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_MPI_MPI_EXCHANGE_H_

@@ -1,0 +1,75 @@
+#include "client/mpi/rank_command.h"
+
+#include <string>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/local_team.h"
+#include "client/cli/output_check.h"
+#include "client/export/skeleton_file.h"
+#include "client/mpi/file_folder.h"
+#include "core/exec/status_macros.h"
+#include "core/ranks/rank_skeletonize.h"
+
+namespace bccskel::cli {
+namespace {
+
+absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
+  for (const std::string& path : arguments.outputs) {
+    const auto format = exporting::SkeletonFormatOf(path);
+    if (!format.ok() || *format != exporting::SkeletonFormat::kHtml) continue;
+    return absl::InvalidArgumentError(
+        path +
+        ": ranks do not collect the points of each shell that a page shows; write .json, "
+        "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
+  }
+  return absl::OkStatus();
+}
+
+ExitCode RunLead(const SkeletonizeArguments& arguments, ranks::Exchange& exchange,
+                 const ranks::CheckpointOptions& checkpoints, const FileFolder& folder,
+                 const std::stop_token& stop) {
+  ranks::Lead lead(exchange, checkpoints);
+  absl::Status writable = CheckOutputs(arguments);
+  if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
+  if (!writable.ok()) return FailWith(ExitCode::kOutput, writable);
+  return RunBy(
+      [&](const Volume& object, const SkeletonizeOptions& options, const exec::Context& context) {
+        return lead.Skeletonize(object, options, context);
+      },
+      arguments, stop);
+}
+
+}  // namespace
+
+absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments) {
+  auto* chosen = std::get_if<SkeletonizeArguments>(&arguments);
+  if (chosen == nullptr || chosen->accepted != AcceptedInput::kAll) {
+    return absl::InvalidArgumentError(
+        "ranks run `skeletonize` only; run other commands with `bccskel`, on one machine");
+  }
+  if (chosen->place == Place::kServer) {
+    return absl::InvalidArgumentError(
+        "--server: ranks compute themselves; leave it out, or run `bccskel skeletonize`");
+  }
+  BCCSKEL_RETURN_IF_ERROR(ranks::CheckRankOptions(chosen->skeletonize));
+  BCCSKEL_RETURN_IF_ERROR(CheckOutputFormats(*chosen));
+  chosen->place = Place::kLocal;
+  if (chosen->common.threads == 0) chosen->common.threads = 1;
+  return std::move(*chosen);
+}
+
+ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+                 ranks::Exchange& exchange, const std::stop_token& stop) {
+  FileFolder folder(options.checkpoint_folder);
+  const ranks::CheckpointOptions checkpoints = {
+      options.checkpoint_folder.empty() ? nullptr : &folder, options.resuming,
+      options.checkpoint_interval};
+  if (exchange.rank() == 0) return RunLead(arguments, exchange, checkpoints, folder, stop);
+  LocalTeam team(arguments.common.threads, stop);
+  // Rank 0 reports how the job ends.
+  (void)ranks::FollowLead(exchange, team.context(), checkpoints);
+  return ExitCode::kOk;
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,25 @@
+#ifndef BCCSKEL_CLIENT_MPI_RANK_COMMAND_H_
+#define BCCSKEL_CLIENT_MPI_RANK_COMMAND_H_
+
+#include <stop_token>
+#include <variant>
+
+#include "absl/status/status.h"
+#include "client/cli/arguments.h"
+#include "client/cli/exit_code.h"
+#include "client/mpi/rank_options.h"
+#include "core/ranks/exchange.h"
+
+namespace bccskel::cli {
+
+// The arguments of `skeletonize`, with one thread where none are named. All ranks get the same.
+// Errors: INVALID_ARGUMENT for other commands and for options that ranks do not have.
+absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments);
+
+// Runs the command as this rank of all. Rank 0 reads, writes and reports.
+ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+                 ranks::Exchange& exchange, const std::stop_token& stop);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_MPI_RANK_COMMAND_H_

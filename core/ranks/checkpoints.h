@@ -1,0 +1,94 @@
+#ifndef BCCSKEL_CORE_RANKS_CHECKPOINTS_H_
+#define BCCSKEL_CORE_RANKS_CHECKPOINTS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/distance/distance_field.h"
+#include "core/ranks/exchange.h"
+#include "core/ranks/rank_bricks.h"
+#include "core/thinning/thinning.h"
+#include "core/thinning/thinning_state.h"
+
+namespace bccskel::ranks {
+
+// A folder that all ranks see. Threads: one thread of each rank.
+class CheckpointFolder {
+ public:
+  virtual ~CheckpointFolder() = default;
+
+  // As a whole or not at all, and there after a loss of power.
+  virtual absl::Status Write(const std::string& name, const Bytes& bytes) = 0;
+  // Errors: NOT_FOUND.
+  virtual absl::StatusOr<Bytes> Read(const std::string& name) = 0;
+  virtual void Remove(const std::string& name) = 0;
+};
+
+enum class Resuming : uint8_t {
+  kNever,     // begins anew; the first checkpoint replaces one that is there
+  kWhereDone  // goes on from the checkpoint; begins anew where there is none
+};
+
+struct CheckpointOptions {
+  CheckpointFolder* folder = nullptr;  // null: none
+  Resuming resuming = Resuming::kNever;
+  std::chrono::milliseconds interval = std::chrono::minutes(10);  // 0: after each shell
+};
+
+// What is left of an object after some shells.
+struct ShellsDone {
+  int32_t shells = 0;
+  std::vector<IsthmusBirth> isthmuses;  // of all ranks
+};
+
+// Writes what is left of the object between shells, each rank its own bricks, and reads it back on
+// any number of ranks. A checkpoint counts once rank 0 has written which one it is, which it does
+// after all ranks have written theirs; then the one before goes.
+class Checkpoints {
+ public:
+  // All ranks together. `bricks` and `exchange` outlive this.
+  Checkpoints(Exchange& exchange, const RankBricks& bricks, const CheckpointOptions& options,
+              DistanceKind distance, const ThinningOptions& thinning);
+
+  // Takes what the last checkpoint left of the object into `object`, in the order of
+  // bricks.local; 0 shells where there is none or none is wanted.
+  // Errors: FAILED_PRECONDITION where it is one of another object or of other options, DATA_LOSS;
+  //         on all ranks.
+  absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);
+
+  // Writes one if it is time. All ranks together, after a shell.
+  // Errors: of the folder; on all ranks.
+  absl::Status AfterShell(int32_t shell, const ThinningState& state,
+                          const std::vector<IsthmusBirth>& isthmuses);
+
+  bool wanted() const { return options_.folder != nullptr; }
+
+ private:
+  struct Mark {
+    int32_t shells = 0;
+    int32_t ranks = 0;
+    uint64_t job = 0;
+  };
+  using Clock = std::chrono::steady_clock;
+
+  absl::StatusOr<Mark> ReadMark();
+  absl::StatusOr<std::vector<Bytes>> ReadParts(const Mark& mark);
+  absl::Status Agree(absl::Status own);
+  Bytes PartOf(const ThinningState& state, const std::vector<IsthmusBirth>& isthmuses) const;
+
+  Exchange& exchange_;
+  const RankBricks& bricks_;
+  const CheckpointOptions options_;
+  uint64_t job_ = 0;  // of the object and the options
+  std::optional<Mark> last_;
+  Clock::time_point written_ = Clock::now();
+};
+
+}  // namespace bccskel::ranks
+
+#endif  // BCCSKEL_CORE_RANKS_CHECKPOINTS_H_

@@ -1,0 +1,41 @@
+#ifndef BCCSKEL_CORE_RANKS_LAYER_OWNERS_H_
+#define BCCSKEL_CORE_RANKS_LAYER_OWNERS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/exec/worker_team.h"
+#include "core/ranks/exchange.h"
+#include "core/ranks/packing.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::ranks {
+
+// A brick in 72 bytes.
+void PackBrick(BrickKey key, const BrickBits& bits, Bytes& to);
+void TakeBrick(Unpacker& from, std::vector<BrickKey>& keys, std::vector<BrickBits>& bits);
+
+// Which rank measures which layer of bricks: runs of layers with about equally many bricks.
+class LayerOwners {
+ public:
+  // `own` of the bricks of `local`.
+  LayerOwners(Exchange& exchange, const Volume& local, exec::Share own);
+
+  // Of the nearest layer where there is none.
+  size_t RankOf(int32_t layer) const;
+  // The layers of a rank.
+  int32_t FirstOf(int rank) const;
+  int32_t EndOf(int rank) const { return FirstOf(rank + 1); }
+
+ private:
+  std::vector<uint64_t> ranks_;
+};
+
+// The bricks of this rank's layers and those of the layers below and above.
+Volume MoveToLayers(Exchange& exchange, const LayerOwners& layers, const Volume& local,
+                    exec::Share own);
+
+}  // namespace bccskel::ranks
+
+#endif  // BCCSKEL_CORE_RANKS_LAYER_OWNERS_H_

@@ -1,0 +1,74 @@
+#ifndef BCCSKEL_CORE_RANKS_RANK_BRICKS_H_
+#define BCCSKEL_CORE_RANKS_RANK_BRICKS_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/exec/worker_team.h"
+#include "core/ranks/exchange.h"
+#include "core/ranks/packing.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::ranks {
+
+// Who owns what: the bricks of the object in their order are cut into as many runs as there are
+// ranks.
+class Owners {
+ public:
+  // `first` is the least key of this rank's bricks, none where it has none.
+  Owners(Exchange& exchange, std::optional<BrickKey> first);
+
+  // Whose bricks a key would be among. Needs: some rank has bricks.
+  int OwnerOf(BrickKey key) const;
+
+ private:
+  std::vector<uint64_t> firsts_;  // of those that have bricks
+  std::vector<int> ranks_;
+};
+
+// A rank's bricks of the object, and those of others beside them.
+struct RankBricks {
+  struct Peer {
+    int rank = 0;
+    std::vector<BrickIndex> told;   // own bricks that are the peer's ghosts
+    std::vector<BrickIndex> heard;  // ghosts that are the peer's bricks, in the order of its told
+  };
+
+  Volume local;              // own bricks and ghosts
+  exec::Share own = {0, 0};  // own bricks within `local`
+  std::vector<Peer> peers;   // by rank
+  Owners owners;
+};
+
+// Moves bricks so that ranks own equal numbers of them.
+// Needs: the bricks of each rank come before those of the next.
+Volume ShareEvenly(Exchange& exchange, const Volume& part);
+
+// Adds ghosts: all bricks of others that touch an own one by a side, an edge or a corner, whatever
+// their sublattice. Needs: as ShareEvenly().
+RankBricks AddGhosts(Exchange& exchange, const Volume& own);
+
+// Sends the value of each own brick to those who have the brick as a ghost.
+// Shapes: `values` has one for each brick of `local`; may be longer.
+template <typename T>
+void ShareWithGhosts(Exchange& exchange, const RankBricks& bricks, std::span<T> values) {
+  std::vector<int> peers;
+  std::vector<Bytes> out;
+  for (const RankBricks::Peer& peer : bricks.peers) {
+    peers.push_back(peer.rank);
+    for (Bytes& to = out.emplace_back(); const BrickIndex n : peer.told) Pack(values[n], to);
+  }
+  std::vector<Bytes> in(peers.size());
+  exchange.Trade(peers, out, in);
+  for (size_t p = 0; p < peers.size(); ++p) {
+    Unpacker from(in[p]);
+    for (const BrickIndex n : bricks.peers[p].heard) values[n] = from.Take<T>();
+  }
+}
+
+}  // namespace bccskel::ranks
+
+#endif  // BCCSKEL_CORE_RANKS_RANK_BRICKS_H_

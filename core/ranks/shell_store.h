@@ -1,0 +1,51 @@
+#ifndef BCCSKEL_CORE_RANKS_SHELL_STORE_H_
+#define BCCSKEL_CORE_RANKS_SHELL_STORE_H_
+
+#include <vector>
+
+#include "core/distance/distance_field.h"
+#include "core/exec/context.h"
+#include "core/exec/uninitialized.h"
+#include "core/exec/worker_team.h"
+#include "core/ranks/exchange.h"
+#include "core/ranks/packing.h"
+#include "core/ranks/rank_bricks.h"
+#include "core/ranks/rank_shells.h"
+
+namespace bccskel::ranks {
+
+// The shells of a rank's bricks, as they come back from those who have measured distances.
+class ShellStore {
+ public:
+  // Needs: `bricks` and `exchange` outlive this.
+  ShellStore(Exchange& exchange, const RankBricks& bricks, double shell_width, Depths depths);
+
+  // All ranks together: each has measured some bricks of a volume and sends their shells to the
+  // owners.
+  void Trade(const Volume& volume, exec::Share measured, const DistanceField& field,
+             const exec::Context& context);
+
+  // Needs: all own bricks have come.
+  RankShells Finish() &&;
+
+ private:
+  struct Planes {
+    explicit Planes(size_t bricks) : planes(bricks + 1), ranges(bricks) { planes.back() = {}; }
+
+    exec::UninitializedVector<ShellPlanes> planes;
+    std::vector<Shells::Range> ranges;
+  };
+  static Shells ShellsOf(Planes planes, int32_t last);
+  void Keep(Unpacker& from);
+
+  Exchange& exchange_;
+  const RankBricks& bricks_;
+  const double shell_width_;
+  const Depths depths_;
+  Planes shells_;
+  Planes deep_;  // its ranges are not used
+};
+
+}  // namespace bccskel::ranks
+
+#endif  // BCCSKEL_CORE_RANKS_SHELL_STORE_H_

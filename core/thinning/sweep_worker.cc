@@ -1,0 +1,70 @@
+#include "core/thinning/sweep_worker.h"
+
+#include <algorithm>
+
+namespace bccskel {
+namespace {
+
+size_t RoundUp(size_t n) { return (n + kUnsettledGroup - 1) / kUnsettledGroup * kUnsettledGroup; }
+
+int32_t LayerOf(const ThinningState& state, size_t brick) {
+  return state.keys[brick].coordinates().bz;
+}
+
+size_t FirstFromLayer(const ThinningState& state, int32_t layer) {
+  const auto first = std::ranges::lower_bound(state.keys, layer, {},
+                                              [](BrickKey key) { return key.coordinates().bz; });
+  return static_cast<size_t>(first - state.keys.begin());
+}
+
+}  // namespace
+
+void SplitParts(const ThinningState& state, SweepWorker& worker) {
+  const auto [begin, end] = worker.bricks;
+  size_t low = begin, high = end;
+  if (begin > 0 && begin < end) low = FirstFromLayer(state, LayerOf(state, begin - 1) + 2);
+  if (begin < end && end < state.brick_count()) {
+    high = FirstFromLayer(state, LayerOf(state, end) - 1);
+  }
+  low = std::clamp(RoundUp(low), begin, end);
+  high = std::clamp(high / kUnsettledGroup * kUnsettledGroup, low, end);
+  worker.parts[0].bricks = {begin, low};
+  worker.parts[1].bricks = {high, end};
+  worker.parts[2].bricks = {low, high};
+  for (SweepPart& part : worker.parts) {
+    const size_t bricks = part.bricks.end - part.bricks.begin;
+    part.to_do.Reserve(bricks);
+    part.end_points_to_do.Reserve(bricks);
+    part.thin.Reserve(bricks);
+  }
+}
+
+void MarkBorder(const ThinningState& state, const SweepWorker& worker,
+                std::span<Unsettled> unsettled) {
+  const exec::Share own = worker.bricks;
+  for (size_t n = own.begin; n < own.end; ++n) {
+    const bool border = std::ranges::any_of(state.neighbors[n], [&](BrickIndex other) {
+      return other < state.brick_count() && (other < own.begin || other >= own.end);
+    });
+    if (border) unsettled[n] |= kBorderBrick;
+  }
+}
+
+void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker) {
+  const auto [begin, end] = worker.bricks;
+  const size_t first = std::clamp(own.begin, begin, end);
+  const size_t last = std::clamp(own.end, first, end);
+  worker.opener.Begin(shells, {first, last});
+  worker.ghost_openers[0].Begin(shells, {begin, first});
+  worker.ghost_openers[1].Begin(shells, {last, end});
+}
+
+void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners) {
+  for (const SweepWorker& worker : workers) {
+    for (const SweepPart& part : worker.parts) {
+      for (const MarkedBrick& m : part.marks.marked()) partners.Tell(m);
+    }
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,202 @@
+"""Runs bccskel-mpi under mpirun: the results of one machine, refusals, lost ranks, interrupts."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+CLIENT = os.environ["BCCSKEL"]
+RANKS = os.environ["BCCSKEL_MPI"]
+MPIRUN = os.environ["BCCSKEL_MPIRUN"]
+DATA = pathlib.Path(os.environ.get("BCCSKEL_TEST_DATA", ""))
+# Containers run tests as root and have few processors.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+HANGS = 120  # seconds, after which a job that should have ended is taken to hang
+
+
+def words_of(ranks, words):
+    return [MPIRUN, "--oversubscribe", "-n", str(ranks), RANKS, *map(str, words)]
+
+
+def run_ranks(ranks, *words):
+    return subprocess.run(words_of(ranks, words), env=ENVIRONMENT, capture_output=True, text=True,
+                          timeout=HANGS)
+
+
+def bccskel(*words):
+    subprocess.run([CLIENT, *map(str, words)], capture_output=True, text=True, check=True,
+                   timeout=HANGS)
+
+
+def result_of(path):
+    """A result without what no two runs share."""
+    result = json.loads(pathlib.Path(path).read_text())
+    del result["timings"]
+    return result
+
+
+class TestCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def generate(self, shape, points, ending=".exr"):
+        path = self.folder / f"{shape}{points}{ending}"
+        bccskel("generate", shape, "--points", points, "--noise", "0.02", "-o", path)
+        return path
+
+
+class Results(TestCase):
+    def expect_same(self, source, *options, ranks=(1, 2, 3, 5, 8)):
+        wanted = self.folder / "wanted.json"
+        bccskel("skeletonize", "--local", source, "-o", wanted, *options)
+        for count in ranks:
+            with self.subTest(source=source.name, ranks=count, options=options):
+                got = self.folder / f"got{count}.json"
+                run = run_ranks(count, "skeletonize", source, "-o", got, *options)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(result_of(got), result_of(wanted))
+
+    def test_volumes(self):
+        self.expect_same(self.generate("blob", 60_000))
+        self.expect_same(self.generate("tree", 30_000, ".bccb"), "--method", "directional")
+
+    def test_threads_of_ranks(self):
+        self.expect_same(self.generate("torus", 400_000), "--threads", "2", ranks=(2, 3))
+
+    def test_chamfer_distances(self):
+        self.expect_same(self.generate("horse", 60_000), "--distance", "chamfer")
+        self.expect_same(self.generate("tubes", 60_000), "--distance", "chamfer", "--method",
+                         "directional")
+
+    def test_meshes_and_masks(self):
+        if not DATA.joinpath("mesh/elephant.off").exists():
+            self.skipTest("there are no reference models")
+        self.expect_same(DATA / "mesh/elephant.off", ranks=(2, 5))
+        self.expect_same(DATA / "volume/neuron_28018323.nrrd", ranks=(2, 5))
+
+    def test_other_formats(self):
+        source = self.generate("knot", 30_000)
+        for ending in (".swc", ".vtp", ".obj"):
+            wanted, got = self.folder / f"wanted{ending}", self.folder / f"got{ending}"
+            bccskel("skeletonize", "--local", source, "-o", wanted)
+            run = run_ranks(3, "skeletonize", source, "-o", got)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(got.read_bytes(), wanted.read_bytes())
+
+
+class Refusals(TestCase):
+    def expect_refused(self, code, told, *words):
+        run = run_ranks(3, *words)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertEqual(run.stderr.count("bccskel: error:"), 1, run.stderr)
+        self.assertIn(told, run.stderr)
+
+    def test_what_ranks_cannot_do(self):
+        source = self.generate("ball", 20_000)
+        out = self.folder / "out.json"
+        self.expect_refused(2, "--border", "skeletonize", source, "-o", out, "--border",
+                            "continues")
+        self.expect_refused(2, "bccskel view", "skeletonize", source, "-o",
+                            self.folder / "out.html")
+        self.expect_refused(2, "--server", "skeletonize", source, "-o", out, "--server",
+                            "localhost:1")
+        self.expect_refused(2, "skeletonize", "info", source)
+        self.expect_refused(2, "--checkpoint FOLDER", "skeletonize", source, "-o", out, "--resume")
+
+    def test_input_that_is_not_there(self):
+        self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",
+                            self.folder / "out.json")
+
+    def test_output_that_cannot_be_written(self):
+        self.expect_refused(8, "no/such", "skeletonize", self.generate("ball", 20_000), "-o",
+                            self.folder / "no/such/out.json")
+
+    def test_too_little_time(self):
+        self.expect_refused(5, "deadline", "skeletonize", self.generate("ball", 400_000), "-o",
+                            self.folder / "out.json", "--timeout", "0.001")
+
+
+class Checkpoints(TestCase):
+    def test_a_job_that_ran_out_of_time_is_resumed_on_other_ranks(self):
+        source = self.generate("ball", 4_000_000)
+        wanted, got = self.folder / "wanted.json", self.folder / "got.json"
+        bccskel("skeletonize", "--local", source, "-o", wanted)
+        folder = self.folder / "shells"
+        words = ("skeletonize", source, "-o", got, "--checkpoint", folder, "--checkpoint-every",
+                 "0", "--resume", "--progress", "always")
+        with subprocess.Popen(words_of(3, words), env=ENVIRONMENT, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True) as job:
+            for line in job.stdout:
+                if "shell 9/" in line:
+                    break
+            job.kill()
+        self.assertTrue((folder / "checkpoint").exists())
+        run = run_ranks(2, *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("shell 3/", run.stderr)
+        self.assertEqual(result_of(got), result_of(wanted))
+
+    def test_a_checkpoint_of_another_object_is_refused(self):
+        folder = self.folder / "shells"
+        options = ("-o", self.folder / "out.json", "--checkpoint", folder, "--checkpoint-every",
+                   "0", "--resume")
+        run = run_ranks(2, "skeletonize", self.generate("ball", 20_000), *options)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = run_ranks(2, "skeletonize", self.generate("torus", 20_000), *options)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("another object", run.stderr)
+
+
+class Ends(TestCase):
+    """Of a job in the middle of its shells."""
+
+    def start(self):
+        source = self.generate("ball", 20_000_000)
+        self.output = self.folder / "out.json"
+        with open(self.folder / "log", "w", encoding="utf-8") as log:
+            job = subprocess.Popen(
+                words_of(3, ("skeletonize", source, "-o", self.output, "--progress", "always")),
+                env=ENVIRONMENT, stdout=log, stderr=log)
+        self.addCleanup(job.wait, HANGS)
+        self.addCleanup(job.kill)
+        self.wait_for(lambda: "shell 3/" in self.log(), job)
+        return job
+
+    def log(self):
+        return (self.folder / "log").read_text()
+
+    def wait_for(self, condition, job):
+        end = time.monotonic() + HANGS
+        while not condition():
+            self.assertIsNone(job.poll(), self.log())
+            self.assertLess(time.monotonic(), end, self.log())
+            time.sleep(0.02)
+
+    @staticmethod
+    def ranks_of(job):
+        children = pathlib.Path(f"/proc/{job.pid}/task/{job.pid}/children").read_text().split()
+        return [int(pid) for pid in children
+                if pathlib.Path(f"/proc/{pid}/comm").read_text().startswith("bccskel-mpi")]
+
+    def test_a_rank_that_is_killed_ends_the_job(self):
+        job = self.start()
+        os.kill(self.ranks_of(job)[-1], signal.SIGKILL)
+        self.assertNotEqual(job.wait(timeout=30), 0)
+        self.assertIn("signal 9", self.log())
+        self.assertFalse(self.output.exists())
+
+    def test_an_interrupt_ends_the_job(self):
+        job = self.start()
+        job.send_signal(signal.SIGINT)
+        self.assertNotEqual(job.wait(timeout=30), 0)
+        self.assertFalse(self.output.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+#include "core/ranks/rank_skeletonize.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/ranks/thread_exchange.h"
+#include "tests/support/random_objects.h"
+
+namespace bccskel {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kRanks[] = {1, 2, 3, 5, 8};
+
+absl::StatusOr<SkeletonizeResult> OnRanks(const Volume& object, const SkeletonizeOptions& options,
+                                          int ranks, const std::stop_token& stop_of_last = {}) {
+  absl::StatusOr<SkeletonizeResult> result = absl::UnknownError("nobody has led");
+  ranks::RunAsThreads(ranks, [&](ranks::Exchange& exchange) {
+    exec::Context context;
+    if (exchange.rank() == ranks - 1) context.stop = stop_of_last;
+    if (exchange.rank() != 0) {
+      (void)ranks::FollowLead(exchange, context);
+      return;
+    }
+    ranks::Lead lead(exchange);
+    result = lead.Skeletonize(object, options, context);
+  });
+  return result;
+}
+
+void ExpectSame(const Volume& object, const SkeletonizeOptions& options) {
+  const auto wanted = Skeletonize(object, options, {});
+  ASSERT_TRUE(wanted.ok()) << wanted.status();
+  for (const int ranks : kRanks) {
+    SCOPED_TRACE(ranks);
+    const auto got = OnRanks(object, options, ranks);
+    ASSERT_TRUE(got.ok()) << got.status();
+    EXPECT_EQ(got->graph, wanted->graph);
+    EXPECT_EQ(got->thin, wanted->thin);
+    EXPECT_EQ(got->certificate, wanted->certificate);
+    EXPECT_EQ(got->sha256, wanted->sha256);
+    EXPECT_EQ(got->object_points, wanted->object_points);
+    EXPECT_EQ(got->last_shell, wanted->last_shell);
+  }
+}
+
+std::vector<Volume> Objects() {
+  std::vector<Volume> objects;
+  for (uint64_t seed = 0; seed < 3; ++seed) {
+    const auto blob = test::RandomBlob(seed, {50, 50, 50}, 10, 14);
+    objects.push_back(VolumeOfPoints(test::WithNoisyBoundary(seed, blob, 0.05)));
+    objects.push_back(VolumeOfPoints(test::RandomCloud(seed, {40, 30, 20}, 0.6)));
+    objects.push_back(VolumeOfPoints(test::RandomCloud(seed, {90, 40, 2}, 0.8)));
+  }
+  return objects;
+}
+
+TEST(RankSkeletonize, DefaultsGiveTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) ExpectSame(object, {});
+}
+
+TEST(RankSkeletonize, TheDirectionalMethodGivesTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) {
+    ExpectSame(object, {.thinning = {.method = ThinningMethod::kDirectional}});
+  }
+}
+
+TEST(RankSkeletonize, ChamferDistancesGiveTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) {
+    ExpectSame(object, {.distance = DistanceKind::kChamfer});
+    ExpectSame(object, {.thinning = {.method = ThinningMethod::kDirectional},
+                        .distance = DistanceKind::kChamferOptimal});
+  }
+}
+
+TEST(RankSkeletonize, KindsGiveTheResultOfOneMachine) {
+  for (const SkeletonKind kind :
+       {SkeletonKind::kSurface, SkeletonKind::kKernel, SkeletonKind::kIsthmusCurve}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    for (const Volume& object : Objects()) {
+      ExpectSame(object, {.thinning = {.method = ThinningMethod::kSymmetric, .kind = kind}});
+    }
+  }
+}
+
+TEST(RankSkeletonize, UnequalSpacingGivesTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) {
+    const Volume stretched = Volume::FromSortedBricks(
+        object.extent(), {.spacing = {0.3, 0.7, 1.1}}, {object.keys().begin(), object.keys().end()},
+        {object.bricks().begin(), object.bricks().end()});
+    ExpectSame(stretched, {});
+  }
+}
+
+TEST(RankSkeletonize, PreparingGivesTheResultOfOneMachine) {
+  for (const Volume& object : Objects()) {
+    SkeletonizeOptions options;
+    options.preparing.cavities = CavityFilling::kOn;
+    ExpectSame(object, options);
+  }
+}
+
+// Its distances need more than 16 bits.
+TEST(RankSkeletonize, ADeepObjectGivesTheResultOfOneMachine) {
+  std::vector<LatticePoint> points;
+  for (Sublattice sublattice : kSublattices) {
+    for (int k = 0; k < 270; ++k) {
+      for (int j = 0; j < 270; ++j) {
+        for (int i = 0; i < 270; ++i) points.push_back(PointAt(sublattice, i, j, k));
+      }
+    }
+  }
+  const Volume object = VolumeOfPoints(points);
+  for (const DistanceKind kind : {DistanceKind::kEuclidean, DistanceKind::kChamfer}) {
+    const SkeletonizeOptions options = {
+        .thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel},
+        .distance = kind};
+    const auto wanted = Skeletonize(object, options, {});
+    ASSERT_TRUE(wanted.ok());
+    EXPECT_EQ(OnRanks(object, options, 3)->sha256, wanted->sha256);
+  }
+}
+
+TEST(RankSkeletonize, OptionsThatRanksCannotKeepToAreRefused) {
+  const Volume object = Objects().front();
+  EXPECT_THAT(std::string(OnRanks(object, {.border = Border::kContinues}, 2).status().message()),
+              HasSubstr("--border"));
+}
+
+TEST(RankSkeletonize, AStopOnAnyRankStopsAll) {
+  std::stop_source source;
+  source.request_stop();
+  const auto result = OnRanks(Objects().front(), {}, 3, source.get_token());
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace bccskel
