@@ -1,15 +1,26 @@
 #include "core/digest/sha256.h"
 
-#include <algorithm>
+// OpenSSL's digests load its configuration first or are deprecated, and loading it takes as long as
+// the skeleton of a small object.
+#include <nettle/sha2.h>
 
 namespace bccskel {
-namespace {
 
-constexpr Sha256State kStart = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-constexpr std::array<std::byte, kSha256Block> kPadding = {std::byte{0x80}};
+class Sha256::State {
+ public:
+  State() { sha256_init(&context_); }
+  void Add(std::span<const std::byte> bytes) {
+    sha256_update(&context_, bytes.size(), reinterpret_cast<const uint8_t*>(bytes.data()));
+  }
+  Sha256Digest Finish() {  // and begins anew
+    Sha256Digest digest;
+    sha256_digest(&context_, digest.bytes.size(), digest.bytes.data());
+    return digest;
+  }
 
-}  // namespace
+ private:
+  sha256_ctx context_;
+};
 
 std::string Sha256Digest::Hex() const {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -22,39 +33,14 @@ std::string Sha256Digest::Hex() const {
   return hex;
 }
 
-Sha256::Sha256() : state_(kStart) {}
+Sha256::Sha256() : state_(std::make_unique<State>()) {}
+Sha256::~Sha256() = default;
+Sha256::Sha256(Sha256&&) noexcept = default;
+Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
-void Sha256::Add(std::span<const std::byte> bytes) {
-  size_t used = size_ % kSha256Block;
-  size_ += bytes.size();
-  if (used > 0) {
-    const size_t count = std::min(bytes.size(), kSha256Block - used);
-    std::ranges::copy(bytes.first(count), rest_.begin() + static_cast<ptrdiff_t>(used));
-    bytes = bytes.subspan(count);
-    used += count;
-    if (used < kSha256Block) return;
-    AddSha256Blocks(rest_, state_);
-  }
-  const size_t whole = bytes.size() - bytes.size() % kSha256Block;
-  AddSha256Blocks(bytes.first(whole), state_);
-  std::ranges::copy(bytes.subspan(whole), rest_.begin());
-}
+void Sha256::Add(std::span<const std::byte> bytes) { state_->Add(bytes); }
 
-Sha256Digest Sha256::Finish() {
-  const uint64_t bits = 8 * size_;
-  const size_t length = sizeof(bits);
-  const size_t used = (size_ + length) % kSha256Block;
-  Add(std::span(kPadding).first(kSha256Block - used));
-  std::array<std::byte, length> end;
-  for (size_t n = 0; n < length; ++n) end[n] = static_cast<std::byte>(bits >> (56 - 8 * n));
-  Add(end);
-  Sha256Digest digest;
-  for (size_t n = 0; n < digest.bytes.size(); ++n) {
-    digest.bytes[n] = static_cast<uint8_t>(state_[n / 4] >> (24 - 8 * (n % 4)));
-  }
-  *this = Sha256();
-  return digest;
-}
+Sha256Digest Sha256::Finish() { return state_->Finish(); }
 
 Sha256Digest Sha256Of(std::span<const std::byte> bytes) {
   Sha256 sha;

@@ -5,11 +5,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "core/digest/sha256_blocks.h"
 
 namespace bccskel {
 
@@ -28,6 +27,9 @@ struct Sha256Digest {
 class Sha256 {
  public:
   Sha256();
+  ~Sha256();
+  Sha256(Sha256&&) noexcept;
+  Sha256& operator=(Sha256&&) noexcept;
 
   void Add(std::span<const std::byte> bytes);
   void Add(std::string_view bytes) { Add(std::as_bytes(std::span(bytes))); }
@@ -46,9 +48,8 @@ class Sha256 {
     Add(bytes);
   }
 
-  Sha256State state_;
-  std::array<std::byte, kSha256Block> rest_ = {};  // what no whole block holds yet
-  uint64_t size_ = 0;                              // of the message, in bytes
+  class State;  // keeps Nettle's header out of this one
+  std::unique_ptr<State> state_;
 };
 
 Sha256Digest Sha256Of(std::span<const std::byte> bytes);
