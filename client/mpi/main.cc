@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -64,7 +65,9 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
   if (!options.ok()) return bccskel::cli::FailWith(ExitCode::kUsage, options.status());
   auto parsed = bccskel::cli::ParseArguments(static_cast<int>(words.size()), words.data());
   if (const auto* code = std::get_if<ExitCode>(&parsed)) {
-    if (*code == ExitCode::kOk) return bccskel::cli::Print(bccskel::cli::kRankOptionsHelp);
+    const bool help = std::ranges::any_of(
+        words, [](std::string_view word) { return word == "--help" || word == "-h"; });
+    if (help) return bccskel::cli::Print(bccskel::cli::kRankOptionsHelp);
     return *code;
   }
   auto arguments =
