@@ -18,14 +18,14 @@ namespace {
 constexpr int kMostPasses = 3;
 constexpr size_t kMostReached = 5000;  // points; more are a sheet
 constexpr double kWay = 2;           // radii along the curves, from which on it is beside the other
-constexpr double kInside = 0.9;      // radii
+constexpr double kBallPart = 0.9;    // radii
 constexpr double kGap = 4;           // lattice units that may lie outside all balls
 constexpr double kLeastGain = 5;     // lattice units
 constexpr double kLeastShare = 0.3;  // of the ball's radius
 constexpr double kShorter = 0.4;     // of the way that it replaces
 constexpr double kBodyShare = 0.6;  // of the junction's radius: the other curve runs on in the body
 constexpr double kReach = 4;        // radii of the junction
-constexpr double kStep = 2;         // lattice units, between places where the arm may be cut
+constexpr double kArmStep = 2;      // lattice units, between places where the arm may be cut
 constexpr double kSlant = 0.4;      // how far before the foot, relative to the way across
 constexpr double kSampling = 0.5;   // lattice units
 
@@ -144,13 +144,13 @@ class Slider {
       const LatticePoint q = arm.points[n];
       const Coordinates place = PlaceOf(q, scale_);
       const double radius = set_.RadiusOf(q), way = set_.Between(q, arm.junction);
-      if (way < looked_at + kStep) continue;
+      if (way < looked_at + kArmStep) continue;
       looked_at = way;
       for (size_t m = 0; m < body.size(); ++m) {
         const Reached& other = body[m];
         if (other.radius < radius || other.way + way <= kWay * other.radius) continue;
         const Coordinates across = Sum(other.place, -1, place);
-        const double square = Dot(across, across), reach = kInside * other.radius;
+        const double square = Dot(across, across), reach = kBallPart * other.radius;
         if (square >= reach * reach) continue;
         const double gain = way - std::sqrt(square);
         if (gain <= most || gain < kLeastShare * other.radius || gain < kShorter * way) continue;
