@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -10,7 +12,7 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
 #include "server/calls/call_gate.h"
-#include "server/calls/job_log.h"
+#include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/services.h"
 #include "server/calls/status_mapping.h"
@@ -31,6 +33,32 @@ namespace {
 
 // For calls that hold no job, such as a watched health status, to end by themselves.
 constexpr std::chrono::milliseconds kLastReplies(100);
+
+// "QUEUED", "RUNNING", ...
+std::string StateName(JobState state) {
+  return v1::JobState_Name(ToMessage(state)).substr(std::size("JOB_STATE_") - 1);
+}
+
+LogLevel LevelOf(const JobRow& job) {
+  if (job.state != JobState::kFailed) return LogLevel::kInfo;
+  return absl::IsInternal(job.error) ? LogLevel::kError : LogLevel::kWarning;
+}
+
+// A line for a state that a durable job has come into.
+void LogJobState(const JobRow& job) {
+  const absl::Status error = WithJobReason(job.error);
+  const auto since_created = job.ended.value_or(job.started.value_or(job.created)) - job.created;
+  Log(LevelOf(job), "job state",
+      {{"job", job.name},
+       {"tenant", job.tenant},
+       {"state", StateName(job.state)},
+       {"attempt", int64_t{job.attempts}},
+       {"code", absl::StatusCodeToString(error.code())},
+       {"reason", ReasonNameOf(error)},
+       {"message", std::string(error.message())},
+       {"seconds", std::chrono::duration<double>(since_created).count()},
+       {"traceparent", job.trace}});
+}
 
 // A network sees neither reflection nor admin calls unless it is meant to.
 bool AdminsShareThePublicListener(const ServerConfig& config) {

@@ -71,7 +71,7 @@ class LabelsCall {
  public:
   using Request = v1::SkeletonizeLabelsRequest;
   absl::Status Start(const v1::SkeletonizeLabelsConfig& config) {
-    BCCSKEL_ASSIGN_OR_RETURN(request_, LabelsRequestOf(config, kLimits));
+    BCCSKEL_ASSIGN_OR_RETURN(request_, JobRequestOf(config, kLimits));
     CheckOptions(request_.options, request_.threads_wanted);
     if (BytesToSkeletonizeLabels(request_.header, 1) > 2 * kMostBytes) {
       return absl::ResourceExhaustedError("too much");
