@@ -68,7 +68,12 @@ class MemorySession : public Session<Request, Response>,
     if (job != nullptr) job->EndWith(why);
   }
   // The job holds this session and may go on for a while; what is not sent holds memory.
-  void Close() override { responses_ = Responses(); }
+  void Close() override {
+    responses_ = Responses();
+    std::shared_ptr<Job> job;
+    const std::lock_guard lock(mutex_);
+    job.swap(job_);
+  }
 
   void OnBytesConsumed() override { owner_->ReadNext(); }
   void OnEnd(absl::StatusOr<Result> result) override {
