@@ -73,8 +73,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
       ->option_text("X");
   AddChoice<TipPlacement>(
       command, "--tips", pruning.tips,
-      "Where branches end: where the ridge of the distances does (default; branches that "
-      "run beside another curve then join it where they meet it), or as thinned",
+      "Where branches end: where the ridge of the distances does (default), or as thinned",
       Choices(kTipsWords));
 }
 

@@ -2,7 +2,6 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/pruning/attachments.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
@@ -71,9 +70,6 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   }
   pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    if (options.rule != PruningRule::kNone) {
-      SlideAttachments(set, object, radius, kept, context, pruned.levels);
-    }
     BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, space, radius, kept, noise, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;

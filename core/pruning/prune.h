@@ -33,8 +33,7 @@ enum class PruningRule : uint8_t {
 // Of the rule of significance, half-widths.
 inline constexpr double kDefaultSignificance = 0.45;
 
-// Whether ends are moved along the ridge of the distances to where it ends, and the starts of
-// branches that run beside another curve to where they meet it (attachments.h).
+// Whether ends are moved along the ridge of the distances to where it ends.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };
 
 struct PruningOptions {
