@@ -64,10 +64,10 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 
 }  // namespace
 
-Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise) {
-  const size_t last = path.size() - 1, stride = last / kMostSamples + 1;
+Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise, size_t first) {
+  const size_t last = path.size() - 1, stride = (last - first) / kMostSamples + 1;
   std::vector<std::pair<size_t, double>> samples;  // positions and radii
-  for (size_t n = 0; n < last; n += stride) samples.emplace_back(n, set.RadiusOf(path[n]));
+  for (size_t n = first; n < last; n += stride) samples.emplace_back(n, set.RadiusOf(path[n]));
   samples.emplace_back(last, set.RadiusOf(path[last]));
   Run best{.ratio = -std::numeric_limits<double>::infinity()};
   for (size_t i = 0; i + 1 < samples.size(); ++i) {
@@ -99,20 +99,40 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return last->value * UncoveredShare(set, branch, last->run);
 }
 
+// The limb may begin late in the largest run, in something wide: so the run of the later half
+// counts, too, that of the later half of this, and so on.
 Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& branch) {
   const std::vector<LatticePoint> path = PathOf(branch);
-  const Run run = LargestRun(set, path, noise_);
-  Verdict verdict{*branch.junction, branch.points.size(), run, run.ratio};
-  if (run.ratio < kLeastRatio) return verdict;
+  Verdict best{.junction = *branch.junction,
+               .points = branch.points.size(),
+               .run = LargestRun(set, path, noise_)};
+  best.value = best.run.ratio;
+  if (best.run.ratio < kLeastRatio) return best;
+  best.value = ValueOf(set, path, best.run);
+  size_t first = PlaceIn(best.run, kPlaces / 2);
+  while (first + kPlaces <= path.size()) {
+    const Run run = LargestRun(set, path, noise_, first);
+    if (run.ratio < kLeastRatio) break;
+    const double value = ValueOf(set, path, run);
+    if (value > best.value) best.run = run, best.value = value;
+    const size_t later = PlaceIn(run, kPlaces / 2);
+    if (later == first) break;
+    first = later;
+  }
+  return best;
+}
+
+double Significance::ValueOf(const ThinSet& set, std::span<const LatticePoint> path,
+                             const Run& run) {
   const double out = run.elongation - noise_, radius = set.RadiusOf(path[run.from]);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(set, path, run, reach);
-  verdict.value = BestRoot(set, path, run, sections);
-  if (verdict.value >= kLeastFine) {
+  double value = BestRoot(set, path, run, sections);
+  if (value >= kLeastFine) {
     for (Section& section : sections) TurnFinely(reach, section);
-    verdict.value = BestRoot(set, path, run, sections);
+    value = BestRoot(set, path, run, sections);
   }
-  return verdict;
+  return value;
 }
 
 // The limb begins at the root that makes the most of it.

@@ -25,8 +25,9 @@ struct Run {
 };
 
 // Shapes: `path` has at least two points, from the junction, or the middle of a path, to the end.
-// Long paths are looked at in 48 places.
-Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise);
+// The run begins at position `first` or later. Long paths are sampled at 48 positions.
+Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise,
+               size_t first = 0);
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
 // Does:  finds the branch's run: leaving a body or going up a bump the radius D falls about as fast
@@ -42,9 +43,12 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
 //        the elongation: the corner of a plate sticks out no farther than a bump. `uncovered` is
 //        the share of the run that lies outside 0.9 of the balls of other branches. In a limb H is
 //        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
+//        A limb may begin late in a long run through something wide, as a thumb does behind a palm.
+//        So the largest run of the later half is evaluated, too, and so on; the largest S counts.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
-// Cost:  48 points of a branch; 176 rays where it sticks out at all, up to 396 where it may stay.
+// Cost:  for each of these runs, of which there are one to five, 48 points of the branch; 176 rays
+//        where it sticks out at all, up to 396 where it may stay.
 // Threads: one thread per instance.
 class Significance {
  public:
@@ -76,6 +80,8 @@ class Significance {
   using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
+  // As if nothing of it were covered.
+  double ValueOf(const ThinSet& set, std::span<const LatticePoint> path, const Run& run);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
                           double reach);

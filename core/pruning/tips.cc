@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,14 +20,19 @@ namespace {
 // How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
 // like a round cap, the end of a pointed limb by less until its tip.
 constexpr double kSlope = 0.75;
-constexpr double kRidgeSlope = 0.3;  // what falls by less is a ridge for sure
-constexpr double kLeastGain = 0.5;   // a tip farther out is better by this, or noise has made it
-constexpr double kAnchorRadii = 4;   // how far back the anchor lies, in radii
-constexpr double kAnchorMargin = 5;  // and in lattice units
-constexpr double kLeastAim = 4;      // from the anchor to what gives the limb its direction
-constexpr double kCutRadii = 1.75;   // a cut takes the way into a cap or a corner at most, in radii
-constexpr double kCutMargin = 6;     // and in lattice units
-constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs
+constexpr double kRidgeSlope = 0.3;   // what falls by less is a ridge for sure
+constexpr double kLeastGain = 0.5;    // a tip farther out is better by this, or noise has made it
+constexpr double kAnchorRadii = 4;    // how far back the anchor lies, in radii
+constexpr double kAnchorMargin = 5;   // and in lattice units
+constexpr double kStraightRadii = 2;  // what is shorter gives no direction, bent or not
+constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight way by so many radii
+constexpr double kBendMargin = 2;     // and lattice units
+constexpr size_t kBendStride = 8;     // points between checks
+constexpr size_t kBendSamples = 16;
+constexpr double kLeastAim = 4;     // from the anchor to what gives the limb its direction
+constexpr double kCutRadii = 1.75;  // a cut takes the way into a cap or a corner at most, in radii
+constexpr double kCutMargin = 6;    // and in lattice units
+constexpr double kHairLength = 6;   // in lattice units; longer ends of single points are thin limbs
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
@@ -90,15 +96,20 @@ class TipPlacer {
     return last.has_value();
   }
 
-  // Finds the anchor and leaves the points between the end and it.
+  // Finds the anchor and leaves the points between the end and it. Where the limb bends, the anchor
+  // lies no farther back than the limb is straight.
   std::optional<LatticePoint> TakeAnchor(FreeBranch& branch) const {
     std::vector<LatticePoint>& points = branch.points;
+    const size_t front = RidgeEnd(points);
     double length = 0;
     float radius = set_.RadiusOf(points[0]);
     for (size_t n = 1; n < points.size(); ++n) {
       length += set_.Between(points[n - 1], points[n]);
       radius = std::max(radius, set_.RadiusOf(points[n]));
-      if (length < kAnchorRadii * radius + kAnchorMargin) continue;
+      const bool is_far = length >= kAnchorRadii * radius + kAnchorMargin;
+      const bool may_bend = length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorMargin;
+      const bool is_checked = may_bend && front < n && n % kBendStride == 0;
+      if (!is_far && !(is_checked && Bends(points, front, n))) continue;
       const LatticePoint anchor = points[n];
       points.resize(n);
       return anchor;
@@ -107,6 +118,43 @@ class TipPlacer {
     const LatticePoint middle = points[points.size() / 2];
     points.resize(points.size() / 2);
     return middle;
+  }
+
+  // Position of the point, in a cap at the end at most, up to which the radius certainly follows a
+  // ridge: beyond, the path may turn off into a corner. The end comes first.
+  size_t RidgeEnd(std::span<const LatticePoint> points) const {
+    size_t ridge_end = 0;
+    double length = 0, most = set_.RadiusOf(points[0]);
+    for (size_t n = 1; n < points.size(); ++n) {
+      length += set_.Between(points[n - 1], points[n]);
+      const double radius = set_.RadiusOf(points[n]);
+      if (set_.Between(points[0], points[n]) > kCutRadii * radius + kCutMargin) break;
+      if (radius - kRidgeSlope * length <= most) continue;
+      ridge_end = n;
+      most = radius - kRidgeSlope * length;
+    }
+    return ridge_end;
+  }
+
+  // Whether the points between two positions leave the straight way by more than a share of their
+  // median radius.
+  bool Bends(std::span<const LatticePoint> points, size_t front, size_t back) const {
+    const LatticePoint a = points[front], b = points[back];
+    const double ab = set_.Between(a, b);
+    if (ab < kLeastAim) return false;
+    std::vector<float> radii;
+    double farthest = 0;  // squared
+    const size_t stride = (back - front) / kBendSamples + 1;
+    for (size_t n = front; n < back; n += stride) {
+      radii.push_back(set_.RadiusOf(points[n]));
+      const double ap = set_.Between(a, points[n]), bp = set_.Between(b, points[n]);
+      const double along = (ap * ap + ab * ab - bp * bp) / (2 * ab);
+      farthest = std::max(farthest, ap * ap - along * along);
+    }
+    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::ranges::nth_element(radii, median);
+    const double allowed = kBendRadii * *median + kBendMargin;
+    return farthest > allowed * allowed;
   }
 
   // How far p lies from the anchor along the limb, by the law of cosines.

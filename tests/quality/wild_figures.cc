@@ -79,6 +79,35 @@ Sketch Palm(Pen pen, const Values& v) {
   return sketch;
 }
 
+// A wide body with thumbs, thick where they leave it, that bend along its sides: flatness of the
+// body, how many thumbs, the angle that they bend by, in which radius, in their own radii.
+Sketch Thumbs(Pen pen, const Values& v) {
+  const double s = pen.size, radius = 0.24 * s;
+  const Piece body = {{0, -1.6 * s, 0}, {0, 1.6 * s, 0}, s, s, v[0]};
+  Sketch sketch{.pieces = {body}};
+  sketch.AddTipOf(body, s);
+  sketch.AddTipOf(Reversed(body), s);
+  for (int n = 0; n < v[1]; ++n) {
+    const double side = n == 0 ? 1 : -1, height = pen.Between(-0.5, 0) * s;
+    const double lift = pen.Between(-0.2, 0.2), bend = v[3] * radius;
+    const auto at = [&](double x, double y) { return Vector{side * x, y, lift * x}; };
+    const Vector root = at(0.5 * s, height), out = at(1.3 * s, height);
+    sketch.pieces.push_back({root, out, 0.45 * s, radius});
+    Vector last = out;
+    constexpr int kParts = 8;
+    for (int part = 1; part <= kParts; ++part) {
+      const double angle = v[2] * part / kParts;
+      const Vector next =
+          at(1.3 * s + bend * std::sin(angle), height + bend * (1 - std::cos(angle)));
+      sketch.pieces.push_back({last, next, radius, radius});
+      last = next;
+    }
+    const Vector way = Unit(at(std::cos(v[2]), std::sin(v[2])));
+    sketch.AddLimb({last, last + 0.4 * s * way, radius, 0.8 * radius}, 0.6 * s);
+  }
+  return sketch;
+}
+
 // A ball with flat limbs: their width by thickness, count, length in radii of the body.
 Sketch FlatLimbs(Pen pen, const Values& v) {
   const double s = pen.size, width = 0.45 * s;
@@ -269,6 +298,9 @@ constexpr WildFigure kFigures[] = {
     {"soma", Soma, {10, 3, 1.5, 2.5}, true},
     {"palm", Palm, {2.5, 1.4}},
     {"palm", Palm, {4, 1.1}, true},
+    {"thumbs", Thumbs, {2.2, 1, 1.6, 1.5}},
+    {"thumbs", Thumbs, {2.6, 2, 1.8, 2}},
+    {"thumbs", Thumbs, {3, 2, 1.9, 1.2}, true},
     {"flat limbs", FlatLimbs, {2, 4, 2.5}},
     {"flat limbs", FlatLimbs, {4, 4, 2.5}},
     {"flat limbs", FlatLimbs, {6, 3, 2}, true},

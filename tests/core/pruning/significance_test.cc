@@ -233,6 +233,37 @@ double StrandBeside(int32_t apart) {
   return Significance(solid, 3).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
 }
 
+// A slab, 200 wide and 40 thick, and a round limb of radius 10 that leaves its narrow side. The
+// branch comes from a trunk in the slab's middle line and ends `out` beyond the slab.
+double LimbOfASlab(int32_t out) {
+  constexpr int32_t kSide = 100, kMiddle = 100, kRadius = 10, kDepth = 20;
+  VolumeBuilder object({kSide, 110, 30}), thin({kSide, 110, 30});
+  const int32_t end = kSide + out;
+  for (int32_t z = 0; z <= 2 * kDepth; ++z) {
+    for (int32_t y = 0; y <= 2 * kMiddle; ++y) {
+      for (int32_t x = 0; x <= end + kRadius; ++x) {
+        const bool in_limb = std::hypot(y - kMiddle, z - kDepth) <= kRadius;
+        if ((x <= kSide || in_limb) && IsOnLattice({x, y, z})) object.Add({x, y, z});
+      }
+    }
+  }
+  for (int32_t y = 40; y <= 160; y += 2) thin.Add({26, y, kDepth});
+  for (int32_t x = 28; x <= end; x += 2) thin.Add({x, kMiddle, kDepth});
+  const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
+  std::vector<float> radii;
+  curves.ForEachPoint([&](LatticePoint p) {
+    radii.push_back(static_cast<float>(std::clamp(kSide + kRadius - p.x, kRadius, kDepth)));
+  });
+  const ThinSet set({curves, radii});
+  return Significance(solid, 1).Of(set, BranchFrom(set, {end, kMiddle, kDepth}));
+}
+
+// Most of the branch's run lies in the slab, whose width is not the limb's.
+TEST(Significance, OfALimbThatBeginsLateIsItsOwn) {
+  EXPECT_GT(LimbOfASlab(18), 0.6);
+  EXPECT_LT(LimbOfASlab(4), 0.4);  // a bump
+}
+
 TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {
   EXPECT_LT(StrandBeside(8), 0.25 * StrandBeside(24));
 }

@@ -154,6 +154,32 @@ TEST(Tips, OfAShortLegStayOutsideTheBody) {
   }
 }
 
+// Seen from the body that it leaves, a limb that turns back ends where it bends.
+TEST(Tips, OfABentLimbLieAtItsEnd) {
+  VolumeBuilder builder({130, 90, 60});
+  const auto add = [&](const WorldPoint& a, const WorldPoint& b, double radius) {
+    Capsule(a, b, radius, {1, 1, 1}).ForEachPoint([&](LatticePoint p) { builder.Add(p); });
+  };
+  WorldPoint last = {100, 30, 26};
+  add({26, 30, 26}, {70, 30, 26}, 24);
+  add({70, 30, 26}, last, 12);
+  for (int part = 1; part <= 12; ++part) {
+    const double angle = 3.14159265 * part / 12;
+    const WorldPoint next = {100 + 13 * std::sin(angle), 43 - 13 * std::cos(angle), 26};
+    add(last, next, 12 - part / 3.0);
+    last = next;
+  }
+  const WorldPoint tip = {98, 56, 26};
+  add(last, tip, 8);
+  const auto result = Skeletonize(*std::move(builder).Build(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  double gap = 1000;
+  for (const SkeletonNode& node : result->graph.nodes) {
+    gap = std::min(gap, Gap(result->graph.PositionOf(node.at), tip));
+  }
+  EXPECT_LT(gap, 8);  // a radius
+}
+
 // One cylinder, sampled alike along all axes and five times coarser along z.
 TEST(UnequalSpacing, GivesTheSameCenterLineAndRadius) {
   const std::array<double, 3> a = {14, 14, 20}, b = {30, 44, 100};
