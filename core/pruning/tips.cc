@@ -32,7 +32,8 @@ constexpr size_t kBendSamples = 16;
 constexpr double kLeastAim = 4;     // from the anchor to what gives the limb its direction
 constexpr double kCutRadii = 1.75;  // a cut takes the way into a cap or a corner at most, in radii
 constexpr double kCutMargin = 6;    // and in lattice units
-constexpr double kHairLength = 6;   // in lattice units; longer ends of single points are thin limbs
+constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
+constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
 constexpr double kLeastCosine = 0.4;   // between the way on and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
@@ -207,7 +208,16 @@ class TipPlacer {
     size_t last = path_.size() - 1;
     while (last > 0 && !IsFirm(path_[last])) --last;
     const double length = set_.Between(path_[last], path_.back());
-    if (IsFirm(path_[last]) && length <= kHairLength) CutAfter(last);
+    const double longest = std::min<double>(kHairLength, kHairRadii * MedianRadius());
+    if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
+  }
+
+  double MedianRadius() const {
+    std::vector<float> radii;
+    for (LatticePoint p : path_) radii.push_back(set_.RadiusOf(p));
+    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::ranges::nth_element(radii, median);
+    return *median;
   }
 
   // Position in the path of the first point that may become the tip. What is cut off must lie in

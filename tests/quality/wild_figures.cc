@@ -142,7 +142,7 @@ Sketch Fish(Pen pen, const Values& v) {
   sketch.AddLimb({kOrigin, {1.8 * s, 0, 0}, s, 0.4 * s, 1.5, {0, 1, 0}}, 1.2 * s);
   sketch.pieces.push_back({kOrigin, {-3 * s, 0, 0}, s, 0.25 * s, 1.5, {0, 1, 0}});
   const auto fin = [&](Vector from, Vector to, double at_body, double at_end, Vector normal) {
-    const double flat = std::max(at_body, at_end) * 2 * s / thickness;
+    const double flat = std::min(at_body, at_end) * 2 * s / thickness;
     sketch.AddLimb({s * from, s * to, at_body * s, at_end * s, flat, Unit(normal)}, 0.8 * s);
   };
   const double lean = pen.Between(0.2, 0.5);

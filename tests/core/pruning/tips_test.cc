@@ -134,6 +134,22 @@ TEST(Tips, DoNotMoveForPitsOfTheSurface) {
   }
 }
 
+// At the end of a thin limb single points stand out that are the limb itself, not noise.
+TEST(Tips, OfThinLimbsAreNotTakenForHair) {
+  const WorldPoint a = {12, 12, 12}, b = {25, 39, 33};
+  for (const double radius : {0.75, 0.8}) {
+    const auto result = Skeletonize(Capsule(a, b, radius, {1, 1, 1}), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    for (const WorldPoint& tip : {a, b}) {
+      double gap = 1000;
+      for (const SkeletonNode& node : result->graph.nodes) {
+        gap = std::min(gap, Gap(result->graph.PositionOf(node.at), tip));
+      }
+      EXPECT_LT(gap, 1.5);
+    }
+  }
+}
+
 // Along the branch of a leg the distance falls from that of the body to that of the leg.
 TEST(Tips, OfAShortLegStayOutsideTheBody) {
   const std::array<double, 3> center = {30, 30, 30}, above = {30, 30, 30.5}, foot = {30, 30, 66};
