@@ -9,7 +9,7 @@ namespace bccskel {
 namespace {
 
 constexpr double kSlope = 0.5;        // of a tip's merit, along the limb
-constexpr double kFlatness = 1.6;     // width by radius: less is round
+constexpr double kFlatness = 1.5;     // width by radius: less is round
 constexpr double kFlatMargin = 3;     // so are limbs as thick as the steps of the surface
 constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
 constexpr double kMostMargin = 16;

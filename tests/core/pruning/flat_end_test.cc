@@ -22,9 +22,9 @@ using shapes::Vector;
 constexpr double kLength = 120, kWidth = 28, kThickness = 4;
 
 // A strip turned about two axes.
-Block Strip(double turn) {
+Block Strip(double turn, double thickness = kThickness) {
   const double c = std::cos(turn), s = std::sin(turn);
-  return {{kLength, kWidth, kThickness}, {c, s * c, s * s}, {-s, c * c, c * s}};
+  return {{kLength, kWidth, thickness}, {c, s * c, s * s}, {-s, c * c, c * s}};
 }
 
 Vector Middle(const Volume& object) {
@@ -63,6 +63,21 @@ TEST(FlatEnd, LiesInTheMiddleOfAStripInAnyPose) {
         EXPECT_LT(std::abs(Dot(end, strip.second)), 0.4 * kWidth);
         EXPECT_NEAR(std::abs(Dot(end, strip.first)), kLength - kWidth, 0.4 * kWidth);
       }
+    }
+  }
+}
+
+// Half as thick as wide, or a bit more.
+TEST(FlatEnd, LiesInTheMiddleOfAThickBar) {
+  for (const double thickness : {14.0, 15.0, 15.5}) {
+    for (const double noise : {0.0, 0.05}) {
+      SCOPED_TRACE(testing::Message() << thickness << ' ' << noise);
+      const Block bar = Strip(0.5, thickness);
+      const Volume clean = *shapes::Rasterize({{bar}}, 1);
+      const std::vector<Vector> ends =
+          EndsOf(noise > 0 ? test::WithSimpleNoise(clean, noise, 3) : clean);
+      ASSERT_EQ(ends.size(), 2u);
+      for (const Vector& end : ends) EXPECT_LT(std::abs(Dot(end, bar.second)), 0.4 * kWidth);
     }
   }
 }
