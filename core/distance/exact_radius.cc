@@ -170,9 +170,10 @@ std::span<const NearestInPlace> ExactRadius::KeepNearest(size_t count, float rad
   const auto square_of = [](const NearestInPlace& f) { return f.nearest.squared; };
   const float least = std::ranges::min(found, {}, square_of).nearest.squared;
   if (static_cast<float>(std::sqrt(double{least})) != radius) return {};  // another point's
-  const auto rest = std::ranges::remove_if(
-      found, [&](float squared) { return squared != least; }, square_of);
-  return found.first(count - rest.size());
+  const auto end = std::remove_if(found.begin(), found.end(), [&](const NearestInPlace& f) {
+    return f.nearest.squared != least;
+  });
+  return found.first(static_cast<size_t>(end - found.begin()));
 }
 
 // The same among all bricks, of which only those count that are not farther away than `radius`: a
