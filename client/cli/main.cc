@@ -1,7 +1,9 @@
 #include <malloc.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <variant>
 
@@ -11,6 +13,7 @@
 #include "client/cli/console.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/output_check.h"
+#include "core/exec/huge_pages.h"
 
 namespace {
 
@@ -42,12 +45,23 @@ void KeepFreeMemory() {
   mallopt(M_TRIM_THRESHOLD, 2 * kMostInHeap);
 }
 
+// Most that a run on a mask touches is small blocks and tables, page after page.
+void PutHeapOnHugePages() {
+  constexpr int kRoom = 48 << 20;
+  mallopt(M_TOP_PAD, kRoom);
+  void* volatile block = std::malloc(size_t{1} << 20);  // with the room
+  std::free(block);
+  const auto* const end = static_cast<char*>(sbrk(0));
+  bccskel::exec::PreferHugePages(const_cast<char*>(end) - kRoom, kRoom);
+}
+
 ExitCode Main(int argc, char** argv) {
   TakeLocksAsTheyCome();
   KeepFreeMemory();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of Print()
+  PutHeapOnHugePages();
   const bccskel::cli::Interrupt interrupt;
   const ExitCode code = RunCommand(std::get<Arguments>(parsed), interrupt.token());
   return code == ExitCode::kOk ? code : interrupt.exit_code().value_or(code);

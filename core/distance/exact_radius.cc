@@ -29,6 +29,8 @@ constexpr float kFirstReach = 16;
 constexpr float kReachFactor = 1.25f;
 // Rounding must not take a brick out of the tables, nor the rest of a brick beyond its box.
 constexpr float kRoundingSlack = 1.001f;
+// A square may be more than that of the root that it has.
+constexpr float kRoundingUp = 1.00001f;
 constexpr int32_t kBrickLength = 2 * kBrickZ;
 constexpr int32_t kFirstWays = static_cast<int32_t>(kRoundingSlack * kFirstReach) + kBrickLength;
 constexpr float kFewBricks = 12;  // a ball of this radius lies in few bricks
@@ -107,7 +109,8 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
 
 LatticePoint ExactRadius::NearestAt(LatticePoint p, float radius) {
   ForgetNearest();
-  if (radius > kFewBricks || !SearchAround(p, radius)) At(p);
+  const bool found = radius > kFewBricks ? SearchFar(p, radius) : SearchAround(p, radius);
+  if (!found) At(p);
   return last_.at;
 }
 
@@ -117,7 +120,7 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
   const float reach = kRoundingSlack * radius, squared = reach * reach;
   const auto most = static_cast<int32_t>(reach);
   const bool is_known = scale_ == kIsotropic;
-  const bool is_same = static_cast<int32_t>(std::lround(radius * radius)) % 4 == 0;
+  const bool is_same = static_cast<int32_t>(radius * radius + 0.5f) % 4 == 0;
   bricks_around_.clear();
   for (Sublattice sublattice : kSublattices) {
     if (is_known && (sublattice == SublatticeOf(p)) != is_same) continue;
@@ -146,37 +149,81 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
 // that is not stored when it comes to the first object brick beside it.
 bool ExactRadius::SearchAround(LatticePoint p, float radius) {
   FindBricksAround(p, radius);
-  found_around_.resize(bricks_around_.size());
+  if (found_.size() < bricks_around_.size()) found_.resize(2 * bricks_around_.size());
   const PointSearch search = SearchFrom(p, kFirstWays);
-  FindNearestOfEach(bricks_around_, Bricks(), search, found_around_.data());
-  nearest_around_.clear();
-  float least = std::numeric_limits<float>::infinity();
-  for (const NearestPoint& found : found_around_) least = std::min(least, found.squared);
-  if (static_cast<float>(std::sqrt(double{least})) != radius) return false;  // another point's
-  for (size_t n = 0; n < found_around_.size(); ++n) {
-    if (found_around_[n].squared == least) nearest_around_.push_back(n);
+  const size_t count = FindAllNearest(bricks_around_, Bricks(), search,
+                                      kRoundingUp * radius * radius, found_.data());
+  const std::span<const NearestInPlace> nearest = KeepNearest(count, radius);
+  if (nearest.empty()) return false;
+  const auto is_stored = [&](const NearestInPlace& found) {
+    return bricks_around_[found.place].index < object_.brick_count();
+  };
+  if (nearest.size() > 1 && !std::ranges::all_of(nearest, is_stored)) return false;
+  last_ = (nearest.size() > 1 ? FirstSearched(nearest, search) : nearest[0]).nearest;
+  return true;
+}
+
+// Those at the distance `radius`, if that is the least.
+std::span<const NearestInPlace> ExactRadius::KeepNearest(size_t count, float radius) {
+  const auto found = std::span(found_).first(count);
+  if (found.empty()) return {};
+  const auto square_of = [](const NearestInPlace& f) { return f.nearest.squared; };
+  const float least = std::ranges::min(found, {}, square_of).nearest.squared;
+  if (static_cast<float>(std::sqrt(double{least})) != radius) return {};  // another point's
+  const auto end = std::remove_if(found.begin(), found.end(), [&](const NearestInPlace& f) {
+    return f.nearest.squared != least;
+  });
+  return found.first(static_cast<size_t>(end - found.begin()));
+}
+
+// The same among all bricks, of which only those count that are not farther away than `radius`: a
+// third of those that At() looks into before it knows that.
+bool ExactRadius::SearchFar(LatticePoint p, float radius) {
+  float below = kRoundingUp * radius * radius, reach = kFirstReach;
+  while (below >= reach * reach) reach *= 2;
+  const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
+  const PointSearch search = SearchFrom(p, most);
+  // At() begins with these groups in this order.
+  const float begin = std::min(SquareOf(kOutside.at - p, most), reach * reach);
+  const size_t count = FindNearBoxes(border_->groups(), search, begin, near_groups_.data());
+  const auto groups = std::span(near_groups_).first(count);
+  PutNearestFirst(groups);
+  const std::span<const BrickBits> bricks = Bricks();
+  size_t found = 0;
+  for (const NearBox& group : groups) {
+    if (group.squared >= below) continue;
+    if (found_.size() < found + kBoxGroup) found_.resize(2 * (found + kBoxGroup));
+    found += FindAllNearest(border_->places(), border_->boxes(), group.box, bricks, search, below,
+                            found_.data() + found);
   }
-  if (nearest_around_.size() > 1) {
-    const auto is_stored = [&](size_t n) {
-      return bricks_around_[n].index < object_.brick_count();
-    };
-    if (!std::ranges::all_of(nearest_around_, is_stored)) return false;
-    nearest_around_[0] = FirstSearched(nearest_around_, search);
+  const std::span<const NearestInPlace> nearest = KeepNearest(found, radius);
+  // At() ends where it knows of background within reach.
+  if (nearest.empty() || (reach > kFirstReach && nearest[0].nearest.squared < reach * reach / 4)) {
+    return false;
   }
-  last_ = found_around_[nearest_around_[0]];
+  const NearestPoint& first = nearest[0].nearest;
+  const auto is_stored = [&](const NearestInPlace& f) {
+    return border_->places()[f.place].index < object_.brick_count();
+  };
+  const auto is_first = [&](const NearestInPlace& f) { return f.nearest.at == first.at; };
+  if (!std::ranges::all_of(nearest, is_stored) && !std::ranges::all_of(nearest, is_first)) {
+    return false;
+  }
+  last_ = first;
   return true;
 }
 
 // To which of stored bricks around At() comes first: it begins with the nearest group, in place of
 // which comes the first.
-size_t ExactRadius::FirstSearched(std::span<const size_t> around, const PointSearch& search) {
+NearestInPlace ExactRadius::FirstSearched(std::span<const NearestInPlace> around,
+                                          const PointSearch& search) {
   const float below =
       std::min(SquareOf(kOutside.at - search.at, kFirstWays), kFirstReach * kFirstReach);
   const size_t count = FindNearBoxes(border_->groups(), search, below, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   const size_t nearest = std::ranges::min_element(groups, {}, &NearBox::squared)->box;
-  return *std::ranges::min_element(around, {}, [&](size_t n) {
-    const auto places = border_->PlacesOf(bricks_around_[n].index);
+  return *std::ranges::min_element(around, {}, [&](const NearestInPlace& found) {
+    const auto places = border_->PlacesOf(bricks_around_[found.place].index);
     const auto place = static_cast<size_t>(places.data() - border_->places().data());
     const size_t group = place / kBoxGroup;
     const size_t turn = group == nearest ? 0 : 1 + (group == groups[0].box ? nearest : group);

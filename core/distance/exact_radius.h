@@ -43,7 +43,7 @@ class ExactRadius {
   // those asked for before.
   void ForgetNearest() { last_ = kOutside; }
   // What nearest() says after ForgetNearest() and At(p), which is `radius`: mostly found in the few
-  // bricks around. Needs: this searches and nothing was taken; an object point.
+  // bricks that are about as far away. Needs: this searches and nothing was taken; an object point.
   LatticePoint NearestAt(LatticePoint p, float radius);
   // From p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
@@ -63,8 +63,10 @@ class ExactRadius {
   bool SearchWithin(float reach, LatticePoint p);
   void FindBricksAround(LatticePoint p, float radius);
   bool SearchAround(LatticePoint p, float radius);
+  bool SearchFar(LatticePoint p, float radius);
+  std::span<const NearestInPlace> KeepNearest(size_t count, float radius);
   BrickIndex ChangedBrick(const BrickCoordinates& brick);
-  size_t FirstSearched(std::span<const size_t> around, const PointSearch& search);
+  NearestInPlace FirstSearched(std::span<const NearestInPlace> around, const PointSearch& search);
   float SquareOf(LatticePoint way, int32_t most) const;
 
   const Volume& object_;
@@ -80,8 +82,7 @@ class ExactRadius {
   SquaredWays<1> squared_y_;
   SquaredWays<kBrickY> squared_z_;
   std::vector<BorderBricks::Place> bricks_around_;
-  std::vector<NearestPoint> found_around_;  // of each of them
-  std::vector<size_t> nearest_around_;      // those of them with the nearest
+  std::vector<NearestInPlace> found_;
   NearestPoint last_ = kOutside;  // of the point asked for before, which is mostly close by
 };
 

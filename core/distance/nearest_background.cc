@@ -1,5 +1,6 @@
 #include "core/distance/nearest_background.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -177,13 +178,42 @@ void FindNearestTarget(std::span<const BorderBricks::Place> places, const Boxes&
   }
 }
 
-void FindNearestOfEachTarget(std::span<const BorderBricks::Place> places,
-                             std::span<const BrickBits> object, const PointSearch& search,
-                             NearestPoint* found) {
-  for (const BorderBricks::Place& place : places) {
-    found->squared = std::numeric_limits<float>::infinity();
-    SearchBrick(Seen(place, search), search.squares[0], object[place.index], place.low, *found++);
+constexpr float kJustMore = 1.000001f;
+
+// Whether the brick has background nearer than `below`, which it brings down.
+HWY_INLINE bool TakePlace(const BorderBricks::Place& place, size_t number,
+                          std::span<const BrickBits> object, const PointSearch& search,
+                          float& below, NearestInPlace* found) {
+  NearestPoint nearest = {{}, below};
+  SearchBrick(Seen(place, search), search.squares[0], object[place.index], place.low, nearest);
+  if (nearest.squared >= below) return false;
+  below = std::min(below, kJustMore * nearest.squared);
+  *found = {nearest, number};
+  return true;
+}
+
+size_t FindAllInGroupTarget(std::span<const BorderBricks::Place> places, const Boxes& boxes,
+                            size_t group, std::span<const BrickBits> object,
+                            const PointSearch& search, float& below, NearestInPlace* found) {
+  const Floats f32;
+  size_t count = 0;
+  for (size_t n = group * kBoxGroup; n < (group + 1) * kBoxGroup; n += hn::Lanes(f32)) {
+    uint32_t near = LanesBelow(SquaresToBoxes(boxes, n, search), below);
+    for (; near != 0; near &= near - 1) {
+      const size_t place = n + static_cast<size_t>(std::countr_zero(near));
+      if (TakePlace(places[place], place, object, search, below, found + count)) ++count;
+    }
   }
+  return count;
+}
+
+size_t FindAllTarget(std::span<const BorderBricks::Place> places, std::span<const BrickBits> object,
+                     const PointSearch& search, float below, NearestInPlace* found) {
+  size_t count = 0;
+  for (size_t n = 0; n < places.size(); ++n) {
+    if (TakePlace(places[n], n, object, search, below, found + count)) ++count;
+  }
+  return count;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -195,7 +225,8 @@ namespace bccskel {
 
 HWY_EXPORT(FindNearBoxesTarget);
 HWY_EXPORT(FindNearestTarget);
-HWY_EXPORT(FindNearestOfEachTarget);
+HWY_EXPORT(FindAllInGroupTarget);
+HWY_EXPORT(FindAllTarget);
 
 size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found) {
   return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(boxes, search, below, found);
@@ -207,10 +238,17 @@ void FindNearestBackground(std::span<const BorderBricks::Place> places, const Bo
   HWY_DYNAMIC_DISPATCH(FindNearestTarget)(places, boxes, group, object, search, nearest);
 }
 
-void FindNearestOfEach(std::span<const BorderBricks::Place> places,
-                       std::span<const BrickBits> object, const PointSearch& search,
-                       NearestPoint* found) {
-  HWY_DYNAMIC_DISPATCH(FindNearestOfEachTarget)(places, object, search, found);
+size_t FindAllNearest(std::span<const BorderBricks::Place> places, const Boxes& boxes, size_t group,
+                      std::span<const BrickBits> object, const PointSearch& search, float& below,
+                      NearestInPlace* found) {
+  return HWY_DYNAMIC_DISPATCH(FindAllInGroupTarget)(places, boxes, group, object, search, below,
+                                                    found);
+}
+
+size_t FindAllNearest(std::span<const BorderBricks::Place> places,
+                      std::span<const BrickBits> object, const PointSearch& search, float below,
+                      NearestInPlace* found) {
+  return HWY_DYNAMIC_DISPATCH(FindAllTarget)(places, object, search, below, found);
 }
 
 }  // namespace bccskel

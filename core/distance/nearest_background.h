@@ -78,11 +78,23 @@ void FindNearestBackground(std::span<const BorderBricks::Place> places, const Bo
                            size_t group, std::span<const BrickBits> object,
                            const PointSearch& search, NearestPoint& nearest);
 
-// The nearest background point of each brick, with an infinite square where there is none.
-// Shapes: `found` has room for all places.
-void FindNearestOfEach(std::span<const BorderBricks::Place> places,
-                       std::span<const BrickBits> object, const PointSearch& search,
-                       NearestPoint* found);
+// The nearest background point of a brick.
+struct NearestInPlace {
+  NearestPoint nearest;
+  size_t place = 0;
+};
+
+// Of the bricks of a group, in their order, those with the nearest background points, if these are
+// nearer than `below`, which becomes a little more than their square; and maybe others.
+// Shapes: `found` has room for a group. Returns: how many were found.
+size_t FindAllNearest(std::span<const BorderBricks::Place> places, const Boxes& boxes, size_t group,
+                      std::span<const BrickBits> object, const PointSearch& search, float& below,
+                      NearestInPlace* found);
+
+// The same for bricks without boxes. Shapes: `found` has room for all places.
+size_t FindAllNearest(std::span<const BorderBricks::Place> places,
+                      std::span<const BrickBits> object, const PointSearch& search, float below,
+                      NearestInPlace* found);
 
 }  // namespace bccskel
 

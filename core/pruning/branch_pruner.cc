@@ -116,13 +116,16 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
     if (set_.Degree(p) <= 2) continue;
     for (LatticePoint q : ClusterOf(p)) sources.insert(q);
   }
-  for (LatticePoint p : sources) FindEndsBeyond(p, ends);
+  for (LatticePoint p : sources) FindEndsBeyond(p, sources, ends);
   for (LatticePoint end : ends) Judge(end);
 }
 
-void BranchPruner::FindEndsBeyond(LatticePoint p, std::set<LatticePoint>& ends) const {
+// What lies beyond another source is found from there: long branches are followed once.
+void BranchPruner::FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& sources,
+                                  std::set<LatticePoint>& ends) const {
   if (set_.Degree(p) == 1) ends.insert(p);
   ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint q) {
+    if (sources.contains(q)) return;
     LatticePoint previous = p;
     NeighborMask mask = set_.NeighborsOf(q);
     while (IsPair(mask) && q != p) {

@@ -49,7 +49,8 @@ class BranchPruner {
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
   void Judge(LatticePoint end);
   void JudgeAround(const std::set<LatticePoint>& places);
-  void FindEndsBeyond(LatticePoint p, std::set<LatticePoint>& ends) const;
+  void FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& sources,
+                      std::set<LatticePoint>& ends) const;
 
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
   double WorthOf(const FreeBranch& branch, LatticePoint junction) const;

@@ -148,9 +148,16 @@ Volume Volume::FromSortedBricks(LatticeExtent extent, const Placement& placement
 }
 
 std::optional<BrickIndex> Volume::Find(BrickKey key) const {
-  const auto it = std::ranges::lower_bound(keys_, key);
-  if (it == keys_.end() || *it != key) return std::nullopt;
-  return static_cast<BrickIndex>(it - keys_.begin());
+  if (keys_.empty()) return std::nullopt;
+  // A search whose steps do not depend on guesses about the last one.
+  const BrickKey* first = keys_.data();
+  for (size_t count = keys_.size(); count > 1;) {
+    const size_t half = count / 2;
+    first += first[half] <= key ? half : 0;
+    count -= half;
+  }
+  if (*first != key) return std::nullopt;
+  return static_cast<BrickIndex>(first - keys_.data());
 }
 
 bool Volume::Contains(LatticePoint p) const {

@@ -102,6 +102,31 @@ TEST(ExactRadius, ThatForgetsFindsTheSameNearestPointAsANewOne) {
   EXPECT_GT(otherwise, 0U);
 }
 
+// A long box has points with radii above the limits of the searches, and ties on two of its faces,
+// inside of stored bricks or beyond them.
+TEST(ExactRadius, OfAKnownLengthFindsTheSameNearestPointOfThickObjects) {
+  for (const int32_t first : {4, 0}) {
+    VolumeBuilder builder({60, 60, 80});
+    for (LatticePoint p : test::RandomCloud(7, {34, 44, 60}, 1)) {
+      builder.Add(p + LatticePoint{first, first, first});
+    }
+    builder.Remove({40, 40, 60});
+    const Volume object = *std::move(builder).Build();
+    const ExactRadius untouched(object);
+    ExactRadius known = untouched;
+    float thickest = 0;
+    size_t n = 0;
+    object.ForEachPoint([&](LatticePoint p) {
+      if (n++ % 5 != 0) return;
+      ExactRadius fresh = untouched;
+      const float radius = fresh.At(p);
+      thickest = std::max(thickest, radius);
+      ASSERT_EQ(known.NearestAt(p, radius), fresh.nearest()) << first;
+    });
+    EXPECT_GT(thickest, 30);
+  }
+}
+
 TEST(ExactRadii, StopWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
