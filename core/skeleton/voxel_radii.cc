@@ -141,34 +141,24 @@ class VoxelRadii {
 
 }  // namespace
 
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
-                           const exec::Context& context, SkeletonGraph& graph) {
-  std::vector<SkeletonPoint*> points;
-  for (SkeletonNode& node : graph.nodes) points.push_back(&node.at);
-  for (SkeletonPoint& p : graph.points) points.push_back(&p);
-  for (SkeletonPoint& p : graph.sheets) points.push_back(&p);
-  if (points.empty()) return absl::OkStatus();
-  // Paths share points, those of the loops of a cluster most: each point is measured once.
-  const auto place_of = [](const SkeletonPoint* p) { return p->point; };
-  std::ranges::sort(points, {}, place_of);
-  std::vector<size_t> firsts;
-  for (size_t n = 0; n < points.size(); ++n) {
-    if (n == 0 || points[n]->point != points[n - 1]->point) firsts.push_back(n);
-  }
-  firsts.push_back(points.size());
-  exec::Portions portions(firsts.size() - 1, 64);
+absl::StatusOr<std::vector<float>> MeasureVoxelRadii(const Volume& object, int32_t voxel_units,
+                                                     const ExactRadius& search, const Volume& thin,
+                                                     std::span<const float> exact,
+                                                     const exec::Context& context) {
+  std::vector<LatticePoint> points;
+  thin.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
+  std::vector<float> measured(points.size());
+  exec::Portions portions(points.size(), 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
   context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
     VoxelRadii radii(object, voxel_units, search);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        const float radius = radii.At(points[firsts[n]]->point, points[firsts[n]]->radius);
-        for (size_t k = firsts[n]; k < firsts[n + 1]; ++k) points[k]->radius = radius;
-      }
+      for (size_t n = mine.begin; n < mine.end; ++n) measured[n] = radii.At(points[n], exact[n]);
     }
   });
-  return context.StopStatus();
+  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
+  return measured;
 }
 
 }  // namespace bccskel

@@ -17,7 +17,7 @@
 #include "client/cli/named_options.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
-#include "client/export/node_kind_name.h"
+#include "core/skeleton/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/edge_images.h"
@@ -56,7 +56,7 @@ py::dict NodesOf(const SkeletonGraph& graph) {
   py::list kinds;
   for (const SkeletonNode& node : graph.nodes) {
     positions.push_back(graph.PositionOf(node.at));
-    kinds.append(py::str(std::string(exporting::NodeKindName(node.kind))));
+    kinds.append(py::str(std::string(NodeKindName(node.kind))));
   }
   py::dict nodes;
   nodes["positions"] = PointsArray(positions);

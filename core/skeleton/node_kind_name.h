@@ -1,11 +1,11 @@
-#ifndef BCCSKEL_CLIENT_EXPORT_NODE_KIND_NAME_H_
-#define BCCSKEL_CLIENT_EXPORT_NODE_KIND_NAME_H_
+#ifndef BCCSKEL_CORE_SKELETON_NODE_KIND_NAME_H_
+#define BCCSKEL_CORE_SKELETON_NODE_KIND_NAME_H_
 
 #include <string_view>
 
 #include "core/skeleton/skeleton_graph.h"
 
-namespace bccskel::exporting {
+namespace bccskel {
 
 // The word for a node's kind in every text format: end, junction, loop, isolated, closed_surface.
 constexpr std::string_view NodeKindName(NodeKind kind) {
@@ -24,6 +24,6 @@ constexpr std::string_view NodeKindName(NodeKind kind) {
   return "";  // not reached: the enumerators are exhausted above
 }
 
-}  // namespace bccskel::exporting
+}  // namespace bccskel
 
-#endif  // BCCSKEL_CLIENT_EXPORT_NODE_KIND_NAME_H_
+#endif  // BCCSKEL_CORE_SKELETON_NODE_KIND_NAME_H_
