@@ -17,7 +17,7 @@
 namespace bccskel {
 namespace {
 
-constexpr size_t kLevelsAlwaysVisited = 20;
+constexpr size_t kLevelsAlwaysVisited = 10;
 
 struct KnownPoint {
   SkeletonPoint point;

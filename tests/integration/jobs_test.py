@@ -2,9 +2,7 @@
 
 import json
 import pathlib
-import signal
 import subprocess
-import time
 
 import harness
 from harness import CLIENT, Server
@@ -99,9 +97,8 @@ class JobsTest(harness.TestCase):
                     [CLIENT, "watch", jobs[-1], "--server", server.address,
                      "--progress", "always", *(["--detach"] if detached else [])],
                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                time.sleep(0.5)
-                waiting.send_signal(signal.SIGINT)
-                self.assertIn(waiting.wait(timeout=120), (0, 130))
+                harness.interrupt(waiting)
+                self.assertIn(waiting.wait(timeout=300), (0, 130))
                 if waiting.returncode == 130:  # else it was quick
                     ended = {True: "succeeded", False: "cancelled"}[detached]
                     harness.bccskel("watch", jobs[-1], "--server", server.address)
