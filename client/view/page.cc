@@ -116,9 +116,13 @@ absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
 }
 
 OrderedJson BranchJson(const PrunedBranch& branch) {
-  OrderedJson json = {{"source", branch.source}, {"target", branch.target},
-                      {"length", branch.figures.length}, {"mean", branch.figures.mean_radius},
-                      {"min", branch.figures.min_radius}, {"max", branch.figures.max_radius}, {"edges", branch.edges}};
+  OrderedJson json = {{"source", branch.source},
+                      {"target", branch.target},
+                      {"length", branch.figures.length},
+                      {"mean", branch.figures.mean_radius},
+                      {"min", branch.figures.min_radius},
+                      {"max", branch.figures.max_radius},
+                      {"edges", branch.edges}};
   if (std::isfinite(branch.level)) json["level"] = branch.level;
   if (branch.shared) json["shared"] = true;
   return json;
@@ -130,9 +134,8 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
                       {"branches", OrderedJson::array()},
                       {"steps", OrderedJson::array()}};
   for (const PrunedNode& node : pruning.nodes) {
-    json["nodes"].push_back({{"position", node.position},
-                             {"radius", node.radius},
-                             {"component", node.component}});
+    json["nodes"].push_back(
+        {{"position", node.position}, {"radius", node.radius}, {"component", node.component}});
   }
   for (const NodeState& state : pruning.states) {
     json["states"].push_back({state.node, NodeKindName(state.kind)});

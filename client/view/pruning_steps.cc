@@ -101,8 +101,8 @@ class Collector {
     const auto [at, is_new] = nodes_.emplace(node.at.point, static_cast<uint32_t>(nodes_.size()));
     if (is_new) {
       const SkeletonEdge& through = base_.edges[FirstEdgeOf({node.at.point})];
-      steps_.nodes.push_back({graph.PositionOf(node.at), graph.RadiusOf(node.at),
-                              components_[through.source]});
+      steps_.nodes.push_back(
+          {graph.PositionOf(node.at), graph.RadiusOf(node.at), components_[through.source]});
     }
     return at->second;
   }
@@ -113,13 +113,17 @@ class Collector {
     return at->second;
   }
 
-  uint32_t BranchOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
-                    const PointOwners& owners, const std::vector<uint32_t>& nodes) {
+  uint32_t BranchOf(const SkeletonGraph& graph, const SkeletonEdge& edge, const PointOwners& owners,
+                    const std::vector<uint32_t>& nodes) {
     const auto [at, is_new] =
         branches_.emplace(PathOf(graph, edge), static_cast<uint32_t>(branches_.size()));
     if (is_new) {
-      PrunedBranch branch = {nodes[edge.source], nodes[edge.target], FiguresOf(graph, edge),
-                             edge.pruning_level, {}, false};
+      PrunedBranch branch = {nodes[edge.source],
+                             nodes[edge.target],
+                             FiguresOf(graph, edge),
+                             edge.pruning_level,
+                             {},
+                             false};
       FindEdges(at->first, owners, branch);
       steps_.branches.push_back(std::move(branch));
     }
@@ -182,9 +186,9 @@ PruningSteps PruningStepsOf(const ResultDocument& document) {
   const absl::StatusOr<ResultGraph> result = ResultGraphOf(document);
   if (!result.ok()) return {};
   Collector collector(result->graph);
-  const absl::Status done =
-      ForEachPrunedGraph(result->graph, JunctionReachOf(*result), kMostTracedPoints, {},
-                         [&](double level, const SkeletonGraph& graph) { collector.Add(level, graph); });
+  const absl::Status done = ForEachPrunedGraph(
+      result->graph, JunctionReachOf(*result), kMostTracedPoints, {},
+      [&](double level, const SkeletonGraph& graph) { collector.Add(level, graph); });
   return done.ok() ? std::move(collector).Take() : PruningSteps();
 }
 

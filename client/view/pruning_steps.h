@@ -21,7 +21,7 @@ struct PrunedBranch {
   uint32_t source;  // index into the result's nodes, followed by PruningSteps::nodes
   uint32_t target;
   EdgeFigures figures;
-  double level;  // infinity: never pruned
+  double level;                 // infinity: never pruned
   std::vector<uint32_t> edges;  // of the result, that the branch is made of
   bool shared;                  // no edge is the branch's own: it runs along this one
 };
@@ -50,7 +50,7 @@ struct PruningStep {
 // to the result.
 struct PruningSteps {
   std::vector<PrunedNode> nodes;
-  std::vector<NodeState> states;  // behind those of the result's nodes
+  std::vector<NodeState> states;       // behind those of the result's nodes
   std::vector<PrunedBranch> branches;  // behind the result's edges
   std::vector<PruningStep> steps;
 };

@@ -230,8 +230,8 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  // The radii that the result states. By them nodes are chosen and junctions merged, so that whoever
-  // has the result can trace what pruning leaves of it (ForEachPrunedGraph()).
+  // The radii that the result states. By them nodes are chosen and junctions merged, so that
+  // whoever has the result can trace what pruning leaves of it (ForEachPrunedGraph()).
   absl::StatusOr<std::vector<float>> StatedRadii(const Volume& space,
                                                  const std::vector<float>& exact) {
     if (!IsConverted(options_.source)) return exact;

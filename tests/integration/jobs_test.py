@@ -91,8 +91,9 @@ class JobsTest(harness.TestCase):
     def test_ctrl_c_cancels_a_job_that_is_waited_for_unless_detached(self):
         for detached in (True, False):
             with self.server(f"server{detached}") as server:
-                jobs = [self.submit(server, "--shell-width", 1 + n / 8, points=2_000_000)
-                        for n in range(4)]
+                # So many that the last one still waits when Ctrl-C comes.
+                jobs = [self.submit(server, "--shell-width", 1 + n / 8, points=4_000_000)
+                        for n in range(8)]
                 waiting = subprocess.Popen(
                     [CLIENT, "watch", jobs[-1], "--server", server.address,
                      "--progress", "always", *(["--detach"] if detached else [])],

@@ -27,7 +27,8 @@ Counts KindsOf(const SkeletonGraph& graph) {
   return counts;
 }
 
-// Ends as thinned: another run may move those it leaves elsewhere, and the widths of limbs with them.
+// Ends as thinned: another run may move those it leaves elsewhere, and the widths of limbs with
+// them.
 SkeletonizeOptions Pruned(PruningOptions pruning, ObjectSource source) {
   SkeletonizeOptions options;
   options.pruning = pruning;

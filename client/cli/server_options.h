@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CLIENT_CLI_SERVER_ARGUMENTS_H_
-#define BCCSKEL_CLIENT_CLI_SERVER_ARGUMENTS_H_
+#ifndef BCCSKEL_CLIENT_CLI_SERVER_OPTIONS_H_
+#define BCCSKEL_CLIENT_CLI_SERVER_OPTIONS_H_
 
 #include <string>
 
@@ -33,4 +33,4 @@ absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server);
 
 }  // namespace bccskel::cli
 
-#endif  // BCCSKEL_CLIENT_CLI_SERVER_ARGUMENTS_H_
+#endif  // BCCSKEL_CLIENT_CLI_SERVER_OPTIONS_H_

@@ -1,4 +1,4 @@
-#include "client/cli/image_arguments.h"
+#include "client/cli/image_options.h"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -11,11 +11,25 @@
 #include <utility>
 #include <vector>
 
-#include "client/cli/choice_option.h"
-#include "client/cli/count_option.h"
+#include "client/cli/option_values.h"
 #include "core/exec/status_macros.h"
+#include "core/labels/label_collector.h"
+#include "core/mask/mask_converter.h"
 
 namespace bccskel::cli {
+
+void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
+  CLI::Option* points = AddCount<uint64_t>(
+      command, "--points", [&grid](uint64_t count) { grid.points = count; },
+      "Lattice points the solid shall have");
+  command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
+      ->excludes(points)
+      ->option_text("LENGTH");
+  AddChoice<FillRule>(
+      command, "--fill", grid.fill, "What is inside a mesh (default auto)",
+      {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
+}
+
 namespace {
 
 constexpr const char* kGroup = "Images";
@@ -241,6 +255,55 @@ void AddSkeletonImages(CLI::App& command, SkeletonImages& images) {
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {
   BCCSKEL_ASSIGN_OR_RETURN(ForegroundRule rule, UprightRule(arguments));
   return arguments.invert ? rule.Inverted() : rule;
+}
+
+namespace {
+
+MaskGrid GridOf(const ImageInfo& info) {
+  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
+}
+
+}  // namespace
+
+absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
+                                         KeptVoxels kept, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ForegroundRule rule, ForegroundOf(arguments));
+  const MaskGrid grid = GridOf(source.info());
+  BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
+  std::vector<uint64_t> words(grid.WordsPerSlice());
+  for (int32_t z = 0; z < grid.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    ForegroundSlice(slice, rule, words);
+    BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
+    if (kept == KeptVoxels::kNone) continue;
+    BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(words, context));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
+  ImageObject object = {std::move(mask.volume), {source.info(), mask.voxels, mask.mask}};
+  if (kept == KeptVoxels::kAll) {
+    BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
+  }
+  return object;
+}
+
+absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
+                                              uint64_t min_voxels, const exec::Context& context) {
+  CollectedLabels labels = {.info = source.info(), .objects = {}};
+  const MaskGrid grid = GridOf(labels.info);
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
+                           LabelCollector::Create(grid, {.labels = arguments.labels}));
+  std::vector<uint64_t> values(grid.VoxelsPerSlice());
+  for (int32_t z = 0; z < grid.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
+    BCCSKEL_RETURN_IF_ERROR(collector.AddSlice(values, context));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
+  labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
+    return object.voxels < min_voxels;
+  });
+  return labels;
 }
 
 }  // namespace bccskel::cli

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_
-#define BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_
+#ifndef BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_
+#define BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_
 
 #include <cstdint>
 #include <optional>
@@ -7,15 +7,24 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
 #include "core/import/image/foreground.h"
 #include "core/import/image/image_options.h"
+#include "core/import/image/image_source.h"
+#include "core/import/voxelize/voxelize.h"
+#include "core/labels/voxel_runs.h"
 #include "core/mask/mask_converter.h"
+#include "core/volume/volume.h"
 
 namespace CLI {
 class App;
 }
 
 namespace bccskel::cli {
+
+// Adds the options that say how a mesh is filled with lattice points.
+void AddGrid(CLI::App& command, VoxelizeOptions& grid);
 
 // How an image becomes an object, as the command line says it.
 struct ImageArguments {
@@ -55,6 +64,37 @@ void AddSkeletonImages(CLI::App& command, SkeletonImages& images);
 // Errors: INVALID_ARGUMENT, as ForegroundRule's.
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
 
+// What an image was before it became an object.
+struct ImageStage {
+  ImageInfo info;
+  uint64_t voxels = 0;  // of the foreground
+  BettiNumbers mask;    // counted on the image's own grid
+};
+
+struct ImageObject {
+  Volume volume;
+  ImageStage image;
+  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if wanted
+};
+
+enum class KeptVoxels : uint8_t { kNone, kAll };
+
+// Reads an image slice by slice and converts its foreground, which may be empty.
+// Errors: as NextSlice(), ForegroundOf() and MaskConverter.
+absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
+                                         KeptVoxels kept, const exec::Context& context);
+
+struct CollectedLabels {
+  ImageInfo info;
+  LabeledObjects objects;
+  uint64_t left_out = 0;  // labels with fewer voxels than wanted
+};
+
+// Gathers the wanted labels of an image that have `min_voxels` or more; there may be none.
+// Errors: as NextSlice(), LabelSlice() and LabelCollector.
+absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
+                                              uint64_t min_voxels, const exec::Context& context);
+
 }  // namespace bccskel::cli
 
-#endif  // BCCSKEL_CLIENT_CLI_IMAGE_ARGUMENTS_H_
+#endif  // BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_

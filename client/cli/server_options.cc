@@ -1,4 +1,4 @@
-#include "client/cli/server_arguments.h"
+#include "client/cli/server_options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>

@@ -1,8 +1,13 @@
-#include "client/cli/thinning_arguments.h"
+#include "client/cli/thinning_options.h"
 
-#include "client/cli/choice_option.h"
-#include "client/cli/count_option.h"
-#include "client/cli/root_argument.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "client/cli/option_values.h"
+#include "core/pipeline/canonical_options.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/presets.h"
 
@@ -127,6 +132,116 @@ void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
   AddBorder(command, options.border);
   AddThinning(command, options.thinning);
   AddRoot(command, root);
+}
+
+namespace {
+
+RootChoice ReadRoot(const std::string& text) {
+  RootChoice choice;
+  if (text == "thickest-end") return choice;
+  const auto all_read = [&](int end) { return text.size() == static_cast<size_t>(end); };
+  int end = 0;
+  if (text.starts_with("node:")) {
+    choice.rule = RootChoice::Rule::kNode;
+    choice.node = ReadCount<uint32_t>("--root node", text.substr(5));
+    return choice;
+  }
+  WorldPoint& p = choice.point;
+  choice.rule = RootChoice::Rule::kNearestNode;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &p[0], &p[1], &p[2], &end) == 3 && all_read(end) &&
+      std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) {
+    return choice;
+  }
+  throw CLI::ValidationError("--root " + text +
+                             ": must be thickest-end, a point like 1.5,20,3 or a node like node:7");
+}
+
+}  // namespace
+
+void AddRoot(CLI::App& command, std::optional<RootChoice>& root) {
+  command
+      .add_option_function<std::string>(
+          "--root", [&root](const std::string& text) { root = ReadRoot(text); },
+          "Order the skeleton as trees from here: generation, Strahler order and way to the root; "
+          "edges that close loops are left out")
+      ->option_text("thickest-end|X,Y,Z|node:N");
+}
+
+void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling) {
+  command
+      .add_option("--swc-step", sampling.step,
+                  "Distance of SWC's points along the smooth curve, in the world's unit; 0: the "
+                  "lattice points, not smoothed (default twice the smallest spacing)")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()))
+      ->option_text("LENGTH");
+}
+
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
+  AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
+}
+
+void AddLabels(CLI::App& command, LabelsArguments& arguments) {
+  command.add_option("IMAGE", arguments.input, "Image file of labels")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: with {label} in its path one file per label, in any format but "
+                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or "
+                  ".precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+  AddSwcStep(command, arguments.swc);
+  AddLabelImage(command, arguments.image);
+  AddMinVoxels(command, arguments.min_voxels);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  command.add_flag_callback(
+      "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
+}
+
+namespace {
+
+using Complaint = std::optional<std::string>;
+
+// Options of pruning that would do nothing.
+Complaint PruningComplaint(const SkeletonizeOptions& options) {
+  const PruningOptions& pruning = options.pruning;
+  if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
+    return "--pruning-threshold is for a rule of pruning, not for --pruning none";
+  }
+  const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
+  if (!asked || HasCurves(options.thinning)) return std::nullopt;
+  if (HasSheets(options.thinning)) {
+    if (pruning.tips == TipPlacement::kRidge) return std::nullopt;
+    return "--tips is for curves, and --kind surface has none";
+  }
+  const std::string why =
+      options.thinning.last_shell > 0
+          ? "--last-shell stops before there are curves"
+          : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
+  return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
+}
+
+Complaint JunctionComplaint(const SkeletonizeOptions& options) {
+  const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
+  if (!asked || HasGraphOfCurves(options.thinning)) return std::nullopt;
+  return "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell";
+}
+
+}  // namespace
+
+std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options) {
+  const absl::Status sound = CheckSkeletonizeOptions(options);
+  if (!sound.ok()) return std::string(sound.message());
+  if (Complaint c = JunctionComplaint(options); c.has_value()) return c;
+  return PruningComplaint(options);
+}
+
+std::optional<std::string> ComplaintAboutRootOfLabels(const std::optional<RootChoice>& root) {
+  if (!root.has_value() || root->rule != RootChoice::Rule::kNode) return std::nullopt;
+  return "--root node:N names a node of one skeleton; labels have many";
 }
 
 }  // namespace bccskel::cli
