@@ -15,7 +15,7 @@
 #include "client/call_options.h"
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
-#include "client/cli/server_options.h"
+#include "client/endpoint.h"
 #include "client/export/point_forest.h"
 #include "client/view/render/picture.h"
 #include "core/import/shapes/shapes.h"
@@ -34,6 +34,16 @@ namespace bccskel::cli {
 struct CommonArguments {
   SummaryStyle summary = SummaryStyle::kText;
   int threads = 0;  // 0: all of the machine, or the server's choice
+};
+
+// Which server, and what lets the user in. Paths of files, as given.
+struct ServerArguments {
+  std::string address = "127.0.0.1:50051";
+  std::string tls_ca;
+  std::string tls_certificate;
+  std::string tls_key;
+  std::string token_file;  // empty: as BCCSKEL_TOKEN_FILE says
+  client::Endpoint::PlaintextToken plaintext_token = client::Endpoint::PlaintextToken::kRefuse;
 };
 
 struct VoxelizeArguments {
@@ -279,6 +289,9 @@ ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& argum
 // Whether the command's files can be written, asked before work of hours. Errors: as
 // CheckWritable(), for the first that cannot.
 absl::Status CheckOutputs(const Arguments& arguments);
+
+// None: the arguments go together.
+std::optional<std::string> ComplaintAbout(const Arguments& arguments);
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

@@ -141,7 +141,7 @@ void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
   core.add_option_function<std::string>(
           "--points",
           [&arguments](const std::string& given) { arguments.points = ReadBenchPoints(given); },
-          "Points that a shape or a mesh shall have (default 850000)")
+          "Number of points of a shape or a mesh (default 850000)")
       ->option_text("N");
 }
 

@@ -19,7 +19,6 @@
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
 #include "client/cli/option_values.h"
-#include "client/cli/server_options.h"
 #include "client/cli/summaries.h"
 #include "client/connection.h"
 #include "client/encoded_volume.h"
@@ -352,7 +351,7 @@ void AddBenchServer(CLI::App& command, BenchServerArguments& arguments) {
   AddBenchShape(command, arguments.shape, "What the volume is (default ball)");
   AddBenchMethod(command, arguments.method, arguments.distance, "How to thin (default symmetric)");
   AddChoice<VolumeEncoding>(command, "--encoding", arguments.encoding,
-                            "How volumes travel (default raw)",
+                            "Encoding of volumes on the wire (default raw)",
                             {{"raw", VolumeEncoding::kRawPlanes},
                              {"bricks", VolumeEncoding::kBricks},
                              {"openexr", VolumeEncoding::kOpenExr}});

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
 
 // Options that several commands have. Only files that add options include this and CLI11, which is
@@ -31,6 +32,14 @@ void AddCommonHere(CLI::App& command, CommonArguments& common);
 void AddProgress(CLI::App& command, ProgressStyle& progress);
 CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
                         const char* description);
+
+// Adds --server and its companions; returns --server.
+CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
+
+// Reads the files.
+// Errors: NOT_FOUND for a file that cannot be read; INVALID_ARGUMENT for a token file without a
+//         token.
+absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server);
 
 // A file as the positional argument `name`.
 void AddInput(CLI::App& command, const char* name, std::string& path, const char* description);

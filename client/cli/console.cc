@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "client/cli/server_options.h"
+#include "client/cli/arguments.h"
 #include "client/export/picture/caption.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"

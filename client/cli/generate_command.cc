@@ -38,8 +38,8 @@ void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
       ->option_text(" ");
   AddVolumeOutput(command, arguments.output);
   AddCount(command, "--points", arguments.options.points,
-           "Points the object shall have (default 850000)");
-  AddCount(command, "--seed", arguments.options.seed, "Chooses the random parts (default 0)");
+           "Number of points of the object (default 850000)");
+  AddCount(command, "--seed", arguments.options.seed, "Seed of the random parts (default 0)");
   command
       .add_option("--noise", arguments.options.noise,
                   "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")

@@ -21,7 +21,7 @@ namespace bccskel::cli {
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   CLI::Option* points = AddCount<uint64_t>(
       command, "--points", [&grid](uint64_t count) { grid.points = count; },
-      "Lattice points the solid shall have");
+      "Number of lattice points inside the solid");
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
       ->excludes(points)
       ->option_text("LENGTH");
@@ -145,7 +145,7 @@ RawLayout& RawOf(ImageArguments& arguments) {
 
 void AddRaw(CLI::App& command, ImageArguments& arguments) {
   CLI::Option* size = AddTriple<int64_t>(
-      command, "--raw-size", "Read raw voxels, this many",
+      command, "--raw-size", "Size of raw voxel data",
       [&arguments](const std::array<int64_t, 3>& n) { RawOf(arguments).size = n; });
   command
       .add_option_function<std::string>(
@@ -166,7 +166,7 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
   AddCount<uint64_t>(
       command, "--raw-header",
       [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
-      "Bytes in front of them (default 0)")
+      "Bytes before them (default 0)")
       ->needs(size);
 }
 

@@ -16,6 +16,7 @@ namespace {
 using client::DurableClient, client::JobState;
 
 constexpr std::chrono::minutes kShortCall(1);
+constexpr std::chrono::seconds kLastCall(3);  // after Ctrl-C
 
 void AddTime(exporting::Text& text, const char* key, const std::optional<client::Time>& time) {
   text.Add(",\"", key, "\":");
@@ -45,7 +46,12 @@ absl::StatusOr<std::unique_ptr<DurableClient>> ClientOf(const ServerArguments& s
 absl::StatusOr<std::unique_ptr<DurableClient>> PatientClientOf(const JobArguments& arguments,
                                                                const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.server));
-  BCCSKEL_RETURN_IF_ERROR(client->GetJob(arguments.job, ShortCalls(stop)).status());
+  absl::Status found = client->GetJob(arguments.job, ShortCalls(stop)).status();
+  // Ctrl-C is to cancel the job, so it must still be found.
+  if (!found.ok() && stop.stop_requested()) {
+    found = client->GetJob(arguments.job, {.timeout = kLastCall}).status();
+  }
+  BCCSKEL_RETURN_IF_ERROR(found);
   return ClientOf(arguments.server, client::kOutlastRestart);
 }
 

@@ -11,7 +11,6 @@
 #include "client/cli/job_calls.h"
 #include "client/cli/load_object.h"
 #include "client/cli/option_values.h"
-#include "client/cli/server_options.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
@@ -43,7 +42,7 @@ void AddWaiting(CLI::App& command, WaitingArguments& waiting) {
 
 void AddJobs(CLI::App& command, JobsArguments& arguments) {
   AddServer(command, arguments.server);
-  command.add_option("--limit", arguments.limit, "The newest ones only (default 50)")
+  command.add_option("--limit", arguments.limit, "Number of newest jobs to list (default 50)")
       ->check(CLI::Range(1, 1'000'000))
       ->option_text("N");
   AddJson(command, arguments.common);

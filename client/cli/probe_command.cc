@@ -3,7 +3,6 @@
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/server_options.h"
 #include "client/cli/summaries.h"
 #include "client/export/text.h"
 #include "client/operations.h"

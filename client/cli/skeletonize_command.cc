@@ -12,7 +12,6 @@
 #include "client/cli/image_options.h"
 #include "client/cli/job_calls.h"
 #include "client/cli/load_object.h"
-#include "client/cli/server_options.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
@@ -36,7 +35,7 @@ class ShellCollector {
   explicit ShellCollector(const Volume& object) : object_(object) {}
 
   void Add(int32_t shell, std::span<const LatticePoint> points) {
-    // A call that is tried again tells all shells again.
+    // A retried call reports all shells again.
     if (shell < last_) shells_.clear();
     last_ = shell;
     const auto [at, is_new] =
@@ -303,7 +302,7 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option_group& server = *command.add_option_group("Server", "A server that computes instead");
+  CLI::Option_group& server = *command.add_option_group("Server", "Compute on a server instead");
   CLI::Option* address = AddServer(server, arguments.server);
   arguments.place = Place::kHere;
   server.parse_complete_callback([&server, &arguments] {

@@ -18,7 +18,7 @@ namespace {
 // later and stays.
 void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
   std::vector<std::string> names;
-  std::string text = "Options for a kind of data, which those given by themselves overrule:";
+  std::string text = "Options for a kind of data; explicit options override them:";
   for (const Preset& preset : Presets()) {
     names.push_back(preset.name);
     text += std::string("\n") + preset.name + " = " + OptionsOf(preset) + ": " + preset.data;

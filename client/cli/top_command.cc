@@ -11,7 +11,6 @@
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/server_options.h"
 #include "client/cli/summaries.h"
 #include "client/operations.h"
 #include "client/retry_policy.h"
@@ -172,8 +171,8 @@ ExitCode Show(const TopArguments& arguments, const client::ServerStatus& status,
 void AddTop(CLI::App& command, TopArguments& arguments) {
   AddServer(command, arguments.server);
   command.add_flag_callback(
-      "--once", [&arguments] { arguments.repeat = TopRepeat::kOnce; }, "Show it once");
-  AddSeconds(command, "--interval", arguments.interval, "Between two looks (default 1)");
+      "--once", [&arguments] { arguments.repeat = TopRepeat::kOnce; }, "Print one update and exit");
+  AddSeconds(command, "--interval", arguments.interval, "Seconds between updates (default 1)");
   AddJson(command, arguments.common);
 }
 

@@ -188,7 +188,7 @@ absl::StatusOr<std::string> PageOf(const PageContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result)));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
-  // From the end to the start, so that no mark is looked for in what was put in.
+  // From the end to the start, so that no inserted text is searched for marks.
   Replace(page, "{{loader}}", kLoaderScript);
   Replace(page, "{{viewer}}", kViewerScripts);
   Replace(page, "{{three}}", three);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/exec/status_macros.h"
+#include "core/exec/stop_poll.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/simple_points.h"
@@ -137,18 +138,29 @@ void Restore(const KnownPoints& known, SkeletonGraph& graph) {
   std::ranges::for_each(graph.sheets, restore);
 }
 
-// Levels are those of the points that edges do not share with a junction: the largest.
-void SetLevels(const KnownPoints& known, const ThinSet& set, SkeletonGraph& graph) {
-  for (SkeletonEdge& edge : graph.edges) {
-    double level = -1;
-    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-      if (set.Degree(p.point) <= 2) level = std::max(level, known.Find(p.point)->level);
-    }
-    if (level >= 0) edge.pruning_level = level;
-  }
+// Points at junctions have no level of their own.
+PruningLevels LevelsOf(const KnownPoints& known, const ThinSet& set) {
+  PruningLevels levels;
+  set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, known.Find(p)->level); });
+  return levels;
 }
 
 }  // namespace
+
+absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
+                              SkeletonGraph& graph) {
+  StopPoll poll(context);
+  for (SkeletonEdge& edge : graph.edges) {
+    double level = -1;
+    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
+      if (poll.Stopped()) return context.StopStatus();
+      const double* found = levels.Find(p.point);
+      if (found != nullptr) level = std::max(level, *found);
+    }
+    if (level >= 0) edge.pruning_level = level;
+  }
+  return absl::OkStatus();
+}
 
 absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reach,
                                 uint64_t most_points, const exec::Context& context,
@@ -166,7 +178,7 @@ absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reac
     const Volume thin = set.ToVolume(whole);
     BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph pruned,
                              TraceSkeleton(thin, RadiiOf(known, thin), context));
-    SetLevels(known, set, pruned);
+    BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(LevelsOf(known, set), context, pruned));
     BCCSKEL_RETURN_IF_ERROR(MergeJunctions(junction_reach, context, pruned));
     Restore(known, pruned);
     visit(level, pruned);

@@ -9,6 +9,7 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
+#include "core/pipeline/pruned_graphs.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/beyond_border.h"
 #include "core/pruning/point_table.h"
@@ -60,22 +61,6 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
   for (SkeletonNode& node : graph.nodes) node.at.birth = BirthOf(node.at.point, isthmuses);
   for (SkeletonPoint& p : graph.points) p.birth = BirthOf(p.point, isthmuses);
   for (SkeletonPoint& p : graph.sheets) p.birth = BirthOf(p.point, isthmuses);
-}
-
-// An edge is there as long as a part of it is.
-absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
-                              SkeletonGraph& graph) {
-  StopPoll poll(context);
-  for (SkeletonEdge& edge : graph.edges) {
-    double level = -1;
-    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-      if (poll.Stopped()) return context.StopStatus();
-      const double* found = levels.Find(p.point);
-      if (found != nullptr) level = std::max(level, *found);
-    }
-    if (level >= 0) edge.pruning_level = level;
-  }
-  return absl::OkStatus();
 }
 
 // In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.

@@ -1,0 +1,176 @@
+#include <cstdint>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "client/cli/summaries.h"
+#include "client/export/method_facts.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
+#include "core/certificate/describe_changes.h"
+#include "core/pipeline/notes.h"
+#include "core/pipeline/option_words.h"
+
+namespace bccskel::cli {
+namespace {
+
+using exporting::BettiPhrase;
+using exporting::Counted;
+using exporting::GroupedDigits;
+using exporting::Text;
+
+double Seconds(StageTimings::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::string Decimals(double seconds) {
+  std::string text(32, '\0');
+  text.resize(static_cast<size_t>(std::snprintf(text.data(), text.size(), "%.3f", seconds)));
+  return text;
+}
+
+std::string CheckPhrase(const Certificate& certificate) {
+  const std::string verdict = VerdictInWords(certificate);
+  if (!certificate.TopologyKept()) return verdict;
+  return verdict + ", " + Counted(certificate.simple_points_left, "simple point", "simple points") +
+         " left";
+}
+
+const char* KeptJson(const Certificate& certificate) {
+  return certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false";
+}
+
+void AddOrder(Text& text, const SkeletonSummary& summary) {
+  const TreeOrder order = OrderTrees(summary.result.graph, *summary.arguments.root);
+  text.Add("order:     ", Counted(order.roots.size(), "tree", "trees"), ", ",
+           Counted(order.MostGenerations() + 1, "generation", "generations"), ", Strahler order ",
+           order.HighestStrahler());
+  if (order.loops_cut > 0) {
+    text.Add("; ", Counted(order.loops_cut, "edge that closes a loop", "edges that close loops"),
+             " left out");
+  }
+  text.Add('\n');
+}
+
+void AddTimes(Text& text, const SkeletonSummary& summary) {
+  const StageTimings& timings = summary.result.timings;
+  text.Add("time:      ", Decimals(summary.seconds), " s, of which skeleton ",
+           Decimals(Seconds(timings.total)));
+  for (const Stage& stage : kStages) {
+    text.Add(&stage == kStages.data() ? " (" : ", ", stage.name, ' ',
+             Decimals(Seconds(timings.*stage.time)));
+  }
+  text.Add(")\n");
+}
+
+void AddTimingsJson(Text& text, const StageTimings& timings) {
+  text.Add('{');
+  for (const Stage& stage : kStages) {
+    text.Add('"', stage.name, "_ms\":", 1e3 * Seconds(timings.*stage.time), ',');
+  }
+  text.Add("\"total_ms\":", 1e3 * Seconds(timings.total), '}');
+}
+
+void AddMeshJson(Text& text, const MeshStage& stage) {
+  text.Add(",\"mesh\":", MeshJson(stage.mesh), ",\"fill\":\"", FillRuleName(stage.fill),
+           "\",\"warnings\":[");
+  for (size_t n = 0; n < stage.warnings.size(); ++n) {
+    text.Add(n > 0 ? "," : "", JsonString(stage.warnings[n]));
+  }
+  text.Add(']');
+}
+
+std::string NotesJson(const std::vector<std::string>& notes) {
+  Text text;
+  for (const std::string& note : notes) {
+    text.Add(&note == notes.data() ? "[" : ",", JsonString(note));
+  }
+  text.Add(notes.empty() ? "[]" : "]");
+  return std::move(text).Take();
+}
+
+void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {
+  text.Add(",\"outputs\":[");
+  for (size_t n = 0; n < files.size(); ++n) {
+    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(files[n].path),
+             ",\"note\":", JsonString(files[n].note), '}');
+  }
+  text.Add(']');
+}
+
+}  // namespace
+
+std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
+  Text text;
+  for (const PreparingStep& step : steps) {
+    text.Add(&step == steps.data() ? "" : ", ", WordsFor(step));
+    if (step.points_added > 0) text.Add(" +", GroupedDigits(step.points_added));
+    if (step.points_removed > 0) text.Add(" -", GroupedDigits(step.points_removed));
+  }
+  return std::move(text).Take();
+}
+
+std::string SkeletonSummaryText(const SkeletonSummary& summary) {
+  const SkeletonizeResult& result = summary.result;
+  const Certificate& certificate = result.certificate;
+  Text text;
+  text.Add("input:     ", FileName(summary.arguments.input));
+  if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
+  if (summary.image.has_value()) text.Add(", ", ImagePhrase(*summary.image));
+  if (certificate.mask.has_value()) text.Add("\nmask:      ", BettiPhrase(*certificate.mask));
+  if (certificate.unprepared.has_value()) {
+    text.Add("\ngiven:     ", BettiPhrase(*certificate.unprepared),
+             "\nprepared:  ", PreparingPhrase(result.preparing));
+  }
+  text.Add("\nobject:    ", Counted(result.object_points, "point", "points"), ", ",
+           BettiPhrase(certificate.input), "\nmethod:    ", result.method, '\n');
+  text.Add("skeleton:  ", Counted(result.skeleton_points, "point", "points"), ", ",
+           BettiPhrase(certificate.skeleton), ", ",
+           Counted(result.graph.nodes.size(), "node", "nodes"), ", ",
+           Counted(result.graph.edges.size(), "edge", "edges"), '\n');
+  if (summary.arguments.root.has_value()) AddOrder(text, summary);
+  text.Add("check:     ", CheckPhrase(certificate), '\n');
+  AddTimes(text, summary);
+  text.Add("sha256:    ", result.sha256, '\n');
+  for (const WrittenFile& file : summary.files) {
+    text.Add("written:   ", file.path);
+    if (!file.note.empty()) text.Add(" (", file.note, ')');
+    text.Add('\n');
+  }
+  return std::move(text).Take();
+}
+
+std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
+  const SkeletonizeResult& result = summary.result;
+  const Certificate& certificate = result.certificate;
+  Text text;
+  text.Add("{\"input\":", JsonString(summary.arguments.input),
+           ",\"volume\":", VolumeJson(summary.object, std::nullopt));
+  if (summary.mesh.has_value()) AddMeshJson(text, *summary.mesh);
+  if (summary.image.has_value()) text.Add(",\"image\":", ImageJson(*summary.image));
+  text.Add(",\"method\":\"", WordFor(kMethodWords, result.options.thinning.method),
+           "\",\"kind\":\"", WordFor(kKindWords, result.options.thinning.kind),
+           "\",\"distance\":\"", WordFor(kDistanceWords, result.options.distance),
+           "\",\"object_points\":", result.object_points,
+           ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
+           ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
+  text.Add(",\"certificate\":{");
+  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
+  }
+  if (certificate.sampled) text.Add("\"sampled\":true,");
+  text.Add("\"input\":", BettiJson(certificate.input),
+           ",\"skeleton\":", BettiJson(certificate.skeleton),
+           ",\"simple_points_left\":", certificate.simple_points_left,
+           "},\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", result.sha256,
+           "\",\"preparing\":", exporting::PreparingJson(result.preparing),
+           ",\"notes\":", NotesJson(NotesOn(result)), ",\"timings\":");
+  AddTimingsJson(text, result.timings);
+  text.Add(",\"seconds\":", summary.seconds);
+  AddFilesJson(text, summary.files);
+  text.Add("}\n");
+  return std::move(text).Take();
+}
+
+}  // namespace bccskel::cli
