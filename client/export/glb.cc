@@ -183,7 +183,7 @@ std::vector<uint32_t> CornersOf(const Tube& tube) {
 class Scene {
  public:
   void Add(const Tube& tube) {
-    const size_t first_vertex = vertices_.size(), corners = CornersAccessor(tube);
+    const size_t first_vertex = vertices_.size();
     Vector low = tube.vertices.front().position, high = low;
     for (const Vertex& vertex : tube.vertices) {
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -200,6 +200,7 @@ class Scene {
     accessor_text_.Add('}');
     AddAccessor(kVertexView, first_vertex + 24, kUint8, "VEC4", count);
     accessor_text_.Add(",\"normalized\":true}");
+    const size_t corners = CornersAccessor(tube);
     mesh_text_.Add(meshes_ == 0 ? "\n" : ",\n",
                    "{\"primitives\":[{\"attributes\":{\"POSITION\":", first,
                    ",\"NORMAL\":", first + 1, ",\"COLOR_0\":", first + 2, "},\"indices\":", corners,
