@@ -95,8 +95,8 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 }
 
 // For each neighbor, the points whose priority is higher than its. Depths of neighbors differ by
-// at most nine quarters, so the sign of their difference modulo 32 decides; a point that wins by its
-// color needs no more than an equal depth.
+// at most nine quarters, so the sign of their difference modulo 32 decides; a point that wins by
+// its color needs no more than an equal depth.
 template <Sublattice kSublattice>
 HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
