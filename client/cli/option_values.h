@@ -106,9 +106,9 @@ std::vector<std::string> OptionNames(OptionSet set);
 bool IsFlag(OptionSet set, const std::string& name);
 
 // What `skeletonize` makes of the options for a mask, a mesh or how a file is read: no input, no
-// outputs. Errors: INVALID_ARGUMENT for values that are wrong or do not fit together; messages use
-// the names
-//         given here. NOT_FOUND for a name that the set has not.
+// outputs.
+// Errors: INVALID_ARGUMENT for values that are wrong or contradict each other; messages use the
+//         names given here. NOT_FOUND for a name that the set does not contain.
 absl::StatusOr<SkeletonizeArguments> ReadNamedOptions(OptionSet set,
                                                       const std::vector<NamedOption>& options);
 // The same for `labels`.
