@@ -42,7 +42,7 @@ class DurableStub {
                                            Deadline deadline) = 0;
   virtual absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) = 0;
   virtual absl::Status DeleteJob(const std::string& job, Deadline deadline) = 0;
-  // OK after the event that tells the end of the job.
+  // OK after the event that reports the end of the job.
   virtual absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
                                 const EventConsumer& consume, const std::stop_token& stop,
                                 Deadline deadline) = 0;

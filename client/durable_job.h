@@ -12,7 +12,7 @@
 #include "client/call_options.h"
 #include "core/exec/context.h"
 
-// What a server tells about jobs that it keeps.
+// What a server reports about jobs that it keeps.
 
 namespace bccskel::client {
 

@@ -8,7 +8,7 @@
 
 namespace bccskel::client {
 
-// What is told about jobs, to and from messages.
+// Reports about jobs, to and from messages.
 v1::CreateJobRequest ToMessage(const NewJob& job);
 DurableJob FromMessage(const v1::Job& message);
 // Nothing for a heartbeat, and for events that this version does not know.

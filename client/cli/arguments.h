@@ -3,15 +3,19 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "client/call_options.h"
-#include "client/cli/exit_code.h"
-#include "client/cli/image_arguments.h"
-#include "client/cli/server_arguments.h"
+#include "client/cli/console.h"
+#include "client/cli/image_options.h"
+#include "client/endpoint.h"
 #include "client/export/point_forest.h"
 #include "client/view/render/picture.h"
 #include "core/import/shapes/shapes.h"
@@ -20,19 +24,26 @@
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/tree_order.h"
 
-namespace bccskel::cli {
+namespace CLI {
+class App;
+}  // namespace CLI
 
-enum class SummaryStyle { kText, kJson };
-enum class ProgressStyle {
-  kAuto,    // a bar on a terminal, nothing elsewhere
-  kAlways,  // a bar on a terminal, a line per shell elsewhere
-  kNever,
-};
+namespace bccskel::cli {
 
 // What all commands know.
 struct CommonArguments {
   SummaryStyle summary = SummaryStyle::kText;
   int threads = 0;  // 0: all of the machine, or the server's choice
+};
+
+// Which server, and what lets the user in. Paths of files, as given.
+struct ServerArguments {
+  std::string address = "127.0.0.1:50051";
+  std::string tls_ca;
+  std::string tls_certificate;
+  std::string tls_key;
+  std::string token_file;  // empty: as BCCSKEL_TOKEN_FILE says
+  client::Endpoint::PlaintextToken plaintext_token = client::Endpoint::PlaintextToken::kRefuse;
 };
 
 struct VoxelizeArguments {
@@ -71,11 +82,18 @@ struct SkeletonizeArguments {
   ProgressStyle progress = ProgressStyle::kAuto;
 };
 
+// What stands in a path for the number of the label: such a path is one file per label.
+inline constexpr const char* kLabelPlace = "{label}";
+
+// OK for a path with {label} and any format, and for one without and a format that can hold many
+// skeletons. Errors: INVALID_ARGUMENT.
+absl::Status CheckLabelOutput(const std::string& path);
+
 // The skeleton of every label of an image.
 struct LabelsArguments {
   CommonArguments common;
   std::string input;
-  std::vector<std::string> outputs;  // see label_files.h
+  std::vector<std::string> outputs;  // with kLabelPlace: a file per label
   ImageArguments image;              // its labels are those wanted; none: all
   uint64_t min_voxels = 1;
   SkeletonizeOptions skeletonize;
@@ -219,6 +237,61 @@ using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsAr
                                ReconstructArguments, GenerateArguments, BenchCoreArguments,
                                BenchServerArguments, ProbeArguments, TopArguments, JobsArguments,
                                WatchArguments, CancelArguments, DeleteArguments, FetchArguments>;
+
+// Each adds the options of one command, in the command's own file.
+void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments);
+void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments);
+void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments);
+void AddLabelsCommand(CLI::App& command, LabelsArguments& arguments);
+void AddInfo(CLI::App& command, InfoArguments& arguments);
+void AddView(CLI::App& command, ViewArguments& arguments);
+void AddRender(CLI::App& command, RenderArguments& arguments);
+void AddConvert(CLI::App& command, ConvertArguments& arguments);
+void AddReconstruct(CLI::App& command, ReconstructArguments& arguments);
+void AddGenerate(CLI::App& command, GenerateArguments& arguments);
+void AddBenchCore(CLI::App& command, BenchCoreArguments& arguments);
+void AddBenchServer(CLI::App& command, BenchServerArguments& arguments);
+void AddJobs(CLI::App& command, JobsArguments& arguments);
+void AddWatch(CLI::App& command, WatchArguments& arguments);
+void AddCancel(CLI::App& command, CancelArguments& arguments);
+void AddDelete(CLI::App& command, DeleteArguments& arguments);
+void AddFetch(CLI::App& command, FetchArguments& arguments);
+void AddProbe(CLI::App& command, ProbeArguments& arguments);
+void AddTop(CLI::App& command, TopArguments& arguments);
+
+// Each runs one command, prints what it has to say and returns how the program ends.
+ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const JobsArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const WatchArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const CancelArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
+ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
+
+// Skeletonize() by others than the threads of this process.
+using ComputeSkeleton = std::function<absl::StatusOr<SkeletonizeResult>(
+    const Volume& object, const SkeletonizeOptions& options, const exec::Context& context)>;
+// `skeletonize` on this machine, where `compute` does what lies between reading and writing.
+ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& arguments,
+               const std::stop_token& stop);
+
+// Whether the command's files can be written, asked before work of hours. Errors: as
+// CheckWritable(), for the first that cannot.
+absl::Status CheckOutputs(const Arguments& arguments);
+
+// None: the arguments go together.
+std::optional<std::string> ComplaintAbout(const Arguments& arguments);
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

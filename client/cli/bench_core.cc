@@ -1,13 +1,72 @@
 #include "client/cli/bench_core.h"
 
-#include <algorithm>
+#include <malloc.h>
 
-#include "client/cli/bench_memory.h"
-#include "client/cli/bench_objects.h"
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
+#include "core/import/shapes/branching.h"
+#include "core/import/shapes/figures.h"
 #include "core/import/shapes/shapes.h"
 
 namespace bccskel::cli {
+namespace {
+
+// A line "VmRSS:   1234 kB" of /proc/self/status, in bytes.
+std::optional<uint64_t> ProcessBytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    uint64_t kilobytes = 0;
+    if (word == key && status >> kilobytes) return kilobytes * 1024;
+  }
+  return std::nullopt;
+}
+
+bool ResetHighWaterMark() {
+  std::ofstream references("/proc/self/clear_refs");
+  references << "5" << std::flush;  // see proc(5)
+  return references.good();
+}
+
+}  // namespace
+
+PeakGrowth::PeakGrowth() {
+  malloc_trim(0);
+  if (ResetHighWaterMark()) before_ = ProcessBytes("VmRSS:");
+}
+
+std::optional<uint64_t> PeakGrowth::bytes() const {
+  const std::optional<uint64_t> peak = ProcessBytes("VmHWM:");
+  if (!before_.has_value() || !peak.has_value()) return std::nullopt;
+  return *peak > *before_ ? *peak - *before_ : 0;
+}
+
+namespace {
+
+constexpr double kBlobNoise = 0.02;
+constexpr shapes::BranchingPlan kThinTubes = {
+    .levels = 3, .trunk_length = 67, .length_ratio = 0.9, .radius_ratio = 0.85};
+
+}  // namespace
+
+absl::StatusOr<Volume> MakeBenchObject(std::string_view name, uint64_t points) {
+  if (std::ranges::find(kBenchObjects, name) == kBenchObjects.end()) {
+    return absl::InvalidArgumentError("no bench object is named \"" +
+                                      std::string(name.substr(0, 100)) + "\": must be one of " +
+                                      absl::StrJoin(kBenchObjects, ", "));
+  }
+  if (name == "thin-tubes") {
+    return shapes::GenerateFigure(shapes::GrowBranches(kThinTubes, 0), {.points = points});
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const Shape shape, ParseShapeName(name));
+  const double noise = shape == Shape::kBlob ? kBlobNoise : 0;
+  return GenerateShape(shape, {.points = points, .noise = noise});
+}
+
 namespace {
 
 absl::Status LoadCode(const SkeletonizeOptions& options, const exec::Context& context) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -14,6 +15,10 @@
 #include "core/volume/volume.h"
 
 // Measures the engine: a volume in memory becomes a skeleton in memory, without files or a server.
+
+// What the engine is measured on, here and in tests/bench: shapes of core/import/shapes, but
+//   blob        has 2 % of its boundary flipped, as scanned objects have;
+//   thin-tubes  are the tubes twelve times as long, about 0.01 % of their box.
 
 namespace bccskel::cli {
 
@@ -54,6 +59,27 @@ inline DistanceKind DistanceFor(ThinningMethod method, std::optional<DistanceKin
 // Errors: as Skeletonize(); INTERNAL if two runs gave different skeletons.
 absl::StatusOr<CoreMeasurement> MeasureCore(const Volume& object, const SkeletonizeOptions& options,
                                             int repeat, const exec::Context& context);
+
+// By how much the resident memory of this process has grown at its highest, from construction on.
+// Construction gives memory that was freed, but not returned, back to the system first, so that its
+// reuse counts. Linux only: VmRSS and VmHWM, which are right within about 0.5 MB.
+class PeakGrowth {
+ public:
+  PeakGrowth();
+
+  // Nothing where the system does not let a process reset its high-water mark.
+  std::optional<uint64_t> bytes() const;
+
+ private:
+  std::optional<uint64_t> before_;
+};
+
+inline constexpr std::array<const char*, 7> kBenchObjects = {"ball",  "torus", "horse",     "blob",
+                                                             "tubes", "tree",  "thin-tubes"};
+
+// The same points on every machine.
+// Errors: INVALID_ARGUMENT for a name that is not in kBenchObjects, and as GenerateShape().
+absl::StatusOr<Volume> MakeBenchObject(std::string_view name, uint64_t points);
 
 }  // namespace bccskel::cli
 

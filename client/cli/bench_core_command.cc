@@ -3,14 +3,13 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "client/cli/arguments.h"
 #include "client/cli/bench_core.h"
-#include "client/cli/bench_objects.h"
-#include "client/cli/commands.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/result_object.h"
+#include "client/cli/option_values.h"
+#include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/instruction_sets.h"
@@ -134,7 +133,36 @@ std::string Summary(const BenchCoreArguments& arguments, int threads,
   return std::move(text).Take();
 }
 
+void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
+  CLI::Option* shape = AddBenchShape(core, arguments.shape, "What to thin (default ball)");
+  core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
+      ->excludes(shape)
+      ->option_text("FILE");
+  core.add_option_function<std::string>(
+          "--points",
+          [&arguments](const std::string& given) { arguments.points = ReadBenchPoints(given); },
+          "Number of points of a shape or a mesh (default 850000)")
+      ->option_text("N");
+}
+
+void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {
+  AddThreads(core, arguments.common, kThreadsHere);
+  AddChoice<std::string>(core, "--isa", arguments.instruction_set,
+                         "Instruction set (default the first)",
+                         Themselves(exec::SupportedInstructionSets()));
+  AddBenchMethod(core, arguments.method, arguments.distance, "How to thin (default directional)");
+}
+
 }  // namespace
+
+void AddBenchCore(CLI::App& command, BenchCoreArguments& arguments) {
+  AddObject(command, arguments);
+  AddEngine(command, arguments);
+  command.add_option("--repeat", arguments.repeat, "Warm runs, after a cold one (default 11)")
+      ->check(CLI::Range(1, 100'000))
+      ->option_text("N");
+  AddJson(command, arguments.common);
+}
 
 ExitCode Run(const BenchCoreArguments& arguments, const std::stop_token& stop) {
   if (!exec::ChooseInstructionSet(arguments.instruction_set)) return ExitCode::kUsage;

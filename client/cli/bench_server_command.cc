@@ -1,22 +1,209 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "client/call_options.h"
+#include "client/cli/arguments.h"
 #include "client/cli/bench_core.h"
-#include "client/cli/bench_objects.h"
-#include "client/cli/bench_server.h"
-#include "client/cli/commands.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
-#include "client/cli/server_arguments.h"
+#include "client/cli/option_values.h"
+#include "client/cli/summaries.h"
+#include "client/connection.h"
 #include "client/encoded_volume.h"
+#include "client/endpoint.h"
 #include "core/exec/status_macros.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/pipeline/stage_timings.h"
+#include "proto/wire/error_details.h"
 
 namespace bccskel::cli {
+
+// Where the time of one call went.
+struct ServedCall {
+  std::chrono::nanoseconds latency{0};  // from the first byte to the checked skeleton
+  client::CallTimes way;
+  StageTimings stages;
+};
+
+// What some clients at the same time saw of a server.
+struct ServerMeasurement {
+  int clients = 0;
+  uint64_t points = 0;                 // of the volume
+  uint64_t volume_bytes = 0;           // as sent
+  std::chrono::nanoseconds encode{0};  // of the volume, before all calls
+  double seconds = 0;
+  uint64_t refused = 0;           // UNAVAILABLE: tried again after a pause
+  std::vector<ServedCall> calls;  // that gave a skeleton, by ascending latency
+};
+
+// A part of a served call's time.
+struct TimeShare {
+  const char* name;
+  std::function<std::chrono::nanoseconds(const ServedCall&)> of;
+};
+// In the order in which they begin. Decoding goes on while the volume arrives; "rest" is what is
+// neither upload, stage nor download: the end of decoding, the queue, hand-over, the check.
+std::vector<TimeShare> SharesOfCalls();
+
+// The middle one of the calls' values. Needs: a call.
+std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share);
+
+// The latency that `share` of the calls did not exceed, 0 to 1. Needs: a call.
+std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share);
+
+// Each client has its own connection and sends `volume` with `options` again as soon as it has the
+// skeleton. What comes back is checked as always. A first call of each is not counted. Errors: of
+// the first call that fails otherwise than by UNAVAILABLE with a delay.
+absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
+                                                const client::EncodedVolume& volume,
+                                                const SkeletonizeOptions& options, int clients,
+                                                std::chrono::milliseconds duration,
+                                                const std::stop_token& stop);
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// What one client sees.
+struct Share {
+  absl::Status status;
+  uint64_t refused = 0;
+  std::vector<ServedCall> calls;
+};
+
+class Client {
+ public:
+  Client(std::unique_ptr<client::Stub> stub, const client::EncodedVolume& volume,
+         const SkeletonizeOptions& skeletonize, const std::stop_token& stop)
+      : stub_(std::move(stub)), volume_(volume), skeletonize_(skeletonize), stop_(stop) {}
+
+  // Errors: see MeasureServer(); CANCELLED.
+  absl::Status CallOnce() {
+    ServedCall call;
+    client::CallOptions options;
+    options.skeletonize = skeletonize_;
+    options.stop = stop_;
+    options.on_times = [&call](const client::CallTimes& times) { call.way = times; };
+    const auto deadline = client::Stub::Clock::now() + options.timeout;
+    while (true) {
+      const Clock::time_point start = Clock::now();
+      const auto result = stub_->Skeletonize(volume_, options, deadline);
+      call.latency = Clock::now() - start;
+      if (result.ok()) {
+        call.stages = result->timings;
+        share_.calls.push_back(call);
+      }
+      const absl::Status& status = result.status();
+      const auto pause = wire::RetryDelayOf(status);
+      if (!absl::IsUnavailable(status) || !pause.has_value()) return status;
+      ++share_.refused;
+      client::PauseFor(milliseconds(absl::ToInt64Milliseconds(*pause)), stop_);
+    }
+  }
+
+  void CallUntil(Clock::time_point end) {
+    while (share_.status.ok() && Clock::now() < end) share_.status = CallOnce();
+  }
+
+  Share& share() { return share_; }
+
+ private:
+  const std::unique_ptr<client::Stub> stub_;
+  const client::EncodedVolume& volume_;
+  const SkeletonizeOptions& skeletonize_;
+  const std::stop_token stop_;
+  Share share_;
+};
+
+absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpoint& endpoint,
+                                                             const client::EncodedVolume& volume,
+                                                             const SkeletonizeOptions& options,
+                                                             int clients,
+                                                             const std::stop_token& stop) {
+  client::Endpoint alone = endpoint;
+  alone.sharing = client::Endpoint::Sharing::kAlone;
+  std::vector<std::unique_ptr<Client>> all;
+  for (int n = 0; n < clients; ++n) {
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(alone));
+    all.push_back(std::make_unique<Client>(std::move(stub), volume, options, stop));
+    BCCSKEL_RETURN_IF_ERROR(all.back()->CallOnce());
+    all.back()->share() = Share();
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<TimeShare> SharesOfCalls() {
+  std::vector<TimeShare> shares = {
+      {"upload", [](const ServedCall& call) { return call.way.upload; }},
+      {"queue", [](const ServedCall& call) { return call.way.queue; }},
+      {"decode", [](const ServedCall& call) { return call.way.decode; }}};
+  for (const Stage& stage : kStages) {
+    shares.push_back({stage.name, [&stage](const ServedCall& call) {
+                        return std::chrono::nanoseconds(call.stages.*stage.time);
+                      }});
+  }
+  shares.push_back({"download", [](const ServedCall& call) { return call.way.download; }});
+  shares.push_back({"rest", [](const ServedCall& call) {
+                      return call.latency - call.way.upload - call.stages.total - call.way.download;
+                    }});
+  return shares;
+}
+
+std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share) {
+  std::vector<std::chrono::nanoseconds> values;
+  for (const ServedCall& call : measured.calls) values.push_back(share.of(call));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share) {
+  const auto last = static_cast<double>(measured.calls.size() - 1);
+  return measured.calls[static_cast<size_t>(share * last + 0.5)].latency;
+}
+
+absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
+                                                const client::EncodedVolume& volume,
+                                                const SkeletonizeOptions& options, int clients,
+                                                milliseconds duration,
+                                                const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto all, Connect(endpoint, volume, options, clients, stop));
+  const Clock::time_point start = Clock::now();
+  {
+    std::vector<std::jthread> threads;
+    for (auto& client : all) {
+      threads.emplace_back([&client, end = start + duration] { client->CallUntil(end); });
+    }
+  }
+  ServerMeasurement measured;
+  measured.clients = clients;
+  measured.volume_bytes = volume.bytes.size();
+  measured.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  for (auto& client : all) {
+    const Share& share = client->share();
+    BCCSKEL_RETURN_IF_ERROR(share.status);
+    measured.refused += share.refused;
+    measured.calls.insert(measured.calls.end(), share.calls.begin(), share.calls.end());
+  }
+  std::ranges::sort(measured.calls, {}, &ServedCall::latency);
+  return measured;
+}
+
 namespace {
 
 double Milliseconds(std::chrono::nanoseconds time) {
@@ -140,6 +327,37 @@ absl::Status MeasureAll(const BenchServerArguments& arguments, const std::stop_t
 }
 
 }  // namespace
+
+void AddBenchServer(CLI::App& command, BenchServerArguments& arguments) {
+  AddServer(command, arguments.server);
+  command
+      .add_option("--clients", arguments.clients,
+                  "Clients at the same time, each with its own connection (default 1,2,4,8)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N,...");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--points",
+          [&arguments](const std::vector<std::string>& given) {
+            arguments.points.clear();
+            for (const std::string& count : given) {
+              arguments.points.push_back(ReadBenchPoints(count));
+            }
+          },
+          "Points of the volume (default 10000,850000)")
+      ->delimiter(',')
+      ->option_text("N,...");
+  AddBenchShape(command, arguments.shape, "What the volume is (default ball)");
+  AddBenchMethod(command, arguments.method, arguments.distance, "How to thin (default symmetric)");
+  AddChoice<VolumeEncoding>(command, "--encoding", arguments.encoding,
+                            "Encoding of volumes on the wire (default raw)",
+                            {{"raw", VolumeEncoding::kRawPlanes},
+                             {"bricks", VolumeEncoding::kBricks},
+                             {"openexr", VolumeEncoding::kOpenExr}});
+  AddSeconds(command, "--seconds", arguments.duration, "For each combination (default 5)");
+  AddJson(command, arguments.common);
+}
 
 ExitCode Run(const BenchServerArguments& arguments, const std::stop_token& stop) {
   std::vector<ServerMeasurement> all;

@@ -1,15 +1,19 @@
-#include "client/cli/complaints.h"
-
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <variant>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/cli/label_files.h"
+#include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
-#include "client/cli/option_complaints.h"
+#include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
+#include "core/exec/status_macros.h"
+
+// What is wrong with arguments of which each alone is right.
 
 namespace bccskel::cli {
 namespace {
@@ -159,6 +163,34 @@ Complaint ComplaintAbout(const Other&) {
 
 std::optional<std::string> ComplaintAbout(const Arguments& arguments) {
   return std::visit([](const auto& chosen) { return ComplaintAbout(chosen); }, arguments);
+}
+
+namespace {
+
+template <typename Chosen>
+std::vector<std::string> OutputsOf(const Chosen& arguments) {
+  std::vector<std::string> paths;
+  if constexpr (requires { arguments.outputs; }) paths = arguments.outputs;
+  if constexpr (requires { arguments.output; }) paths.push_back(arguments.output);
+  if constexpr (requires { arguments.images; }) {
+    for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
+      if (!path.empty()) paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
+}  // namespace
+
+absl::Status CheckOutputs(const Arguments& arguments) {
+  const std::vector<std::string> paths =
+      std::visit([](const auto& chosen) { return OutputsOf(chosen); }, arguments);
+  for (const std::string& path : paths) {
+    // Which folders a label's number names is not known yet.
+    if (path.rfind('/') != path.npos && path.find(kLabelPlace) < path.rfind('/')) continue;
+    BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace bccskel::cli

@@ -1,11 +1,52 @@
 #include "client/cli/console.h"
 
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
 #include <cstdio>
 #include <string>
+#include <variant>
+#include <vector>
 
+#include "client/cli/arguments.h"
+#include "client/export/picture/caption.h"
+#include "client/export/skeleton_file.h"
+#include "core/exec/status_macros.h"
 #include "proto/wire/error_details.h"
 
 namespace bccskel::cli {
+
+ExitCode ExitCodeOf(const absl::Status& status) {
+  switch (status.code()) {
+    case absl::StatusCode::kOk:
+      return ExitCode::kOk;
+    case absl::StatusCode::kInvalidArgument:
+    case absl::StatusCode::kNotFound:
+    case absl::StatusCode::kPermissionDenied:
+    case absl::StatusCode::kFailedPrecondition:
+    case absl::StatusCode::kUnimplemented:
+    case absl::StatusCode::kOutOfRange:
+      return ExitCode::kBadInput;
+    case absl::StatusCode::kUnauthenticated:
+      return ExitCode::kCredentials;
+    case absl::StatusCode::kUnavailable:
+      return ExitCode::kUnavailable;
+    case absl::StatusCode::kCancelled:
+    case absl::StatusCode::kDeadlineExceeded:
+      return ExitCode::kStopped;
+    case absl::StatusCode::kResourceExhausted:
+      return ExitCode::kTooLarge;
+    default:
+      return ExitCode::kInternal;
+  }
+}
+
 namespace {
 
 void PrintLine(std::string_view kind, std::string_view message) {
@@ -57,6 +98,103 @@ ExitCode Print(std::string_view text) {
   if (written && std::fflush(stdout) == 0) return ExitCode::kOk;
   PrintLine("error", "cannot write to standard output");
   return ExitCode::kOutput;
+}
+
+namespace {
+
+constexpr int64_t kBarWidth = 28;
+// A terminal is redrawn no more often than the eye sees.
+constexpr std::chrono::milliseconds kRedrawPause(50);
+
+}  // namespace
+
+std::string ProgressLine(const exec::ShellProgress& progress,
+                         std::chrono::duration<double> elapsed) {
+  const int64_t last = std::max(progress.last_shell, 1);
+  const int64_t filled = std::clamp<int64_t>(kBarWidth * progress.shell / last, 0, kBarWidth);
+  std::string seconds(32, '\0');
+  seconds.resize(static_cast<size_t>(
+      std::snprintf(seconds.data(), seconds.size(), "%.1f s", elapsed.count())));
+  return '[' + std::string(static_cast<size_t>(filled), '#') +
+         std::string(static_cast<size_t>(kBarWidth - filled), '-') + "] shell " +
+         std::to_string(progress.shell) + '/' + std::to_string(progress.last_shell) + "  " +
+         exporting::GroupedDigits(progress.removed) + " points removed, " +
+         exporting::GroupedDigits(progress.remaining) + " left  " + seconds;
+}
+
+ProgressBar::Form ProgressBar::FormOf(ProgressStyle style) {
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  if (style == ProgressStyle::kNever) return Form::kNothing;
+  if (terminal) return Form::kBar;
+  return style == ProgressStyle::kAlways ? Form::kLines : Form::kNothing;
+}
+
+ProgressBar::ProgressBar(ProgressStyle style) : form_(FormOf(style)) {}
+
+ProgressBar::~ProgressBar() {
+  if (line_open_) std::fputc('\n', stderr);
+}
+
+std::function<void(const exec::ShellProgress&)> ProgressBar::Callback() {
+  if (form_ == Form::kNothing) return {};
+  return [this](const exec::ShellProgress& progress) { Show(progress); };
+}
+
+void ProgressBar::Show(const exec::ShellProgress& progress) {
+  const Clock::time_point now = Clock::now();
+  const std::string line = ProgressLine(progress, now - start_);
+  if (form_ == Form::kLines) {
+    std::fprintf(stderr, "%s\n", line.c_str());
+    return;
+  }
+  if (now - shown_ < kRedrawPause && progress.shell < progress.last_shell) return;
+  std::fprintf(stderr, "\r%s\033[K", line.c_str());  // and clears what a longer line left
+  std::fflush(stderr);
+  shown_ = now;
+  line_open_ = true;
+}
+
+namespace {
+
+ExitCode ExitCodeOfSignal(int signal) {
+  return signal == SIGTERM ? ExitCode::kTerminated : ExitCode::kInterrupted;
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  signals_ = ::signalfd(-1, &signals, SFD_CLOEXEC);
+  leave_ = ::eventfd(0, EFD_CLOEXEC);
+  thread_ = std::thread([this] { Watch(); });
+}
+
+Interrupt::~Interrupt() {
+  ::eventfd_write(leave_, 1);
+  thread_.join();
+  ::close(signals_);
+  ::close(leave_);
+}
+
+std::optional<ExitCode> Interrupt::exit_code() const {
+  const int signal = signal_.load();
+  if (signal == 0) return std::nullopt;
+  return ExitCodeOfSignal(signal);
+}
+
+void Interrupt::Watch() {
+  std::array<pollfd, 2> events = {{{signals_, POLLIN, 0}, {leave_, POLLIN, 0}}};
+  while (::poll(events.data(), events.size(), -1) >= 0 && events[1].revents == 0) {
+    signalfd_siginfo info;
+    if (::read(signals_, &info, sizeof info) != sizeof info) return;
+    const int signal = static_cast<int>(info.ssi_signo);
+    if (signal_.exchange(signal) != 0) ::_exit(static_cast<int>(ExitCodeOfSignal(signal)));
+    source_.request_stop();
+  }
 }
 
 }  // namespace bccskel::cli

@@ -1,14 +1,48 @@
 #ifndef BCCSKEL_CLIENT_CLI_CONSOLE_H_
 #define BCCSKEL_CLIENT_CLI_CONSOLE_H_
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "absl/status/status.h"
-#include "client/cli/exit_code.h"
-#include "client/cli/server_arguments.h"
+#include "core/exec/context.h"
+#include "core/exec/worker_team.h"
 
 namespace bccskel::cli {
+
+struct ServerArguments;
+
+enum class SummaryStyle { kText, kJson };
+enum class ProgressStyle {
+  kAuto,    // a bar on a terminal, nothing elsewhere
+  kAlways,  // a bar on a terminal, a line per shell elsewhere
+  kNever,
+};
+
+// How the command line ends; part of its public contract (see bccskel.1 and --help).
+enum class ExitCode : int {
+  kOk = 0,
+  kUsage = 2,        // the command line itself is wrong
+  kBadInput = 3,     // the input cannot be read, or is not what it should be
+  kUnavailable = 4,  // no server, or the server went away
+  kStopped = 5,      // the deadline passed, or the server cancelled the job
+  kInternal = 6,     // a defect: topology was not kept, a reply is damaged, a job crashes servers
+  kTooLarge = 7,     // over a limit of the server or of this machine
+  kOutput = 8,       // an output file cannot be written
+  kCredentials = 9,  // a token is missing, wrong, or not one for this
+  kInterrupted = 130,
+  kTerminated = 143,
+};
+
+// The exit code for an error of the input or of a job.
+ExitCode ExitCodeOf(const absl::Status& status);
 
 // What a command says. Results go to standard output, everything else to standard error.
 
@@ -26,6 +60,76 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
 
 // Prints a command's result. kOutput when standard output takes no more.
 ExitCode Print(std::string_view text);
+
+// "[######----] shell 6/10  123,456 points removed, 7,890 left  1.2 s", without a line end.
+std::string ProgressLine(const exec::ShellProgress& progress,
+                         std::chrono::duration<double> elapsed);
+
+// Shows the shells of a running job on standard error.
+// Threads: Show() from one thread at a time.
+class ProgressBar {
+ public:
+  explicit ProgressBar(ProgressStyle style);
+  ~ProgressBar();  // leaves a clean line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  // What a job calls after each shell; empty when nothing is to be shown.
+  std::function<void(const exec::ShellProgress&)> Callback();
+
+ private:
+  enum class Form { kNothing, kBar, kLines };
+  static Form FormOf(ProgressStyle style);
+  void Show(const exec::ShellProgress& progress);
+
+  using Clock = std::chrono::steady_clock;
+  Form form_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_;
+  bool line_open_ = false;
+};
+
+// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; the second one ends the program at once.
+// Signals are read by a thread, so nothing runs inside a signal handler.
+// Needs: made before any other thread, so that all threads inherit the blocked signals.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  std::stop_token token() const { return source_.get_token(); }
+  // 130 or 143 once a signal came.
+  std::optional<ExitCode> exit_code() const;
+
+ private:
+  void Watch();
+
+  std::stop_source source_;
+  std::atomic<int> signal_{0};
+  int signals_ = -1;  // a signalfd
+  int leave_ = -1;    // an eventfd: wakes the thread when the program ends
+  std::thread thread_;
+};
+
+// The threads of this machine that a command may use, and the context that hands them on.
+class LocalTeam {
+ public:
+  // `threads` 0 takes as many as the machine runs at once.
+  LocalTeam(int threads, const std::stop_token& stop)
+      : team_(threads > 0 ? threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
+    context_.team = &team_;
+    context_.stop = stop;
+  }
+
+  exec::Context& context() { return context_; }
+
+ private:
+  exec::WorkerTeam team_;
+  exec::Context context_;
+};
 
 }  // namespace bccskel::cli
 

@@ -1,8 +1,10 @@
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
+#include "client/cli/summaries.h"
+#include "client/cli/thinning_options.h"
 #include "client/export/method_facts.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
@@ -42,6 +44,27 @@ absl::StatusOr<std::vector<std::string>> WriteAll(const ConvertArguments& argume
 }
 
 }  // namespace
+
+void AddConvert(CLI::App& command, ConvertArguments& arguments) {
+  AddResult(command, arguments.result);
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: .swc, .vtp, .graphml, .obj, .csv, .mrk.json, .glb or .precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->check([](const std::string& path) {
+        const bool fits = exporting::HoldsGraph(path);
+        return fits ? ""
+                    : path +
+                          ": convert writes .swc, .vtp, .graphml, .obj, .csv, .mrk.json, "
+                          ".glb and .precomputed; view and render make pictures";
+      })
+      ->option_text("FILE (required)");
+  AddRoot(command, arguments.root);
+  AddSwcStep(command, arguments.swc);
+  AddJson(command, arguments.common);
+}
 
 ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<view::ResultGraph> result = view::ReadResultGraph(arguments.result);

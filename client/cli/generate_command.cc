@@ -1,13 +1,52 @@
+#include <CLI/CLI.hpp>
+#include <string>
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
-#include "client/cli/volume_summary.h"
+#include "client/cli/option_values.h"
+#include "client/cli/summaries.h"
 #include "client/export/text.h"
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
+namespace {
+
+std::string ShapeNames() {
+  std::string names;
+  for (const Shape shape : kShapes) {
+    if (!names.empty()) names += ", ";
+    names += ShapeName(shape);
+  }
+  return names;
+}
+
+}  // namespace
+
+void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
+  command
+      .add_option_function<std::string>(
+          "SHAPE",
+          [&arguments](const std::string& name) {
+            const absl::StatusOr<Shape> shape = ParseShapeName(name);
+            if (!shape.ok()) throw CLI::ValidationError(std::string(shape.status().message()));
+            arguments.shape = *shape;
+          },
+          "One of " + ShapeNames())
+      ->required()
+      ->option_text(" ");
+  AddVolumeOutput(command, arguments.output);
+  AddCount(command, "--points", arguments.options.points,
+           "Number of points of the object (default 850000)");
+  AddCount(command, "--seed", arguments.options.seed, "Seed of the random parts (default 0)");
+  command
+      .add_option("--noise", arguments.options.noise,
+                  "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")
+      ->option_text("X");
+  AddJson(command, arguments.common);
+}
+
 namespace {
 
 std::string SummaryOf(const GenerateArguments& arguments, const Volume& volume) {

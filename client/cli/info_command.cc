@@ -1,19 +1,191 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unordered_map>
 #include <utility>
+#include <variant>
 
-#include "client/cli/commands.h"
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/image_summary.h"
-#include "client/cli/json_text.h"
-#include "client/cli/load_image.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/mesh_summary.h"
-#include "client/cli/volume_summary.h"
+#include "client/cli/summaries.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
 #include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/image_info.h"
+#include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
+
+// What the voxels of an image hold.
+struct ImageValues {
+  struct Range {
+    long double low;
+    long double high;
+  };
+  VoxelType type = VoxelType::kUint8;
+  std::optional<Range> range;  // none where no value is a number
+  uint64_t not_numbers = 0;
+  // Voxels of each value but 0. None where a value is no whole number from 0 on, and above
+  // kMostLabels values: then these are no labels.
+  std::optional<std::map<uint64_t, uint64_t>> labels;
+};
+inline constexpr size_t kMostLabels = 1 << 16;
+
+// Errors: as OpenImage() and NextSlice(), with the path; CANCELLED.
+absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const ImageOptions& options,
+                                            const exec::Context& context);
+
+// "values:      0 to 3\nlabels:      1 (80 voxels), 3 (12 voxels)\n"; and the same as members of a
+// JSON object.
+std::string ValuesText(const ImageValues& values);
+std::string ValuesJson(const ImageValues& values);
+
+namespace {
+
+using exporting::Counted;
+using exporting::Text;
+
+class Survey {
+ public:
+  template <typename T>
+  void Add(std::span<const T> values) {
+    for (size_t begin = 0, end; begin < values.size(); begin = end) {
+      end = begin + 1;
+      while (end < values.size() && values[end] == values[begin]) ++end;
+      AddRun(values[begin], end - begin);
+    }
+  }
+
+  ImageValues Take(VoxelType type) && {
+    values_.type = type;
+    if (are_labels_) values_.labels.emplace(counts_.begin(), counts_.end());
+    return std::move(values_);
+  }
+
+ private:
+  template <typename T>
+  void AddRun(T value, uint64_t count) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (std::isnan(value)) {
+        values_.not_numbers += count;
+        return;
+      }
+    }
+    const auto number = static_cast<long double>(value);
+    if (!values_.range.has_value()) values_.range = {number, number};
+    values_.range->low = std::min(values_.range->low, number);
+    values_.range->high = std::max(values_.range->high, number);
+    if (!are_labels_ || value == T{0}) return;
+    // 2^64 is the first that is too large.
+    are_labels_ = number > 0 && number < std::ldexp(1.0L, 64) && std::floor(number) == number &&
+                  counts_.size() <= kMostLabels;
+    if (are_labels_) counts_[static_cast<uint64_t>(value)] += count;
+  }
+
+  ImageValues values_;
+  std::unordered_map<uint64_t, uint64_t> counts_;
+  bool are_labels_ = true;
+};
+
+absl::StatusOr<ImageValues> Read(const std::string& path, const ImageOptions& options,
+                                 const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, options));
+  Survey survey;
+  for (int32_t z = 0; z < source->info().size.nz; ++z) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
+    std::visit([&](const auto values) { survey.Add(values); }, slice.values);
+  }
+  return std::move(survey).Take(source->info().type);
+}
+
+// In the shortest form that its own type reads back.
+std::string NumberText(long double value, VoxelType type) {
+  Text text;
+  if (type == VoxelType::kFloat32) {
+    text.Add(static_cast<float>(value));
+  } else if (type == VoxelType::kFloat64) {
+    text.Add(static_cast<double>(value));
+  } else if (value < 0) {
+    text.Add(static_cast<int64_t>(value));
+  } else {
+    text.Add(static_cast<uint64_t>(value));
+  }
+  return std::move(text).Take();
+}
+
+// JSON has no infinities.
+std::string NumberJson(long double value, VoxelType type) {
+  return std::isfinite(value) ? NumberText(value, type) : '"' + NumberText(value, type) + '"';
+}
+
+}  // namespace
+
+absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const ImageOptions& options,
+                                            const exec::Context& context) {
+  absl::StatusOr<ImageValues> values = Read(path, options, context);
+  if (!values.ok()) return WithPath(values.status(), path);
+  return values;
+}
+
+std::string ValuesText(const ImageValues& values) {
+  constexpr size_t kShown = 10;
+  Text text;
+  text.Add("values:      ");
+  if (values.range.has_value()) {
+    text.Add(NumberText(values.range->low, values.type), " to ",
+             NumberText(values.range->high, values.type));
+  } else {
+    text.Add("none");
+  }
+  if (values.not_numbers > 0) {
+    text.Add(", ", Counted(values.not_numbers, "voxel is NaN", "voxels are NaN"));
+  }
+  if (!values.labels.has_value()) return std::move(text.Add('\n')).Take();
+  text.Add("\nlabels:      ", exporting::GroupedDigits(values.labels->size()));
+  size_t shown = 0;
+  for (const auto& [label, voxels] : *values.labels) {
+    text.Add(shown == 0 ? ": " : ", ");
+    if (shown++ == kShown) {
+      text.Add("...");
+      break;
+    }
+    text.Add(label, " (", Counted(voxels, "voxel", "voxels"), ')');
+  }
+  return std::move(text.Add('\n')).Take();
+}
+
+std::string ValuesJson(const ImageValues& values) {
+  Text text;
+  if (values.range.has_value()) {
+    text.Add("\"low\":", NumberJson(values.range->low, values.type),
+             ",\"high\":", NumberJson(values.range->high, values.type), ',');
+  }
+  text.Add("\"not_numbers\":", values.not_numbers);
+  if (!values.labels.has_value()) return std::move(text).Take();
+  text.Add(",\"labels\":[");
+  std::string_view before;
+  for (const auto& [label, voxels] : *values.labels) {
+    text.Add(before, "{\"label\":", label, ",\"voxels\":", voxels, '}');
+    before = ",";
+  }
+  return std::move(text.Add(']')).Take();
+}
+
 namespace {
 
 std::string Wrapped(const InfoArguments& arguments, const std::string& kind,
@@ -41,7 +213,8 @@ ExitCode AboutImage(const InfoArguments& arguments, const std::stop_token& stop)
   if (arguments.common.summary == SummaryStyle::kText) {
     return Print(ImageText(object->image) + ValuesText(*values));
   }
-  return Print(Wrapped(arguments, "image", ImageJson(object->image, *values)));
+  return Print(Wrapped(arguments, "image",
+                       ImageJson(object->image, ",\"values\":{" + ValuesJson(*values) + "}")));
 }
 
 ExitCode AboutVolume(const InfoArguments& arguments, const std::stop_token& stop) {
@@ -55,6 +228,12 @@ ExitCode AboutVolume(const InfoArguments& arguments, const std::stop_token& stop
 }
 
 }  // namespace
+
+void AddInfo(CLI::App& command, InfoArguments& arguments) {
+  AddInput(command, "FILE", arguments.file, "Mesh, volume or image file");
+  AddImage(command, arguments.image);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.file, arguments.image);

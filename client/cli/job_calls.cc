@@ -3,9 +3,10 @@
 #include <utility>
 
 #include "absl/time/time.h"
-#include "client/cli/json_text.h"
-#include "client/cli/progress_bar.h"
-#include "client/cli/server_arguments.h"
+#include "client/cli/common_options.h"
+#include "client/cli/console.h"
+#include "client/cli/summaries.h"
+#include "client/encoded_volume.h"
 #include "client/export/text.h"
 #include "core/exec/status_macros.h"
 
@@ -15,6 +16,7 @@ namespace {
 using client::DurableClient, client::JobState;
 
 constexpr std::chrono::minutes kShortCall(1);
+constexpr std::chrono::seconds kLastCall(3);  // after Ctrl-C
 
 void AddTime(exporting::Text& text, const char* key, const std::optional<client::Time>& time) {
   text.Add(",\"", key, "\":");
@@ -44,7 +46,12 @@ absl::StatusOr<std::unique_ptr<DurableClient>> ClientOf(const ServerArguments& s
 absl::StatusOr<std::unique_ptr<DurableClient>> PatientClientOf(const JobArguments& arguments,
                                                                const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.server));
-  BCCSKEL_RETURN_IF_ERROR(client->GetJob(arguments.job, ShortCalls(stop)).status());
+  absl::Status found = client->GetJob(arguments.job, ShortCalls(stop)).status();
+  // Ctrl-C is to cancel the job, so it must still be found.
+  if (!found.ok() && stop.stop_requested()) {
+    found = client->GetJob(arguments.job, {.timeout = kLastCall}).status();
+  }
+  BCCSKEL_RETURN_IF_ERROR(found);
   return ClientOf(arguments.server, client::kOutlastRestart);
 }
 
@@ -90,6 +97,33 @@ absl::Status AwaitJob(DurableClient& client, const std::string& job,
     BCCSKEL_RETURN_IF_ERROR(client.CancelJob(job, ShortCalls({})).status());
   }
   return state.status();
+}
+
+namespace {
+
+absl::StatusOr<client::DurableJob> MakeJob(const SkeletonizeArguments& arguments,
+                                           const client::EncodedVolume& volume,
+                                           const std::stop_token& stop) {
+  const client::DurableClient::Calls calls = {.timeout = arguments.timeout, .stop = stop};
+  BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.server));
+  client::NewJob job;
+  BCCSKEL_ASSIGN_OR_RETURN(job.volume, client->Upload(volume, calls));
+  job.options = arguments.skeletonize;
+  job.thin_volume = arguments.thin_volume;
+  job.threads = arguments.common.threads;
+  return client->CreateJob(std::move(job), calls);
+}
+
+}  // namespace
+
+ExitCode SubmitDetached(const SkeletonizeArguments& arguments, const Volume& object,
+                        const std::stop_token& stop) {
+  const auto volume = client::EncodeForSending(object, client::BestEncodingOf(object), stop);
+  if (!volume.ok()) return Fail(volume.status());
+  const absl::StatusOr<client::DurableJob> job = MakeJob(arguments, *volume, stop);
+  if (!job.ok()) return FailOnServer(arguments.server, job.status());
+  const bool json = arguments.common.summary == SummaryStyle::kJson;
+  return Print((json ? JobJson(*job) : job->name) + "\n");
 }
 
 }  // namespace bccskel::cli

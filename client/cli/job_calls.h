@@ -7,7 +7,9 @@
 
 #include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
+#include "client/cli/console.h"
 #include "client/durable_client.h"
+#include "core/volume/volume.h"
 
 // What the commands for jobs share.
 
@@ -34,6 +36,10 @@ std::string JobSummary(const CommonArguments& common, const client::DurableJob& 
 // Errors: those of DurableClient::Watch(); what made the job fail; CANCELLED.
 absl::Status AwaitJob(client::DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop);
+
+// Sends the object, makes a job of it that the server keeps, and prints the job's name.
+ExitCode SubmitDetached(const SkeletonizeArguments& arguments, const Volume& object,
+                        const std::stop_token& stop);
 
 }  // namespace bccskel::cli
 

@@ -1,21 +1,304 @@
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
 #include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "client/cli/commands.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/convert_image.h"
-#include "client/cli/label_files.h"
-#include "client/cli/labels_summary.h"
-#include "client/cli/load_image.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
+#include "client/cli/summaries.h"
+#include "client/cli/thinning_options.h"
+#include "client/export/atomic_file.h"
+#include "client/export/labeled_graph.h"
+#include "client/export/picture/caption.h"
+#include "client/export/skeleton_file.h"
+#include "client/export/text.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/image_info.h"
 #include "core/import/image/open_image.h"
 #include "core/labels/skeletonize_labels.h"
 
 namespace bccskel::cli {
+
+// The output files of the skeletons of many labels.
+class LabelFiles {
+ public:
+  // Needs: CheckLabelOutput() is OK for all.
+  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+             exporting::World world, exporting::CurveSampling swc);
+
+  // Writes the label's own files, and keeps what goes into the files of all labels.
+  // Errors: as WriteSkeletonFile().
+  absl::Status Add(LabelSkeleton&& skeleton);
+
+  // Writes the files of all labels. Errors: as above; CANCELLED.
+  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) &&;
+
+ private:
+  std::vector<std::string> paths_of_each_;
+  std::vector<std::string> paths_of_all_;
+  const std::optional<RootChoice> root_;
+  const exporting::World world_;
+  const exporting::CurveSampling swc_;
+  exporting::LabeledSkeletons all_;
+  uint64_t labels_ = 0;
+};
+
+// What is said of one label.
+struct LabelFigures {
+  uint64_t label = 0;
+  uint64_t voxels = 0;
+  uint64_t object_points = 0;
+  uint64_t skeleton_points = 0;
+  size_t nodes = 0;
+  size_t edges = 0;
+  Certificate certificate;
+  std::vector<PreparingStep> preparing;
+  std::string sha256;
+};
+LabelFigures FiguresOf(const LabelSkeleton& skeleton);
+
+// All that `labels` has to say at its end.
+struct LabelsSummary {
+  const LabelsArguments& arguments;
+  const ImageInfo& info;
+  uint64_t left_out = 0;
+  std::vector<LabelFigures> labels;
+  std::vector<WrittenFile> files;
+  double seconds = 0;
+};
+
+// Text, or one JSON object on one line, as the arguments ask.
+std::string LabelsSummaryOf(const LabelsSummary& summary);
+
+namespace {
+
+constexpr std::string_view kPlace = kLabelPlace;
+
+bool IsForEach(const std::string& path) { return path.find(kPlace) != path.npos; }
+
+std::string PathFor(std::string path, uint64_t label) {
+  const std::string number = std::to_string(label);
+  for (size_t at = path.find(kPlace); at != path.npos; at = path.find(kPlace, at)) {
+    path.replace(at, kPlace.size(), number);
+    at += number.size();
+  }
+  return path;
+}
+
+}  // namespace
+
+absl::Status CheckLabelOutput(const std::string& path) {
+  BCCSKEL_ASSIGN_OR_RETURN(const exporting::SkeletonFormat format,
+                           exporting::SkeletonFormatOf(path));
+  if (format == exporting::SkeletonFormat::kSvg || format == exporting::SkeletonFormat::kHtml) {
+    return absl::InvalidArgumentError(
+        path + ": pictures show one object; use skeletonize --label for one label");
+  }
+  if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      path + ": this format holds one label; write " + kLabelPlace +
+      " where its number shall stand, or put all labels into a .vtp, "
+      ".graphml, .json, .csv, .glb or .mrk.json file or a .precomputed folder");
+}
+
+LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+                       exporting::World world, exporting::CurveSampling swc)
+    : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
+  for (const std::string& path : paths) {
+    (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
+  }
+}
+
+absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
+  const std::string title = "label " + std::to_string(skeleton.label);
+  const exporting::Subject subject = {.result = skeleton.result,
+                                      .object = skeleton.result.thin,
+                                      .title = title,
+                                      .root = root_,
+                                      .world = world_,
+                                      .swc = swc_};
+  for (const std::string& path : paths_of_each_) {
+    BCCSKEL_RETURN_IF_ERROR(
+        exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
+  }
+  ++labels_;
+  if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish(const std::stop_token& stop) && {
+  std::vector<WrittenFile> files;
+  for (const std::string& path : paths_of_each_) {
+    files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
+  }
+  for (const std::string& path : paths_of_all_) {
+    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteLabeledFile(path, all_, stop));
+    files.push_back({path, std::move(note)});
+  }
+  return files;
+}
+
+namespace {
+
+using exporting::Counted;
+using exporting::GroupedDigits;
+using exporting::Text;
+
+// Sums over all labels.
+struct Totals {
+  uint64_t voxels = 0;
+  uint64_t object_points = 0;
+  uint64_t skeleton_points = 0;
+  uint64_t nodes = 0;
+  uint64_t edges = 0;
+  uint64_t simple_points_left = 0;
+  BettiNumbers topology;
+  BettiNumbers unprepared;               // of the labels that were prepared
+  std::vector<PreparingStep> preparing;  // each step's sums; none: nothing was prepared
+};
+
+void Add(const BettiNumbers& one, BettiNumbers& sum) {
+  sum.components += one.components;
+  sum.loops += one.loops;
+  sum.cavities += one.cavities;
+}
+
+// Every label goes through the same kinds of steps.
+void Add(const std::vector<PreparingStep>& one, std::vector<PreparingStep>& sum) {
+  for (const PreparingStep& step : one) {
+    auto same = std::ranges::find(sum, step.kind, &PreparingStep::kind);
+    if (same == sum.end()) same = sum.insert(sum.end(), {.kind = step.kind});
+    same->points_added += step.points_added;
+    same->points_removed += step.points_removed;
+    const bool passes = step.kind == PreparingStepKind::kDenoise;
+    same->count = passes ? std::max(same->count, step.count) : same->count + step.count;
+  }
+}
+
+Totals TotalsOf(const std::vector<LabelFigures>& labels) {
+  Totals totals;
+  for (const LabelFigures& label : labels) {
+    totals.voxels += label.voxels;
+    totals.object_points += label.object_points;
+    totals.skeleton_points += label.skeleton_points;
+    totals.nodes += label.nodes;
+    totals.edges += label.edges;
+    totals.simple_points_left += label.certificate.simple_points_left;
+    Add(label.certificate.skeleton, totals.topology);
+    if (label.certificate.unprepared.has_value()) {
+      Add(*label.certificate.unprepared, totals.unprepared);
+    }
+    Add(label.preparing, totals.preparing);
+  }
+  return totals;
+}
+
+void AddPreparing(Text& text, const Totals& totals) {
+  if (totals.preparing.empty()) return;
+  text.Add("\ngiven:     ", exporting::BettiPhrase(totals.unprepared),
+           "\nprepared:  ", PreparingPhrase(totals.preparing));
+}
+
+std::string SummaryText(const LabelsSummary& summary) {
+  const Totals totals = TotalsOf(summary.labels);
+  const ImageSize& size = summary.info.size;
+  char seconds[32];
+  std::snprintf(seconds, sizeof(seconds), "%.3f", summary.seconds);
+  Text text;
+  text.Add("input:     ", FileName(summary.arguments.input), ", ", summary.info.format, ", ",
+           size.nx, " x ", size.ny, " x ", size.nz, ' ', VoxelTypeName(summary.info.type),
+           "\nlabels:    ", GroupedDigits(summary.labels.size()), ", ",
+           Counted(totals.voxels, "voxel", "voxels"));
+  if (summary.left_out > 0) {
+    text.Add("; ", GroupedDigits(summary.left_out), " with fewer than ",
+             Counted(summary.arguments.min_voxels, "voxel", "voxels"), " left out");
+  }
+  AddPreparing(text, totals);
+  const bool sampled = summary.arguments.image.mask.sampling.has_value();
+  const char* from = !totals.preparing.empty() ? "prepared object"
+                     : sampled                 ? "sampled object"
+                                               : "voxels";
+  text.Add("\nobjects:   ", Counted(totals.object_points, "point", "points"), ", ",
+           exporting::BettiPhrase(totals.topology),
+           "\nskeletons: ", Counted(totals.skeleton_points, "point", "points"), ", ",
+           Counted(totals.nodes, "node", "nodes"), ", ", Counted(totals.edges, "edge", "edges"),
+           "\ncheck:     topology kept from every label's ", from, " on, ",
+           Counted(totals.simple_points_left, "simple point", "simple points"), " left",
+           sampled ? "; sampling may have changed the voxels'" : "", "\ntime:      ", seconds,
+           " s\n");
+  for (const WrittenFile& file : summary.files) {
+    text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
+  }
+  return std::move(text).Take();
+}
+
+void AddLabelJson(Text& text, const LabelFigures& label) {
+  const Certificate& certificate = label.certificate;
+  text.Add("{\"label\":", label.label, ",\"voxels\":", label.voxels,
+           ",\"object_points\":", label.object_points,
+           ",\"skeleton_points\":", label.skeleton_points, ",\"nodes\":", label.nodes,
+           ",\"edges\":", label.edges, ",\"certificate\":{");
+  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
+  }
+  if (certificate.sampled) text.Add("\"sampled\":true,");
+  text.Add("\"input\":", BettiJson(certificate.input),
+           ",\"skeleton\":", BettiJson(certificate.skeleton),
+           ",\"simple_points_left\":", certificate.simple_points_left, "},\"topology_kept\":",
+           certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false",
+           ",\"sha256\":\"", label.sha256, "\"}");
+}
+
+std::string SummaryJson(const LabelsSummary& summary) {
+  Text text;
+  text.Add("{\"input\":", JsonString(summary.arguments.input), ",\"left_out\":", summary.left_out,
+           ",\"labels\":[");
+  for (size_t n = 0; n < summary.labels.size(); ++n) {
+    if (n > 0) text.Add(',');
+    AddLabelJson(text, summary.labels[n]);
+  }
+  text.Add("],\"seconds\":", summary.seconds, ",\"outputs\":[");
+  for (size_t n = 0; n < summary.files.size(); ++n) {
+    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(summary.files[n].path),
+             ",\"note\":", JsonString(summary.files[n].note), '}');
+  }
+  text.Add("]}\n");
+  return std::move(text).Take();
+}
+
+}  // namespace
+
+LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
+  const SkeletonizeResult& result = skeleton.result;
+  return {.label = skeleton.label,
+          .voxels = skeleton.voxels,
+          .object_points = result.object_points,
+          .skeleton_points = result.skeleton_points,
+          .nodes = result.graph.nodes.size(),
+          .edges = result.graph.edges.size(),
+          .certificate = result.certificate,
+          .preparing = result.preparing,
+          .sha256 = result.sha256};
+}
+
+std::string LabelsSummaryOf(const LabelsSummary& summary) {
+  const bool json = summary.arguments.common.summary == SummaryStyle::kJson;
+  return json ? SummaryJson(summary) : SummaryText(summary);
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -45,6 +328,11 @@ absl::Status Deliver(LabelSkeleton&& skeleton, LabelFiles& files,
 }
 
 }  // namespace
+
+void AddLabelsCommand(CLI::App& command, LabelsArguments& arguments) {
+  AddLabels(command, arguments);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();

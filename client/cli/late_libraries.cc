@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "client/cli/exit_code.h"
+#include "client/cli/console.h"
 
 // What the functions made by `link_late` call when they are called first. Ends the program where
 // the library is missing, as the dynamic linker would have at the start.

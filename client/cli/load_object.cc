@@ -1,11 +1,164 @@
 #include "client/cli/load_object.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
 
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/console.h"
+#include "client/export/picture/caption.h"
+#include "client/view/result_balls.h"
+#include "core/exec/status_macros.h"
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
+#include "core/io/volume_file.h"
+#include "core/mask/mask_converter.h"
 
 namespace bccskel::cli {
+namespace {
+
+// A box may be off by this part of its edge, and by two cells, as grids differ.
+constexpr double kSlack = 0.1;
+constexpr double kSlackCells = 2;
+// And volumes by this factor.
+constexpr double kMostVolumes = 2;
+
+struct Range {
+  double low;
+  double high;
+};
+using LatticeBox = std::array<Range, 3>;
+
+// Needs: points.
+LatticeBox BoxOf(const Volume& object) {
+  constexpr Range kNone = {2.0 * kMaxExtentCells, -1};
+  LatticeBox box = {kNone, kNone, kNone};
+  object.ForEachPoint([&](LatticePoint p) {
+    const std::array<int32_t, 3> place = {p.x, p.y, p.z};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box[axis] = {std::min<double>(box[axis].low, place[axis]),
+                   std::max<double>(box[axis].high, place[axis])};
+    }
+  });
+  return box;
+}
+
+absl::Status CheckBoxes(const view::ResultDocument& result, const Volume& object) {
+  const LatticeBox box = BoxOf(object);
+  for (const OpenBall& ball : view::BallsOf(result, object.placement())) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = box[axis];
+      const double unit = object.placement().spacing[axis] / 2;
+      const double slack = kSlack * (high - low) + 2 * kSlackCells;
+      const double inside = std::min(ball.center[axis] - low, high - ball.center[axis]);
+      const double radius = result.border_continues ? 0 : ball.radius;
+      if (radius / unit - inside <= slack) continue;
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "is not what the result was made from: there the object reaches %.4g beyond this one's "
+          "box along the axis %c of its grid",
+          radius - inside * unit, "xyz"[axis]));
+    }
+  }
+  return absl::OkStatus();
+}
+
+double VolumeOf(uint64_t points, const Placement& placement) {
+  const auto& [x, y, z] = placement.spacing;
+  return static_cast<double>(points) * x * y * z / 2;
+}
+
+absl::Status CheckVolumes(const view::ResultDocument& result, const Volume& object) {
+  if (!result.placement.has_value()) return absl::OkStatus();
+  const double here = VolumeOf(object.PointCount(), object.placement());
+  const double there = VolumeOf(result.object_points, *result.placement);
+  if (std::max(here, there) <= kMostVolumes * std::min(here, there)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "is not what the result was made from: its volume is %.4g, there it is %.4g", here, there));
+}
+
+}  // namespace
+
+absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& object) {
+  if (object.empty() && result.object_points == 0) return absl::OkStatus();
+  if (object.empty()) {
+    return absl::InvalidArgumentError("is empty; what the result was made from is not");
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckBoxes(result, object));
+  return CheckVolumes(result, object);
+}
+
+namespace {
+
+// The labels of an image. Errors: as OpenImage(), NextSlice() and LabelSlice().
+absl::StatusOr<std::set<uint64_t>> LabelsIn(const std::string& path,
+                                            const ImageArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
+  const ImageSize& size = source->info().size;
+  std::vector<uint64_t> values(static_cast<size_t>(size.nx) * static_cast<size_t>(size.ny));
+  std::set<uint64_t> labels;
+  for (int32_t z = 0; z < size.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
+    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
+    uint64_t last = 0;
+    for (const uint64_t label : values) {
+      if (label != last) labels.insert(label);
+      last = label;
+    }
+  }
+  labels.erase(0);
+  return labels;
+}
+
+absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments) {
+  constexpr size_t kShown = 10;
+  const std::string none =
+      "no voxel has the label " +
+      absl::StrJoin(std::set(arguments.labels.begin(), arguments.labels.end()), " or ");
+  const absl::StatusOr<std::set<uint64_t>> there = LabelsIn(path, arguments);
+  if (!there.ok()) return absl::InvalidArgumentError(none);
+  if (there->empty()) return absl::InvalidArgumentError(none + ", nor any other");
+  const auto end =
+      std::next(there->begin(), static_cast<ptrdiff_t>(std::min(kShown, there->size())));
+  return absl::InvalidArgumentError(
+      none + "; " + exporting::Counted(there->size(), "label is there: ", "labels are there: ") +
+      absl::StrJoin(there->begin(), end, ", ") + (there->size() > kShown ? ", ..." : ""));
+}
+
+absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArguments& arguments,
+                                    KeptVoxels kept, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
+  BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImage(*source, arguments, kept, context));
+  if (object.image.voxels == 0 && !arguments.labels.empty()) return NoSuchLabel(path, arguments);
+  return object;
+}
+
+}  // namespace
+
+absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
+                                             const ImageArguments& arguments, KeptVoxels kept,
+                                             const exec::Context& context) {
+  absl::StatusOr<ImageObject> object = Convert(path, arguments, kept, context);
+  if (!object.ok()) return WithPath(object.status(), path);
+  return object;
+}
+
+exporting::World WorldOf(const ImageInfo& info) { return {info.world, info.unit}; }
+
+absl::Status CheckConversion(const std::string& path, const ImageArguments& arguments,
+                             const BettiNumbers& mask, const BettiNumbers& object) {
+  const std::string changes = DescribeChanges(mask, object);
+  if (changes.empty()) return absl::OkStatus();
+  const std::string message = path + ": the conversion to the lattice changed " + changes;
+  if (!arguments.mask.sampling.has_value()) return absl::InternalError(message);
+  Warn(message);
+  return absl::OkStatus();
+}
+
 namespace {
 
 std::string LowerCase(std::string text) {
@@ -59,6 +212,78 @@ absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const Voxel
 std::string_view FileName(std::string_view path) {
   while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);  // of a folder
   return path.substr(path.rfind('/') + 1);
+}
+
+absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions& grid,
+                                  const ImageArguments& image, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(path, image));
+  if (kind == InputKind::kVolume) return ReadVolumeFile(path, {}, context);
+  if (kind == InputKind::kImage) {
+    BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
+                             ConvertImageFile(path, image, KeptVoxels::kNone, context));
+    return std::move(object.volume);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result, VoxelizeFile(path, grid, context));
+  return std::move(result.volume);
+}
+
+namespace {
+
+// Whether a mesh is to be filled on the grid of the result: unless another is asked for, or it was
+// none of a mesh.
+bool TakesGridOf(const view::ResultDocument& result, const ResultArguments& arguments) {
+  const VoxelizeOptions& grid = arguments.grid;
+  if (grid.points.has_value() || grid.spacing.has_value()) return false;
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.object, arguments.image);
+  if (!kind.ok() || *kind != InputKind::kMesh || !result.placement.has_value()) return false;
+  const auto& [x, y, z] = result.placement->spacing;
+  return x == y && y == z;
+}
+
+// Needs: TakesGridOf().
+absl::StatusOr<Volume> FillOnGridOf(const view::ResultDocument& result,
+                                    const ResultArguments& arguments,
+                                    const exec::Context& context) {
+  const Placement& placement = *result.placement;
+  VoxelizeOptions grid = arguments.grid;
+  grid.spacing = placement.spacing[0];
+  BCCSKEL_ASSIGN_OR_RETURN(Volume centered,
+                           LoadObject(arguments.object, grid, arguments.image, context));
+  const double off = std::abs(centered.placement().origin[0] - placement.origin[0]);
+  if (off < 0.01 * placement.spacing[0]) return centered;
+  grid.shift = GridShift::kOffCenter;
+  return LoadObject(arguments.object, grid, arguments.image, context);
+}
+
+// The object as it was thinned.
+absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
+                                    const view::ResultDocument& result,
+                                    const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      Volume object, TakesGridOf(result, arguments)
+                         ? FillOnGridOf(result, arguments, context)
+                         : LoadObject(arguments.object, arguments.grid, arguments.image, context));
+  if (!result.preparing.Wanted()) return object;
+  exec::UnlimitedMemory memory;
+  BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared,
+                           Prepare(object, result.preparing, memory, context));
+  return std::move(prepared.object);
+}
+
+}  // namespace
+
+absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
+                                                    const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, view::ReadResultDocument(arguments.result));
+  BCCSKEL_ASSIGN_OR_RETURN(Volume object, LoadPrepared(arguments, result, context));
+  const absl::Status fits = CheckObjectFits(result, object);
+  if (!fits.ok()) return WithPath(fits, arguments.object);
+  const uint64_t points = object.PointCount();
+  if (points != result.object_points) {
+    Warn(arguments.object + ": has " + exporting::GroupedDigits(points) + " points, but " +
+         arguments.result + " was made from " + exporting::GroupedDigits(result.object_points));
+  }
+  return ResultAndObject{std::move(result), std::move(object)};
 }
 
 }  // namespace bccskel::cli

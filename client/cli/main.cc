@@ -9,10 +9,7 @@
 
 #include "absl/synchronization/mutex.h"
 #include "client/cli/arguments.h"
-#include "client/cli/commands.h"
 #include "client/cli/console.h"
-#include "client/cli/interrupt.h"
-#include "client/cli/output_check.h"
 #include "core/exec/huge_pages.h"
 
 namespace {

@@ -1,9 +1,9 @@
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
-#include "client/cli/server_arguments.h"
+#include "client/cli/summaries.h"
 #include "client/export/text.h"
 #include "client/operations.h"
 #include "core/exec/status_macros.h"
@@ -29,6 +29,16 @@ std::string Summary(const ProbeArguments& arguments) {
 }
 
 }  // namespace
+
+void AddProbe(CLI::App& command, ProbeArguments& arguments) {
+  AddServer(command, arguments.server);
+  command
+      .add_option("--service", arguments.service,
+                  "One service, such as bccskel.v1.JobService, instead of the whole server")
+      ->option_text("NAME");
+  AddSeconds(command, "--timeout", arguments.timeout, "Give up after this time (default 5)");
+  AddJson(command, arguments.common);
+}
 
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token&) {
   const absl::Status status = Probe(arguments);

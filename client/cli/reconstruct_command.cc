@@ -1,11 +1,12 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
-#include "client/cli/local_team.h"
-#include "client/cli/result_object.h"
+#include "client/cli/image_options.h"
+#include "client/cli/load_object.h"
+#include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "client/view/result_balls.h"
@@ -34,6 +35,14 @@ std::string SummaryOf(const ReconstructArguments& arguments, uint64_t points,
 }
 
 }  // namespace
+
+void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
+  AddResultAndObject(command, arguments.source, ObjectNeed::kRequired);
+  AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
+  AddGrid(command, arguments.source.grid);
+  AddImage(command, arguments.source.image);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);

@@ -1,11 +1,11 @@
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/result_object.h"
+#include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
@@ -33,7 +33,43 @@ std::string SummaryOf(const RenderArguments& arguments, size_t triangles) {
   return std::move(text).Take();
 }
 
+void ReadSize(const std::string& text, view::PictureOptions& picture) {
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &picture.width, &picture.height, &end);
+  const auto [low, high] = std::minmax(picture.width, picture.height);
+  if (read == 2 && text.size() == static_cast<size_t>(end) && low >= view::kMinPictureSide &&
+      high <= view::kMaxPictureSide) {
+    return;
+  }
+  throw CLI::ValidationError("--size " + text + ": must be like 1200x900, each number within " +
+                             std::to_string(view::kMinPictureSide) + " and " +
+                             std::to_string(view::kMaxPictureSide));
+}
+
+void AddPicture(CLI::App& command, view::PictureOptions& picture) {
+  command
+      .add_option_function<std::string>(
+          "--size", [&picture](const std::string& text) { ReadSize(text, picture); },
+          "Pixels of the picture (default 1200x900)")
+      ->option_text("WIDTHxHEIGHT");
+  command
+      .add_option("--turn", picture.turn,
+                  "Walk around the object to the right, from its broadest side (default 30)")
+      ->option_text("DEGREES");
+  command.add_option("--climb", picture.climb, "Look from above (default 15)")
+      ->option_text("DEGREES");
+}
+
 }  // namespace
+
+void AddRender(CLI::App& command, RenderArguments& arguments) {
+  AddResultAndObject(command, arguments.source, ObjectNeed::kRequired);
+  AddOutput(command, arguments.output, "Picture", {".png"});
+  AddPicture(command, arguments.picture);
+  AddGrid(command, arguments.source.grid);
+  AddImage(command, arguments.source.image);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);

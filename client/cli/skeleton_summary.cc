@@ -1,15 +1,9 @@
-#include "client/cli/skeleton_summary.h"
-
-#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 
-#include "client/cli/image_summary.h"
-#include "client/cli/json_text.h"
-#include "client/cli/load_object.h"
-#include "client/cli/mesh_summary.h"
-#include "client/cli/volume_summary.h"
+#include "client/cli/summaries.h"
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"

@@ -1,20 +1,22 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/detach.h"
-#include "client/cli/load_image.h"
+#include "client/cli/image_options.h"
+#include "client/cli/job_calls.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/progress_bar.h"
-#include "client/cli/server_arguments.h"
-#include "client/cli/shell_collector.h"
-#include "client/cli/skeleton_summary.h"
+#include "client/cli/summaries.h"
+#include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
 #include "client/skeletonize_client.h"
+#include "client/view/display_surface.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 #include "core/labels/convert_label.h"
@@ -22,8 +24,39 @@
 #include "core/labels/nrrd_writer.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/volume/volume.h"
 
 namespace bccskel::cli {
+
+// Keeps the points that go with each shell while a job runs, here or on a server.
+class ShellCollector {
+ public:
+  // `object` must outlive the collector.
+  explicit ShellCollector(const Volume& object) : object_(object) {}
+
+  void Add(int32_t shell, std::span<const LatticePoint> points) {
+    // A retried call reports all shells again.
+    if (shell < last_) shells_.clear();
+    last_ = shell;
+    const auto [at, is_new] =
+        shells_.try_emplace(shell, VolumeBuilder(object_.extent(), object_.placement()));
+    for (LatticePoint p : points) at->second.Add(p);
+  }
+
+  view::PeeledShells Take() && {
+    view::PeeledShells shells;
+    for (auto& [shell, builder] : shells_) {
+      if (auto points = std::move(builder).Build(); points.ok()) shells[shell] = *std::move(points);
+    }
+    return shells;
+  }
+
+ private:
+  const Volume& object_;
+  int32_t last_ = 0;
+  std::map<int32_t, VolumeBuilder> shells_;
+};
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -239,6 +272,54 @@ double SecondsSince(Clock::time_point start) {
 }
 
 }  // namespace
+
+void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
+  arguments.accepted = AcceptedInput::kVolumeOnly;
+  AddInput(command, "VOLUME", arguments.input, "Volume file, .exr or .bccb");
+  AddOutputs(command, arguments.outputs)
+      ->required(false)
+      ->option_text("FILE (required unless detached)");
+  AddSwcStep(command, arguments.swc);
+  AddServer(command, arguments.server);
+  command.add_flag_callback(
+      "--detach", [&arguments] { arguments.waiting = Waiting::kDetach; },
+      "Print the job's name and end; the server keeps the job (see fetch)");
+  command.add_flag_callback(
+      "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
+      "With --detach: keep the thinned volume, too, which fetch can write then");
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  AddThreads(command, arguments.common, kThreadsBoth);
+  AddProgress(command, arguments.progress);
+  AddSeconds(command, "--timeout", arguments.timeout,
+             "Give up after this many seconds (default 3600)");
+  AddJson(command, arguments.common);
+}
+
+void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
+  AddInput(command, "INPUT", arguments.input, "Mesh, volume or image file");
+  AddOutputs(command, arguments.outputs);
+  AddSwcStep(command, arguments.swc);
+  AddGrid(command, arguments.grid);
+  AddImage(command, arguments.image);
+  AddSkeletonImages(command, arguments.images);
+  CLI::Option_group& server = *command.add_option_group("Server", "Compute on a server instead");
+  CLI::Option* address = AddServer(server, arguments.server);
+  arguments.place = Place::kHere;
+  server.parse_complete_callback([&server, &arguments] {
+    if (server.count_all() > 0) arguments.place = Place::kServer;
+  });
+  command
+      .add_flag_callback(
+          "--local", [&arguments] { arguments.place = Place::kLocal; },
+          "Compute on this machine, without a server (default, unless a server is named)")
+      ->excludes(address);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  AddThreads(command, arguments.common, kThreadsBoth);
+  AddProgress(command, arguments.progress);
+  AddSeconds(command, "--timeout", arguments.timeout,
+             "Give up after this many seconds (default 3600)");
+  AddJson(command, arguments.common);
+}
 
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
   return RunBy(nullptr, arguments, stop);

@@ -1,11 +1,11 @@
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/json_text.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/result_object.h"
+#include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
@@ -54,6 +54,14 @@ absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& c
 }
 
 }  // namespace
+
+void AddView(CLI::App& command, ViewArguments& arguments) {
+  AddResultAndObject(command, arguments.source, ObjectNeed::kOptional);
+  AddOutput(command, arguments.output, "Page", {".html"});
+  AddGrid(command, arguments.source.grid);
+  AddImage(command, arguments.source.image);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);

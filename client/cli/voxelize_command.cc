@@ -1,14 +1,11 @@
 #include <utility>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/console.h"
-#include "client/cli/image_summary.h"
-#include "client/cli/json_text.h"
-#include "client/cli/load_image.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
-#include "client/cli/mesh_summary.h"
-#include "client/cli/volume_summary.h"
+#include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "core/exec/status_macros.h"
@@ -87,6 +84,14 @@ std::string SummaryOf(const VoxelizeArguments& arguments, const Voxelized& resul
 }
 
 }  // namespace
+
+void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments) {
+  AddInput(command, "INPUT", arguments.input, "Mesh or image file");
+  AddVolumeOutput(command, arguments.output);
+  AddGrid(command, arguments.grid);
+  AddImage(command, arguments.image);
+  AddCommonHere(command, arguments.common);
+}
 
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);

@@ -9,7 +9,7 @@
 
 namespace bccskel::exporting {
 
-// Writes a file as a whole or not at all: whoever opens `path` sees the old bytes or the new ones.
+// Writes a file as a whole or not at all: readers of `path` see the old bytes or the new ones.
 // Something that is not a plain file, such as /dev/null or a pipe, is written to directly.
 // Errors: NOT_FOUND, PERMISSION_DENIED, RESOURCE_EXHAUSTED (no space), UNKNOWN; each names the
 // path. CANCELLED once a stop was asked for.

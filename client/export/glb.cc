@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -73,10 +74,11 @@ void AppendItems(std::string& bytes, const std::vector<Item>& items) {
   }
 }
 
-// A closed surface around a curve.
+// A closed surface around a curve: the middle of a cap, rings of vertices, the middle of the other
+// cap.
 struct Tube {
   std::vector<Vertex> vertices;
-  std::vector<uint32_t> corners;
+  size_t sides = 0;
 };
 
 // glTF's colors are linear.
@@ -114,7 +116,8 @@ class TubeMaker {
 
   // Rings that turn no more than the curve does, and a cap at either end.
   Tube Around(const std::vector<CurvePoint>& curve) const {
-    Tube tube;
+    Tube tube = {{}, turns_.size()};
+    tube.vertices.reserve(2 + curve.size() * turns_.size());
     Vector side = {0.36f, 0.48f, 0.8f};
     for (size_t n = 0; n < curve.size(); ++n) {
       const Vector before = PlaceOf(curve[n == 0 ? 0 : n - 1]);
@@ -125,10 +128,8 @@ class TubeMaker {
       side = Direction(side);
       if (n == 0) AddCap(curve[n], Scaled(along, -1), tube);
       AddRing(curve[n], side, Cross(along, side), tube);
-      if (n > 0) JoinRings(tube);
       if (n + 1 == curve.size()) AddCap(curve[n], along, tube);
     }
-    CloseCaps(tube);
     return tube;
   }
 
@@ -154,39 +155,35 @@ class TubeMaker {
     }
   }
 
-  // The last two.
-  void JoinRings(Tube& tube) const {
-    const auto ring = static_cast<uint32_t>(turns_.size());
-    const auto last = static_cast<uint32_t>(tube.vertices.size()) - ring;
-    for (uint32_t k = 0; k < ring; ++k) {
-      const uint32_t a = last + k, b = last + (k + 1) % ring;
-      tube.corners.insert(tube.corners.end(), {a - ring, b - ring, b, a - ring, b, a});
-    }
-  }
-
-  // Needs: the caps' centers are the first and the last vertex.
-  void CloseCaps(Tube& tube) const {
-    if (tube.vertices.empty()) return;
-    const auto ring = static_cast<uint32_t>(turns_.size());
-    const auto last = static_cast<uint32_t>(tube.vertices.size() - 1), last_ring = last - ring;
-    for (uint32_t k = 0; k < ring; ++k) {
-      const uint32_t next = (k + 1) % ring;
-      tube.corners.insert(tube.corners.end(),
-                          {0, 1 + next, 1 + k, last, last_ring + k, last_ring + next});
-    }
-  }
-
   const WorldPoint center_;
   const RadiusRange range_;
   const std::array<uint32_t, kRadiusColors> colors_ = LinearColors();
   const std::vector<Turn> turns_;
 };
 
+// The triangles of a tube follow from the number of its vertices.
+std::vector<uint32_t> CornersOf(const Tube& tube) {
+  const auto ring = static_cast<uint32_t>(tube.sides);
+  const auto last = static_cast<uint32_t>(tube.vertices.size() - 1);
+  std::vector<uint32_t> corners;
+  for (uint32_t first = 1 + ring; first < last; first += ring) {
+    for (uint32_t k = 0; k < ring; ++k) {
+      const uint32_t a = first + k, b = first + (k + 1) % ring;
+      corners.insert(corners.end(), {a - ring, b - ring, b, a - ring, b, a});
+    }
+  }
+  for (uint32_t k = 0; k < ring; ++k) {
+    const uint32_t next = (k + 1) % ring;
+    corners.insert(corners.end(), {0, 1 + next, 1 + k, last, last - ring + k, last - ring + next});
+  }
+  return corners;
+}
+
 // The two chunks of the file while they grow.
 class Scene {
  public:
   void Add(const Tube& tube) {
-    const size_t first_vertex = vertices_.size(), first_corner = corners_.size();
+    const size_t first_vertex = vertices_.size();
     Vector low = tube.vertices.front().position, high = low;
     for (const Vertex& vertex : tube.vertices) {
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -195,22 +192,19 @@ class Scene {
       }
     }
     AppendItems(vertices_, tube.vertices);
-    AppendItems(corners_, tube.corners);
     const size_t count = tube.vertices.size();
-    AddAccessor(kVertexView, first_vertex, kFloat, "VEC3", count);
+    const size_t first = AddAccessor(kVertexView, first_vertex, kFloat, "VEC3", count);
     accessor_text_.Add(",\"min\":[", low[0], ',', low[1], ',', low[2], "],\"max\":[", high[0], ',',
                        high[1], ',', high[2], "]}");
     AddAccessor(kVertexView, first_vertex + 12, kFloat, "VEC3", count);
     accessor_text_.Add('}');
     AddAccessor(kVertexView, first_vertex + 24, kUint8, "VEC4", count);
     accessor_text_.Add(",\"normalized\":true}");
-    AddAccessor(kCornerView, first_corner, kUint32, "SCALAR", tube.corners.size());
-    accessor_text_.Add('}');
-    const size_t accessor = 4 * meshes_;
+    const size_t corners = CornersAccessor(tube);
     mesh_text_.Add(meshes_ == 0 ? "\n" : ",\n",
-                   "{\"primitives\":[{\"attributes\":{\"POSITION\":", accessor,
-                   ",\"NORMAL\":", accessor + 1, ",\"COLOR_0\":", accessor + 2,
-                   "},\"indices\":", accessor + 3, ",\"material\":0}]}");
+                   "{\"primitives\":[{\"attributes\":{\"POSITION\":", first,
+                   ",\"NORMAL\":", first + 1, ",\"COLOR_0\":", first + 2, "},\"indices\":", corners,
+                   ",\"material\":0}]}");
     ++meshes_;
   }
 
@@ -244,11 +238,24 @@ class Scene {
  private:
   static constexpr int kVertexView = 0, kCornerView = 1;
 
-  // Its JSON object is left open.
-  void AddAccessor(int view, size_t offset, int type, std::string_view shape, size_t count) {
-    accessor_text_.Add(view == kVertexView && offset == 0 ? "\n" : ",\n", "{\"bufferView\":", view,
+  // Returns its number. Its JSON object is left open.
+  size_t AddAccessor(int view, size_t offset, int type, std::string_view shape, size_t count) {
+    accessor_text_.Add(accessors_ == 0 ? "\n" : ",\n", "{\"bufferView\":", view,
                        ",\"byteOffset\":", offset, ",\"componentType\":", type,
                        ",\"count\":", count, ",\"type\":\"", shape, '"');
+    return accessors_++;
+  }
+
+  // Tubes with equally many vertices share it.
+  size_t CornersAccessor(const Tube& tube) {
+    const auto [found, is_new] = corner_accessors_.emplace(tube.vertices.size(), accessors_);
+    if (!is_new) return found->second;
+    const std::vector<uint32_t> corners = CornersOf(tube);
+    const size_t first = corners_.size();
+    AppendItems(corners_, corners);
+    AddAccessor(kCornerView, first, kUint32, "SCALAR", corners.size());
+    accessor_text_.Add('}');
+    return found->second;
   }
 
   void AddMeshes(Text& text) {
@@ -265,6 +272,8 @@ class Scene {
 
   std::string vertices_, corners_;
   Text node_text_, mesh_text_, accessor_text_;
+  std::unordered_map<size_t, size_t> corner_accessors_;  // by the number of vertices
+  size_t accessors_ = 0;
   size_t meshes_ = 0;
 };
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/export/node_kind_name.h"
 #include "client/export/text.h"
+#include "core/skeleton/node_kind_name.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {

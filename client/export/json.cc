@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "client/export/method_facts.h"
-#include "client/export/node_kind_name.h"
 #include "client/export/text.h"
 #include "core/pipeline/notes.h"
+#include "core/skeleton/node_kind_name.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {

@@ -49,8 +49,9 @@ absl::Status CheckOutput(const std::string& path);
 
 // Writes one file, or for kPrecomputed a folder of them; either all of it appears or nothing. Equal
 // subjects give equal bytes. Returns what the format could not hold, a sentence for the user; empty
-// if it held everything. Needs:  for kVolume (.exr, .bccb), a result with its thin volume. Errors:
-// INVALID_ARGUMENT (ending; coordinates too large for a double), those of
+// if it held everything.
+// Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
+// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), those of
 //         WriteFileAtomically(), and for kHtml those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 

@@ -6,7 +6,7 @@
 
 namespace bccskel::exporting {
 
-// What coordinates mean, as far as the input tells. Empty: unknown.
+// What coordinates mean, as far as the input states it. Empty: unknown.
 struct World {
   std::string axes;  // what they point to: "RAS", "LPS"
   std::string unit;  // of coordinates, radii and lengths: "mm", "um", ...

@@ -16,7 +16,6 @@
 #include "absl/synchronization/mutex.h"
 #include "client/cli/arguments.h"
 #include "client/cli/console.h"
-#include "client/cli/interrupt.h"
 #include "client/mpi/mpi_exchange.h"
 #include "client/mpi/rank_command.h"
 #include "client/mpi/rank_options.h"

@@ -11,10 +11,10 @@ using ranks::Bytes;
 
 constexpr int kTag = 19;
 // MPI counts in int. A letter is sent in pieces of this size and a shorter last one, so that nobody
-// has to be told its length before.
+// has to know its length in advance.
 constexpr size_t kPieceBytes = size_t{1} << 30;
 
-// Between looks at whether something has come.
+// Between two polls for messages.
 class Lookout {
  public:
   void Rest() {

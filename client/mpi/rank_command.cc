@@ -2,10 +2,8 @@
 
 #include <string>
 
-#include "client/cli/commands.h"
+#include "client/cli/arguments.h"
 #include "client/cli/console.h"
-#include "client/cli/local_team.h"
-#include "client/cli/output_check.h"
 #include "client/export/skeleton_file.h"
 #include "client/mpi/file_folder.h"
 #include "core/exec/status_macros.h"

@@ -6,7 +6,7 @@
 
 #include "absl/status/status.h"
 #include "client/cli/arguments.h"
-#include "client/cli/exit_code.h"
+#include "client/cli/console.h"
 #include "client/mpi/rank_options.h"
 #include "core/ranks/exchange.h"
 

@@ -9,8 +9,10 @@
 
 #include "client/view/packed_numbers.h"
 #include "client/view/page_parts.h"
+#include "client/view/pruning_steps.h"
 #include "client/view/sheet_surface.h"
 #include "core/exec/status_macros.h"
+#include "core/skeleton/node_kind_name.h"
 
 namespace bccskel::view {
 namespace {
@@ -113,9 +115,47 @@ absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
   return data;
 }
 
+OrderedJson BranchJson(const PrunedBranch& branch) {
+  OrderedJson json = {{"source", branch.source},
+                      {"target", branch.target},
+                      {"length", branch.figures.length},
+                      {"mean", branch.figures.mean_radius},
+                      {"min", branch.figures.min_radius},
+                      {"max", branch.figures.max_radius},
+                      {"edges", branch.edges}};
+  if (std::isfinite(branch.level)) json["level"] = branch.level;
+  if (branch.shared) json["shared"] = true;
+  return json;
+}
+
+OrderedJson PruningJson(const PruningSteps& pruning) {
+  OrderedJson json = {{"nodes", OrderedJson::array()},
+                      {"states", OrderedJson::array()},
+                      {"branches", OrderedJson::array()},
+                      {"steps", OrderedJson::array()}};
+  for (const PrunedNode& node : pruning.nodes) {
+    json["nodes"].push_back(
+        {{"position", node.position}, {"radius", node.radius}, {"component", node.component}});
+  }
+  for (const NodeState& state : pruning.states) {
+    json["states"].push_back({state.node, NodeKindName(state.kind)});
+  }
+  for (const PrunedBranch& branch : pruning.branches) {
+    json["branches"].push_back(BranchJson(branch));
+  }
+  const auto change = [](const Change& c) { return OrderedJson{{"on", c.on}, {"off", c.off}}; };
+  for (const PruningStep& step : pruning.steps) {
+    json["steps"].push_back({{"level", step.level},
+                             {"states", change(step.states)},
+                             {"branches", change(step.branches)}});
+  }
+  return json;
+}
+
 // What the page shows of a document.
-std::string ShownOf(const std::string& document) {
-  OrderedJson result = OrderedJson::parse(document, nullptr, /*allow_exceptions=*/false);
+std::string ShownOf(const ResultDocument& document) {
+  OrderedJson result = OrderedJson::parse(document.text, nullptr, /*allow_exceptions=*/false);
+  result["pruning_steps"] = PruningJson(PruningStepsOf(document));
   result.erase("timings");
   result.erase("sheets");  // they come as a surface
   for (OrderedJson& edge : result["edges"]) {
@@ -145,10 +185,10 @@ void Replace(std::string& page, std::string_view mark, std::string_view by) {
 
 absl::StatusOr<std::string> PageOf(const PageContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(const OrderedJson data, DataOf(content));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result.text)));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result)));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
-  // From the end to the start, so that no mark is looked for in what was put in.
+  // From the end to the start, so that no inserted text is searched for marks.
   Replace(page, "{{loader}}", kLoaderScript);
   Replace(page, "{{viewer}}", kViewerScripts);
   Replace(page, "{{three}}", three);

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
-#include "client/view/result_document.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::view {
@@ -222,7 +221,9 @@ std::string TextOf(const OrderedJson& json, const char* name) {
   return member == json.end() ? "unknown" : PlainText(*member);
 }
 
-absl::StatusOr<ResultGraph> GraphOf(const ResultDocument& document) {
+}  // namespace
+
+absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document) {
   if (!document.placement.has_value()) return NoResult("placement", "there");
   const OrderedJson json = OrderedJson::parse(document.text, nullptr, /*allow_exceptions=*/false);
   ResultGraph result;
@@ -242,11 +243,9 @@ absl::StatusOr<ResultGraph> GraphOf(const ResultDocument& document) {
   return result;
 }
 
-}  // namespace
-
 absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument document, ReadResultDocument(path));
-  absl::StatusOr<ResultGraph> result = GraphOf(document);
+  absl::StatusOr<ResultGraph> result = ResultGraphOf(document);
   if (result.ok()) return result;
   return absl::Status(result.status().code(), absl::StrCat(path, ": ", result.status().message()));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/view/result_document.h"
 #include "core/certificate/certificate.h"
 #include "core/prepare/prepare.h"
 #include "core/skeleton/skeleton_graph.h"
@@ -25,6 +26,9 @@ struct ResultGraph {
   Certificate certificate;
   uint64_t object_points = 0;  // after preparing
 };
+
+// Errors: INVALID_ARGUMENT as ReadResultGraph().
+absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document);
 
 // Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, as older
 //         versions wrote it, and for places that are not on its lattice.

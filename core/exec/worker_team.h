@@ -57,10 +57,10 @@ class WorkerTeam {
   // that meets at a Barrier must see to it that the others come to an end (Barrier::Guard()).
   void Run(const std::function<void(int worker)>& work);
 
-  // The same for work of which any worker can do all, with those who come before worker 0 is done:
-  // nobody is waited for who has not begun, be it that waking takes long or that the processors
-  // are busy. While there is no confidence worker 0 does it alone, and waiting for one who had to
-  // leave its processor to others takes it away.
+  // The same for work that any worker can do alone, shared by the workers that join before worker 0
+  // has finished: no worker that has not started is waited for, because waking is slow or the
+  // processors are busy. Without confidence worker 0 works alone; waiting for a worker that was
+  // preempted removes confidence.
   void Offer(const std::function<void(int worker)>& work);
 
  private:
@@ -76,13 +76,13 @@ class WorkerTeam {
   std::condition_variable_any wake_;
   std::condition_variable done_;
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_; null once withdrawn
-  bool offered_ = false;                            // guarded by mutex_; who comes counts itself
-  bool shared_ = false;                             // guarded by mutex_; somebody came
-  bool preempted_ = false;                          // guarded by mutex_; and was kept from working
-  std::atomic<uint64_t> generation_{0};             // changed under mutex_
-  std::atomic<int> running_{0};                     // changed under mutex_
-  std::exception_ptr thrown_;                       // guarded by mutex_; the first of a run
-  std::vector<std::jthread> threads_;               // last: joined before the rest is destroyed
+  bool offered_ = false;                 // guarded by mutex_; joining workers increment running_
+  bool shared_ = false;                  // guarded by mutex_; a worker joined
+  bool preempted_ = false;               // guarded by mutex_; and was kept from working
+  std::atomic<uint64_t> generation_{0};  // changed under mutex_
+  std::atomic<int> running_{0};          // changed under mutex_
+  std::exception_ptr thrown_;            // guarded by mutex_; the first of a run
+  std::vector<std::jthread> threads_;    // last: joined before the rest is destroyed
 };
 
 // A reusable meeting point of `size` workers. Spins for some microseconds, then blocks, so that a

@@ -10,7 +10,7 @@ namespace bccskel {
 inline constexpr char kAlgorithmVersion[] = "11";
 
 // The same for masks, whose conversion counts, too.
-inline constexpr char kMaskAlgorithmVersion[] = "11.mask-2";
+inline constexpr char kMaskAlgorithmVersion[] = "11.mask-3";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

@@ -9,8 +9,10 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
+#include "core/pipeline/pruned_graphs.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/beyond_border.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
 #include "core/skeleton/trace_skeleton.h"
@@ -61,22 +63,6 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
   for (SkeletonPoint& p : graph.sheets) p.birth = BirthOf(p.point, isthmuses);
 }
 
-// An edge is there as long as a part of it is.
-absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
-                              SkeletonGraph& graph) {
-  StopPoll poll(context);
-  for (SkeletonEdge& edge : graph.edges) {
-    double level = -1;
-    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-      if (poll.Stopped()) return context.StopStatus();
-      const double* found = levels.Find(p.point);
-      if (found != nullptr) level = std::max(level, *found);
-    }
-    if (level >= 0) edge.pruning_level = level;
-  }
-  return absl::OkStatus();
-}
-
 // In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.
 std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses) {
   std::vector<int32_t> births;
@@ -91,6 +77,15 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
     if (!less.Contains(p)) builder.Add(p);
   });
   return *std::move(builder).Build();
+}
+
+// Shapes: `radii` one per point of `thin`, which are those of the graph.
+void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph) {
+  PointTable<float> by_point;
+  by_point.Reserve(radii.size());
+  size_t n = 0;
+  thin.ForEachPoint([&](LatticePoint p) { by_point.Set(p, radii[n++]); });
+  for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
 }
 
 bool IsConverted(ObjectSource source) {
@@ -206,15 +201,13 @@ class Pipeline {
         CountSimplePoints(result_.thin, ThatMayGo(options_),
                           SparedPoints(result_.thin, isthmuses_, thinning_), context_);
     result_.timings.certificate = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, radii, memory_, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> stated, StatedRadii(SpaceOf(object), radii));
+    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, stated, memory_, context_));
     BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(levels_, context_, result_.graph));
     BCCSKEL_RETURN_IF_ERROR(
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
     SetBirths(isthmuses_, result_.graph);
-    if (options_.distance == DistanceKind::kEuclidean) {
-      BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
-    }
-    BCCSKEL_RETURN_IF_ERROR(MeasureVoxels(SpaceOf(object)));
+    BCCSKEL_RETURN_IF_ERROR(Center(object, distance, radii, stated));
     if (continued_.has_value()) ShiftGraphBack();
     BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
@@ -222,11 +215,24 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  absl::Status MeasureVoxels(const Volume& object) {
-    if (!IsConverted(options_.source)) return absl::OkStatus();
-    if (!search_.has_value()) search_.emplace(object);
-    return SetVoxelRadii(object, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
-                         context_, result_.graph);
+  // The radii that the result states. By them nodes are chosen and junctions merged, so that
+  // whoever has the result can trace what pruning leaves of it (ForEachPrunedGraph()).
+  absl::StatusOr<std::vector<float>> StatedRadii(const Volume& space,
+                                                 const std::vector<float>& exact) {
+    if (!IsConverted(options_.source)) return exact;
+    if (!search_.has_value()) search_.emplace(space);
+    return MeasureVoxelRadii(space, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
+                             result_.thin, exact, context_);
+  }
+
+  // Curves are centered in discs as wide as the exact radii.
+  absl::Status Center(const Volume& object, const DistanceField& distance,
+                      const std::vector<float>& exact, const std::vector<float>& stated) {
+    if (options_.distance != DistanceKind::kEuclidean) return absl::OkStatus();
+    if (exact != stated) SetRadii(exact, result_.thin, result_.graph);
+    BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
+    if (exact != stated) SetRadii(stated, result_.thin, result_.graph);
+    return absl::OkStatus();
   }
 
   // The directional methods only look at shells, and radii are found without chamfer distances.

@@ -72,10 +72,10 @@ struct SkeletonizeResult {
 };
 
 // The straight path of an object: preparing, distance, shells, thinning, pruning, certificate,
-// graph. An empty object gives an empty graph. `on_points`, where given, hears of all points that
-// do not stay; those that pruning takes come after the shells. A tip that is moved on may take
-// points back. Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an
-// object),
+// graph. An empty object gives an empty graph. `on_points`, where given, receives all points that
+// do not stay; those that pruning removes come after the shells. A tip that is moved outward may
+// take points back.
+// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an object),
 //         CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost,
 //         which would be a defect of this library.
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,

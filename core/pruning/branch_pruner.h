@@ -18,8 +18,8 @@
 
 namespace bccskel {
 
-// Does:  takes spurious branches away, the least first, and looks again at what is left of the
-//        junction: two branches that remain of three become one.
+// Does:  removes spurious branches, the least significant first, and then evaluates the junction
+//        again: two branches that remain of three become one.
 // Why it is right: a branch is removed from its end on, and an end point is simple; then points at
 //   the junction that have become simple go one after the other. So nothing but branches with a
 //   free end can vanish, and of a path with two ends nothing does.
@@ -28,7 +28,7 @@ namespace bccskel {
 // Cost:  follows the points of the branches that end; each removal looks at one junction.
 class BranchPruner {
  public:
-  // A point that went, and what its branch was worth.
+  // A removed point, and the worth of its branch.
   using OnRemoved = std::function<void(LatticePoint, double)>;
 
   // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
@@ -42,7 +42,7 @@ class BranchPruner {
         keep_(keep),
         context_(context) {}
 
-  // Returns how many branches went. Stops early when the context says so.
+  // Returns the number of branches removed. Stops early when the context says so.
   uint64_t Run(const OnRemoved& on_removed = [](LatticePoint, double) {});
 
  private:

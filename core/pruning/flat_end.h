@@ -17,14 +17,15 @@ namespace bccskel {
 // Finds where the curve of a flat limb should end. In something flat the radius hardly changes up
 // to the rim, so thinning leads the curve into one of the limb's corners. In the limb's own plane
 // widths are what radii are in space: W, the distance to the rim within the sheet, is the same
-// along the limb and falls toward a corner. Does:  the end is the place with the largest sum of W
-// and half of the way along the limb, much as for
-//        tips in space (tips.h). The limb's direction is that of the way to the last place that is
-//        as wide as any. What is cut lies within 1.75 W and 6 units of the new end, and the limb
-//        has a length of at least W / 2 before it: corners of plates, which do not end limbs, stay.
-// W is the shortest of 16 ways across the normal, which is that to the nearest background. Such a
-// way follows a bent sheet: where it leaves the object it goes on where the object is above or
-// below. Threads: one thread per instance.
+// along the limb and falls toward a corner.
+// Does:  the end is the place with the largest sum of W and half of the way along the limb, much as
+//        for tips in space (tips.h). The limb's direction is that of the way to the last place that
+//        is as wide as any. The removed part lies within 1.75 W and 6 units of the new end, and the
+//        limb is at least W / 2 long before it: corners of plates, which do not end limbs, stay.
+//        W is the shortest of 16 ways across the normal, which is that to the nearest background.
+//        Such a way follows a bent sheet: where it leaves the object it goes on where the object is
+//        above or below.
+// Threads: one thread per instance.
 class FlatEnd {
  public:
   struct Place {

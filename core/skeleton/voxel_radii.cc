@@ -139,60 +139,26 @@ class VoxelRadii {
   NearbyBricks bricks_;
 };
 
-// Points in the order of their bricks look at the same bricks one after the other.
-struct PlacedPoint {
-  BrickKey brick;
-  int bit = 0;
-  SkeletonPoint* point = nullptr;
-
-  friend bool operator==(const PlacedPoint& a, const PlacedPoint& b) {
-    return a.brick == b.brick && a.bit == b.bit;
-  }
-  friend bool operator<(const PlacedPoint& a, const PlacedPoint& b) {
-    return a.brick != b.brick ? a.brick < b.brick : a.bit < b.bit;
-  }
-};
-
-std::vector<PlacedPoint> PointsByBrick(SkeletonGraph& graph) {
-  std::vector<PlacedPoint> points;
-  points.reserve(graph.nodes.size() + graph.points.size() + graph.sheets.size());
-  const auto add = [&](SkeletonPoint& p) {
-    const BrickAddress address = AddressOf(p.point);
-    points.push_back({BrickKey(address.brick), address.bit, &p});
-  };
-  for (SkeletonNode& node : graph.nodes) add(node.at);
-  for (SkeletonPoint& p : graph.points) add(p);
-  for (SkeletonPoint& p : graph.sheets) add(p);
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
 }  // namespace
 
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
-                           const exec::Context& context, SkeletonGraph& graph) {
-  const std::vector<PlacedPoint> points = PointsByBrick(graph);
-  if (points.empty()) return absl::OkStatus();
-  // Paths share points, those of the loops of a cluster most: each point is measured once.
-  std::vector<size_t> firsts;
-  for (size_t n = 0; n < points.size(); ++n) {
-    if (n == 0 || points[n] != points[n - 1]) firsts.push_back(n);
-  }
-  firsts.push_back(points.size());
-  exec::Portions portions(firsts.size() - 1, 64);
+absl::StatusOr<std::vector<float>> MeasureVoxelRadii(const Volume& object, int32_t voxel_units,
+                                                     const ExactRadius& search, const Volume& thin,
+                                                     std::span<const float> exact,
+                                                     const exec::Context& context) {
+  std::vector<LatticePoint> points;
+  thin.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
+  std::vector<float> measured(points.size());
+  exec::Portions portions(points.size(), 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
   context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
     VoxelRadii radii(object, voxel_units, search);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        const SkeletonPoint& first = *points[firsts[n]].point;
-        const float radius = radii.At(first.point, first.radius);
-        for (size_t k = firsts[n]; k < firsts[n + 1]; ++k) points[k].point->radius = radius;
-      }
+      for (size_t n = mine.begin; n < mine.end; ++n) measured[n] = radii.At(points[n], exact[n]);
     }
   });
-  return context.StopStatus();
+  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
+  return measured;
 }
 
 }  // namespace bccskel

@@ -2,17 +2,18 @@
 #define BCCSKEL_CORE_SKELETON_VOXEL_RADII_H_
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
-#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
-#include "core/skeleton/skeleton_graph.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
 
-// Does:  replaces the radii of the graph's points by those of the solid that a mask samples: half
-//        the chord through the point along the way to the nearest background.
+// Does:  measures points of a skeleton in the solid that a mask samples: half the chord through
+//        the point along the way to the nearest background.
 // Why:   the nearest background point is the center of a voxel that just is not in the solid, the
 //        best of many for round surfaces and half a voxel off for flat ones; and a lattice point
 //        lies up to half a voxel beside the middle. So half a voxel is taken off where the surface
@@ -20,12 +21,16 @@ namespace bccskel {
 //        Where the other side is more than a voxel and a half farther, the point is near no middle
 //        and the near side alone counts.
 // Cost:  a search for background at a known distance (see ExactRadius) and a dozen look-ups per
-// point. Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2
-// or 4);
-//        exact radii; `search`, which belongs to it, searches.
+//        point.
+// Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2 or 4);
+//        `search`, which belongs to it, searches.
+// Shapes: `exact` and the result one per point of `thin`, in lattice units, in the order of
+//        Volume::ForEachPoint().
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status SetVoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search,
-                           const exec::Context& context, SkeletonGraph& graph);
+absl::StatusOr<std::vector<float>> MeasureVoxelRadii(const Volume& object, int32_t voxel_units,
+                                                     const ExactRadius& search, const Volume& thin,
+                                                     std::span<const float> exact,
+                                                     const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -45,7 +45,7 @@ struct FoundBricks {
 };
 
 // Conditions 1 to 4 along d for all candidates of the given bricks; and which of them
-// KeepThinBricks() would keep, since both look at the same neighbors.
+// KeepThinBricks() would keep, since both read the same neighbors.
 // Shapes: `bricks` all of `sublattice`; `marked` and `thin` have room for bricks.size().
 // Returns: how many bricks have marks, and how many are thin; both come in the order of `bricks`.
 FoundBricks MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,

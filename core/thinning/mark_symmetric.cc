@@ -95,8 +95,8 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 }
 
 // For each neighbor, the points whose priority is higher than its. Depths of neighbors differ by
-// at most nine quarters, so the sign of their difference modulo 32 tells; a point that wins by its
-// color needs no more than an equal depth.
+// at most nine quarters, so the sign of their difference modulo 32 decides; a point that wins by
+// its color needs no more than an equal depth.
 template <Sublattice kSublattice>
 HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
@@ -128,7 +128,7 @@ HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
   for (int n = 0; n < 14; ++n) planes[n] = And(planes[n], with[n]);
 }
 
-// Bricks that lost points are looked at again in the next pass.
+// The next pass visits bricks that lost points again.
 HWY_INLINE void UnsettleIf(const Plane& sent_back, Unsettled& brick) {
   brick = static_cast<Unsettled>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsUnsettled));
 }

@@ -57,7 +57,7 @@ class PassRule {
   virtual int steps() const = 0;
   // Of a pass, in the unit of Context::WorkersFor().
   virtual size_t work() const = 0;
-  // A pass looks at bricks that are unsettled in one of these bits.
+  // A pass visits bricks that are unsettled in one of these bits.
   virtual Unsettled LooksFor(const PassStep& at) const = 0;
 
   // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the

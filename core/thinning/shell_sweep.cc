@@ -138,10 +138,10 @@ class ShellSweep {
     for (ShellOpener& opener : worker.ghost_openers) opener.Open(view, shell);
   }
 
-  // With a single pass a cycle there is nothing to gain from looking at bricks that did not change.
+  // With a single pass a cycle there is nothing to gain from visiting bricks that did not change.
   bool sleeps() const { return rule_.passes_per_cycle() > 1; }
 
-  // Bricks around which nothing has changed in this cycle have been looked at in all its passes,
+  // Bricks around which nothing has changed in this cycle have been visited in all its passes,
   // so they are settled. All that are awake were listed in the last one.
   void FallAsleep(Worker& worker, int32_t cycle) {
     worker.beside_sleepers_elsewhere.clear();
@@ -223,7 +223,7 @@ class ShellSweep {
     RemoveMarked(ViewFor(cycle, worker), worker.ghost_marks, worker.seen_elsewhere);
   }
 
-  // A ghost whose marks are dropped has simple points still, so it must be looked at again.
+  // A ghost whose marks are dropped has simple points still, so it must be visited again.
   bool IsOwnOrUnsettle(BrickIndex n) {
     if (n >= own_.begin && n < own_.end) return true;
     UnsettledView().Add(n, enabled_[n]);

@@ -42,13 +42,13 @@ struct SweepTotals {
 //        one) and Condition 6 (stubble points go in the same pass).
 // Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proofs
 //        of the rules need, whatever the order and the number of workers.
-// Cost:  in a cycle of several passes a brick is looked at in all of them until a whole cycle
+// Cost:  in a cycle of several passes each of them visits a brick until a whole cycle
 //        changes neither it nor a brick around; then, and with one pass a cycle always, only after
 //        a change.
 // Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
-// Threads: worker w owns a contiguous range of bricks; one more meeting per pass than it has steps.
-// Partners: trade what bricks lose once per pass, and sums once per cycle; the same points removed.
-//        Totals and progress are those of all; kept to until a cycle ends: requests to stop.
+// Threads: worker w owns a contiguous range of bricks; one more barrier per pass than it has steps.
+// Partners: exchange what bricks lose once per pass, and sums once per cycle; the same points
+//        removed. Totals and progress are those of all; stop requests take effect after a cycle.
 // Errors:  CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
                                         const exec::Context& context, ThinningState& state);

@@ -25,9 +25,9 @@ class SweepPartners {
   // The bricks that are this sweep's own.
   virtual exec::Share own() const = 0;
 
-  // Tells others what own bricks lose in a pass. A brick may come more than once.
+  // Sends what own bricks lose in a pass. A brick may come more than once.
   virtual void Tell(const MarkedBrick& lost) = 0;
-  // Returns what ghosts lose in it, once all have told. Good until the next call.
+  // Returns what ghosts lose in it, once all have sent. Valid until the next call.
   virtual std::span<const MarkedBrick> Hear() = 0;
 
   // Puts the sum over all partners in the place of each number.

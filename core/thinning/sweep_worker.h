@@ -16,7 +16,7 @@
 
 namespace bccskel {
 
-// Bricks that a worker looks at in one go, and its buffers for them.
+// Bricks that a worker processes together, and its buffers for them.
 struct SweepPart {
   exec::Share bricks = {0, 0};
   BrickLists to_do;
@@ -57,7 +57,7 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker,
 // Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
 void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
 
-// Tells partners all marks of a pass. Needs: those of ghosts are gone.
+// Sends all marks of a pass to partners. Needs: those of ghosts are gone.
 void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel

@@ -25,8 +25,8 @@ constexpr EndPoints EndPointsOf(SkeletonKind kind) {
 // Paper: the non-directional thinning of its outlook.
 // Why it is right: see mark_symmetric.h. A step needs what the step before has left in the bricks
 //        around, so workers meet between steps. A brick in no list has no simple candidates: it had
-//        none when it was last looked at, and neither it nor a brick around has changed since.
-// Cost:  a brick is looked at again only after it, or a brick that it borders on, has changed, or
+//        none when last visited, and neither it nor a neighboring brick has changed since.
+// Cost:  a brick is visited again only after it, or a brick that it borders on, has changed, or
 //        if some of its points were sent back.
 class SymmetricRule : public PassRule {
  public:

@@ -13,16 +13,16 @@
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 
-// Which bricks have to be looked at again, and the brick operations around the marking of a pass.
+// Which bricks a pass has to visit again, and the brick operations around the marking of a pass.
 
 namespace bccskel {
 
 // For each brick: bit d says that points may have become removable along direction d, bit 8 that
-// there may be end points. A brick whose shell has just opened is awake: it is looked at in every
-// pass, whatever these bits say, since nearly all such bricks change and telling 14 neighbors of
-// each change would cost more than looking. It falls asleep after a cycle in which neither it nor a
-// brick around has changed; from then on changes beside it unsettle it. Bits 13 to 15 say that it
-// lies beside a sleeper and so has to tell the bricks around of its changes, that some of these
+// there may be end points. A brick whose shell has just opened is awake: every pass visits it,
+// whatever these bits say, since nearly all such bricks change and notifying 14 neighbors of
+// each change would cost more than a visit. It falls asleep after a cycle in which neither it nor a
+// neighboring brick has changed; from then on changes beside it unsettle it. Bits 13 to 15 say that
+// it lies beside a sleeping brick and so must notify its neighbors of changes, that some of these
 // belong to other workers, and that it is of the odd sublattice.
 using Unsettled = uint16_t;
 inline constexpr Unsettled kEndPointsUnsettled = 1 << 8;
@@ -125,8 +125,8 @@ struct OpeningView {
   BrickBits* candidates = nullptr;
   UnsettledBricks unsettled;
   Unsettled* enabled = nullptr;
-  Unsettled watched = 0;  // what is looked for in a brick with candidates
-  Unsettled woken = 0;    // and what becomes of one with new ones
+  Unsettled watched = 0;  // the bits of a brick with candidates
+  Unsettled woken = 0;    // the bits of a brick with new candidates
 };
 
 // Condition 5: makes the points of one shell in the given bricks candidates.

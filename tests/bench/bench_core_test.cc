@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "client/cli/bench_objects.h"
 #include "tests/bench/reference_skeleton.h"
 
 namespace bccskel::cli {

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "client/cli/bench_objects.h"
+#include "client/cli/bench_core.h"
 #include "tests/support/even_points.h"
 
 // Writes a bench object on the cubic grid, for tools that know no other: first a line

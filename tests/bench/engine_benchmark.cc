@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "client/cli/bench_core.h"
-#include "client/cli/bench_objects.h"
 #include "core/exec/instruction_sets.h"
 #include "core/exec/worker_team.h"
 #include "core/pipeline/skeletonize.h"

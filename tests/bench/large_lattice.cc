@@ -6,7 +6,6 @@
 #include <span>
 
 #include "client/cli/bench_core.h"
-#include "client/cli/bench_memory.h"
 #include "core/exec/worker_team.h"
 #include "core/import/shapes/rasterize.h"
 #include "core/import/shapes/solids.h"

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "client/cli/bench_objects.h"
+#include "client/cli/bench_core.h"
 #include "core/exec/status_macros.h"
 #include "tests/bench/reference_skeleton.h"
 

@@ -5,7 +5,6 @@ import os
 import pathlib
 import signal
 import subprocess
-import time
 from concurrent import futures
 
 import grpc
@@ -104,10 +103,9 @@ class ExitCodesTest(harness.TestCase):
                             "-o", self.path("out.swc"))
         with open(self.path("pipe.json"), "rb") as pipe:
             pipe.read(1)  # it writes
-            client.send_signal(signal.SIGINT)
-            time.sleep(0.2)
+            harness.interrupt(client)
             pipe.read()
-        _, error = client.communicate(timeout=60)
+        _, error = client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130, error)
         self.assert_no_output()
 
@@ -139,7 +137,7 @@ class ExitCodesTest(harness.TestCase):
                                                       "--threads", 1, "--progress", "always"))
                 client.stderr.readline()  # the first shell: it computes
                 client.send_signal(number)
-                _, error = client.communicate(timeout=60)
+                _, error = client.communicate(timeout=300)
                 self.assertEqual(client.returncode, code, error)
                 ended = server.wait_for_log("event", "call ended")
                 self.assertEqual(ended["code"], "CANCELLED")
@@ -150,15 +148,14 @@ class ExitCodesTest(harness.TestCase):
                                               "--progress", "always"))
         client.stderr.readline()  # the first shell: it computes
         client.send_signal(signal.SIGINT)
-        _, error = client.communicate(timeout=60)
+        _, error = client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130, error)
         self.assert_no_output()
 
     def test_130_while_it_waits_for_a_server(self):
         client = self.start(*self.skeletonize(self.generate("ball"), "--server", "unix:/nowhere"))
-        time.sleep(0.3)
-        client.send_signal(signal.SIGINT)
-        client.communicate(timeout=60)
+        harness.interrupt(client)
+        client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130)
 
     def test_a_closed_pipe_does_not_kill(self):

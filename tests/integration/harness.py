@@ -27,10 +27,36 @@ def limit_memory(gib):
     return apply
 
 
-def bccskel(*words, timeout=120, **options):
+def bccskel(*words, timeout=300, **options):
     """Runs the command line to its end, with pipes for its output."""
     return subprocess.run([CLIENT, *map(str, words)], capture_output=True, text=True,
                           timeout=timeout, **options)
+
+
+def wait_until(condition, what, seconds=300):
+    """Until condition() holds; long enough for a busy machine."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError("never: " + what)
+        time.sleep(0.01)
+
+
+def signals_of(process, field):
+    """Signal numbers in a line of /proc/PID/status."""
+    for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines():
+        name, _, mask = line.partition(":")
+        if name == field:
+            return {n for n in range(1, 65) if int(mask, 16) >> (n - 1) & 1}
+    return set()
+
+
+def interrupt(process):
+    """Sends Ctrl-C to a command line as soon as that can handle it, until it has taken it."""
+    wait_until(lambda: signal.SIGINT in signals_of(process, "SigBlk") or process.poll() is not None,
+               "the command line handles SIGINT")
+    process.send_signal(signal.SIGINT)
+    wait_until(lambda: signal.SIGINT not in signals_of(process, "ShdPnd"), "SIGINT was taken")
 
 
 class Server:
@@ -63,14 +89,12 @@ class Server:
 
     def wait_for_log(self, key, value=None):
         """The first entry with the key, and the value where one is given."""
-        for _ in range(6000):
-            for entry in self.log():
-                if key in entry and value in (None, entry[key]):
-                    return entry
-            if self.process.poll() is not None:
-                raise AssertionError("the server ended: " + self.log_path.read_text())
-            time.sleep(0.01)
-        raise AssertionError(f"no {key} in the log: " + self.log_path.read_text())
+        def entries():
+            return [e for e in self.log() if key in e and value in (None, e[key])]
+        wait_until(lambda: entries() or self.process.poll() is not None, f"{key} in the log")
+        if found := entries():
+            return found[0]
+        raise AssertionError("the server ended: " + self.log_path.read_text())
 
 
 class TestCase(unittest.TestCase):

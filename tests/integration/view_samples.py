@@ -3,11 +3,11 @@
 import json
 
 
-def edge(nodes, source, target, radii, bend=(0, 0, 0), **more):
-    """A straight curve between two nodes, or a bent one."""
+def edge(nodes, source, target, radii, points=None, **more):
+    """A straight curve between two nodes, or one through these points."""
     start, end, last = nodes[source]["position"], nodes[target]["position"], len(radii) - 1
-    points = [[a + (b - a) * n / last + c * n * (last - n) for a, b, c in zip(start, end, bend)]
-              for n in range(last + 1)]
+    points = points or [[a + (b - a) * n / last for a, b in zip(start, end)]
+                        for n in range(last + 1)]
     length = sum(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(points, points[1:]))
     straight = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
     figures = {"tortuosity": length / straight} if straight else {}
@@ -24,6 +24,8 @@ def node(number, kind, position, component=0, radius=1):
 def document(nodes, edges, unit="mm"):
     topology = {"components": 1, "loops": 0, "cavities": 0}
     return {"nodes": nodes, "edges": edges, "unit": unit, "world": "RAS", "object_points": 1234,
+            "placement": {"spacing": [1, 1, 1], "origin": [-60, -60, -60],
+                          "direction": [1, 0, 0, 0, 1, 0, 0, 0, 1]},
             "certificate": {"input": topology, "skeleton": topology, "simple_points_left": 0},
             "sha256": "0" * 64}
 
@@ -48,16 +50,17 @@ def lasso():
     """A loop on a stem that is pruned at 1."""
     nodes = [node(0, "junction", [0, 0, 0], radius=0.5), node(1, "end", [0, -3, 0])]
     return document(nodes, [
-        edge(nodes, 0, 0, [1] * 9, bend=(0.5, 0.5, 0)),
-        edge(nodes, 0, 1, [1, 1, 1], pruning_level=1)], "um")
+        edge(nodes, 0, 0, [1] * 9, [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0], [2, 2, 0],
+                                    [1, 2, 0], [0, 2, 0], [0, 1, 0], [0, 0, 0]]),
+        edge(nodes, 0, 1, [1, 1, 1, 1], pruning_level=1)], "um")
 
 
 def fork():
-    """A stem with two twigs that are pruned at 1."""
-    nodes = [node(0, "junction", [0, 0, 0]), node(1, "end", [0, -3, 0]), node(2, "end", [1, 1, 0]),
-             node(3, "end", [-1, 1, 0])]
-    return document(nodes, [edge(nodes, 0, 1, [1, 1, 1]),
-                            edge(nodes, 0, 2, [1, 1, 1], pruning_level=1),
+    """A stem with two twigs, one of which is pruned at 1."""
+    nodes = [node(0, "junction", [0, 0, 0]), node(1, "end", [0, -3, 0]), node(2, "end", [2, 0, 0]),
+             node(3, "end", [-2, 0, 0])]
+    return document(nodes, [edge(nodes, 0, 1, [1, 1, 1, 1]),
+                            edge(nodes, 0, 2, [1, 1, 1]),
                             edge(nodes, 0, 3, [1, 1, 1], pruning_level=1)])
 
 

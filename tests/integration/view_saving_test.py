@@ -16,13 +16,11 @@ class SavingTest(ToolsTestCase):
         for old in downloads.glob("*"):
             old.unlink()
         self.browser.click(button)
-        for _ in range(600):
-            # Chromium holds the name with an empty file, and writes to one that ends otherwise.
-            for path in downloads.glob("*" + ending):
-                if path.stat().st_size > 0:
-                    return path
-            self.browser.settle()
-        raise AssertionError("nothing was saved")
+        # Chromium holds the name with an empty file, and writes to one that ends otherwise.
+        def saved():
+            return [p for p in downloads.glob("*" + ending) if p.stat().st_size > 0]
+        harness.wait_until(saved, "a file was saved")
+        return saved()[0]
 
     def test_the_csv_is_that_of_the_command_line(self):
         volume = self.generate("tree", 20000)
@@ -65,7 +63,7 @@ class FramesTest(ToolsTestCase):
     def test_nothing_is_drawn_while_nothing_moves_and_few_calls_draw_thousands(self):
         page = self.open_sample(view_samples.forest(1700, columns=40))
         page.settle()
-        page.run("new Promise((done) => setTimeout(done, 500))")  # until the pace has settled
+        page.wait("!gliding && !asked && !pace.coarse")
         frames = """(() => { window.frames_ = 0; const ask = requestAnimationFrame;
           window.requestAnimationFrame = (act) => { ++frames_; return ask(act); }; })()"""
         page.run(frames)

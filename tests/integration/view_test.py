@@ -140,6 +140,31 @@ class ViewTest(PageTestCase):
                     kinds = page.run("shown.nodes.map(shown.kindOf).sort()")
                     self.assertEqual(kinds, sorted(n["kind"] for n in pruned["nodes"]))
 
+    @harness.needs_data("mesh")
+    def test_pruning_counts_what_another_run_counts_on_real_objects(self):
+        objects = [(harness.DATA / "mesh" / name, ["--points", 60000])
+                   for name in ("armadillo_86k.ply", "gmsh_t13.stl")]
+        objects += [(harness.DATA / "volume" / name, [])
+                    for name in ("neuron_28018323.nrrd", "airway_p4_chopped.nrrd")]
+        for file, options in objects:
+            self.summarize("skeletonize", file, *options, "--local", "--pruning", "none", "-o",
+                           self.path("s.html"))
+            page = self.open()
+            levels = page.run("levels")
+            all_levels = page.run("[...new Set(levelOf)].filter(Number.isFinite)")
+            for part in (0.3, 0.8):
+                step = max(1, round(part * len(levels)))
+                higher = [level for level in all_levels if level > levels[step - 1]]
+                threshold = (levels[step - 1] + min(higher, default=1e3)) / 2
+                with self.subTest(file=file.name, threshold=threshold):
+                    self.summarize("skeletonize", file, *options, "--local",
+                                   "--pruning-threshold", threshold, "-o", self.path("pruned.json"))
+                    pruned = json.loads((self.folder / "pruned.json").read_text())
+                    self.slide("prune", step)
+                    self.assertEqual(page.run("shown.nodes.map(shown.kindOf).sort()"),
+                                     sorted(n["kind"] for n in pruned["nodes"]))
+                    self.assertEqual(page.run("shown.branches.size"), len(pruned["edges"]))
+
     def test_a_loop_without_its_stem_is_one_branch_at_a_node_of_its_own(self):
         page = self.open_sample(view_samples.lasso())
         self.assertTrue(page.text("#counts").startswith("2 nodes, 2 branches"))
@@ -148,11 +173,11 @@ class ViewTest(PageTestCase):
         page.click("#dock-toggle")
         self.assertEqual(page.text("#row-0 .kinds"), "loop")
 
-    def test_a_junction_that_one_branch_is_left_of_is_an_end(self):
+    def test_branches_that_meet_where_no_junction_is_left_are_one(self):
         page = self.open_sample(view_samples.fork(), "#prune=1")
         page.click("#dock-toggle")
         self.assertEqual(page.text("#row-0 .kinds"), "end \u2013 end")
-        self.assertIn("\n0,0,0,1,0,", page.run("branchCsv()"))  # branch_type 0
+        self.assertIn("\n0,0,1,2,0,", page.run("branchCsv()"))  # branch_type 0
 
     def test_figures_are_in_the_unit_of_the_result(self):
         page = self.open_sample(view_samples.forest(3))
@@ -280,7 +305,7 @@ class ViewTest(PageTestCase):
         self.browser.wait(f"{inner}?.documentElement?.dataset.state === 'ready'")
         for button in ("dock-toggle", "copy-link"):
             self.browser.run(f"{inner}.getElementById('{button}').click()")
-        self.assertIn("no address", self.browser.run(f"{inner}.getElementById('toast').textContent"))
+        self.browser.wait(f"{inner}.getElementById('toast').textContent.includes('no address')")
         self.assertEqual(self.browser.run(f"{inner}.querySelectorAll('#body > div').length"), 6)
 
     def test_what_fails_is_said_in_words(self):

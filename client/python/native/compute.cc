@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "absl/strings/str_join.h"
-#include "client/cli/convert_image.h"
+#include "client/cli/console.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
-#include "client/cli/local_team.h"
 #include "core/exec/status_macros.h"
 #include "core/import/voxelize/voxelize.h"
 #include "core/labels/convert_label.h"

@@ -58,9 +58,8 @@ struct Run {
 };
 
 // Errors: as ConvertImage(), Skeletonize() and CheckRootChoice(); INVALID_ARGUMENT where no voxel
-// has
-//         a wanted label; INTERNAL where an exact conversion changed the topology, which would be a
-//         defect.
+//         has a wanted label; INTERNAL where an exact conversion changed the topology, which would
+//         be a defect.
 absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
                                         const cli::SkeletonizeArguments& arguments, const Run& run);
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <thread>
 
-#include "client/cli/named_options.h"
+#include "client/cli/option_values.h"
 
 namespace bccskel::python {
 namespace {

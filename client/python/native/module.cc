@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
-#include "client/cli/named_options.h"
+#include "client/cli/option_values.h"
 #include "client/python/native/array_source.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/job.h"

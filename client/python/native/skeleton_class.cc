@@ -13,11 +13,10 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "client/cli/local_team.h"
-#include "client/cli/named_options.h"
+#include "client/cli/console.h"
+#include "client/cli/option_values.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
-#include "client/export/node_kind_name.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/edge_images.h"
@@ -26,6 +25,7 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
+#include "core/skeleton/node_kind_name.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::python {
@@ -56,7 +56,7 @@ py::dict NodesOf(const SkeletonGraph& graph) {
   py::list kinds;
   for (const SkeletonNode& node : graph.nodes) {
     positions.push_back(graph.PositionOf(node.at));
-    kinds.append(py::str(std::string(exporting::NodeKindName(node.kind))));
+    kinds.append(py::str(std::string(NodeKindName(node.kind))));
   }
   py::dict nodes;
   nodes["positions"] = PointsArray(positions);

@@ -63,10 +63,10 @@ function edgeUnder(x, y) {
 // ---- What is told of it ----
 
 function aboutNode(n) {
-  const node = result.nodes[n];
+  const node = nodeAt[n];
   const rows = [["radius", measure(node.radius)],
                 ["at", `${node.position.map(figure).join(", ")} ${unit}`]];
-  if (shown.degree[n]) rows.unshift(["branches", shown.degree[n]]);
+  if (shown.degree.has(n)) rows.unshift(["branches", shown.degree.get(n)]);
   if (node.cavities) rows.push(["cavities", node.cavities]);
   return { title: `${words(shown.kindOf(n))} ${n}`, rows, place: nodePlaces.slice(3 * n, 3 * n + 3),
            radius: node.radius };

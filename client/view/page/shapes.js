@@ -29,7 +29,7 @@ for (const id of result.edges.keys()) {
   curveBalls.set([...box.getCenter(new THREE.Vector3()).toArray(),
                   box.getSize(new THREE.Vector3()).length() / 2], 4 * id);
 }
-const nodePlaces = new Float32Array(result.nodes.flatMap((n) => toScene(n.position)));
+const nodePlaces = new Float32Array(nodeAt.flatMap((n) => toScene(n.position)));
 
 // Many curves and short ones must be thinner to be told apart.
 const sceneLength = result.edges.reduce((sum, e) => sum + e.length, 0) / edge;
@@ -192,8 +192,7 @@ const isDrawn = (n) => shown.kindOf(n) !== "loop";
 function nodeMeshes() {
   const meshes = {};
   const many = { end: 0, junction: 0, other: 0 };
-  for (const { kind } of result.nodes) ++many[groupOf(kind)];
-  many.end += many.junction;  // pruning makes ends of junctions
+  for (const [, kind] of stateAt) ++many[groupOf(kind)];  // at most
   for (const group of ["end", "junction", "other"]) {
     const size = (group === "end" ? 1.8 : 2) * kThickness;
     const rings = many[group] > 20000 ? 3 : many[group] > 2000 ? 6 : 12;

@@ -19,7 +19,7 @@ function branchCsv() {
                 ...(ordered ? ["generation", "strahler"] : [])];
   const rows = table.rows.map((b) => [
     b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
-    b.min, b.max, ...result.nodes[b.source].position, ...result.nodes[b.target].position, b.level,
+    b.min, b.max, ...nodeAt[b.source].position, ...nodeAt[b.target].position, b.level,
     ...(ordered ? [b.generation, b.strahler] : [])]);
   return [head, ...rows].map((row) => row.join()).join("\n") + "\n";
 }

@@ -19,9 +19,9 @@ bool IsImagePath(std::string_view path);
 // options.raw, any bytes; the content tells which. A folder is opened as OME-Zarr,
 // a Zarr array or a Neuroglancer precomputed volume.
 // Reads the header and compares it with the file's length and the limits before any memory is taken
-// for voxels. Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, several
-// channels);
-//         RESOURCE_EXHAUSTED (over a limit); UNIMPLEMENTED (what the format knows and we do not).
+// for voxels.
+// Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, truncated, several channels);
+//         RESOURCE_EXHAUSTED (over a limit); UNIMPLEMENTED (an unsupported part of the format).
 //         Messages name the file.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options = {});

@@ -11,8 +11,8 @@ namespace bccskel::shapes {
 
 // The lattice points of the union of the solids, `scale` lattice units per figure unit. The
 // volume's box has two free cells around the figure. Errors: INVALID_ARGUMENT when the box exceeds
-// the largest extent. Cost:   per solid one square root or a few for each row of each brick column
-// that it may touch,
+// the largest extent.
+// Cost:   per solid one square root or a few for each row of each brick column that it may touch,
 //         and word operations for the bricks that it does touch.
 absl::StatusOr<Volume> Rasterize(std::span<const Solid> solids, double scale);
 

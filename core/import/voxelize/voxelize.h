@@ -43,8 +43,8 @@ struct VoxelizeResult {
 // Lays a bcc grid over the mesh, its middle on or near the middle of the box, and takes the lattice
 // points inside. Points exactly on the surface are inside where (x + e^3, y + e, z + e^2) is, for a
 // vanishing e > 0 (see core/import/mesh/ray_crossing.h), so a box of whole cells gives half-open
-// ranges. Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every
-// lattice
+// ranges.
+// Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every lattice
 //          row and fills spans into sparse bricks.
 // Cost:    time and memory follow the surface in rows and the solid in bricks, not the box.
 // Errors:  INVALID_ARGUMENT (options, nothing enclosed, sizes a double cannot hold, kParity for an

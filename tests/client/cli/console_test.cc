@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/cli/exit_code.h"
-#include "client/cli/json_text.h"
 #include "client/cli/load_object.h"
-#include "client/cli/progress_bar.h"
+#include "client/cli/summaries.h"
 
 namespace bccskel::cli {
 namespace {

@@ -1,0 +1,192 @@
+#include "client/cli/common_options.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/bench_core.h"
+#include "client/cli/option_values.h"
+#include "client/export/skeleton_file.h"
+#include "core/exec/status_macros.h"
+#include "core/import/shapes/shapes.h"
+#include "core/pipeline/option_words.h"
+
+namespace bccskel::cli {
+namespace {
+
+constexpr char kTokenVariable[] = "BCCSKEL_TOKEN_FILE";
+
+// Empty where no file is named.
+absl::StatusOr<std::string> ReadText(const std::string& path) {
+  if (path.empty()) return std::string();
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) return absl::NotFoundError(path + ": cannot be read");
+  return text;
+}
+
+std::string TokenPath(const ServerArguments& server) {
+  const char* const variable = std::getenv(kTokenVariable);
+  return server.token_file.empty() && variable != nullptr ? variable : server.token_file;
+}
+
+// The first line of the file. Never part of a message.
+absl::StatusOr<std::string> ReadToken(const std::string& path) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::string token, ReadText(path));
+  token.resize(std::min(token.find('\n'), token.size()));
+  absl::StripAsciiWhitespace(&token);
+  for (const char c : token) {
+    if (!absl::ascii_isgraph(static_cast<unsigned char>(c))) token.clear();
+  }
+  if (token.empty() && !path.empty()) {
+    return absl::InvalidArgumentError(path + ": its first line is no token");
+  }
+  return token;
+}
+
+}  // namespace
+
+void AddJson(CLI::App& command, CommonArguments& common) {
+  command.add_flag_callback(
+      "--json", [&common] { common.summary = SummaryStyle::kJson; },
+      "Print the summary as one JSON object");
+}
+
+void AddThreads(CLI::App& command, CommonArguments& common, const char* description) {
+  command.add_option("--threads", common.threads, description)
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+}
+
+void AddCommonHere(CLI::App& command, CommonArguments& common) {
+  AddThreads(command, common, kThreadsHere);
+  AddJson(command, common);
+}
+
+void AddProgress(CLI::App& command, ProgressStyle& progress) {
+  AddChoice<ProgressStyle>(
+      command, "--progress", progress,
+      "Show progress by shell on standard error; auto (default): on a terminal",
+      {{"auto", ProgressStyle::kAuto},
+       {"always", ProgressStyle::kAlways},
+       {"never", ProgressStyle::kNever}});
+}
+
+CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
+                        const char* description) {
+  return command
+      .add_option_function<double>(
+          name,
+          [&time](double seconds) {
+            time = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
+          },
+          description)
+      ->check(CLI::Range(0.001, 1e7))
+      ->option_text("SECONDS");
+}
+
+CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
+  command
+      .add_option("--tls-ca", server.tls_ca,
+                  "Use TLS; certificate authorities to trust, PEM (those of this machine: "
+                  "/etc/ssl/certs/ca-certificates.crt)")
+      ->option_text("FILE");
+  command.add_option("--tls-cert", server.tls_certificate, "Certificate to show the server, PEM")
+      ->option_text("FILE");
+  command.add_option("--tls-key", server.tls_key, "Private key of --tls-cert, PEM")
+      ->option_text("FILE");
+  command
+      .add_option("--token-file", server.token_file,
+                  "File with the access token (default: the one that BCCSKEL_TOKEN_FILE names)")
+      ->option_text("FILE");
+  command.add_flag_callback(
+      "--plaintext-token",
+      [&server] { server.plaintext_token = client::Endpoint::PlaintextToken::kAllow; },
+      "Allow sending the token over a network without TLS");
+  return command
+      .add_option("--server", server.address,
+                  "Address of the server (default " + server.address + ")")
+      ->option_text("HOST:PORT|unix:PATH");
+}
+
+absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server) {
+  client::Endpoint endpoint;
+  endpoint.address = server.address;
+  endpoint.plaintext_token = server.plaintext_token;
+  BCCSKEL_ASSIGN_OR_RETURN(endpoint.tls.ca, ReadText(server.tls_ca));
+  BCCSKEL_ASSIGN_OR_RETURN(endpoint.tls.certificate, ReadText(server.tls_certificate));
+  BCCSKEL_ASSIGN_OR_RETURN(endpoint.tls.key, ReadText(server.tls_key));
+  BCCSKEL_ASSIGN_OR_RETURN(endpoint.token, ReadToken(TokenPath(server)));
+  return endpoint;
+}
+
+void AddInput(CLI::App& command, const char* name, std::string& path, const char* description) {
+  command.add_option(name, path, description)->required()->option_text(" ");
+}
+
+void AddOutput(CLI::App& command, std::string& path, const char* what,
+               const std::vector<std::string>& endings) {
+  const std::string choice = absl::StrJoin(endings, " or ");
+  command.add_option("-o,--output", path, std::string(what) + " to write: " + choice)
+      ->required()
+      ->check([endings, choice](const std::string& given) {
+        const auto fits = [&](const std::string& ending) { return given.ends_with(ending); };
+        return std::ranges::any_of(endings, fits) ? "" : given + ": does not end in " + choice;
+      })
+      ->option_text("FILE (required)");
+}
+
+void AddVolumeOutput(CLI::App& command, std::string& path) {
+  command.add_option("-o,--output", path, "Volume to write: .exr or .bccb")
+      ->required()
+      ->option_text("FILE (required)");
+}
+
+CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {
+  return command
+      .add_option("-o,--output", outputs,
+                  "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
+                      "; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+}
+
+void AddResult(CLI::App& command, std::string& path) {
+  AddInput(command, "RESULT", path, "JSON file of skeletonize or submit");
+}
+
+void AddResultAndObject(CLI::App& command, ResultArguments& source, ObjectNeed need) {
+  AddResult(command, source.result);
+  CLI::Option* object = command.add_option("--object", source.object,
+                                           "Mesh, volume or image that the result was made from");
+  const bool required = need == ObjectNeed::kRequired;
+  object->required(required)->option_text(required ? "FILE (required)" : "FILE");
+}
+
+uint64_t ReadBenchPoints(const std::string& given) {
+  const auto points = ReadCount<uint64_t>("--points", given);
+  if (points >= kMinShapePoints && points <= kMaxShapePoints) return points;
+  throw CLI::ValidationError("--points " + given + ": must be within " +
+                             std::to_string(kMinShapePoints) + " and " +
+                             std::to_string(kMaxShapePoints));
+}
+
+CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description) {
+  return AddChoice<std::string>(command, "--shape", shape, description, Themselves(kBenchObjects));
+}
+
+void AddBenchMethod(CLI::App& command, ThinningMethod& method,
+                    std::optional<DistanceKind>& distance, const char* description) {
+  AddChoice<ThinningMethod>(command, "--method", method, description, Choices(kMethodWords));
+  AddChoice<DistanceKind>(
+      command, "--distance", [&distance](DistanceKind chosen) { distance = chosen; },
+      "How distances are measured (default with symmetric euclidean, otherwise chamfer)",
+      Choices(kDistanceWords));
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,74 @@
+#ifndef BCCSKEL_CLIENT_CLI_COMMON_OPTIONS_H_
+#define BCCSKEL_CLIENT_CLI_COMMON_OPTIONS_H_
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+
+// Options that several commands have. Only files that add options include this and CLI11, which is
+// slow to compile.
+
+namespace bccskel::cli {
+
+inline constexpr const char* kThreadsHere = "Threads to use; 0 means all of this machine (default)";
+inline constexpr const char* kThreadsBoth =
+    "Threads to use, here and on the server; 0 means all of this machine and what the server "
+    "gives (default)";
+
+// --json
+void AddJson(CLI::App& command, CommonArguments& common);
+// --threads
+void AddThreads(CLI::App& command, CommonArguments& common, const char* description);
+// --threads of this machine and --json
+void AddCommonHere(CLI::App& command, CommonArguments& common);
+// --progress
+void AddProgress(CLI::App& command, ProgressStyle& progress);
+CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
+                        const char* description);
+
+// Adds --server and its companions; returns --server.
+CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
+
+// Reads the files.
+// Errors: NOT_FOUND for a file that cannot be read; INVALID_ARGUMENT for a token file without a
+//         token.
+absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server);
+
+// A file as the positional argument `name`.
+void AddInput(CLI::App& command, const char* name, std::string& path, const char* description);
+// --output: a file whose name ends in one of `endings`.
+void AddOutput(CLI::App& command, std::string& path, const char* what,
+               const std::vector<std::string>& endings);
+// --output of a volume; its ending is checked later, with what else is wrong.
+void AddVolumeOutput(CLI::App& command, std::string& path);
+// --output of a skeleton, any number of them.
+CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs);
+
+// RESULT, and the object that it was made from with the options that say how.
+void AddResult(CLI::App& command, std::string& path);
+enum class ObjectNeed { kRequired, kOptional };
+void AddResultAndObject(CLI::App& command, ResultArguments& source, ObjectNeed need);
+
+// What the benchmarks thin. ReadBenchPoints() throws CLI::ValidationError.
+uint64_t ReadBenchPoints(const std::string& given);
+CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
+void AddBenchMethod(CLI::App& command, ThinningMethod& method,
+                    std::optional<DistanceKind>& distance, const char* description);
+// A word for each name, which stands for itself.
+template <typename Names>
+std::vector<std::pair<std::string, std::string>> Themselves(const Names& names) {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const auto& name : names) words.emplace_back(name, name);
+  return words;
+}
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_COMMON_OPTIONS_H_

@@ -1,0 +1,309 @@
+#include "client/cli/image_options.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/cli/option_values.h"
+#include "core/exec/status_macros.h"
+#include "core/labels/label_collector.h"
+#include "core/mask/mask_converter.h"
+
+namespace bccskel::cli {
+
+void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
+  CLI::Option* points = AddCount<uint64_t>(
+      command, "--points", [&grid](uint64_t count) { grid.points = count; },
+      "Number of lattice points inside the solid");
+  command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
+      ->excludes(points)
+      ->option_text("LENGTH");
+  AddChoice<FillRule>(
+      command, "--fill", grid.fill, "What is inside a mesh (default auto)",
+      {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
+}
+
+namespace {
+
+constexpr const char* kGroup = "Images";
+
+// Three numbers with commas between them.
+template <typename Number>
+CLI::Option* AddTriple(CLI::App& command, const char* name, const char* description,
+                       std::function<void(const std::array<Number, 3>&)> use) {
+  return command
+      .add_option_function<std::vector<Number>>(
+          name,
+          [use](const std::vector<Number>& values) {
+            use({values[0], values[1], values[2]});
+          },
+          description)
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("X,Y,Z");
+}
+
+// "7" or "3-9".
+void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
+  constexpr uint64_t kMostOfRange = 1'000'000;
+  const size_t dash = given.find('-', 1);
+  const auto low = ReadCount<uint64_t>("--label", given.substr(0, dash));
+  const auto high =
+      dash == given.npos ? low : ReadCount<uint64_t>("--label", given.substr(dash + 1));
+  const auto refuse = [&](const std::string& why) {
+    throw CLI::ValidationError("--label " + given + ": " + why);
+  };
+  if (low > high) refuse("the first label is above the last");
+  if (low == 0 && dash != given.npos) {
+    refuse("0 is the background; labels are counted from 1, so write 1-" + std::to_string(high));
+  }
+  if (high - low >= kMostOfRange) {
+    refuse("is more than " + std::to_string(kMostOfRange) + " labels; skeletonize has --range");
+  }
+  for (uint64_t label = low; label < high; ++label) labels.push_back(label);
+  labels.push_back(high);
+}
+
+CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const char* description) {
+  const auto read = [&arguments](const std::vector<std::string>& given) {
+    for (const std::string& labels : given) ReadLabels(labels, arguments.labels);
+  };
+  return command
+      .add_option_function<std::vector<std::string>>("--label,--labels", read, description)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("LIST");
+}
+
+void AddForeground(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option* labels =
+      AddLabelList(command, arguments, "Voxels of these labels, such as 3,7 or 1-85");
+  CLI::Option* range =
+      command
+          .add_option("--range", arguments.range, "Voxels from LOW to HIGH; either may be left out")
+          ->option_text("LOW,HIGH");
+  CLI::Option* threshold =
+      command.add_option("--threshold", arguments.threshold, "Voxels from this value on")
+          ->option_text("T");
+  CLI::Option* below =
+      command.add_option("--below", arguments.below, "Voxels below this value (level sets: 0)")
+          ->option_text("T");
+  const std::vector<CLI::Option*> rules = {labels, range, threshold, below};
+  for (CLI::Option* rule : rules) {
+    for (CLI::Option* other : rules) {
+      if (rule != other) rule->excludes(other);
+    }
+  }
+  command.add_flag("--invert", arguments.invert, "Exchange object and background");
+}
+
+void AddConversion(CLI::App& command, ImageArguments& arguments) {
+  AddChoice<MaskAdjacency>(command, "--adjacency", arguments.mask.adjacency,
+                           "Which voxels touch: object, background (default 26,6)",
+                           {{"26,6", MaskAdjacency::k26}, {"6,26", MaskAdjacency::k6}});
+  CLI::Option* points =
+      AddChoice<VoxelPoints>(command, "--voxel-points", arguments.mask.points,
+                             "Lattice points that exact makes of a voxel of a solid object "
+                             "(default 2); 16 refine voxels first, for finer curves",
+                             {{"2", VoxelPoints::kTwo}, {"16", VoxelPoints::kSixteen}});
+  using Weights = std::optional<MaskWeights>;  // none: exact
+  CLI::Option* sampling = AddChoice<Weights>(
+      command, "--sampling",
+      [&arguments](Weights weights) {
+        if (weights.has_value()) arguments.mask.sampling.emplace().weights = *weights;
+      },
+      "How voxels become lattice points; only exact (default) keeps the topology",
+      {{"exact", std::nullopt},
+       {"nearest", MaskWeights::kNearest},
+       {"trilinear", MaskWeights::kTrilinear}});
+  points->excludes(sampling);
+  command
+      .add_option_function<double>(
+          "--density",
+          [&arguments](double points) {
+            if (!arguments.mask.sampling.has_value()) {
+              throw CLI::ValidationError("--density is for samplings, not for exact");
+            }
+            arguments.mask.sampling->points_per_voxel = points;
+          },
+          "Lattice points for each voxel of a sampling (default 2)")
+      ->needs(sampling)
+      ->option_text("X");
+}
+
+RawLayout& RawOf(ImageArguments& arguments) {
+  if (!arguments.open.raw.has_value()) arguments.open.raw.emplace();
+  return *arguments.open.raw;
+}
+
+void AddRaw(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option* size = AddTriple<int64_t>(
+      command, "--raw-size", "Size of raw voxel data",
+      [&arguments](const std::array<int64_t, 3>& n) { RawOf(arguments).size = n; });
+  command
+      .add_option_function<std::string>(
+          "--raw-type",
+          [&arguments](const std::string& name) {
+            const absl::StatusOr<VoxelType> type = ParseVoxelType(name);
+            if (!type.ok()) throw CLI::ValidationError(std::string(type.status().message()));
+            RawOf(arguments).type = *type;
+          },
+          "Their type: u8 (default), i8, u16, i16, u32, i32, u64, i64, f32 or f64")
+      ->needs(size)
+      ->option_text("TYPE");
+  AddChoice<std::endian>(command, "--raw-order",
+                         [&arguments](std::endian order) { RawOf(arguments).byte_order = order; },
+                         "Their byte order (default little)",
+                         {{"little", std::endian::little}, {"big", std::endian::big}})
+      ->needs(size);
+  AddCount<uint64_t>(
+      command, "--raw-header",
+      [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
+      "Bytes before them (default 0)")
+      ->needs(size);
+}
+
+// An end of a range; open where nothing is said.
+absl::StatusOr<double> EndOf(std::string_view text, double open) {
+  if (text.empty()) return open;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  return absl::InvalidArgumentError("--range: '" + std::string(text) + "' is not a number");
+}
+
+absl::StatusOr<ForegroundRule> RangeOf(std::string_view text) {
+  const size_t comma = text.find(',');
+  if (comma == text.npos || text.size() == 1) {
+    return absl::InvalidArgumentError("--range needs LOW,HIGH, not '" + std::string(text) + "'");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const double low, EndOf(text.substr(0, comma), -ForegroundRule::kOpen));
+  BCCSKEL_ASSIGN_OR_RETURN(const double high, EndOf(text.substr(comma + 1), ForegroundRule::kOpen));
+  return ForegroundRule::Range(low, high);
+}
+
+absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
+  if (!arguments.labels.empty()) return ForegroundRule::Labels(arguments.labels);
+  if (!arguments.range.empty()) return RangeOf(arguments.range);
+  if (arguments.threshold.has_value()) return ForegroundRule::From(*arguments.threshold);
+  if (arguments.below.has_value()) return ForegroundRule::Below(*arguments.below);
+  return ForegroundRule::NonZero();
+}
+
+}  // namespace
+
+void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
+  AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
+                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+  const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
+                                 const char* description) {
+    AddCount<uint32_t>(
+        command, name, [&chosen](uint32_t number) { chosen = number; }, description);
+  };
+  choose("--channel", arguments.open.channel,
+         "Of a TIFF file or OME-Zarr folder with several, from 0");
+  choose("--time", arguments.open.time, "Point of time of one with several, from 0");
+  choose("--level", arguments.open.level,
+         "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
+  command
+      .add_option("--series", arguments.open.series,
+                  "Of a folder of DICOM with several: its number or unique identifier")
+      ->option_text("SERIES");
+  AddRaw(command, arguments);
+}
+
+void AddMaskOptions(CLI::App& command, ImageArguments& arguments) {
+  AddForeground(command, arguments);
+  AddConversion(command, arguments);
+}
+
+void AddLabelOptions(CLI::App& command, ImageArguments& arguments) {
+  AddLabelList(command, arguments, "Only these labels, such as 3,7 or 1-85");
+  AddConversion(command, arguments);
+}
+
+void AddImage(CLI::App& command, ImageArguments& arguments) {
+  CLI::Option_group& group = *command.add_option_group(kGroup, "How an image becomes an object");
+  AddMaskOptions(group, arguments);
+  AddImageLayout(group, arguments);
+  group.parse_complete_callback([&group, &arguments] { arguments.given = group.count_all() > 0; });
+}
+
+void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
+  AddLabelOptions(command, arguments);
+  AddImageLayout(command, arguments);
+}
+
+void AddSkeletonImages(CLI::App& command, SkeletonImages& images) {
+  command
+      .add_option("--branch-image", images.branches,
+                  "Of an image: write which branch is nearest to each voxel of the object (.nrrd)")
+      ->option_text("FILE");
+  command
+      .add_option("--curve-image", images.curves,
+                  "Of an image: write the voxels that the curves run through (.nrrd)")
+      ->option_text("FILE");
+}
+
+absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(ForegroundRule rule, UprightRule(arguments));
+  return arguments.invert ? rule.Inverted() : rule;
+}
+
+namespace {
+
+MaskGrid GridOf(const ImageInfo& info) {
+  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
+}
+
+}  // namespace
+
+absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
+                                         KeptVoxels kept, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ForegroundRule rule, ForegroundOf(arguments));
+  const MaskGrid grid = GridOf(source.info());
+  BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
+  std::vector<uint64_t> words(grid.WordsPerSlice());
+  for (int32_t z = 0; z < grid.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    ForegroundSlice(slice, rule, words);
+    BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
+    if (kept == KeptVoxels::kNone) continue;
+    BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(words, context));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
+  ImageObject object = {std::move(mask.volume), {source.info(), mask.voxels, mask.mask}};
+  if (kept == KeptVoxels::kAll) {
+    BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
+  }
+  return object;
+}
+
+absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
+                                              uint64_t min_voxels, const exec::Context& context) {
+  CollectedLabels labels = {.info = source.info(), .objects = {}};
+  const MaskGrid grid = GridOf(labels.info);
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
+                           LabelCollector::Create(grid, {.labels = arguments.labels}));
+  std::vector<uint64_t> values(grid.VoxelsPerSlice());
+  for (int32_t z = 0; z < grid.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
+    BCCSKEL_RETURN_IF_ERROR(collector.AddSlice(values, context));
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
+  labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
+    return object.voxels < min_voxels;
+  });
+  return labels;
+}
+
+}  // namespace bccskel::cli

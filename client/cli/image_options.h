@@ -1,0 +1,100 @@
+#ifndef BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_
+#define BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/certificate/certificate.h"
+#include "core/exec/context.h"
+#include "core/import/image/foreground.h"
+#include "core/import/image/image_options.h"
+#include "core/import/image/image_source.h"
+#include "core/import/voxelize/voxelize.h"
+#include "core/labels/voxel_runs.h"
+#include "core/mask/mask_converter.h"
+#include "core/volume/volume.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bccskel::cli {
+
+// Adds the options that say how a mesh is filled with lattice points.
+void AddGrid(CLI::App& command, VoxelizeOptions& grid);
+
+// How an image becomes an object, as the command line says it.
+struct ImageArguments {
+  ImageOptions open;
+  std::vector<uint64_t> labels;
+  std::string range;  // "LOW,HIGH", an end left out is open
+  std::optional<double> threshold;
+  std::optional<double> below;
+  bool invert = false;
+  MaskOptions mask;
+  bool given = false;  // any of these options
+};
+
+// Images, on the grid of the one that was read, that show its skeleton. Empty: none.
+struct SkeletonImages {
+  std::string branches;  // the nearest branch of every voxel of the object
+  std::string curves;    // the voxels that curves run through
+
+  bool wanted() const { return !branches.empty() || !curves.empty(); }
+};
+
+// Adds the options that say which voxels are the object and how they become lattice points.
+void AddMaskOptions(CLI::App& command, ImageArguments& arguments);
+// The same for images of labels.
+void AddLabelOptions(CLI::App& command, ImageArguments& arguments);
+
+// Adds how the voxels of a file lie, in it and in the world.
+void AddImageLayout(CLI::App& command, ImageArguments& arguments);
+
+// Adds both, to a command that takes images.
+void AddImage(CLI::App& command, ImageArguments& arguments);
+// The same for a command that takes images of labels.
+void AddLabelImage(CLI::App& command, ImageArguments& arguments);
+
+void AddSkeletonImages(CLI::App& command, SkeletonImages& images);
+
+// Errors: INVALID_ARGUMENT, as ForegroundRule's.
+absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
+
+// What an image was before it became an object.
+struct ImageStage {
+  ImageInfo info;
+  uint64_t voxels = 0;  // of the foreground
+  BettiNumbers mask;    // counted on the image's own grid
+};
+
+struct ImageObject {
+  Volume volume;
+  ImageStage image;
+  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if wanted
+};
+
+enum class KeptVoxels : uint8_t { kNone, kAll };
+
+// Reads an image slice by slice and converts its foreground, which may be empty.
+// Errors: as NextSlice(), ForegroundOf() and MaskConverter.
+absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
+                                         KeptVoxels kept, const exec::Context& context);
+
+struct CollectedLabels {
+  ImageInfo info;
+  LabeledObjects objects;
+  uint64_t left_out = 0;  // labels with fewer voxels than wanted
+};
+
+// Gathers the wanted labels of an image that have `min_voxels` or more; there may be none.
+// Errors: as NextSlice(), LabelSlice() and LabelCollector.
+absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
+                                              uint64_t min_voxels, const exec::Context& context);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_

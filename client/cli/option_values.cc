@@ -1,0 +1,186 @@
+#include "client/cli/option_values.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "client/cli/image_options.h"
+#include "client/cli/thinning_options.h"
+
+namespace bccskel::cli {
+namespace {
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// Takes the digits in front of the text and appends them to `digits`.
+void TakeDigits(std::string_view& text, std::string& digits) {
+  const auto end = std::ranges::find_if_not(text, IsDigit);
+  const auto count = static_cast<size_t>(end - text.begin());
+  digits += text.substr(0, count);
+  text.remove_prefix(count);
+}
+
+// Takes "k", "M", "G" or "e6": how many zeros it stands for.
+std::optional<int> TakeZeros(std::string_view& text) {
+  if (text.empty()) return 0;
+  const char letter = text.front();
+  text.remove_prefix(1);
+  if (letter == 'k' || letter == 'K') return 3;
+  if (letter == 'M') return 6;
+  if (letter == 'G') return 9;
+  if (letter != 'e' && letter != 'E') return std::nullopt;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  std::string exponent;
+  TakeDigits(text, exponent);
+  if (exponent.empty() || exponent.size() > 2) return std::nullopt;
+  return std::stoi(exponent);
+}
+
+}  // namespace
+
+std::optional<uint64_t> ParseCount(std::string_view text) {
+  std::string digits, decimals;
+  TakeDigits(text, digits);
+  if (digits.empty()) return std::nullopt;
+  if (text.starts_with('.')) {
+    text.remove_prefix(1);
+    TakeDigits(text, decimals);
+    if (decimals.empty()) return std::nullopt;
+  }
+  const std::optional<int> zeros = TakeZeros(text);
+  if (!zeros.has_value() || !text.empty()) return std::nullopt;
+  decimals.resize(std::max(decimals.size(), static_cast<size_t>(*zeros)), '0');
+  const auto fraction = std::string_view(decimals).substr(static_cast<size_t>(*zeros));
+  if (fraction.find_first_not_of('0') != fraction.npos) return std::nullopt;
+  uint64_t count = 0;
+  for (const char digit : digits + decimals.substr(0, static_cast<size_t>(*zeros))) {
+    const bool fits = !__builtin_mul_overflow(count, uint64_t{10}, &count) &&
+                      !__builtin_add_overflow(count, static_cast<uint64_t>(digit - '0'), &count);
+    if (!fits) return std::nullopt;
+  }
+  return count;
+}
+
+namespace {
+
+std::string Exchange(std::string text, char from, char to) {
+  std::ranges::replace(text, from, to);
+  return text;
+}
+
+std::string FlagOf(const std::string& name) { return "--" + Exchange(name, '_', '-'); }
+
+absl::Status Wrong(std::string_view message) {
+  return absl::InvalidArgumentError(WithOptionNames(message));
+}
+
+// An App without --help, which points into what it fills: neither moves.
+template <typename Arguments>
+struct Reader {
+  CLI::App app;
+  Arguments arguments;
+
+  Reader() { app.set_help_flag(); }
+
+  absl::Status Read(const std::vector<NamedOption>& options) {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : options) {
+      if (app.get_option_no_throw(FlagOf(name)) == nullptr) return absl::NotFoundError(name);
+      words.push_back(value.has_value() ? FlagOf(name) + "=" + *value : FlagOf(name));
+    }
+    std::ranges::reverse(words);  // the order that CLI11 takes a vector in
+    try {
+      app.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+      return Wrong(error.what());
+    }
+    const auto complaint = ComplaintAboutOptions(arguments.skeletonize);
+    return complaint.has_value() ? Wrong(*complaint) : absl::OkStatus();
+  }
+};
+
+struct ObjectReader : Reader<SkeletonizeArguments> {
+  explicit ObjectReader(OptionSet set) {
+    if (set == OptionSet::kFile) {
+      AddImageLayout(app, arguments.image);
+      return;
+    }
+    if (set == OptionSet::kMesh) AddGrid(app, arguments.grid);
+    if (set == OptionSet::kMask) AddMaskOptions(app, arguments.image);
+    AddSkeletonOptions(app, arguments.skeletonize, arguments.root);
+  }
+};
+
+struct LabelsReader : Reader<LabelsArguments> {
+  LabelsReader() {
+    AddLabelOptions(app, arguments.image);
+    AddMinVoxels(app, arguments.min_voxels);
+    AddSkeletonOptions(app, arguments.skeletonize, arguments.root);
+  }
+};
+
+template <typename Use>
+auto WithApp(OptionSet set, Use use) {
+  if (set == OptionSet::kLabels) return use(LabelsReader().app);
+  return use(ObjectReader(set).app);
+}
+
+}  // namespace
+
+std::string WithOptionNames(std::string_view message) {
+  std::string text;
+  bool in_name = false;
+  while (!message.empty()) {
+    const bool begins = text.empty() || text.back() == ' ' || text.back() == '(';
+    if (begins && message.starts_with("--")) {
+      in_name = true;
+      message.remove_prefix(2);
+      continue;
+    }
+    const char c = message.front();
+    in_name = in_name && (std::islower(static_cast<unsigned char>(c)) != 0 || c == '-');
+    text += in_name && c == '-' ? '_' : c;
+    message.remove_prefix(1);
+  }
+  return text;
+}
+
+std::vector<std::string> OptionNames(OptionSet set) {
+  return WithApp(set, [](const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) {
+        names.push_back(Exchange(name, '-', '_'));
+      }
+    }
+    return names;
+  });
+}
+
+bool IsFlag(OptionSet set, const std::string& name) {
+  return WithApp(set, [&](const CLI::App& app) {
+    return app.get_option(FlagOf(name))->get_items_expected_max() == 0;
+  });
+}
+
+absl::StatusOr<SkeletonizeArguments> ReadNamedOptions(OptionSet set,
+                                                      const std::vector<NamedOption>& options) {
+  ObjectReader reader(set);
+  const absl::Status status = reader.Read(options);
+  if (!status.ok()) return status;
+  const absl::Status rule = ForegroundOf(reader.arguments.image).status();
+  if (!rule.ok()) return Wrong(std::string(rule.message()));
+  return std::move(reader.arguments);
+}
+
+absl::StatusOr<LabelsArguments> ReadLabelsOptions(const std::vector<NamedOption>& options) {
+  LabelsReader reader;
+  const absl::Status status = reader.Read(options);
+  if (!status.ok()) return status;
+  const auto complaint = ComplaintAboutRootOfLabels(reader.arguments.root);
+  if (complaint.has_value()) return Wrong(*complaint);
+  return std::move(reader.arguments);
+}
+
+}  // namespace bccskel::cli

@@ -1,0 +1,119 @@
+#ifndef BCCSKEL_CLIENT_CLI_OPTION_VALUES_H_
+#define BCCSKEL_CLIENT_CLI_OPTION_VALUES_H_
+
+#include <CLI/CLI.hpp>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+
+namespace bccskel::cli {
+
+// "a", "a or b", "a, b or c".
+inline std::string OneOf(const std::vector<std::string>& words) {
+  std::string text;
+  for (size_t n = 0; n < words.size(); ++n) {
+    text += (n == 0 ? "" : n + 1 < words.size() ? ", " : " or ") + words[n];
+  }
+  return text;
+}
+
+// An option with a few words as its values. CLI11's own complaint about another word shows the
+// numbers of the enumeration.
+template <typename Enum>
+CLI::Option* AddChoice(CLI::App& command, const std::string& name, std::function<void(Enum)> use,
+                       const char* description,
+                       const std::vector<std::pair<std::string, Enum>>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, meaning] : choices) words.push_back(word);
+  const auto read = [name, use, choices, words](const std::string& given) {
+    for (const auto& [word, meaning] : choices) {
+      if (word == given) return use(meaning);
+    }
+    throw CLI::ValidationError(name + " " + given + ": must be " + OneOf(words));
+  };
+  return command.add_option_function<std::string>(name, read, description)
+      ->option_text(CLI::detail::join(words, "|"));
+}
+
+template <typename Enum>
+CLI::Option* AddChoice(CLI::App& command, const std::string& name, Enum& value,
+                       const char* description,
+                       const std::vector<std::pair<std::string, Enum>>& choices) {
+  return AddChoice<Enum>(
+      command, name, [&value](Enum chosen) { value = chosen; }, description, choices);
+}
+
+// The words of a table of core/pipeline/option_words.h as choices.
+template <typename Table>
+auto Choices(const Table& table) {
+  using Enum = decltype(table.front().second);
+  return std::vector<std::pair<std::string, Enum>>(table.begin(), table.end());
+}
+
+// A whole number from 0 on: 850000, 850k, 1.5M, 2G, 1e6; nothing for another text.
+std::optional<uint64_t> ParseCount(std::string_view text);
+
+// CLI11 would take -3 for a huge one, and 010 for 8.
+template <std::unsigned_integral Number>
+Number ReadCount(const std::string& name, const std::string& given) {
+  const std::optional<uint64_t> number = ParseCount(given);
+  if (number.has_value() && *number <= std::numeric_limits<Number>::max()) {
+    return static_cast<Number>(*number);
+  }
+  throw CLI::ValidationError(name + " " + given + ": must be a whole number from 0 to " +
+                             std::to_string(std::numeric_limits<Number>::max()) +
+                             ", such as 850000, 850k, 4M or 1e6");
+}
+
+template <std::unsigned_integral Number>
+CLI::Option* AddCount(CLI::App& command, const std::string& name, std::function<void(Number)> use,
+                      const char* description) {
+  const auto read = [name, use](const std::string& given) { use(ReadCount<Number>(name, given)); };
+  return command.add_option_function<std::string>(name, read, description)->option_text("N");
+}
+
+template <std::unsigned_integral Number>
+CLI::Option* AddCount(CLI::App& command, const std::string& name, Number& value,
+                      const char* description) {
+  return AddCount<Number>(
+      command, name, [&value](Number count) { value = count; }, description);
+}
+
+// An option of the command line as another language names and gives it: {"pruning_threshold", "1"}.
+struct NamedOption {
+  std::string name;
+  std::optional<std::string> value;  // none: a flag that is set
+};
+
+enum class OptionSet { kMask, kMesh, kLabels, kFile };
+
+// A message with the names of options as they are here: "--fill-cavities helps" becomes
+// "fill_cavities helps".
+std::string WithOptionNames(std::string_view message);
+
+// The names that a set has, in the order of --help.
+std::vector<std::string> OptionNames(OptionSet set);
+// Whether an option is a flag. Needs: a name of the set.
+bool IsFlag(OptionSet set, const std::string& name);
+
+// What `skeletonize` makes of the options for a mask, a mesh or how a file is read: no input, no
+// outputs.
+// Errors: INVALID_ARGUMENT for values that are wrong or contradict each other; messages use the
+//         names given here. NOT_FOUND for a name that the set does not contain.
+absl::StatusOr<SkeletonizeArguments> ReadNamedOptions(OptionSet set,
+                                                      const std::vector<NamedOption>& options);
+// The same for `labels`.
+absl::StatusOr<LabelsArguments> ReadLabelsOptions(const std::vector<NamedOption>& options);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_OPTION_VALUES_H_

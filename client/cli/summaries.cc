@@ -1,0 +1,300 @@
+#include "client/cli/summaries.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "client/cli/load_object.h"
+#include "client/export/picture/caption.h"
+#include "client/export/text.h"
+
+namespace bccskel::cli {
+namespace {
+
+// Length of the UTF-8 sequence at the front, 0 if there is none (RFC 3629).
+size_t Utf8Length(std::string_view text) {
+  const auto byte = [&](size_t n) { return static_cast<uint8_t>(text[n]); };
+  const uint8_t first = byte(0);
+  const size_t length = first < 0x80   ? 1
+                        : first < 0xc2 ? 0
+                        : first < 0xe0 ? 2
+                        : first < 0xf0 ? 3
+                                       : 4;
+  if (length == 0 || first > 0xf4 || length > text.size()) return 0;
+  for (size_t n = 1; n < length; ++n) {
+    if ((byte(n) & 0xc0) != 0x80) return 0;
+  }
+  if (length == 1) return 1;
+  const uint8_t second = byte(1);
+  const bool too_long = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
+  const bool no_character = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
+  return too_long || no_character ? 0 : length;
+}
+
+std::string ControlEscape(char c) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const auto byte = static_cast<uint8_t>(c);
+  return {'\\', 'u', '0', '0', kHex[byte >> 4], kHex[byte & 15]};
+}
+
+}  // namespace
+
+std::string JsonString(std::string_view text) {
+  std::string json = "\"";
+  while (!text.empty()) {
+    const size_t length = Utf8Length(text);
+    const char c = text.front();
+    if (length == 0) {
+      json += "\\ufffd";
+    } else if (c == '"' || c == '\\') {
+      json += {'\\', c};
+    } else if (static_cast<uint8_t>(c) < 0x20) {
+      json += ControlEscape(c);
+    } else {
+      json += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return json + '"';
+}
+
+namespace {
+
+using exporting::GroupedDigits;
+using exporting::Text;
+
+std::string_view ClosureName(SurfaceClosure closure) {
+  switch (closure) {
+    case SurfaceClosure::kOpen:
+      return "open";
+    case SurfaceClosure::kClosed:
+      return "closed";
+    case SurfaceClosure::kOriented:
+      return "oriented";
+  }
+  return "";  // not reached: the enumerators are exhausted above
+}
+
+void AddClosure(Text& text, const MeshReport& report) {
+  if (report.watertight()) {
+    text.Add("watertight");
+  } else {
+    text.Add("not watertight (", GroupedDigits(report.boundary_edges), " boundary edges, ",
+             GroupedDigits(report.non_manifold_edges), " non-manifold edges)");
+  }
+}
+
+void AddTriple(Text& text, const std::array<double, 3>& values) {
+  text.Add('[', values[0], ',', values[1], ',', values[2], ']');
+}
+
+// JSON has no infinities.
+void AddNumberOrNull(Text& text, double value) {
+  if (std::isfinite(value)) {
+    text.Add(value);
+  } else {
+    text.Add("null");
+  }
+}
+
+void AddGenus(Text& text, const std::optional<int64_t>& genus) {
+  if (genus.has_value()) {
+    text.Add(*genus);
+  } else {
+    text.Add("null");
+  }
+}
+
+void AddSolid(Text& text, const std::optional<SolidTopology>& solid) {
+  if (!solid.has_value()) {
+    text.Add("null");
+    return;
+  }
+  text.Add("{\"components\":", solid->components, ",\"loops\":", solid->loops,
+           ",\"cavities\":", solid->cavities, '}');
+}
+
+std::string_view JsonBool(bool value) { return value ? "true" : "false"; }
+
+}  // namespace
+
+std::string MeshPhrase(const MeshReport& report) {
+  Text text;
+  text.Add(GroupedDigits(report.vertices), " vertices, ", GroupedDigits(report.triangles),
+           " triangles, ");
+  AddClosure(text, report);
+  if (report.genus.has_value()) text.Add(", genus ", *report.genus);
+  return std::move(text).Take();
+}
+
+std::string MeshText(const MeshReport& report) {
+  Text text;
+  text.Add("vertices:    ", GroupedDigits(report.vertices), '\n');
+  text.Add("triangles:   ", GroupedDigits(report.triangles), " (",
+           GroupedDigits(report.dropped_triangles), " degenerate ones dropped)\n");
+  text.Add("surface:     ");
+  AddClosure(text, report);
+  text.Add(report.consistently_oriented() ? ", consistently oriented" : ", orientation mixed",
+           '\n');
+  text.Add("components:  ", report.components.size(), '\n');
+  if (report.genus.has_value()) text.Add("genus:       ", *report.genus, '\n');
+  if (const auto solid = report.SolidByWinding(); solid.has_value()) {
+    text.Add("solid:       ",
+             exporting::BettiPhrase({solid->components, solid->loops, solid->cavities}), '\n');
+  }
+  text.Add("box:         ");
+  AddTriple(text, report.lower);
+  text.Add(" to ");
+  AddTriple(text, report.upper);
+  text.Add("\nvolume:      ", report.volume, '\n');
+  return std::move(text).Take();
+}
+
+std::string MeshJson(const MeshReport& report) {
+  Text text;
+  text.Add("{\"vertices\":", report.vertices, ",\"triangles\":", report.triangles,
+           ",\"dropped_triangles\":", report.dropped_triangles,
+           ",\"boundary_edges\":", report.boundary_edges,
+           ",\"non_manifold_edges\":", report.non_manifold_edges,
+           ",\"misoriented_edges\":", report.misoriented_edges, ",\"closure\":\"",
+           ClosureName(report.closure), "\",\"watertight\":", JsonBool(report.watertight()),
+           ",\"consistently_oriented\":", JsonBool(report.consistently_oriented()),
+           ",\"components\":", report.components.size(), ",\"genus\":");
+  AddGenus(text, report.genus);
+  text.Add(",\"solid\":");
+  AddSolid(text, report.SolidByWinding());
+  text.Add(",\"volume\":");
+  AddNumberOrNull(text, report.volume);
+  text.Add(",\"box\":[");
+  AddTriple(text, report.lower);
+  text.Add(',');
+  AddTriple(text, report.upper);
+  text.Add("]}");
+  return std::move(text).Take();
+}
+
+std::string FillRuleName(FillRule rule) {
+  switch (rule) {
+    case FillRule::kAuto:
+      return "auto";
+    case FillRule::kParity:
+      return "parity";
+    case FillRule::kWinding:
+      return "winding";
+  }
+  return "";  // not reached: the enumerators are exhausted above
+}
+
+namespace {
+
+using exporting::GroupedDigits;
+using exporting::Text;
+
+template <typename Values>
+void AddList(Text& text, const Values& values) {
+  char separator = '[';
+  for (const double value : values) {
+    text.Add(separator, value);
+    separator = ',';
+  }
+  text.Add(']');
+}
+
+}  // namespace
+
+std::string BettiJson(const BettiNumbers& betti) {
+  Text text;
+  text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,
+           ",\"cavities\":", betti.cavities, '}');
+  return std::move(text).Take();
+}
+
+std::string PlacementJson(const Placement& placement) {
+  Text text;
+  text.Add("\"spacing\":");
+  AddList(text, placement.spacing);
+  text.Add(",\"origin\":");
+  AddList(text, placement.origin);
+  text.Add(",\"direction\":");
+  AddList(text, placement.direction);
+  return std::move(text).Take();
+}
+
+std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti) {
+  const LatticeExtent& extent = volume.extent();
+  const Placement& placement = volume.placement();
+  Text text;
+  text.Add("extent:      ", extent.nx, " x ", extent.ny, " x ", extent.nz, " cells\n");
+  text.Add("spacing:     ", placement.spacing[0], " x ", placement.spacing[1], " x ",
+           placement.spacing[2], '\n');
+  text.Add("origin:      ", placement.origin[0], ' ', placement.origin[1], ' ', placement.origin[2],
+           '\n');
+  text.Add("points:      ", GroupedDigits(volume.PointCount()), " in ",
+           GroupedDigits(volume.brick_count()), " bricks\n");
+  if (betti.has_value()) text.Add("topology:    ", exporting::BettiPhrase(*betti), '\n');
+  return std::move(text).Take();
+}
+
+std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti) {
+  const LatticeExtent& extent = volume.extent();
+  Text text;
+  text.Add("{\"extent\":[", extent.nx, ',', extent.ny, ',', extent.nz, "],",
+           PlacementJson(volume.placement()));
+  text.Add(",\"points\":", volume.PointCount(), ",\"bricks\":", volume.brick_count());
+  if (betti.has_value()) text.Add(",\"topology\":", BettiJson(*betti));
+  text.Add('}');
+  return std::move(text).Take();
+}
+
+namespace {
+
+using exporting::GroupedDigits;
+using exporting::Text;
+
+void AddGrid(Text& text, const ImageInfo& info) {
+  text.Add(info.size.nx, " x ", info.size.ny, " x ", info.size.nz, ' ', VoxelTypeName(info.type));
+}
+
+}  // namespace
+
+std::string ImagePhrase(const ImageStage& image) {
+  Text text;
+  text.Add(image.info.format, ", ");
+  AddGrid(text, image.info);
+  text.Add(", ", GroupedDigits(image.voxels), " voxels");
+  return std::move(text).Take();
+}
+
+std::string ImageText(const ImageStage& image) {
+  const ImageInfo& info = image.info;
+  const Placement& placement = info.placement;
+  Text text;
+  text.Add("format:      ", info.format, "\nsize:        ");
+  AddGrid(text, info);
+  text.Add("\nspacing:     ", placement.spacing[0], " x ", placement.spacing[1], " x ",
+           placement.spacing[2], info.unit.empty() ? "" : " ", info.unit, '\n');
+  text.Add("origin:      ", placement.origin[0], ' ', placement.origin[1], ' ', placement.origin[2],
+           info.world.empty() ? "" : " ", info.world, '\n');
+  text.Add("foreground:  ", GroupedDigits(image.voxels), " voxels\n");
+  text.Add("topology:    ", exporting::BettiPhrase(image.mask), '\n');
+  return std::move(text).Take();
+}
+
+std::string ImageJson(const ImageStage& image, const std::string& members) {
+  const ImageInfo& info = image.info;
+  Text text;
+  text.Add("{\"format\":", JsonString(info.format), ",\"size\":[", info.size.nx, ',', info.size.ny,
+           ',', info.size.nz, "],\"type\":", JsonString(VoxelTypeName(info.type)), ',',
+           PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
+           ",\"world\":", JsonString(info.world), ",\"voxels\":", image.voxels,
+           ",\"topology\":", BettiJson(image.mask));
+  text.Add(members);
+  return std::move(text.Add('}')).Take();
+}
+
+}  // namespace bccskel::cli

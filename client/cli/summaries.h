@@ -1,0 +1,83 @@
+#ifndef BCCSKEL_CLIENT_CLI_SUMMARIES_H_
+#define BCCSKEL_CLIENT_CLI_SUMMARIES_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/cli/arguments.h"
+#include "client/cli/load_object.h"
+#include "core/certificate/certificate.h"
+#include "core/import/mesh/mesh_report.h"
+#include "core/import/voxelize/voxelize.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/volume/volume.h"
+
+namespace bccskel::cli {
+
+// The text as a JSON string with its quotes. Bytes that are not UTF-8, as file names may hold,
+// become U+FFFD.
+std::string JsonString(std::string_view text);
+
+// "2,775 vertices, 5,558 triangles, watertight, genus 3".
+std::string MeshPhrase(const MeshReport& report);
+
+// Everything that is known about a mesh, a line each; and the same as a JSON object.
+std::string MeshText(const MeshReport& report);
+std::string MeshJson(const MeshReport& report);
+
+// "parity" or "winding".
+std::string FillRuleName(FillRule rule);
+
+// Everything that is known about a volume, a line each; and the same as a JSON object. Betti
+// numbers where they have been counted.
+std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti);
+std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti);
+
+std::string BettiJson(const BettiNumbers& betti);
+
+// "spacing":[...],"origin":[...],"direction":[...]
+std::string PlacementJson(const Placement& placement);
+
+// "NIfTI-1, 101 x 101 x 41 uint8, 50,899 voxels".
+std::string ImagePhrase(const ImageStage& image);
+
+// Everything that is known about an image and its foreground, a line each; and the same as a JSON
+// object, with more members where there are some.
+std::string ImageText(const ImageStage& image);
+std::string ImageJson(const ImageStage& image, const std::string& members = "");
+
+struct WrittenFile {
+  std::string path;
+  std::string note;  // what its format could not hold; may be empty
+};
+
+// What became of a mesh before thinning.
+struct MeshStage {
+  MeshReport mesh;
+  FillRule fill = FillRule::kParity;
+  std::vector<std::string> warnings;
+};
+
+// All that `skeletonize` and `submit` have to say at their end.
+struct SkeletonSummary {
+  const SkeletonizeArguments& arguments;
+  const Volume& object;
+  const SkeletonizeResult& result;
+  std::optional<MeshStage> mesh;
+  std::optional<ImageStage> image;
+  std::vector<WrittenFile> files;
+  double seconds = 0;  // from start to end, as the user waited
+};
+
+// "denoised in 2 passes +3 -40, 5 cavities filled +60": with points added and removed.
+std::string PreparingPhrase(const std::vector<PreparingStep>& steps);
+
+std::string SkeletonSummaryText(const SkeletonSummary& summary);
+// One JSON object on one line; README.md of this folder lists its keys.
+std::string SkeletonSummaryJson(const SkeletonSummary& summary);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_SUMMARIES_H_

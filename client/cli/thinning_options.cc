@@ -1,0 +1,247 @@
+#include "client/cli/thinning_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "client/cli/option_values.h"
+#include "core/pipeline/canonical_options.h"
+#include "core/pipeline/option_words.h"
+#include "core/pipeline/presets.h"
+
+namespace bccskel::cli {
+namespace {
+
+// CLI11 takes the options in the order in which they were added: what is given by itself comes
+// later and stays.
+void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
+  std::vector<std::string> names;
+  std::string text = "Options for a kind of data; explicit options override them:";
+  for (const Preset& preset : Presets()) {
+    names.push_back(preset.name);
+    text += std::string("\n") + preset.name + " = " + OptionsOf(preset) + ": " + preset.data;
+  }
+  command
+      .add_option_function<std::string>(
+          "--preset",
+          [&options](const std::string& name) {
+            const absl::Status known = ApplyPreset(name, options);
+            if (!known.ok()) throw CLI::ValidationError("--" + std::string(known.message()));
+          },
+          text)
+      ->option_text(CLI::detail::join(names, "|"));
+}
+
+void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
+  command
+      .add_option("--denoise", preparing.denoise_passes,
+                  "First set every point to the majority around it, so many times, up to 16; "
+                  "destroys what is one or two lattice units thick (default 0)")
+      ->option_text("N");
+  command.add_flag_callback(
+      "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
+      "Fill the cavities of the object, which leave closed surfaces in a skeleton");
+  command
+      .add_option("--cut-loops", preparing.tunnel_width,
+                  "Fill tunnels that are narrower, in world units, each of which makes a loop "
+                  "(default 0: none)")
+      ->option_text("X");
+  AddCount(command, "--min-component", preparing.min_component_points,
+           "Drop components of fewer points (default 0)");
+  command
+      .add_option("--min-component-volume", preparing.min_component_volume,
+                  "Drop components of a smaller volume, in cubic world units (default 0)")
+      ->option_text("X");
+  command.add_flag_callback(
+      "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
+      "Drop all components but the largest");
+}
+
+void AddDistance(CLI::App& command, DistanceKind& distance) {
+  AddChoice<DistanceKind>(command, "--distance", distance,
+                          "How the distances that make the shells are measured (default euclidean)",
+                          Choices(kDistanceWords));
+}
+
+void AddPruning(CLI::App& command, PruningOptions& pruning) {
+  AddChoice<PruningRule>(command, "--pruning", pruning.rule,
+                         "Which branches with a free end to remove (default significance)",
+                         Choices(kPruningWords));
+  command
+      .add_option("--pruning-threshold", pruning.threshold,
+                  "How far a branch must stick out: half-widths of the object beside it for "
+                  "significance (default 0.45), world units for length, radii of the junction for "
+                  "relative-length (default 1), passes "
+                  "of thinning for persistence (default 6)")
+      ->option_text("X");
+  AddChoice<TipPlacement>(
+      command, "--tips", pruning.tips,
+      "Where branches end: where the ridge of the distances does (default), or as thinned",
+      Choices(kTipsWords));
+}
+
+void AddJunctions(CLI::App& command, double& reach) {
+  command
+      .add_option("--merge-junctions", reach,
+                  "Make one node of junctions that lie within so many radii of the deepest of "
+                  "them or of thinner limbs, up to 4; 0 leaves all (default 1.25)")
+      ->option_text("X");
+}
+
+void AddBorder(CLI::App& command, Border& border) {
+  AddChoice<Border>(command, "--border", border,
+                    "What lies beyond the border of an image or a volume: nothing (default), or "
+                    "more of what is cut off there, which then runs straight to the border",
+                    Choices(kBorderWords));
+}
+
+void AddThinning(CLI::App& command, ThinningOptions& thinning) {
+  AddChoice<ThinningMethod>(command, "--method", thinning.method,
+                            "How points are chosen for removal (default symmetric)",
+                            Choices(kMethodWords));
+  AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
+                          "What to keep; all but curve (default) need the symmetric method",
+                          Choices(kKindWords));
+  AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
+                           "Which stubble points to remove (default keep-two)",
+                           Choices(kStubbleWords));
+  command
+      .add_option("--shell-width", thinning.shell_width,
+                  "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")
+      ->option_text("X");
+  command
+      .add_option("--last-shell", thinning.last_shell,
+                  "Stop after this shell; 0 thins to the end (default)")
+      ->option_text("N");
+  command.add_flag_callback(
+      "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
+      "Leave the simple points that parallel thinning leaves");
+}
+
+}  // namespace
+
+void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
+                        std::optional<RootChoice>& root) {
+  AddPreset(command, options);
+  AddPreparing(command, options.preparing);
+  AddDistance(command, options.distance);
+  AddPruning(command, options.pruning);
+  AddJunctions(command, options.junction_reach);
+  AddBorder(command, options.border);
+  AddThinning(command, options.thinning);
+  AddRoot(command, root);
+}
+
+namespace {
+
+RootChoice ReadRoot(const std::string& text) {
+  RootChoice choice;
+  if (text == "thickest-end") return choice;
+  const auto all_read = [&](int end) { return text.size() == static_cast<size_t>(end); };
+  int end = 0;
+  if (text.starts_with("node:")) {
+    choice.rule = RootChoice::Rule::kNode;
+    choice.node = ReadCount<uint32_t>("--root node", text.substr(5));
+    return choice;
+  }
+  WorldPoint& p = choice.point;
+  choice.rule = RootChoice::Rule::kNearestNode;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &p[0], &p[1], &p[2], &end) == 3 && all_read(end) &&
+      std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) {
+    return choice;
+  }
+  throw CLI::ValidationError("--root " + text +
+                             ": must be thickest-end, a point like 1.5,20,3 or a node like node:7");
+}
+
+}  // namespace
+
+void AddRoot(CLI::App& command, std::optional<RootChoice>& root) {
+  command
+      .add_option_function<std::string>(
+          "--root", [&root](const std::string& text) { root = ReadRoot(text); },
+          "Order the skeleton as trees from here: generation, Strahler order and way to the root; "
+          "edges that close loops are left out")
+      ->option_text("thickest-end|X,Y,Z|node:N");
+}
+
+void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling) {
+  command
+      .add_option("--swc-step", sampling.step,
+                  "Distance of SWC's points along the smooth curve, in the world's unit; 0: the "
+                  "lattice points, not smoothed (default twice the smallest spacing)")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()))
+      ->option_text("LENGTH");
+}
+
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
+  AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
+}
+
+void AddLabels(CLI::App& command, LabelsArguments& arguments) {
+  command.add_option("IMAGE", arguments.input, "Image file of labels")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: with {label} in its path one file per label, in any format but "
+                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or "
+                  ".precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+  AddSwcStep(command, arguments.swc);
+  AddLabelImage(command, arguments.image);
+  AddMinVoxels(command, arguments.min_voxels);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  command.add_flag_callback(
+      "--local", [] {}, "Allowed, and does nothing: labels are always computed here");
+}
+
+namespace {
+
+using Complaint = std::optional<std::string>;
+
+// Options of pruning that would do nothing.
+Complaint PruningComplaint(const SkeletonizeOptions& options) {
+  const PruningOptions& pruning = options.pruning;
+  if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
+    return "--pruning-threshold is for a rule of pruning, not for --pruning none";
+  }
+  const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
+  if (!asked || HasCurves(options.thinning)) return std::nullopt;
+  if (HasSheets(options.thinning)) {
+    if (pruning.tips == TipPlacement::kRidge) return std::nullopt;
+    return "--tips is for curves, and --kind surface has none";
+  }
+  const std::string why =
+      options.thinning.last_shell > 0
+          ? "--last-shell stops before there are curves"
+          : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
+  return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
+}
+
+Complaint JunctionComplaint(const SkeletonizeOptions& options) {
+  const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
+  if (!asked || HasGraphOfCurves(options.thinning)) return std::nullopt;
+  return "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell";
+}
+
+}  // namespace
+
+std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options) {
+  const absl::Status sound = CheckSkeletonizeOptions(options);
+  if (!sound.ok()) return std::string(sound.message());
+  if (Complaint c = JunctionComplaint(options); c.has_value()) return c;
+  return PruningComplaint(options);
+}
+
+std::optional<std::string> ComplaintAboutRootOfLabels(const std::optional<RootChoice>& root) {
+  if (!root.has_value() || root->rule != RootChoice::Rule::kNode) return std::nullopt;
+  return "--root node:N names a node of one skeleton; labels have many";
+}
+
+}  // namespace bccskel::cli

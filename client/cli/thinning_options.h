@@ -1,0 +1,43 @@
+#ifndef BCCSKEL_CLIENT_CLI_THINNING_OPTIONS_H_
+#define BCCSKEL_CLIENT_CLI_THINNING_OPTIONS_H_
+
+#include <optional>
+#include <string>
+
+#include "client/cli/arguments.h"
+#include "client/export/point_forest.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/skeleton/tree_order.h"
+
+namespace CLI {
+class App;
+}
+
+namespace bccskel::cli {
+
+// Adds the options that say what is done to an object before, how it is thinned, what is pruned and
+// where its trees begin; and the presets of them, which single options overrule.
+void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
+                        std::optional<RootChoice>& root);
+
+// Adds --root: where trees begin, and with it that they are ordered.
+void AddRoot(CLI::App& command, std::optional<RootChoice>& root);
+
+// --swc-step.
+void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling);
+
+// Adds --min-voxels.
+void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
+
+// Adds the options of `labels` without those that all commands know.
+void AddLabels(CLI::App& command, LabelsArguments& arguments);
+
+// What is wrong with options of a skeleton that are right one by one; nothing where they fit.
+std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options);
+
+// The same for where the trees of many skeletons begin.
+std::optional<std::string> ComplaintAboutRootOfLabels(const std::optional<RootChoice>& root);
+
+}  // namespace bccskel::cli
+
+#endif  // BCCSKEL_CLIENT_CLI_THINNING_OPTIONS_H_

@@ -1,0 +1,38 @@
+#ifndef BCCSKEL_CORE_PIPELINE_PRUNED_GRAPHS_H_
+#define BCCSKEL_CORE_PIPELINE_PRUNED_GRAPHS_H_
+
+#include <cstdint>
+#include <functional>
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+#include "core/pruning/prune.h"
+#include "core/skeleton/skeleton_graph.h"
+
+namespace bccskel {
+
+// Sets the level of each edge: the largest of its points, since an edge stays as long as a part of
+// it. Errors: those of the context.
+absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
+                              SkeletonGraph& graph);
+
+// Receives the level and what pruning by a threshold just above it leaves.
+using OnPrunedGraph = std::function<void(double, const SkeletonGraph&)>;
+
+// Does:  prunes the graph of a result further, level by level of its edges, and calls `visit` for
+//        each in ascending order. Branches are removed as by Prune(), then the points are traced
+//        and junctions merged as for any result, so nodes and edges are those of another run with
+//        that threshold. Tips stay where they are; where another run moves one, widths of limbs may
+//        differ so little that junctions at the edge of their reach are merged in one of the two.
+//        Levels below the 10 largest are visited in equal steps where tracing for each of them
+//        would take more than `most_points` points in total.
+// Shapes: a result's graph, as MergeJunctions() with `junction_reach` left it. Graphs visited have
+//         the same placement, and the births and shifts of their points.
+// Errors: those of the context and of Volume::Create().
+absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reach,
+                                uint64_t most_points, const exec::Context& context,
+                                const OnPrunedGraph& visit);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_PRUNED_GRAPHS_H_
