@@ -41,6 +41,8 @@ struct ActiveRun {
   std::set<int64_t> jobs;
   int crashes = 0;      // of the server, of the job that it was begun for
   bool ending = false;  // nobody joins any more
+  std::chrono::steady_clock::time_point fed;  // when it was given its volume
+  bool computed = false;                      // its result is being written
 };
 // A job's new state, and the event that tells it; none where the job had ended before.
 struct Step {

@@ -13,8 +13,8 @@
 namespace bccskel::server {
 namespace {
 
-// Reading and writing files overlaps with decoding and flushing.
-constexpr int kFileThreads = 2;
+// Most of their time they wait for the disk. One tenant may have all but one.
+constexpr int kFileThreads = 4;
 constexpr std::chrono::milliseconds kTick(100);
 
 absl::Status UnknownData(const std::string& folder, size_t files) {

@@ -25,6 +25,7 @@
 #include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/durable/run.h"
+#include "server/durable/run_pace.h"
 #include "server/durable/stored_result.h"
 #include "server/durable/upload_session.h"
 #include "server/durable/watch_board.h"
@@ -291,15 +292,16 @@ class DurableJobs final : public RunObserver {
   void Schedule();
   enum class Begun { kYes, kNothingNow };
   Begun BeginNext();
-  Begun BeginJob(const JobRow& job);
-  Begun StartRun(const JobRow& job, const VolumeRow& volume);
+  Begun BeginJob(const JobRow& job, bool ahead);
+  Begun StartRun(const JobRow& job, const VolumeRow& volume, bool ahead);
   ActiveRun* EqualRun(const JobRow& job, const VolumeRow& volume);
   std::map<std::string, int> RunsOfTenants() const;
-  int CountRunsFromFiles(int least_crashes) const;
+  int CountRunsFromFiles(std::function<bool(const ActiveRun&)> which) const;
   ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
   void Attach(ActiveRun& run, int64_t job);
   void Detach(int64_t job);
   void Feed(Run* run, const VolumeRow& volume);
+  void RunComputed(Run* run);
   void RunEnded(Run* run, const absl::StatusOr<ResultRow>& result);
   void StoreResult(Run* run, const ResultRow& row);
   absl::Status StoreResultOf(JobStore& store, Storing& storing);
@@ -374,6 +376,8 @@ class DurableJobs final : public RunObserver {
   WatchBoard watches_;
   std::map<int64_t, ActiveJob> active_;
   std::map<Run*, ActiveRun> runs_;
+  RunPace pace_;
+  std::optional<int64_t> next_;  // the job whose turn it is, and which waits for a place
   std::vector<std::function<void()>> retries_;
   std::set<int64_t>
       waits_for_equal_;  // jobs in the queue's turn, while an equal one runs elsewhere

@@ -10,7 +10,6 @@ namespace bccskel::server {
 struct DurableJobs::Storing {
   std::shared_ptr<Run> run;
   ResultRow row;
-  int64_t number = 0;  // of the result with this key
   std::vector<Step> steps;
   bool needless = false;  // nobody wants it, or an equal one was there
 };
@@ -26,6 +25,7 @@ void DurableJobs::VolumeKnown(const std::shared_ptr<Run>& run, const std::string
   const auto found = runs_.find(run.get());
   if (found == runs_.end() || found->second.ending) return;
   ActiveRun& active = found->second;
+  if (active.volume_digest == digest) return;  // it was looked for already
   active.volume_digest = digest;
   const std::string key = ResultKey(digest, active.options);
   loop_.Post(
@@ -161,12 +161,24 @@ void DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
     });
   }
   const auto held = std::make_shared<std::optional<JobResult>>(*std::move(result));
+  loop_.Post([this, run] { RunComputed(run.get()); });
   files_.Post({.tenant = run->tenant()}, [this, run, held] {
     absl::StatusOr<ResultRow> row = WriteResult(**held, *run, codec_, blobs_, quota_);
     held->reset();  // its memory is admitted until here
     if (!row.ok()) row = WithDiskReason(row.status());
     loop_.Post([this, run, row = std::move(row)] { RunEnded(run.get(), row); });
   });
+}
+
+// Its place is free while the result is written and stored.
+void DurableJobs::RunComputed(Run* run) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end()) return;
+  found->second.computed = true;
+  if (found->second.source == ActiveRun::Source::kFile) {
+    pace_.Computed(found->second.fed, RunPace::Clock::now());
+  }
+  Schedule();
 }
 
 void DurableJobs::RunEnded(Run* run, const absl::StatusOr<ResultRow>& result) {
@@ -209,14 +221,15 @@ absl::Status DurableJobs::StoreResultOf(JobStore& store, Storing& storing) {
   if (storing.needless) return absl::OkStatus();
   const ActiveRun& active = found->second;
   storing.row.key = ResultKey(active.volume_digest, active.options);
-  BCCSKEL_ASSIGN_OR_RETURN(storing.number, store.InsertResult(storing.row));
+  BCCSKEL_ASSIGN_OR_RETURN(const ResultRow kept, store.InsertResult(storing.row));
   for (const int64_t job : active.jobs) {
     BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, JobState::kSucceeded, absl::OkStatus(),
-                                       storing.number, storing.steps));
+                                       kept.number, storing.steps));
   }
-  BCCSKEL_RETURN_IF_ERROR(store.TakeResultIfUnused(storing.number).status());
-  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> kept, store.FindResult(storing.number));
-  storing.needless = !kept.has_value() || kept->file != storing.row.file;
+  storing.needless = kept.file != storing.row.file;
+  if (!storing.steps.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const auto unused, store.TakeResultIfUnused(kept.number));
+  storing.needless = storing.needless || unused.has_value();
   return absl::OkStatus();
 }
 
@@ -234,7 +247,7 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
     EnterState(jobs, again ? JobState::kQueued : JobState::kFailed,
                again ? absl::OkStatus() : error, 0, nullptr);
   }
-  if (!again) return Schedule();
+  if (!again || jobs.empty()) return Schedule();
   retry_wanted_ = true;
 }
 

@@ -3,10 +3,17 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/admission/memory_estimate.h"
 #include "server/durable/durable_jobs.h"
 #include "server/durable/names.h"
 
 namespace bccskel::server {
+namespace {
+
+// Results that are computed and not stored yet: they hold memory.
+constexpr int kMostUnstored = 16;
+
+}  // namespace
 
 std::string DurableJobs::ResultKey(const std::string& volume_digest,
                                    const std::string& options) const {
@@ -48,17 +55,30 @@ std::map<std::string, int> DurableJobs::RunsOfTenants() const {
   return runs;
 }
 
-int DurableJobs::CountRunsFromFiles(int least_crashes) const {
+int DurableJobs::CountRunsFromFiles(std::function<bool(const ActiveRun&)> which) const {
   return static_cast<int>(std::ranges::count_if(runs_, [&](const auto& entry) {
-    return entry.second.source == ActiveRun::Source::kFile && entry.second.crashes >= least_crashes;
+    return entry.second.source == ActiveRun::Source::kFile && which(entry.second);
   }));
 }
 
 // Suspects run one at a time: a crash makes one of them more suspect and no more, and those that
 // are innocent soon show it.
 DurableJobs::Begun DurableJobs::BeginNext() {
-  if (CountRunsFromFiles(0) >= options_.max_runs) return Begun::kNothingNow;
-  const bool one_is_suspect = CountRunsFromFiles(1) > 0;
+  const int at_runner = CountRunsFromFiles([](const ActiveRun& run) { return !run.computed; });
+  const int unstored = CountRunsFromFiles([](const ActiveRun& run) { return run.computed; });
+  const bool ahead = at_runner >= options_.max_runs;
+  if (at_runner >= options_.max_runs + pace_.Ahead() || unstored > kMostUnstored) {
+    return Begun::kNothingNow;
+  }
+  if (next_.has_value() && ahead) return Begun::kNothingNow;
+  if (next_.has_value()) {
+    const auto job = active_.find(*std::exchange(next_, std::nullopt));
+    const bool waits = job != active_.end() && job->second.row.state == JobState::kQueued &&
+                       job->second.run == nullptr && !job->second.place.has_value();
+    return waits ? BeginJob(JobRow(job->second.row), ahead) : Begun::kYes;
+  }
+  const bool one_is_suspect =
+      CountRunsFromFiles([](const ActiveRun& run) { return run.crashes > 0; }) > 0;
   queue_.SetLimits(options_.tenants());
   queue_.SetAtWorkElsewhere(RunsOfTenants());
   const auto next =
@@ -67,10 +87,10 @@ DurableJobs::Begun DurableJobs::BeginNext() {
   queue_.Done(next->tenant);  // RunsOfTenants() counts it from here on
   ActiveJob& job = active_.at(next->item.job);
   job.place.reset();
-  return BeginJob(JobRow(job.row));
+  return BeginJob(JobRow(job.row), ahead);
 }
 
-DurableJobs::Begun DurableJobs::BeginJob(const JobRow& job) {
+DurableJobs::Begun DurableJobs::BeginJob(const JobRow& job, bool ahead) {
   JobStore& store = loop_.store();
   const auto volume = store.FindVolume(job.tenant, job.volume);
   if (!volume.ok()) {
@@ -106,7 +126,7 @@ DurableJobs::Begun DurableJobs::BeginJob(const JobRow& job) {
     Claim(job.number, nullptr, nullptr);
     return Begun::kYes;
   }
-  return StartRun(job, **volume);
+  return StartRun(job, **volume, ahead);
 }
 
 ActiveRun* DurableJobs::EqualRun(const JobRow& job, const VolumeRow& volume) {
@@ -122,8 +142,13 @@ ActiveRun* DurableJobs::EqualRun(const JobRow& job, const VolumeRow& volume) {
   return nullptr;
 }
 
-DurableJobs::Begun DurableJobs::StartRun(const JobRow& job, const VolumeRow& volume) {
+DurableJobs::Begun DurableJobs::StartRun(const JobRow& job, const VolumeRow& volume, bool ahead) {
   absl::StatusOr<JobRequest> request = codec_.RequestOf(volume.declaration, job.options);
+  // A large one would wait here for long, which another server could begin at once.
+  if (ahead && request.ok() && request->header.max_bricks > kSmallJobBricks) {
+    next_ = job.number;
+    return Begun::kNothingNow;
+  }
   const auto run = std::make_shared<Run>(*this, job.tenant, operations_.Begin());
   absl::Status started = request.status();
   if (started.ok()) started = run->Start(runner_, RunnerRequest(*std::move(request), job));
@@ -182,25 +207,31 @@ absl::Status DurableJobs::ClaimStored(JobStore& store, Claiming& claiming) {
   claiming.outcome = Outcome::kOthers;
   const auto active = active_.find(claiming.job);
   if (active == active_.end() || active->second.run == nullptr) return absl::OkStatus();
-  const JobRow& known = active->second.row;
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(known.tenant, known.name));
-  if (!job.has_value()) return absl::OkStatus();
-  // A commit that seemed to have failed may have happened.
-  const bool is_mine = job->state == JobState::kRunning && job->owner == journal_.owner();
-  if (!is_mine && job->state != JobState::kQueued) return absl::OkStatus();
+  JobRow job = active->second.row;
+  bool elsewhere = false;
   if (claiming.volume.has_value() && shared_) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const bool elsewhere,
-        store.RunsElsewhere(*job, claiming.volume->volume_digest, journal_.owner()));
-    if (elsewhere && !is_mine) claiming.outcome = Outcome::kEqualRunsElsewhere;
-    if (elsewhere && !is_mine) return absl::OkStatus();
+    BCCSKEL_ASSIGN_OR_RETURN(elsewhere, store.RunsElsewhere(job, claiming.volume->volume_digest,
+                                                            journal_.owner()));
+    if (elsewhere) claiming.outcome = Outcome::kEqualRunsElsewhere;
+  }
+  std::optional<EventRow> event;
+  if (job.state == JobState::kQueued && !elsewhere) {
+    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, JobState::kRunning, absl::OkStatus(),
+                                                   JobJournal::Found::kBefore));
+  }
+  if (!event.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.FindJob(job.tenant, job.name));
+    if (!stored.has_value()) return absl::OkStatus();
+    job = *stored;
+    // A commit that seemed to have failed may have happened.
+    const bool is_mine = job.state == JobState::kRunning && job.owner == journal_.owner();
+    if (!is_mine && (elsewhere || job.state != JobState::kQueued)) return absl::OkStatus();
+    if (!is_mine) {
+      BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, JobState::kRunning));
+    }
   }
   claiming.outcome = Outcome::kMine;
-  std::optional<EventRow> event;
-  if (!is_mine) {
-    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, *job, JobState::kRunning));
-  }
-  claiming.steps.push_back({.job = *job, .event = event});
+  claiming.steps.push_back({.job = job, .event = event});
   return absl::OkStatus();
 }
 
@@ -252,6 +283,7 @@ void DurableJobs::Detach(int64_t job) {
 void DurableJobs::Feed(Run* pointer, const VolumeRow& volume) {
   const auto found = runs_.find(pointer);
   if (found == runs_.end()) return;  // nobody wants it any more
+  found->second.fed = RunPace::Clock::now();
   files_.Post({.tenant = volume.tenant}, [this, run = found->second.run, volume] {
     absl::StatusOr<CheckedFile> file = blobs_.OpenBlob(volume.tenant, volume.blob_digest);
     if (!file.ok()) return run->Fail(file.status());
@@ -274,13 +306,25 @@ absl::Status DurableJobs::EnterState(JobStore& store, int64_t number, JobState s
                                      std::vector<Step>& steps) {
   const auto active = active_.find(number);
   if (active == active_.end()) return absl::OkStatus();
-  const JobRow& known = active->second.row;
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(known.tenant, known.name));
-  if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
-  if (job->state == JobState::kRunning && job->owner != journal_.owner()) return absl::OkStatus();
-  job->result = result;
-  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
-  if (event.has_value()) steps.push_back({.job = *job, .event = event});
+  const auto is_ours = [this](const JobRow& job) {
+    return !IsTerminal(job.state) &&
+           (job.state != JobState::kRunning || job.owner == journal_.owner());
+  };
+  JobRow job = active->second.row;
+  job.result = result;
+  std::optional<EventRow> event;
+  if (is_ours(job)) {
+    BCCSKEL_ASSIGN_OR_RETURN(
+        event, journal_.Enter(store, job, state, error, JobJournal::Found::kBefore));
+  }
+  if (!event.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.FindJob(job.tenant, job.name));
+    if (!stored.has_value() || !is_ours(*stored)) return absl::OkStatus();
+    job = *stored;
+    job.result = result;
+    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, state, error));
+  }
+  if (event.has_value()) steps.push_back({.job = job, .event = event});
   return absl::OkStatus();
 }
 

@@ -69,7 +69,10 @@ class GroupCommit {
   absl::Status WriteWithReserve(std::span<Entry> batch);
   void NoteHealth(const absl::Status& written);
   absl::Status WriteAll(std::span<Entry> batch);
+  enum class Steps { kNone, kEach };  // that can be taken back alone
+  absl::Status WriteOnce(std::span<Entry> batch, Steps steps);
   absl::Status RunStep(Entry& entry);
+  absl::Status RunWithoutStep(Entry& entry);
 
   const std::unique_ptr<JobStore> store_;
   std::atomic<uint64_t> commits_ = 0;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/store/tables.h"
@@ -19,10 +20,17 @@ absl::Status DamagedRow() {
 
 }  // namespace
 
+absl::StatusOr<std::vector<SqlRow>> JobStore::Execute(const std::string& sql,
+                                                      const std::vector<SqlValue>& values) {
+  auto rows = database_->Run(sql, values);
+  if (!rows.ok() || !absl::StartsWith(sql, "SELECT")) ++traces_;
+  return rows;
+}
+
 template <typename... Values>
 absl::StatusOr<std::vector<SqlRow>> JobStore::Query(const std::string& sql,
                                                     const Values&... values) {
-  return database_->Run(sql, {ToValue(values)...});
+  return Execute(sql, {ToValue(values)...});
 }
 
 template <typename... Values>
@@ -34,29 +42,11 @@ template <typename Row>
 absl::Status JobStore::Insert(const Row& row, const std::string& replacing) {
   std::vector<SqlValue> values = ValuesOf(row);
   values.push_back(SqlValue::Number(CheckOf(row)));
-  return database_
-      ->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row), ", row_check) VALUES(",
-                         Parameters(values.size()), ")", replacing),
-            values)
+  return Execute(
+             absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row), ", row_check) VALUES(",
+                          Parameters(values.size()), ")", replacing),
+             values)
       .status();
-}
-
-// The checksum is of the number, too, which the database gives.
-template <typename Row>
-absl::StatusOr<int64_t> JobStore::InsertNumbered(Row row, const std::string& replacing) {
-  std::vector<SqlValue> values = ValuesOf(row);
-  values.erase(values.begin());
-  const std::string columns = ColumnsOf(row).substr(sizeof("number, ") - 1);
-  BCCSKEL_ASSIGN_OR_RETURN(
-      auto rows,
-      database_->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", columns, ") VALUES(",
-                                  Parameters(values.size()), ")", replacing, " RETURNING number"),
-                     values));
-  row.number = rows.front().Number();
-  BCCSKEL_RETURN_IF_ERROR(
-      Run(absl::StrCat("UPDATE ", TableOf(row), " SET row_check = $1 WHERE number = $2"),
-          CheckOf(row), row.number));
-  return row.number;
 }
 
 template <typename Row>
@@ -182,16 +172,26 @@ absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string
 
 absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
 
-absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) { return InsertNumbered(row); }
+// The number comes first: the checksum is of it, too.
+absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT " + database_->NextNumber("jobs")));
+  JobRow numbered = row;
+  numbered.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(Insert(numbered));
+  return numbered.number;
+}
 
-absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row) {
+absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row, std::optional<uint64_t> from) {
+  constexpr int64_t kAny = -1;
   BCCSKEL_ASSIGN_OR_RETURN(
       const auto changed,
       Query("UPDATE jobs SET volume = $1, state = $2, attempts = $3, crashes = $4,"
             " sequence = $5, owner = $6, error = $7, result = $8, started = $9, ended = $10,"
-            " row_check = $11 WHERE number = $12 AND state < 3 RETURNING number",
+            " row_check = $11 WHERE number = $12 AND state < 3 AND $13 IN (sequence, -1)"
+            " RETURNING number",
             row.volume, row.state, row.attempts, row.crashes, row.sequence, row.owner, row.error,
-            row.result, row.started, row.ended, CheckOf(row), row.number));
+            row.result, row.started, row.ended, CheckOf(row), row.number,
+            from.has_value() ? static_cast<int64_t>(*from) : kAny));
   return !changed.empty();
 }
 
@@ -251,12 +251,18 @@ absl::StatusOr<std::vector<EventRow>> JobStore::EventsAfter(int64_t job, uint64_
                        sequence);
 }
 
-absl::StatusOr<int64_t> JobStore::InsertResult(const ResultRow& row) {
+absl::StatusOr<ResultRow> JobStore::InsertResult(ResultRow row) {
   static const std::string replacing =
-      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary"});
-  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
-  if (found.has_value()) return found->number;
-  return InsertNumbered(row, replacing);
+      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary", "row_check"});
+  const std::string number =
+      absl::StrCat("SELECT coalesce((SELECT number FROM results WHERE tenant = $1 AND key = $2), ",
+                   database_->NextNumber("results"), ")");
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
+  if (found.has_value()) return *std::move(found);
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query(number, row.tenant, row.key));
+  row.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(Insert(row, replacing));
+  return row;
 }
 
 absl::Status JobStore::DropResult(const ResultRow& row) {
