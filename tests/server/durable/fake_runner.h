@@ -15,7 +15,7 @@
 
 namespace bccskel::server {
 
-// "<size>" or "<size> <anything>" declares so many bytes. A result is what the volume's bytes say,
+// "<size>" or "<size> <anything>" declares so many bytes; with options "large", many bricks. A result is what the volume's bytes say,
 // in three records, and a summary.
 class FakeCodec final : public JobCodec {
  public:
