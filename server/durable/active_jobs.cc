@@ -175,30 +175,44 @@ int ActiveJobs::CountRunsFromFiles(Which which) const {
   }));
 }
 
-// Suspects run one at a time: a crash makes one of them more suspect and no more, and those that
-// are innocent soon show it.
-std::optional<ActiveJobs::Turn> ActiveJobs::TakeNext(const TenantTable& tenants, int max_runs) {
+ActiveJobs::Room ActiveJobs::RoomFor(int max_runs) const {
   const int unstored = CountRunsFromFiles([](const ActiveRun& run) { return run.computed; });
   const int at_runner = CountRunsFromFiles([](const ActiveRun& run) { return !run.computed; });
-  const bool ahead = at_runner >= max_runs;
-  if (unstored > kMostUnstored || at_runner >= max_runs + pace_.Ahead()) return std::nullopt;
+  if (unstored > kMostUnstored) return Room::kNone;
+  if (at_runner < max_runs) return Room::kPlace;
+  const bool ahead = !next_.has_value() && at_runner < max_runs + pace_.Ahead();
+  return ahead ? Room::kAhead : Room::kNone;
+}
+
+// Suspects run one at a time: a crash makes one of them more suspect and no more, and those that
+// are innocent soon show it.
+auto ActiveJobs::MayBegin(const TenantTable& tenants) {
+  queue_.SetLimits(tenants);
+  queue_.SetAtWorkElsewhere(RunsOfTenants());
+  const int suspects = CountRunsFromFiles([](const ActiveRun& run) { return run.crashes > 0; });
+  return [suspects](const WaitingJob& job) { return !job.suspect || suspects == 0; };
+}
+
+bool ActiveJobs::HasNext(const TenantTable& tenants, int max_runs) {
+  if (RoomFor(max_runs) == Room::kNone) return false;
+  return next_.has_value() || queue_.Has(MayBegin(tenants));
+}
+
+std::optional<ActiveJobs::Turn> ActiveJobs::TakeNext(const TenantTable& tenants, int max_runs) {
+  const Room room = RoomFor(max_runs);
+  if (room == Room::kNone) return std::nullopt;
   if (next_.has_value()) {
-    if (ahead) return std::nullopt;
     const ActiveJob* const job = Find(*std::exchange(next_, std::nullopt));
     const bool waits = job != nullptr && job->row.state == JobState::kQueued &&
                        job->run == nullptr && !job->place.has_value();
     if (waits) return Turn{.job = job->row};
   }
-  const int suspects = CountRunsFromFiles([](const ActiveRun& run) { return run.crashes > 0; });
-  queue_.SetLimits(tenants);
-  queue_.SetAtWorkElsewhere(RunsOfTenants());
-  const auto next =
-      queue_.Take([=](const WaitingJob& job) { return !job.suspect || suspects == 0; });
+  const auto next = queue_.Take(MayBegin(tenants));
   if (!next.has_value()) return std::nullopt;
   queue_.Done(next->tenant);  // RunsOfTenants() counts it from here on
   ActiveJob& job = jobs_.at(next->item.job);
   job.place.reset();
-  return Turn{.job = job.row, .ahead = ahead};
+  return Turn{.job = job.row, .ahead = room == Room::kAhead};
 }
 
 }  // namespace bccskel::server

@@ -90,6 +90,8 @@ class ActiveJobs {
     JobRow job;
     bool ahead = false;  // of a place: see RunPace
   };
+  // Whether TakeNext() would give something.
+  bool HasNext(const TenantTable& tenants, int max_runs);
   // Nothing where nobody waits, or there is no place now.
   std::optional<Turn> TakeNext(const TenantTable& tenants, int max_runs);
   // The job whose turn it was is not to be begun ahead: it is the next.
@@ -100,6 +102,10 @@ class ActiveJobs {
   template <typename Which>
   int CountRunsFromFiles(Which which) const;
   std::map<std::string, int> RunsOfTenants() const;
+  enum class Room { kNone, kAhead, kPlace };
+  Room RoomFor(int max_runs) const;
+  // Tells the queue how things are; what it may give now.
+  auto MayBegin(const TenantTable& tenants);
   template <typename Volume>
   ActiveRun* FindJoinable(const std::string& tenant, const std::string& options, Volume is_equal);
 

@@ -67,7 +67,12 @@ DurableJobs::DurableJobs(const DurableOptions& options, JobRunner& runner, const
       clock_(options.believable_leap, LastSeen(options.data_directory),
              std::chrono::steady_clock::now()),
       loop_(std::move(store), std::move(reserve)),
-      files_(kFileThreads) {}
+      files_(kFileThreads) {
+  // What others have claimed is known before anything is claimed here.
+  loop_.OnBegin([this] {
+    if (scheduling_) Sync();
+  });
+}
 
 DurableJobs::~DurableJobs() {
   admitting_ = false;

@@ -276,14 +276,21 @@ class DurableJobs final : public RunObserver {
   // it.
   void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
                   std::function<void()> then);
-  // Brings a waiting job to run here. `volume`: that is fed to it; null for a job that joins a run.
-  void Claim(int64_t job, const VolumeRow* volume, std::function<void()> then);
+  // Brings a waiting job to run here.
+  void Claim(const std::shared_ptr<Claiming>& claiming);
   absl::Status ClaimStored(JobStore& store, Claiming& claiming);
+  void EndClaim(const std::shared_ptr<Claiming>& claiming, const absl::Status& status);
   void Claimed(const Claiming& claiming);
   void Schedule();
-  enum class Begun { kYes, kNothingNow };
-  Begun BeginJob(const ActiveJobs::Turn& turn);
-  Begun StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume);
+  struct Claims {
+    std::vector<std::shared_ptr<Claiming>> all;
+    bool blocked = false;  // the next one cannot begin now
+  };
+  absl::Status BeginNext(JobStore& store, Claims& claims);
+  enum class Begun { kYes, kClaim, kNothingNow };
+  absl::StatusOr<Begun> BeginJob(JobStore& store, const ActiveJobs::Turn& turn, Claims& claims);
+  Begun StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume, Claims& claims);
+  void GiveWholeResult(const JobRow& job, const std::string& key);
   Begun WaitAgain(int64_t job);
   void Feed(Run* run, const VolumeRow& volume);
   void RunComputed(Run* run);
@@ -359,6 +366,7 @@ class DurableJobs final : public RunObserver {
   int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
+  bool scheduling_ = false;  // a change that claims jobs is on its way
   Time next_clean_up_{};
   ClockGuard clock_;
 

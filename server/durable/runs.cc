@@ -7,24 +7,62 @@
 #include "server/durable/names.h"
 
 namespace bccskel::server {
+// A job that is to run here. With a run that has to be fed its volume, or none: it joins one.
+struct DurableJobs::Claiming {
+  enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
+  int64_t job = 0;
+  std::optional<VolumeRow> volume = std::nullopt;
+  std::shared_ptr<Run> fed = nullptr;
+  Outcome outcome = Outcome::kOthers;
+  std::vector<Step> steps = {};
+};
+
 std::string DurableJobs::ResultKey(const std::string& volume_digest,
                                    const std::string& options) const {
   return KeyOf({volume_digest, options, options_.algorithm_version});
 }
 
+// Who is next is decided within the transaction that stores it: others of the fleet do the same.
 void DurableJobs::Schedule() {
   // Others of the fleet begin what this one would not end.
-  while (!stopping_ && (admitting_ || !shared_)) {
-    const auto turn = active_.TakeNext(options_.tenants(), options_.max_runs);
-    if (!turn.has_value() || BeginJob(*turn) == Begun::kNothingNow) return;
-  }
+  if (scheduling_ || stopping_ || (!admitting_ && shared_)) return;
+  if (!active_.HasNext(options_.tenants(), options_.max_runs)) return;
+  scheduling_ = true;
+  const auto claims = std::make_shared<Claims>();
+  loop_.Post([this, claims](JobStore& store) { return BeginNext(store, *claims); },
+             [this, claims](const absl::Status& status) {
+               scheduling_ = false;
+               if (!status.ok()) retry_wanted_ = true;
+               for (const auto& claiming : claims->all) EndClaim(claiming, status);
+               // Others may have come since it looked.
+               if (status.ok() && !claims->blocked) Schedule();
+             },
+             GroupCommit::Room::kReserve);
 }
 
-DurableJobs::Begun DurableJobs::BeginJob(const ActiveJobs::Turn& turn) {
+absl::Status DurableJobs::BeginNext(JobStore& store, Claims& claims) {
+  for (const auto& claiming : claims.all) {  // of a transaction that has failed
+    BCCSKEL_RETURN_IF_ERROR(ClaimStored(store, *claiming));
+  }
+  while (!stopping_) {
+    const auto turn = active_.TakeNext(options_.tenants(), options_.max_runs);
+    if (!turn.has_value()) break;
+    BCCSKEL_ASSIGN_OR_RETURN(const Begun begun, BeginJob(store, *turn, claims));
+    claims.blocked = begun == Begun::kNothingNow;
+    if (claims.blocked) break;
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<DurableJobs::Begun> DurableJobs::BeginJob(JobStore& store,
+                                                         const ActiveJobs::Turn& turn,
+                                                         Claims& claims) {
   const JobRow& job = turn.job;
-  JobStore& store = loop_.store();
   const auto volume = store.FindVolume(job.tenant, job.volume);
-  if (!volume.ok()) return WaitAgain(job.number);
+  if (!volume.ok()) {
+    WaitAgain(job.number);
+    return volume.status();
+  }
   if (!volume->has_value()) {
     EnterState({job.number}, JobState::kFailed,
                absl::DataLossError(absl::StrCat(job.volume, " is gone")), 0, nullptr);
@@ -34,24 +72,32 @@ DurableJobs::Begun DurableJobs::BeginJob(const ActiveJobs::Turn& turn) {
     const std::string key = ResultKey((*volume)->volume_digest, job.options);
     const auto stored = store.FindResultOf(job.tenant, key);
     if (stored.ok() && stored->has_value()) {
-      WithWholeResult(job.tenant, key, [this, job](const std::optional<ResultRow>& result) {
-        if (active_.Find(job.number) == nullptr) return;
-        if (!result.has_value()) {
-          WaitAgain(job.number);
-          return;
-        }
-        ++cached_;
-        EnterState({job.number}, JobState::kSucceeded, absl::OkStatus(), result->number, nullptr);
-      });
+      GiveWholeResult(job, key);
       return Begun::kYes;
     }
   }
   if (ActiveRun* equal = active_.FindEqual(job, **volume); equal != nullptr) {
     active_.Attach(*equal, job.number);
-    Claim(job.number, nullptr, nullptr);
-    return Begun::kYes;
+    claims.all.push_back(std::make_shared<Claiming>(Claiming{.job = job.number}));
+  } else {
+    const Begun started = StartRun(turn, **volume, claims);
+    if (started != Begun::kClaim) return started;
   }
-  return StartRun(turn, **volume);
+  BCCSKEL_RETURN_IF_ERROR(ClaimStored(store, *claims.all.back()));
+  return Begun::kYes;
+}
+
+void DurableJobs::GiveWholeResult(const JobRow& job, const std::string& key) {
+  WithWholeResult(
+      job.tenant, key, [this, number = job.number](const std::optional<ResultRow>& result) {
+        if (active_.Find(number) == nullptr) return;
+        if (!result.has_value()) {
+          WaitAgain(number);
+          return;
+        }
+        ++cached_;
+        EnterState({number}, JobState::kSucceeded, absl::OkStatus(), result->number, nullptr);
+      });
 }
 
 DurableJobs::Begun DurableJobs::WaitAgain(int64_t job) {
@@ -60,7 +106,8 @@ DurableJobs::Begun DurableJobs::WaitAgain(int64_t job) {
   return Begun::kNothingNow;
 }
 
-DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume) {
+DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume,
+                                         Claims& claims) {
   const JobRow& job = turn.job;
   absl::StatusOr<JobRequest> request = codec_.RequestOf(volume.declaration, job.options);
   // A large one would wait here for long, which another server could begin at once.
@@ -82,38 +129,21 @@ DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const Vol
   active.crashes = job.crashes;
   active_.Attach(active, job.number);
   // The attempt is counted before it begins.
-  Claim(job.number, &volume, [this, run, volume] { Feed(run.get(), volume); });
-  return Begun::kYes;
+  claims.all.push_back(
+      std::make_shared<Claiming>(Claiming{.job = job.number, .volume = volume, .fed = run}));
+  return Begun::kClaim;
 }
 
-struct DurableJobs::Claiming {
-  enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
-  int64_t job = 0;
-  std::optional<VolumeRow> volume;
-  std::shared_ptr<Run> fed;  // the run that is to have its bytes
-  std::function<void()> then;
-  Outcome outcome = Outcome::kOthers;
-  std::vector<Step> steps;
-};
-
-void DurableJobs::Claim(int64_t job, const VolumeRow* volume, std::function<void()> then) {
-  const auto claiming = std::make_shared<Claiming>();
-  claiming->job = job;
-  const ActiveJob* const active = active_.Find(job);
-  if (volume != nullptr) claiming->volume = *volume;
-  if (volume != nullptr && active != nullptr && active->run != nullptr) {
-    claiming->fed = active_.FindRun(active->run)->run;
-  }
-  claiming->then = std::move(then);
+// The store did not take what was begun: again, until it does.
+void DurableJobs::Claim(const std::shared_ptr<Claiming>& claiming) {
   loop_.Post([this, claiming](JobStore& store) { return ClaimStored(store, *claiming); },
-             [this, claiming](const absl::Status& status) {
-               if (status.ok()) return Claimed(*claiming);
-               RetryLater([this, claiming] {
-                 const VolumeRow* const fed = claiming->volume ? &*claiming->volume : nullptr;
-                 Claim(claiming->job, fed, claiming->then);
-               });
-             },
+             [this, claiming](const absl::Status& status) { EndClaim(claiming, status); },
              GroupCommit::Room::kReserve);
+}
+
+void DurableJobs::EndClaim(const std::shared_ptr<Claiming>& claiming, const absl::Status& status) {
+  if (status.ok()) return Claimed(*claiming);
+  RetryLater([this, claiming] { Claim(claiming); });
 }
 
 absl::Status DurableJobs::ClaimStored(JobStore& store, Claiming& claiming) {
@@ -153,7 +183,7 @@ absl::Status DurableJobs::ClaimStored(JobStore& store, Claiming& claiming) {
 void DurableJobs::Claimed(const Claiming& claiming) {
   for (const Step& step : claiming.steps) Apply(step);
   if (claiming.outcome == Claiming::Outcome::kMine) {
-    if (claiming.then) claiming.then();
+    if (claiming.fed != nullptr) Feed(claiming.fed.get(), *claiming.volume);
     return Schedule();
   }
   // Others that joined the run would wait for its bytes for ever: they are queued again.

@@ -89,6 +89,7 @@ absl::Status GroupCommit::WriteOnce(std::span<Entry> batch, Steps steps) {
   ++commits_;
   absl::Status written = [&]() -> absl::Status {
     BCCSKEL_RETURN_IF_ERROR(store_->Begin());
+    if (on_begin_) on_begin_();
     for (Entry& entry : batch) {
       if (!entry.IsToWrite()) continue;
       BCCSKEL_RETURN_IF_ERROR(steps == Steps::kEach ? RunStep(entry) : RunWithoutStep(entry));
