@@ -152,8 +152,8 @@ absl::StatusOr<std::optional<EventRow>> DurableJobs::RecoverJob(JobStore& store,
 
 // Also where the clock was ahead at the last one and goes right again.
 bool DurableJobs::CleanUpIsDue() const {
-  const Time now = Now();
-  return now >= next_clean_up_ || next_clean_up_ - now > options_.clean_up_interval;
+  const Time now = Now(), next = next_clean_up_;
+  return now >= next || next - now > options_.clean_up_interval;
 }
 
 void DurableJobs::Tick(std::stop_token stop) {

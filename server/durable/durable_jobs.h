@@ -367,7 +367,7 @@ class DurableJobs final : public RunObserver {
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
   bool scheduling_ = false;  // a change that claims jobs is on its way
-  Time next_clean_up_{};
+  std::atomic<Time> next_clean_up_{};  // the ticker looks at it, too
   ClockGuard clock_;
 
   Operations operations_;
