@@ -54,7 +54,8 @@ struct ActiveRun {
 class ActiveJobs {
  public:
   // `shared`: other servers run jobs, too.
-  explicit ActiveJobs(bool shared) : shared_(shared) {}
+  // `soon`: as of RunPace.
+  ActiveJobs(bool shared, std::chrono::milliseconds soon) : shared_(shared), pace_(soon) {}
 
   // ---- Jobs
   size_t size() const { return jobs_.size(); }

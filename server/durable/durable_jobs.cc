@@ -62,7 +62,7 @@ DurableJobs::DurableJobs(const DurableOptions& options, JobRunner& runner, const
       quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
       folder_(options_, std::move(lock)),
       journal_(RandomId(), [this] { return Now(); }),
-      active_(shared_),
+      active_(shared_, options.soon),
       members_(options.lease),
       clock_(options.believable_leap, LastSeen(options.data_directory),
              std::chrono::steady_clock::now()),

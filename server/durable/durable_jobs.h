@@ -366,7 +366,7 @@ class DurableJobs final : public RunObserver {
   int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
-  bool scheduling_ = false;  // a change that claims jobs is on its way
+  bool scheduling_ = false;            // a change that claims jobs is on its way
   std::atomic<Time> next_clean_up_{};  // the ticker looks at it, too
   ClockGuard clock_;
 

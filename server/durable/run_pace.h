@@ -15,6 +15,8 @@ class RunPace {
   using Clock = std::chrono::steady_clock;
   static constexpr int kMostAhead = 8;
 
+  explicit RunPace(std::chrono::milliseconds soon = std::chrono::milliseconds(50)) : soon_(soon) {}
+
   // A run that was given its volume then has been computed now.
   void Computed(Clock::time_point fed, Clock::time_point now) {
     const Clock::duration took = now - std::max(fed, last_);
@@ -25,13 +27,13 @@ class RunPace {
   }
 
   int Ahead() const {
-    constexpr std::chrono::milliseconds kSoon(50);
-    if (between_ > kSoon) return 0;
+    if (between_ > soon_) return 0;
     return static_cast<int>(std::min<Clock::rep>(
-        kMostAhead, kSoon / std::max<Clock::duration>(between_, std::chrono::microseconds(1))));
+        kMostAhead, soon_ / std::max<Clock::duration>(between_, std::chrono::microseconds(1))));
   }
 
  private:
+  const Clock::duration soon_;
   Clock::time_point last_;
   Clock::duration between_ = Clock::duration::max();  // two that were computed
 };

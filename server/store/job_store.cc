@@ -42,10 +42,9 @@ template <typename Row>
 absl::Status JobStore::Insert(const Row& row, const std::string& replacing) {
   std::vector<SqlValue> values = ValuesOf(row);
   values.push_back(SqlValue::Number(CheckOf(row)));
-  return Execute(
-             absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row), ", row_check) VALUES(",
-                          Parameters(values.size()), ")", replacing),
-             values)
+  return Execute(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row),
+                              ", row_check) VALUES(", Parameters(values.size()), ")", replacing),
+                 values)
       .status();
 }
 

@@ -60,7 +60,7 @@ class FakeJob final : public Job, public std::enable_shared_from_this<FakeJob> {
     Post([this] { Compute(); });
   }
   void EndWith(absl::Status why) override {
-    Post([this, why = std::move(why)] { End(why); });
+    Post([this, why = std::move(why)]() mutable { End(std::move(why)); });
   }
 
  private:
