@@ -117,14 +117,12 @@ void JobStore::Rollback() {
 
 absl::Status JobStore::BeginStep() { return Run("SAVEPOINT step"); }
 absl::Status JobStore::KeepStep() { return Run("RELEASE SAVEPOINT step"); }
-
 absl::Status JobStore::UndoStep() {
   BCCSKEL_RETURN_IF_ERROR(Run("ROLLBACK TO SAVEPOINT step"));
   return KeepStep();
 }
 
 absl::Status JobStore::InsertUpload(const UploadRow& row) { return Insert(row); }
-
 absl::Status JobStore::UpdateUpload(const UploadRow& row) {
   return Run(
       "UPDATE uploads SET volume = $1, used = $2, file = $3, row_check = $4"
@@ -172,16 +170,14 @@ absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string
 absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
 
 // The number comes first: the checksum is of it, too.
-absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) {
+absl::StatusOr<int64_t> JobStore::InsertJob(JobRow row) {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT " + database_->NextNumber("jobs")));
-  JobRow numbered = row;
-  numbered.number = rows.front().Number();
-  BCCSKEL_RETURN_IF_ERROR(Insert(numbered));
-  return numbered.number;
+  row.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(Insert(row));
+  return row.number;
 }
 
 absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row, std::optional<uint64_t> from) {
-  constexpr int64_t kAny = -1;
   BCCSKEL_ASSIGN_OR_RETURN(
       const auto changed,
       Query("UPDATE jobs SET volume = $1, state = $2, attempts = $3, crashes = $4,"
@@ -190,14 +186,13 @@ absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row, std::optional<uint64
             " RETURNING number",
             row.volume, row.state, row.attempts, row.crashes, row.sequence, row.owner, row.error,
             row.result, row.started, row.ended, CheckOf(row), row.number,
-            from.has_value() ? static_cast<int64_t>(*from) : kAny));
+            static_cast<int64_t>(from.value_or(-1))));
   return !changed.empty();
 }
 
 absl::Status JobStore::DeleteJob(int64_t number) {
   return Run("DELETE FROM jobs WHERE number = $1", number);
 }
-
 absl::Status JobStore::DeleteDamagedJob(const std::string& tenant, const std::string& name) {
   return Delete<JobRow>(tenant, name);
 }
@@ -253,12 +248,13 @@ absl::StatusOr<std::vector<EventRow>> JobStore::EventsAfter(int64_t job, uint64_
 absl::StatusOr<ResultRow> JobStore::InsertResult(ResultRow row) {
   static const std::string replacing =
       Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary", "row_check"});
-  const std::string number =
-      absl::StrCat("SELECT coalesce((SELECT number FROM results WHERE tenant = $1 AND key = $2), ",
-                   database_->NextNumber("results"), ")");
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
   if (found.has_value()) return *std::move(found);
-  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query(number, row.tenant, row.key));
+  const std::string next =
+      "SELECT coalesce((SELECT number FROM results WHERE tenant = $1 AND "
+      "key = $2), " +
+      database_->NextNumber("results") + ")";
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query(next, row.tenant, row.key));
   row.number = rows.front().Number();
   BCCSKEL_RETURN_IF_ERROR(Insert(row, replacing));
   return row;

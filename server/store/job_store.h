@@ -70,7 +70,7 @@ class JobStore {
   absl::StatusOr<std::vector<VolumeRow>> AllVolumes();
 
   // Yields its number.
-  absl::StatusOr<int64_t> InsertJob(const JobRow& row);
+  absl::StatusOr<int64_t> InsertJob(JobRow row);
   // False, and nothing happens, when the stored job has ended already or is gone, or has another
   // sequence than `from`.
   absl::StatusOr<bool> UpdateJob(const JobRow& row, std::optional<uint64_t> from = std::nullopt);
