@@ -138,14 +138,14 @@ void DurableSession::Fetch() {
     if (status.ok() && !record->has_value()) {
       status = absl::InternalError("the stored result has no summary");
     }
-    if (status.ok()) status = self->TakePiece(**record);
+    if (status.ok()) status = self->TakePiece(**std::move(record));
     if (!status.ok()) self->owner_->EndWith(StorageError(status));
   });
 }
 
-absl::Status DurableSession::TakePiece(const ResultRecord& record) {
+absl::Status DurableSession::TakePiece(ResultRecord record) {
   v1::SkeletonizeResponse response;
-  BCCSKEL_RETURN_IF_ERROR(SetPiece(record, response));
+  BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), response));
   owner_->Change([&] {
     piece_ = std::move(response);
     return SessionOwner::Sending::kNow;

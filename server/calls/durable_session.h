@@ -41,7 +41,7 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   }
   bool HasMore() const override { return false; }
   bool IsFollowedByFetch(const v1::SkeletonizeResponse& response) const override {
-    return response.has_skeleton_chunk() || response.has_thin_volume_chunk();
+    return response.response_case() == v1::SkeletonizeResponse::RESPONSE_NOT_SET;  // a chunk
   }
   void Fetch() override;
   void Leave(const absl::Status& why) override;
@@ -56,7 +56,7 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   void Opened(const UploadInfo& upload);
   void Watch();
   void OpenResult();
-  absl::Status TakePiece(const ResultRecord& record);
+  absl::Status TakePiece(ResultRecord record);
   // What DurableJobs calls: `next` with the value, or the end of the call.
   template <typename Function>
   auto Then(Function next);

@@ -40,7 +40,7 @@ class ReadCall final : public Base {
 
  private:
   void Fetch() override;
-  absl::Status Take(const ResultRecord& record);
+  absl::Status Take(ResultRecord record);
   absl::Status EndOfResult() const;
   std::optional<v1::ReadSkeletonResponse> Next() override {
     return std::exchange(piece_, std::nullopt);
@@ -67,15 +67,15 @@ void ReadCall::Fetch() {
   reader_->Next([self = Self()](absl::StatusOr<std::optional<ResultRecord>> record) {
     absl::Status status = record.status();
     if (status.ok() && !record->has_value()) return self->End(self->EndOfResult());
-    if (status.ok()) status = self->Take(**record);
+    if (status.ok()) status = self->Take(**std::move(record));
     if (!status.ok()) self->End(StorageError(status));
   });
 }
 
-absl::Status ReadCall::Take(const ResultRecord& record) {
+absl::Status ReadCall::Take(ResultRecord record) {
   v1::ReadSkeletonResponse piece;
   piece.set_piece_index(index_);
-  BCCSKEL_RETURN_IF_ERROR(SetPiece(record, piece));
+  BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), piece));
   ++index_;
   complete_ = piece.has_summary();
   std::lock_guard lock(mutex_);

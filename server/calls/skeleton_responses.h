@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_SERVER_CALLS_SKELETON_RESPONSES_H_
 #define BCCSKEL_SERVER_CALLS_SKELETON_RESPONSES_H_
 
+#include <google/protobuf/unknown_field_set.h>
+
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -9,7 +11,6 @@
 #include <utility>
 
 #include "absl/status/status.h"
-#include "absl/strings/str_cat.h"
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "proto/wire/skeleton_chunks.h"
 #include "server/durable/records.h"
@@ -74,19 +75,22 @@ class SkeletonResponses {
 // A piece as it is stored.
 ResultRecord RecordOf(const v1::SkeletonizeResponse& piece);
 
-// The opposite, into any response that has these fields.
-// Error: INTERNAL where the record is no message of its kind, which the checksum rules out.
+// The opposite, into any response that has these fields. Chunks go in as the bytes that they are on
+// the wire, without being parsed: the response says that it has none, but serializes with it.
+// Error: INTERNAL where a summary is none, which the checksum rules out.
 template <typename Response>
-absl::Status SetPiece(const ResultRecord& record, Response& response) {
-  const auto parse = [&](auto* piece) { return piece->ParseFromString(record.bytes); };
+absl::Status SetPiece(ResultRecord record, Response& response) {
   using Kind = ResultRecord::Kind;
-  const bool parsed = record.kind == Kind::kSkeletonChunk ? parse(response.mutable_skeleton_chunk())
-                      : record.kind == Kind::kThinVolumeChunk
-                          ? parse(response.mutable_thin_volume_chunk())
-                          : parse(response.mutable_summary());
-  if (parsed) return absl::OkStatus();
-  return absl::InternalError(
-      absl::StrCat("a piece of ", record.bytes.size(), " bytes of the result cannot be read"));
+  if (record.kind == Kind::kSummary) {
+    return response.mutable_summary()->ParseFromString(record.bytes)
+               ? absl::OkStatus()
+               : absl::InternalError("the summary of the result cannot be read");
+  }
+  const int field = record.kind == Kind::kSkeletonChunk ? Response::kSkeletonChunkFieldNumber
+                                                        : Response::kThinVolumeChunkFieldNumber;
+  *response.GetReflection()->MutableUnknownFields(&response)->AddLengthDelimited(field) =
+      std::move(record.bytes);
+  return absl::OkStatus();
 }
 
 }  // namespace bccskel::server

@@ -13,32 +13,13 @@
 namespace bccskel::server {
 namespace {
 
-// Reading and writing files overlaps with decoding and flushing.
-constexpr int kFileThreads = 2;
+// Most of their time they wait for the disk. One tenant may have all but one.
+constexpr int kFileThreads = 4;
 constexpr std::chrono::milliseconds kTick(100);
-
-absl::Status UnknownData(const std::string& folder, size_t files) {
-  return absl::FailedPreconditionError(absl::StrCat(
-      folder, " holds ", files, " files of uploads, volumes and results that its jobs.db does not ",
-      "know: that is missing, empty or from elsewhere. Nothing was changed. Bring back the "
-      "jobs.db ",
-      "that belongs to them, or start once with --unknown-data adopt to go on without it: files ",
-      "that no table names are then removed at the first start after a day"));
-}
-
-// Before an empty one would be made.
-absl::Status CheckTables(const std::string& tables, const DurableOptions& options) {
-  const auto facts = FactsOf(tables);
-  if ((facts.ok() && facts->size_bytes > 0) || options.unknown_data == "adopt") {
-    return absl::OkStatus();
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(const auto files, BlobStore(options.data_directory).Files());
-  return files.empty() ? absl::OkStatus() : UnknownData(options.data_directory, files.size());
-}
 
 absl::StatusOr<std::unique_ptr<JobStore>> OpenOwn(const DurableOptions& options) {
   const std::string tables = options.data_directory + "/jobs.db";
-  BCCSKEL_RETURN_IF_ERROR(CheckTables(tables, options));
+  BCCSKEL_RETURN_IF_ERROR(FolderFiles::CheckTables(tables, options));
   return OpenSqliteJobStore(tables);
 }
 
@@ -77,14 +58,21 @@ DurableJobs::DurableJobs(const DurableOptions& options, JobRunner& runner, const
       runner_(runner),
       codec_(codec),
       shared_(store->shared()),
-      lock_(std::move(lock)),
       blobs_(options.data_directory),
       quota_(options.max_disk_bytes, options.max_tenant_disk_bytes),
+      folder_(options_, std::move(lock)),
       journal_(RandomId(), [this] { return Now(); }),
+      active_(shared_, options.soon),
+      members_(options.lease),
       clock_(options.believable_leap, LastSeen(options.data_directory),
              std::chrono::steady_clock::now()),
       loop_(std::move(store), std::move(reserve)),
-      files_(kFileThreads) {}
+      files_(kFileThreads) {
+  // What others have claimed is known before anything is claimed here.
+  loop_.OnBegin([this] {
+    if (scheduling_) Sync();
+  });
+}
 
 DurableJobs::~DurableJobs() {
   admitting_ = false;
@@ -93,7 +81,7 @@ DurableJobs::~DurableJobs() {
   OnLoop([this] {
     stopping_ = true;
     retries_.clear();
-    for (const auto& [run, active] : runs_) run->Cancel();
+    active_.CancelRuns();
   });
   operations_.WaitForAll();
   OnLoop([this] { loop_.store().Leave().IgnoreError(); });
@@ -127,70 +115,10 @@ absl::Status DurableJobs::Recover() {
 absl::Status DurableJobs::RecoverStore(JobStore& store) {
   if (shared_) return JoinFleet(store);
   BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, KnownFiles(store));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> files, blobs_.Files());
-  BCCSKEL_RETURN_IF_ERROR(TakeOver(store, files, known));
-  BCCSKEL_RETURN_IF_ERROR(RemoveFiles(store));
+  BCCSKEL_RETURN_IF_ERROR(folder_.TakeOver(store));
+  BCCSKEL_RETURN_IF_ERROR(folder_.RemoveDeleted(store));
   BCCSKEL_RETURN_IF_ERROR(RecoverUploads(store));
   return RecoverJobs(store);
-}
-
-absl::StatusOr<std::set<std::string>> DurableJobs::KnownFiles(JobStore& store) {
-  std::set<std::string> known;
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
-  for (const UploadRow& row : uploads) {
-    if (row.volume.empty()) known.merge(blobs_.PathsOfUpload(row.tenant, row.name, row.file));
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
-  for (const VolumeRow& row : volumes) known.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.AllResults());
-  for (const ResultRow& row : results) {
-    if (row.file.empty()) continue;
-    const std::string path = blobs_.PathOfResult(row.tenant, row.file);
-    known.insert(path);
-    if (shared_) known.insert(path + kUnconfirmed);
-    // A crash may have come in between; what is lost shows when it is missed.
-    if (!shared_) blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();
-  }
-  return known;
-}
-
-// Files that another job store has named are not this one's to sweep. Folders of older servers do
-// not say whose they are: then one file that is known is enough.
-absl::Status DurableJobs::TakeOver(JobStore& store, const std::set<std::string>& files,
-                                   const std::set<std::string>& known) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string id, store.Id());
-  if (lock_.store_id() == id) {
-    Sweep(store, files, known);
-    return absl::OkStatus();
-  }
-  const auto is_known = [&known](const std::string& file) { return known.count(file) > 0; };
-  const bool strange =
-      !files.empty() && (!lock_.store_id().empty() || std::ranges::none_of(files, is_known));
-  if (strange && options_.unknown_data != "adopt") {
-    return UnknownData(options_.data_directory, files.size());
-  }
-  return lock_.SetStoreId(id);
-}
-
-// Only what is old and certainly not missed by anybody: while a file that is named is not there, or
-// a row cannot be read, an unknown file may be that one.
-void DurableJobs::Sweep(JobStore& store, const std::set<std::string>& files,
-                        const std::set<std::string>& known) {
-  const bool certain = store.damaged_rows() == 0 && std::ranges::includes(files, known);
-  int kept = 0;
-  for (const std::string& file : files) {
-    if (known.count(file) > 0) continue;
-    const auto facts = FactsOf(file);
-    const bool old = file.ends_with(kUnconfirmed) ||
-                     (facts.ok() && facts->written < Now() - options_.keep_unknown);
-    if (!certain || !old || !RemoveFile(file).ok()) ++kept;
-  }
-  if (kept == 0) return;
-  options_.on_warning(absl::StrCat(
-      kept, " files below ", options_.data_directory, " are named by no table and were kept",
-      certain ? "; they go when they are a day old"
-              : ": files that are named are missing, or rows are damaged"));
 }
 
 absl::Status DurableJobs::RecoverUploads(JobStore& store) {
@@ -200,7 +128,7 @@ absl::Status DurableJobs::RecoverUploads(JobStore& store) {
     BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
                              blobs_.OpenUpload(row.tenant, row.name));
     // Nobody could send while there was no server.
-    AddSession(std::make_shared<UploadSession>(row, std::move(file), Now()));
+    uploads_.Add(std::make_shared<UploadSession>(row, std::move(file), Now()));
   }
   return absl::OkStatus();
 }
@@ -216,7 +144,7 @@ absl::Status DurableJobs::RecoverJobs(JobStore& store) {
 
 absl::StatusOr<std::optional<EventRow>> DurableJobs::RecoverJob(JobStore& store, JobRow& job) {
   if (job.state == JobState::kRunning) return journal_.RecoverRunning(store, job);
-  if (job.state != JobState::kReceiving || FindSession(job.tenant, job.upload) != nullptr) {
+  if (job.state != JobState::kReceiving || uploads_.Find(job.tenant, job.upload) != nullptr) {
     return std::nullopt;
   }
   return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"));
@@ -224,8 +152,8 @@ absl::StatusOr<std::optional<EventRow>> DurableJobs::RecoverJob(JobStore& store,
 
 // Also where the clock was ahead at the last one and goes right again.
 bool DurableJobs::CleanUpIsDue() const {
-  const Time now = Now();
-  return now >= next_clean_up_ || next_clean_up_ - now > options_.clean_up_interval;
+  const Time now = Now(), next = next_clean_up_;
+  return now >= next || next - now > options_.clean_up_interval;
 }
 
 void DurableJobs::Tick(std::stop_token stop) {
@@ -240,11 +168,6 @@ void DurableJobs::Tick(std::stop_token stop) {
       Schedule();
     });
   }
-}
-
-JobPriority DurableJobs::PriorityOf(const JobRow& job) {
-  if (job.priority == 0) return JobPriority::kNormal;
-  return job.priority < 0 ? JobPriority::kLow : JobPriority::kHigh;
 }
 
 JobRequest DurableJobs::RunnerRequest(JobRequest request, const JobRow& job) {
@@ -275,23 +198,15 @@ absl::Status DurableJobs::CheckRoomForJob() const {
 
 void DurableJobs::Apply(const Step& step) {
   const JobRow& row = step.job;
-  if (const auto found = active_.find(row.number); found != active_.end()) {
-    --jobs_in_state_[static_cast<size_t>(found->second.row.state)];
-    Dequeue(found->second);
-  }
   if (IsTerminal(row.state)) {
-    Detach(row.number);
-    active_.erase(row.number);
+    active_.Forget(row.number);
     journal_.Forget(row.number);
   } else {
-    active_[row.number].row = row;
-    ++jobs_in_state_[static_cast<size_t>(row.state)];
-    if (row.state == JobState::kQueued) {
-      Detach(row.number);
-      Enqueue(active_[row.number]);
-    }
+    ActiveJob& job = active_.Put(row);
+    const bool waits = row.state == JobState::kQueued;
     const bool runs_elsewhere = row.state == JobState::kRunning && row.owner != journal_.owner();
-    if (runs_elsewhere) Detach(row.number);
+    if (waits || runs_elsewhere) active_.Detach(row.number);
+    if (waits) active_.Enqueue(job);
   }
   if (!step.event.has_value()) return;
   options_.on_job_state(row);
@@ -323,7 +238,8 @@ void DurableJobs::Apply(const Erased& erased) {
   if (erased.traces == Erased::Traces::kMayStay) return;
   // Also of what was to be removed: names tell something. Where it fails CleanUp() does it.
   JobStore& store = loop_.store();
-  if (store.Begin().ok() && (!RemoveFiles(store).ok() || !store.Commit().ok())) store.Rollback();
+  if (store.Begin().ok() && (!folder_.RemoveDeleted(store).ok() || !store.Commit().ok()))
+    store.Rollback();
   store.Forget().IgnoreError();
 }
 
@@ -356,15 +272,11 @@ void DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& eras
 }
 
 DurableUsage DurableJobs::usage() const {
-  std::lock_guard lock(sessions_mutex_);
-  const auto count = [this](JobState state) {
-    return jobs_in_state_[static_cast<size_t>(state)].load();
-  };
   return {.disk_bytes = quota_.used(),
           .disk_available_bytes = std::min(quota_.available(), SpaceOf(options_.data_directory)),
-          .uploads = static_cast<int>(sessions_.size()),
-          .queued = count(JobState::kQueued),
-          .running = count(JobState::kRunning),
+          .uploads = static_cast<int>(uploads_.size()),
+          .queued = active_.Count(JobState::kQueued),
+          .running = active_.Count(JobState::kRunning),
           .commits = loop_.commits(),
           .cached = cached_};
 }

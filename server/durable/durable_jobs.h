@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_SERVER_DURABLE_DURABLE_JOBS_H_
 #define BCCSKEL_SERVER_DURABLE_DURABLE_JOBS_H_
 
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -20,13 +19,17 @@
 #include "server/durable/active_jobs.h"
 #include "server/durable/clock_guard.h"
 #include "server/durable/durable_options.h"
+#include "server/durable/fleet_members.h"
+#include "server/durable/folder_files.h"
 #include "server/durable/job_codec.h"
 #include "server/durable/job_journal.h"
 #include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/durable/run.h"
+#include "server/durable/steps.h"
 #include "server/durable/stored_result.h"
 #include "server/durable/upload_session.h"
+#include "server/durable/upload_table.h"
 #include "server/durable/watch_board.h"
 #include "server/jobs/task_threads.h"
 #include "server/store/blob_store.h"
@@ -48,8 +51,10 @@ namespace bccskel::server {
 // change is on disk and alone changes what is remembered. Bytes of files are read and written on
 // other threads.
 //
-// durable_jobs.cc opens and closes; uploads.cc, volumes.cc and jobs.cc answer callers; runs.cc and
-// results.cc compute; expiry.cc cleans up.
+// Its parts: UploadTable and ActiveJobs remember what is unfinished, JobJournal changes states,
+// WatchBoard tells events, FolderFiles keeps files and tables together, FleetMembers tells who is
+// gone. durable_jobs.cc opens and closes; uploads.cc, volumes.cc and jobs.cc answer callers;
+// runs.cc and results.cc compute; expiry.cc cleans up.
 //
 // Several processes may share the store and the folder. Each then remembers the unfinished jobs of
 // all, as of a moment ago; changes find out in the store how things are. fleet.cc follows
@@ -150,8 +155,7 @@ class DurableJobs final : public RunObserver {
   absl::Status Recover();
 
  private:
-  using UploadKey = std::pair<std::string, std::string>;  // tenant, name
-  using Session = std::shared_ptr<UploadSession>;
+  using Session = UploadTable::Session;
 
   struct Opening;
   struct Finishing;
@@ -162,12 +166,6 @@ class DurableJobs final : public RunObserver {
 
   // ---- Opening and closing
   absl::Status RecoverStore(JobStore& store);
-  // The paths of all files that the tables name, results that are not confirmed yet among them.
-  absl::StatusOr<std::set<std::string>> KnownFiles(JobStore& store);
-  absl::Status TakeOver(JobStore& store, const std::set<std::string>& files,
-                        const std::set<std::string>& known);
-  void Sweep(JobStore& store, const std::set<std::string>& files,
-             const std::set<std::string>& known);
   absl::Status RecoverUploads(JobStore& store);
   absl::Status RecoverJobs(JobStore& store);
   absl::StatusOr<std::optional<EventRow>> RecoverJob(JobStore& store, JobRow& job);
@@ -203,7 +201,6 @@ class DurableJobs final : public RunObserver {
         });
   }
   // As the runner is to be asked.
-  static JobPriority PriorityOf(const JobRow& job);
   static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
   absl::Status CheckAdmitting() const;
   absl::Status CheckFits(const JobRequest& request) const;
@@ -212,7 +209,6 @@ class DurableJobs final : public RunObserver {
   Time Now() const { return std::chrono::floor<std::chrono::microseconds>(options_.now()); }
 
   // ---- Uploads
-  Session FindSession(const std::string& tenant, const std::string& upload) const;
   // The session of an unfinished upload; another server's is taken over. Errors: NOT_FOUND;
   // FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
   void WithSession(const std::string& tenant, const std::string& upload, Done<Session> done);
@@ -222,8 +218,6 @@ class DurableJobs final : public RunObserver {
   void EndMove(const std::shared_ptr<Moving>& moving, absl::Status status);
   // Another server has taken the upload over.
   absl::Status Superseded(const Session& session);
-  void ForgetSession(const UploadRow& row);
-  void AddSession(const Session& session);
   // Removes the files, too; the bytes stay counted.
   void DropSession(const UploadRow& row);
   static RemovalRow RemovalOf(const UploadRow& row);
@@ -282,30 +276,29 @@ class DurableJobs final : public RunObserver {
   // it.
   void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
                   std::function<void()> then);
-  // Brings a waiting job to run here. `volume`: that is fed to it; null for a job that joins a run.
-  void Claim(int64_t job, const VolumeRow* volume, std::function<void()> then);
+  // Brings a waiting job to run here.
+  void Claim(const std::shared_ptr<Claiming>& claiming);
   absl::Status ClaimStored(JobStore& store, Claiming& claiming);
+  void EndClaim(const std::shared_ptr<Claiming>& claiming, const absl::Status& status);
   void Claimed(const Claiming& claiming);
-  void Enqueue(ActiveJob& job);
-  void Dequeue(ActiveJob& job);
   void Schedule();
-  enum class Begun { kYes, kNothingNow };
-  Begun BeginNext();
-  Begun BeginJob(const JobRow& job);
-  Begun StartRun(const JobRow& job, const VolumeRow& volume);
-  ActiveRun* EqualRun(const JobRow& job, const VolumeRow& volume);
-  std::map<std::string, int> RunsOfTenants() const;
-  int CountRunsFromFiles(int least_crashes) const;
-  ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
-  void Attach(ActiveRun& run, int64_t job);
-  void Detach(int64_t job);
+  struct Claims {
+    std::vector<std::shared_ptr<Claiming>> all;
+    bool blocked = false;  // the next one cannot begin now
+  };
+  absl::Status BeginNext(JobStore& store, Claims& claims);
+  enum class Begun { kYes, kClaim, kNothingNow };
+  absl::StatusOr<Begun> BeginJob(JobStore& store, const ActiveJobs::Turn& turn, Claims& claims);
+  Begun StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume, Claims& claims);
+  void GiveWholeResult(const JobRow& job, const std::string& key);
+  Begun WaitAgain(int64_t job);
   void Feed(Run* run, const VolumeRow& volume);
+  void RunComputed(Run* run);
   void RunEnded(Run* run, const absl::StatusOr<ResultRow>& result);
   void StoreResult(Run* run, const ResultRow& row);
   absl::Status StoreResultOf(JobStore& store, Storing& storing);
   void RunFailed(Run* run, const absl::Status& error);
   void ReceivingFailed(int64_t job, const absl::Status& error);
-  void ForgetRun(Run* run);
   void VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest);
   void JoinEqual(Run* run);
   // The stored result, read to its end: a damaged one is dropped, and there is none.
@@ -349,40 +342,32 @@ class DurableJobs final : public RunObserver {
   void ExpireUploads();
   void ExpireJobs();
   void ExpireVolumes();
-  // What a crash, or the file system, has left of deleted files.
-  absl::Status RemoveFiles(JobStore& store);
   bool ClockIsBelieved();
 
   const DurableOptions options_;
   JobRunner& runner_;
   const JobCodec& codec_;
   const bool shared_;  // with other servers
-  FolderLock lock_;
   const BlobStore blobs_;
   DiskQuota quota_;
   std::atomic<bool> admitting_ = true;
-  std::array<std::atomic<int>, 6> jobs_in_state_ = {};  // unfinished ones, by JobState
   std::atomic<uint64_t> cached_ = 0;
 
-  mutable std::mutex sessions_mutex_;
-  std::map<UploadKey, Session> sessions_;  // guarded by sessions_mutex_
-  std::set<UploadKey> opening_;            // guarded by sessions_mutex_
+  UploadTable uploads_;
 
   // These belong to the loop.
+  FolderFiles folder_;
   JobJournal journal_;
-  JobQueue queue_;
   WatchBoard watches_;
-  std::map<int64_t, ActiveJob> active_;
-  std::map<Run*, ActiveRun> runs_;
+  ActiveJobs active_;
   std::vector<std::function<void()>> retries_;
-  std::set<int64_t>
-      waits_for_equal_;  // jobs in the queue's turn, while an equal one runs elsewhere
-  std::map<std::string, Sign> members_;  // others of the fleet
-  std::chrono::steady_clock::time_point last_beat_, last_look_, last_progress_;
+  FleetMembers members_;
+  std::chrono::steady_clock::time_point last_beat_, last_progress_;
   int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
-  Time next_clean_up_{};
+  bool scheduling_ = false;            // a change that claims jobs is on its way
+  std::atomic<Time> next_clean_up_{};  // the ticker looks at it, too
   ClockGuard clock_;
 
   Operations operations_;

@@ -39,7 +39,9 @@ struct DurableOptions {
 
   int max_unfinished_jobs = 10'000;  // all tenants together
   int max_runs = 4;                  // at the runner at the same time, besides one-call jobs
-  uint64_t max_job_bytes = 0;        // what the runner can ever admit; 0: unknown
+  // Short jobs that are likely to have their turn so soon are claimed before there is a place.
+  std::chrono::milliseconds soon{50};
+  uint64_t max_job_bytes = 0;  // what the runner can ever admit; 0: unknown
 
   // Weights and caps as they are now. Called on DurableJobs' thread; must not block.
   std::function<TenantTable()> tenants = [] { return TenantTable(); };

@@ -8,7 +8,7 @@ namespace bccskel::server {
 
 void DurableJobs::CleanUp() {
   next_clean_up_ = Now() + options_.clean_up_interval;
-  loop_.Post([this](JobStore& store) { return RemoveFiles(store); },
+  loop_.Post([this](JobStore& store) { return folder_.RemoveDeleted(store); },
              [this](const absl::Status&) { loop_.store().Forget().IgnoreError(); },
              GroupCommit::Room::kReserve);
   if (!ClockIsBelieved()) return;
@@ -20,7 +20,7 @@ void DurableJobs::CleanUp() {
 
 bool DurableJobs::ClockIsBelieved() {
   const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
-  if (believed) lock_.Touch(Now());  // else the next start would believe it
+  if (believed) folder_.Touch(Now());  // else the next start would believe it
   if (!believed) {
     options_.on_warning(
         "the clock has leapt ahead by more than a day: nothing expires for an hour");
@@ -90,27 +90,6 @@ void DurableJobs::ExpireVolumes() {
         return absl::OkStatus();
       },
       [token = operations_.Begin()](const absl::Status&) {});
-}
-
-absl::Status DurableJobs::RemoveFiles(JobStore& store) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<RemovalRow> removals, store.AllRemovals());
-  for (const RemovalRow& row : removals) {
-    absl::Status removed;
-    if (row.kind == RemovalRow::Kind::kUpload) {
-      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindUpload(row.tenant, row.name));
-      const bool wanted = again.has_value() && again->volume.empty();
-      if (!wanted) removed = blobs_.RemoveUpload(row.tenant, row.name);
-    } else if (row.kind == RemovalRow::Kind::kUploadFile) {
-      removed = blobs_.RemoveUpload(row.tenant, {}, row.name);
-    } else if (row.kind == RemovalRow::Kind::kBlob) {
-      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
-      if (again.empty()) removed = blobs_.RemoveBlob(row.tenant, row.name);
-    } else {
-      removed = blobs_.RemoveResult(row.tenant, row.name);
-    }
-    if (removed.ok()) BCCSKEL_RETURN_IF_ERROR(store.DeleteRemoval(row));
-  }
-  return absl::OkStatus();
 }
 
 }  // namespace bccskel::server

@@ -15,29 +15,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kBetweenBeats(1);
 constexpr int kBeatsBetweenCounts = 10, kCleanUpsBetweenSweeps = 60;
-// Who was away for longer, or could not ask, does not know who gave signs of life meanwhile.
-constexpr std::chrono::milliseconds kLongestGap(2500);
 
 }  // namespace
 
-// Files that are not named may be others', made just now: nothing is swept by who comes.
 absl::Status DurableJobs::JoinFleet(JobStore& store) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string id, store.Id());
-  if (!lock_.store_id().empty() && lock_.store_id() != id) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(options_.data_directory,
-                     " belongs to another job store than this one: nothing was changed"));
-  }
-  if (lock_.store_id().empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto files, blobs_.Files());
-    if (!files.empty() && options_.unknown_data != "adopt") {
-      return absl::FailedPreconditionError(
-          absl::StrCat(options_.data_directory, " holds ", files.size(),
-                       " files that this job store does not know: nothing was changed. Take an "
-                       "empty folder, or start once with --unknown-data adopt"));
-    }
-    BCCSKEL_RETURN_IF_ERROR(lock_.SetStoreId(id));
-  }
+  BCCSKEL_RETURN_IF_ERROR(folder_.Join(store));
   BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
   return store.Join(journal_.owner());
 }
@@ -63,11 +45,10 @@ void DurableJobs::Sync() {
 }
 
 void DurableJobs::Follow(const JobRow& job) {
-  const auto found = active_.find(job.number);
-  const bool known = found != active_.end();
-  if (known && found->second.row.sequence >= job.sequence) return;
-  const bool ran = known && found->second.row.state == JobState::kRunning;
-  if (known || !IsTerminal(job.state)) Apply(Step{.job = job, .event = std::nullopt});
+  const ActiveJob* const known = active_.Find(job.number);
+  if (known != nullptr && known->row.sequence >= job.sequence) return;
+  const bool ran = known != nullptr && known->row.state == JobState::kRunning;
+  if (known != nullptr || !IsTerminal(job.state)) Apply(Step{.job = job, .event = std::nullopt});
   if (ran && job.state != JobState::kRunning) QueueWaiting();
   TellStored(job.number);
 }
@@ -91,7 +72,7 @@ std::optional<JobEvent> DurableJobs::ProgressElsewhere(JobStore& store, const Jo
 }
 
 void DurableJobs::TellProgress() {
-  for (const auto& [number, job] : active_) {
+  for (const auto& [number, job] : active_.jobs()) {
     if (!watches_.Has(number)) continue;
     const std::optional<JobEvent> event = ProgressElsewhere(loop_.store(), job.row);
     if (event.has_value()) watches_.Tell(number, *event);
@@ -100,9 +81,9 @@ void DurableJobs::TellProgress() {
 
 // It was cancelled first, but that is not to be read any more.
 void DurableJobs::FollowDeleted(int64_t number) {
-  const auto found = active_.find(number);
-  if (found == active_.end()) return;
-  JobRow job = found->second.row;
+  const ActiveJob* const found = active_.Find(number);
+  if (found == nullptr) return;
+  JobRow job = found->row;
   job.state = JobState::kCancelled;
   ++job.sequence;
   job.ended = Now();
@@ -115,11 +96,7 @@ void DurableJobs::FollowDeleted(int64_t number) {
 }
 
 void DurableJobs::QueueWaiting() {
-  for (const int64_t number : std::exchange(waits_for_equal_, {})) {
-    const auto job = active_.find(number);
-    const bool waits = job != active_.end() && job->second.row.state == JobState::kQueued;
-    if (waits && job->second.run == nullptr) Enqueue(job->second);
-  }
+  active_.QueueWaiting();
   retry_wanted_ = true;
 }
 
@@ -134,28 +111,18 @@ void DurableJobs::Beat() {
              GroupCommit::Room::kReserve);
 }
 
-// By this process's clock alone: what counts is that it looked all the time and saw nothing.
 void DurableJobs::LookAtMembers() {
   const auto members = loop_.store().Members();
   if (!members.ok()) return;
-  const Clock::time_point now = Clock::now();
-  if (now - last_look_ > kLongestGap) members_.clear();
-  last_look_ = now;
-  std::map<std::string, Sign> signs;
-  for (const Member& member : *members) {
-    if (member.server == journal_.owner()) continue;
-    const auto before = members_.find(member.server);
-    const bool silent = before != members_.end() && before->second.beats == member.beats;
-    signs[member.server] = {.beats = member.beats, .since = silent ? before->second.since : now};
-    if (now - signs[member.server].since >= options_.lease) TakeOverFrom(member);
+  for (const Member& member : members_.Look(*members, journal_.owner(), Clock::now())) {
+    TakeOverFrom(member);
   }
-  members_ = std::move(signs);
   // Who has left without its jobs, or was taken away in between, is gone for certain.
   std::set<std::string> gone;
-  for (const auto& [number, job] : active_) {
+  for (const auto& [number, job] : active_.jobs()) {
     const std::string& owner = job.row.owner;
     const bool here = owner == journal_.owner() || owner.empty();
-    if (!here && !members_.contains(owner)) gone.insert(owner);
+    if (!here && !members_.Has(owner)) gone.insert(owner);
   }
   for (const std::string& owner : gone) TakeOverFrom({.server = owner, .beats = -1});
 }
@@ -193,20 +160,13 @@ void DurableJobs::TakeOverFrom(const Member& member) {
 }
 
 void DurableJobs::Rejoin() {
-  for (auto& [pointer, run] : std::exchange(runs_, {})) run.run->Cancel();
-  {
-    std::lock_guard lock(sessions_mutex_);
-    for (const auto& [key, session] : sessions_) session->TakeAlong();
-  }
+  active_.ForgetRuns();
+  uploads_.TakeAllAlong();
   retries_.clear();
-  members_.clear();
+  members_.Forget();
   journal_.SetOwner(RandomId());
   if (!loop_.store().Join(journal_.owner()).ok()) return;  // the next look tries again
   options_.on_warning("this server was silent for too long: others have taken over its jobs");
-  for (auto& [number, job] : active_) {
-    job.run = nullptr;
-    if (job.row.state == JobState::kQueued) Enqueue(job);
-  }
   Sync();
 }
 
@@ -220,24 +180,11 @@ absl::Status DurableJobs::CountFiles(JobStore& store) {
 // short.
 void DurableJobs::SweepShared() {
   if (!shared_ || clean_ups_++ % kCleanUpsBetweenSweeps != 0) return;
-  files_.Post({}, [this, oldest = Now() - options_.keep_unknown, token = operations_.Begin()] {
-    const auto files = blobs_.Files();
-    std::set<std::string> old;
-    for (const std::string& file : files.ok() ? *files : std::set<std::string>()) {
-      const auto facts = FactsOf(file);
-      if (facts.ok() && facts->written < oldest) old.insert(file);
-    }
+  files_.Post({}, [this, token = operations_.Begin()] {
+    const std::set<std::string> old = folder_.OldFiles();
     if (old.empty()) return;
-    loop_.Post(
-        [this, old](JobStore& store) -> absl::Status {
-          BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, KnownFiles(store));
-          if (store.damaged_rows() > 0) return absl::OkStatus();
-          for (const std::string& file : old) {
-            if (!known.contains(file)) RemoveFile(file).IgnoreError();
-          }
-          return absl::OkStatus();
-        },
-        nullptr, GroupCommit::Room::kReserve);
+    loop_.Post([this, old](JobStore& store) { return folder_.Sweep(store, old); }, nullptr,
+               GroupCommit::Room::kReserve);
   });
 }
 
@@ -270,13 +217,10 @@ absl::Status DurableJobs::PrepareMove(JobStore& store, Moving& moving) {
   if (!moving.row.volume.empty()) {
     return CallError(Reason::kUploadFinished, absl::StrCat(moving.row.name, " is finished"));
   }
-  std::lock_guard lock(sessions_mutex_);
-  const UploadKey key = {moving.row.tenant, moving.row.name};
-  if (!shared_ || opening_.contains(key) || sessions_.contains(key)) {
+  if (!shared_ || !uploads_.BeginOpening(moving.row)) {
     return CallError(Reason::kSecondWriter,
                      absl::StrCat(moving.row.name, " is being opened just now"));
   }
-  opening_.insert(key);
   moving.opening = true;
   moving.to = RandomId();
   return absl::OkStatus();
@@ -309,30 +253,20 @@ void DurableJobs::EndMove(const std::shared_ptr<Moving>& moving, absl::Status st
     if (moving->file != nullptr) {
       blobs_.RemoveUpload(old.tenant, old.name, moving->to).IgnoreError();
     }
-    if (moving->opening) {
-      std::lock_guard lock(sessions_mutex_);
-      opening_.erase({old.tenant, old.name});
-    }
+    if (moving->opening) uploads_.EndOpening(old);
     return moving->done(std::move(status));
   }
   moving->row.file = moving->to;
   const auto session = std::make_shared<UploadSession>(moving->row, std::move(moving->file), Now());
-  AddSession(session);
+  uploads_.Add(session);
   blobs_.RemoveUpload(old.tenant, old.name, old.file).IgnoreError();  // else with the removals
   moving->done(session);
 }
 
 absl::Status DurableJobs::Superseded(const Session& session) {
-  ForgetSession(session->row());
+  uploads_.RemoveFile(session->row());
   return CallError(Reason::kSecondWriter,
                    absl::StrCat(session->row().name, " goes on on another server"));
-}
-
-void DurableJobs::ForgetSession(const UploadRow& row) {
-  std::lock_guard lock(sessions_mutex_);
-  const auto found = sessions_.find({row.tenant, row.name});
-  if (found != sessions_.end() && found->second->row().file == row.file) sessions_.erase(found);
-  opening_.erase({row.tenant, row.name});
 }
 
 }  // namespace bccskel::server

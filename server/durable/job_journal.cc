@@ -49,8 +49,10 @@ absl::StatusOr<EventRow> JobJournal::Insert(JobStore& store, JobRow& job) {
 }
 
 absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRow& job,
-                                                          JobState state, absl::Status error) {
+                                                          JobState state, absl::Status error,
+                                                          Found found) {
   const Time time = now_();
+  const auto from = found == Found::kBefore ? std::optional(job.sequence) : std::nullopt;
   job.state = state;
   job.error = std::move(error);
   job.sequence = NextSequence(job.number, job.sequence);
@@ -60,7 +62,7 @@ absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRo
     job.started = time;
   }
   if (IsTerminal(state)) job.ended = time;
-  BCCSKEL_ASSIGN_OR_RETURN(const bool changed, store.UpdateJob(job));
+  BCCSKEL_ASSIGN_OR_RETURN(const bool changed, store.UpdateJob(job, from));
   if (!changed) return std::nullopt;
   BCCSKEL_ASSIGN_OR_RETURN(EventRow event, AddEvent(store, job, time));
   return std::optional(std::move(event));

@@ -29,9 +29,12 @@ class JobJournal {
 
   // Brings the job into the state and stores it with all else that `job` says. Entering kRunning
   // counts an attempt. Nothing happens when the stored job has ended already.
-  // Needs: `job` as it was found in the same transaction.
+  // Needs: `job` as it was found in the same transaction, or, if it was found before, as it was
+  // stored then: nothing happens when it has changed since.
+  enum class Found { kNow, kBefore };
   absl::StatusOr<std::optional<EventRow>> Enter(JobStore& store, JobRow& job, JobState state,
-                                                absl::Status error = absl::OkStatus());
+                                                absl::Status error = absl::OkStatus(),
+                                                Found found = Found::kNow);
 
   // After a crash: a job that ran waits again, or has failed when it was there too often. Its
   // sequence leaps over what was told and not stored.

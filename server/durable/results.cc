@@ -10,7 +10,6 @@ namespace bccskel::server {
 struct DurableJobs::Storing {
   std::shared_ptr<Run> run;
   ResultRow row;
-  int64_t number = 0;  // of the result with this key
   std::vector<Step> steps;
   bool needless = false;  // nobody wants it, or an equal one was there
 };
@@ -23,9 +22,10 @@ void DurableJobs::OnRunVolume(std::shared_ptr<Run> run, std::string volume_diges
 
 // The run is held: another one at its address would be given its result.
 void DurableJobs::VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest) {
-  const auto found = runs_.find(run.get());
-  if (found == runs_.end() || found->second.ending) return;
-  ActiveRun& active = found->second;
+  ActiveRun* const found = active_.FindOpen(run.get());
+  if (found == nullptr) return;
+  ActiveRun& active = *found;
+  if (active.volume_digest == digest) return;  // it was looked for already
   active.volume_digest = digest;
   const std::string key = ResultKey(digest, active.options);
   loop_.Post(
@@ -82,32 +82,26 @@ void DurableJobs::DropResult(const ResultRow& row, std::function<void()> then) {
 }
 
 void DurableJobs::GiveStoredResult(Run* run, int64_t result) {
-  const auto found = runs_.find(run);
-  if (found == runs_.end() || found->second.ending) return;
-  const std::set<int64_t> jobs = found->second.jobs;
+  ActiveRun* const found = active_.FindOpen(run);
+  if (found == nullptr) return;
+  const std::set<int64_t> jobs = found->jobs;
   cached_ += jobs.size();
-  found->second.ending = true;
-  found->second.run->Cancel();
-  ForgetRun(run);
+  found->ending = true;
+  found->run->Cancel();
+  active_.ForgetRun(run);
   EnterState(jobs, JobState::kSucceeded, absl::OkStatus(), result, nullptr);
 }
 
 // The later of two runs of the same volume, encoded differently, gives way.
 void DurableJobs::JoinEqual(Run* run) {
-  const auto found = runs_.find(run);
-  if (found == runs_.end() || found->second.ending) return;
-  for (auto& [pointer, other] : runs_) {
-    if (pointer == run || other.ending || other.tenant != found->second.tenant ||
-        other.options != found->second.options ||
-        other.volume_digest != found->second.volume_digest) {
-      continue;
-    }
-    const std::set<int64_t> jobs = found->second.jobs;
-    found->second.run->Cancel();
-    ForgetRun(run);
-    for (const int64_t job : jobs) Attach(other, job);
-    return Schedule();
-  }
+  const ActiveRun* const found = active_.FindOpen(run);
+  ActiveRun* const other = found == nullptr ? nullptr : active_.FindEqual(*found);
+  if (other == nullptr) return;
+  const std::set<int64_t> jobs = found->jobs;
+  found->run->Cancel();
+  active_.ForgetRun(run);
+  for (const int64_t job : jobs) active_.Attach(*other, job);
+  Schedule();
 }
 
 // Numbers are given within a change: what is stored and what is only told come in one order.
@@ -120,7 +114,7 @@ void DurableJobs::OnRunProgress(std::shared_ptr<Run> run) {
       },
       [this, events](const absl::Status&) {
         for (const auto& [job, event] : *events) {
-          if (active_.count(job) > 0) watches_.Tell(job, event);
+          if (active_.Find(job) != nullptr) watches_.Tell(job, event);
         }
       });
 }
@@ -142,10 +136,10 @@ absl::Status DurableJobs::StoreProgress(JobStore& store,
 std::map<int64_t, JobEvent> DurableJobs::TakeProgress(Run& run) {
   std::map<int64_t, JobEvent> events;
   const std::optional<JobProgress> progress = run.TakeProgress();
-  const auto found = runs_.find(&run);
-  if (!progress.has_value() || found == runs_.end()) return events;
-  for (const int64_t job : found->second.jobs) {
-    const JobRow& row = active_.at(job).row;
+  const ActiveRun* const found = active_.FindRun(&run);
+  if (!progress.has_value() || found == nullptr) return events;
+  for (const int64_t job : found->jobs) {
+    const JobRow& row = active_.Find(job)->row;
     if (row.state != JobState::kRunning) continue;
     events.insert_or_assign(job, JobEvent{.sequence = journal_.NextSequence(job, row.sequence),
                                           .time = Now(),
@@ -161,6 +155,7 @@ void DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
     });
   }
   const auto held = std::make_shared<std::optional<JobResult>>(*std::move(result));
+  loop_.Post([this, run] { RunComputed(run.get()); });
   files_.Post({.tenant = run->tenant()}, [this, run, held] {
     absl::StatusOr<ResultRow> row = WriteResult(**held, *run, codec_, blobs_, quota_);
     held->reset();  // its memory is admitted until here
@@ -169,20 +164,27 @@ void DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
   });
 }
 
+void DurableJobs::RunComputed(Run* run) {
+  ActiveRun* const found = active_.FindRun(run);
+  if (found == nullptr) return;
+  active_.Computed(*found);
+  Schedule();
+}
+
 void DurableJobs::RunEnded(Run* run, const absl::StatusOr<ResultRow>& result) {
-  const auto found = runs_.find(run);
-  if (found == runs_.end() || found->second.ending) {
+  ActiveRun* const found = active_.FindOpen(run);
+  if (found == nullptr) {
     if (result.ok()) RemoveResult(*result, blobs_, quota_);
     return;
   }
-  found->second.ending = true;
+  found->ending = true;
   if (!result.ok()) return RunFailed(run, result.status());
   StoreResult(run, *result);
 }
 
 void DurableJobs::StoreResult(Run* run, const ResultRow& row) {
   const auto storing = std::make_shared<Storing>();
-  storing->run = runs_.at(run).run;
+  storing->run = active_.FindRun(run)->run;
   storing->row = row;
   loop_.Post(
       [this, storing](JobStore& store) { return StoreResultOf(store, *storing); },
@@ -196,7 +198,7 @@ void DurableJobs::StoreResult(Run* run, const ResultRow& row) {
           blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();  // else at the next start
         }
         for (const Step& step : storing->steps) Apply(step);
-        ForgetRun(storing->run.get());
+        active_.ForgetRun(storing->run.get());
         Schedule();
       },
       GroupCommit::Room::kReserve);
@@ -204,26 +206,27 @@ void DurableJobs::StoreResult(Run* run, const ResultRow& row) {
 
 absl::Status DurableJobs::StoreResultOf(JobStore& store, Storing& storing) {
   storing.steps.clear();
-  const auto found = runs_.find(storing.run.get());
-  storing.needless = found == runs_.end();  // it was taken over by others
+  const ActiveRun* const found = active_.FindRun(storing.run.get());
+  storing.needless = found == nullptr;  // it was taken over by others
   if (storing.needless) return absl::OkStatus();
-  const ActiveRun& active = found->second;
+  const ActiveRun& active = *found;
   storing.row.key = ResultKey(active.volume_digest, active.options);
-  BCCSKEL_ASSIGN_OR_RETURN(storing.number, store.InsertResult(storing.row));
+  BCCSKEL_ASSIGN_OR_RETURN(const ResultRow kept, store.InsertResult(storing.row));
   for (const int64_t job : active.jobs) {
-    BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, JobState::kSucceeded, absl::OkStatus(),
-                                       storing.number, storing.steps));
+    BCCSKEL_RETURN_IF_ERROR(
+        EnterState(store, job, JobState::kSucceeded, absl::OkStatus(), kept.number, storing.steps));
   }
-  BCCSKEL_RETURN_IF_ERROR(store.TakeResultIfUnused(storing.number).status());
-  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> kept, store.FindResult(storing.number));
-  storing.needless = !kept.has_value() || kept->file != storing.row.file;
+  storing.needless = kept.file != storing.row.file;
+  if (!storing.steps.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const auto unused, store.TakeResultIfUnused(kept.number));
+  storing.needless = storing.needless || unused.has_value();
   return absl::OkStatus();
 }
 
 void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
-  const std::set<int64_t> jobs = runs_.at(run).jobs;
-  const bool received = !runs_.at(run).volume.empty();
-  ForgetRun(run);
+  const std::set<int64_t> jobs = active_.FindRun(run)->jobs;
+  const bool received = !active_.FindRun(run)->volume.empty();
+  active_.ForgetRun(run);
   if (!received) {
     for (const int64_t job : jobs) ReceivingFailed(job, error);
     return Schedule();
@@ -234,14 +237,14 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
     EnterState(jobs, again ? JobState::kQueued : JobState::kFailed,
                again ? absl::OkStatus() : error, 0, nullptr);
   }
-  if (!again) return Schedule();
+  if (!again || jobs.empty()) return Schedule();
   retry_wanted_ = true;
 }
 
 // The upload can go on without being decoded, unless it is malformed.
 void DurableJobs::ReceivingFailed(int64_t job, const absl::Status& error) {
-  const JobRow& row = active_.at(job).row;
-  if (const Session session = FindSession(row.tenant, row.upload); session != nullptr) {
+  const JobRow& row = active_.Find(job)->row;
+  if (const Session session = uploads_.Find(row.tenant, row.upload); session != nullptr) {
     session->TakeAlong();
   }
   if (!absl::IsInvalidArgument(error)) return;

@@ -40,7 +40,7 @@ void Run::Feed(CheckedFile file, TaskThreads& threads) {
 
 void Run::FeedNext() {
   absl::StatusOr<std::string> bytes = file_->Next();
-  if (!bytes.ok()) return Fail(bytes.status());
+  if (!bytes.ok()) return Fail(std::move(bytes).status());
   if (bytes->empty()) return job_->FinishVolume(std::nullopt);
   job_->Append(*std::move(bytes));
 }

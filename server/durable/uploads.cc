@@ -23,26 +23,8 @@ struct DurableJobs::Opening {
   Done<UploadInfo> done;
 };
 
-DurableJobs::Session DurableJobs::FindSession(const std::string& tenant,
-                                              const std::string& upload) const {
-  std::lock_guard lock(sessions_mutex_);
-  const auto found = sessions_.find({tenant, upload});
-  return found == sessions_.end() ? nullptr : found->second;
-}
-
-void DurableJobs::AddSession(const Session& session) {
-  std::lock_guard lock(sessions_mutex_);
-  const UploadKey key = {session->row().tenant, session->row().name};
-  sessions_[key] = session;
-  opening_.erase(key);
-}
-
 void DurableJobs::DropSession(const UploadRow& row) {
-  {
-    std::lock_guard lock(sessions_mutex_);
-    sessions_.erase({row.tenant, row.name});
-    opening_.erase({row.tenant, row.name});
-  }
+  uploads_.Remove(row);
   // Else swept at the next start.
   blobs_.RemoveUpload(row.tenant, row.name, row.file).IgnoreError();
 }
@@ -103,10 +85,7 @@ absl::Status DurableJobs::StoreUpload(JobStore& store, Opening& opening) {
     opening.counted = true;
   }
   BCCSKEL_RETURN_IF_ERROR(store.InsertUpload(opening.row));
-  {
-    std::lock_guard lock(sessions_mutex_);
-    opening_.insert({opening.row.tenant, opening.row.name});
-  }
+  uploads_.BeginOpening(opening.row);
   return opening.job.has_value() ? StoreReceivingJob(store, opening) : absl::OkStatus();
 }
 
@@ -138,15 +117,15 @@ void DurableJobs::UploadStored(const std::shared_ptr<Opening>& opening, absl::St
     return opening->done(InfoOf(*opening->existing));
   }
   if (!status.ok()) {
-    ForgetSession(opening->row);
+    uploads_.RemoveFile(opening->row);
     if (opening->counted) quota_.GiveBack(opening->row.tenant, opening->row.size_bytes);
     if (opening->run != nullptr) opening->run->Cancel();
     return opening->done(std::move(status));
   }
   if (opening->job.has_value()) {
     Apply(Step{.job = *opening->job, .event = opening->event});
-    ActiveRun& run = AddRun(opening->run, *opening->job, ActiveRun::Source::kUpload);
-    Attach(run, opening->job->number);
+    ActiveRun& run = active_.AddRun(opening->run, *opening->job, ActiveRun::Source::kUpload);
+    active_.Attach(run, opening->job->number);
   }
   files_.Post({.tenant = opening->row.tenant}, [this, opening] { OpenFile(opening); });
 }
@@ -160,14 +139,14 @@ void DurableJobs::OpenFile(const std::shared_ptr<Opening>& opening) {
   }
   const auto session = std::make_shared<UploadSession>(opening->row, *std::move(file), Now());
   session->set_along(opening->run);
-  AddSession(session);
+  uploads_.Add(session);
   opening->done(InfoOf(opening->row));
 }
 
 void DurableJobs::Append(const std::string& tenant, const std::string& upload, uint64_t offset,
                          std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done) {
   done = Track(std::move(done));
-  const Session session = FindSession(tenant, upload);
+  const Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) {
     return WithSession(tenant, upload,
                        [this, tenant, upload, offset, bytes = std::move(bytes), crc32c,
@@ -211,7 +190,7 @@ void DurableJobs::AppendNow(const Session& session, std::string bytes,
 }
 
 void DurableJobs::SenderGone(const std::string& tenant, const std::string& upload) {
-  const Session session = FindSession(tenant, upload);
+  const Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) return;
   const std::shared_ptr<Run> along = session->TakeAlong();
   if (along == nullptr) return;
@@ -224,8 +203,10 @@ void DurableJobs::GetUpload(const std::string& tenant, const std::string& upload
       [this, tenant, upload](JobStore& store) -> absl::StatusOr<UploadInfo> {
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
         // Who asks may go on here with what another server has taken over meanwhile.
-        const Session session = FindSession(tenant, upload);
-        if (session != nullptr && session->row().file != row.file) ForgetSession(session->row());
+        const Session session = uploads_.Find(tenant, upload);
+        if (session != nullptr && session->row().file != row.file) {
+          uploads_.RemoveFile(session->row());
+        }
         return InfoOf(row);
       },
       std::move(done));
@@ -268,7 +249,7 @@ absl::StatusOr<UploadRow> DurableJobs::FindUploadRow(JobStore& store, const std:
 }
 
 UploadInfo DurableJobs::InfoOf(const UploadRow& row) const {
-  Session session = FindSession(row.tenant, row.name);
+  Session session = uploads_.Find(row.tenant, row.name);
   if (session != nullptr && session->row().file != row.file) session = nullptr;
   UploadInfo info = {.name = row.name,
                      .declaration = row.declaration,

@@ -24,7 +24,7 @@ void DurableJobs::FinishUpload(const std::string& tenant, const std::string& upl
                                uint64_t size_bytes, std::optional<Sha256Digest> sha256,
                                Done<VolumeInfo> done) {
   done = Track(std::move(done));
-  const Session session = FindSession(tenant, upload);
+  const Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) {
     return WithSession(tenant, upload,
                        [this, tenant, upload, size_bytes, sha256,
@@ -118,7 +118,7 @@ absl::Status DurableJobs::StoreVolumeOfJob(JobStore& store, Finishing& finishing
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(upload.tenant, upload.job));
   if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
   job->volume = finishing.volume.name;
-  bool runs = runs_.count(finishing.along.get()) > 0;
+  bool runs = active_.FindRun(finishing.along.get()) != nullptr;
   if (shared_ && runs) {
     BCCSKEL_ASSIGN_OR_RETURN(
         const bool elsewhere,
@@ -141,10 +141,10 @@ void DurableJobs::VolumeStored(Finishing& finishing, absl::Status status) {
   DropSession(session.row());
   if (!finishing.new_blob) quota_.GiveBack(session.row().tenant, session.row().size_bytes);
   if (finishing.step.has_value()) Apply(*finishing.step);
-  const auto run = runs_.find(finishing.along.get());
+  ActiveRun* const run = active_.FindRun(finishing.along.get());
   const bool waits = finishing.step.has_value() && finishing.step->job.state == JobState::kQueued;
-  if (run != runs_.end() && !waits) {
-    run->second.volume = finishing.volume.name;
+  if (run != nullptr && !waits) {
+    run->volume = finishing.volume.name;
     finishing.along->FinishVolume();
   } else if (finishing.step.has_value() && finishing.step->job.state == JobState::kRunning) {
     // The run has ended while this was stored.

@@ -48,7 +48,7 @@ class JobWork {
                                    const std::function<void()>& wake) = 0;
 
   // Called once, last: gives back the memory that is no longer needed and tells the listener.
-  virtual void End(const absl::Status& status, const JobTimes& times, Ticket ticket) = 0;
+  virtual void End(absl::Status status, const JobTimes& times, Ticket ticket) = 0;
 };
 
 }  // namespace bccskel::server

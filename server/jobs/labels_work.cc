@@ -133,13 +133,13 @@ void LabelsWork::Report() const {
   listener_->OnProgress(result_.labels, estimates_.size(), Clock::now() - started_);
 }
 
-void LabelsWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {
+void LabelsWork::End(absl::Status status, const JobTimes& times, Ticket ticket) {
   const std::shared_ptr<LabelsListener> listener = std::move(listener_);
   receiver_.reset();
   labels_ = {};
   if (!status.ok()) {
     ticket = Ticket();
-    return listener->OnEnd(status);
+    return listener->OnEnd(std::move(status));
   }
   ticket.LeavePlace();
   ticket.ShrinkTo(unread_->bytes());

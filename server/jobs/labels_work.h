@@ -65,7 +65,7 @@ class LabelsWork final : public JobWork {
   bool MayRun() const override;
   absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
                            const std::function<void()>& wake) override;
-  void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
+  void End(absl::Status status, const JobTimes& times, Ticket ticket) override;
 
  private:
   using Clock = exec::Context::Clock;

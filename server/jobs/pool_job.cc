@@ -153,9 +153,9 @@ void PoolJob::Run(ComputeQueue::Turn& at_work) {
   absl::StatusOr<JobWork::Turn> turn =
       OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(at_work); });
   times_.computed += Clock::now() - start;
-  if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(turn.status());
-  const absl::Status base = memory_->SetBase(work_->BytesToRun());  // not more than before
-  if (!base.ok()) return End(base);
+  if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(std::move(turn).status());
+  absl::Status base = memory_->SetBase(work_->BytesToRun());  // not more than before
+  if (!base.ok()) return End(std::move(base));
   WaitForTurn();
 }
 
@@ -179,7 +179,7 @@ void PoolJob::End(absl::Status status) {
     if (stop_.stop_requested() && (status.ok() || absl::IsCancelled(status))) status = why_;
   }
   const bool was_large = memory_->taken() > kWorthTrimming;
-  work_->End(status, times_, memory_->Close());
+  work_->End(std::move(status), times_, memory_->Close());
   if (was_large) malloc_trim(0);
 }
 

@@ -102,7 +102,7 @@ absl::Status SkeletonizeWork::CheckShellPoints() const {
                                 " bytes, the limit for a volume of ", bricks_, " bricks"));
 }
 
-void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Ticket ticket) {
+void SkeletonizeWork::End(absl::Status status, const JobTimes& times, Ticket ticket) {
   const std::shared_ptr<JobListener> listener = std::move(listener_);
   JobResult result = std::exchange(result_, JobResult());
   volume_.reset();
@@ -110,7 +110,7 @@ void SkeletonizeWork::End(const absl::Status& status, const JobTimes& times, Tic
   if (!status.ok()) {
     result = JobResult();
     ticket = Ticket();
-    return listener->OnEnd(status);
+    return listener->OnEnd(std::move(status));
   }
   ticket.LeavePlace();
   ticket.ShrinkTo(GraphBytes(result.skeleton.graph) + result.thin_volume.size() +

@@ -25,7 +25,7 @@ class SkeletonizeWork final : public JobWork {
   uint64_t Bricks() const override { return volume_->brick_count(); }
   absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
                            const std::function<void()>& wake) override;
-  void End(const absl::Status& status, const JobTimes& times, Ticket ticket) override;
+  void End(absl::Status status, const JobTimes& times, Ticket ticket) override;
 
  private:
   absl::Status CountBricks(const exec::Context& context);

@@ -75,18 +75,28 @@ absl::Status GroupCommit::WriteWithReserve(std::span<Entry> batch) {
   return written;
 }
 
-// One transaction. Errors: of the store; then nothing has happened.
+// Steps cost two statements a change: they are for where one fails half done.
+// Errors: of the store; then nothing has happened.
 absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
+  absl::Status written = WriteOnce(batch, Steps::kNone);
+  if (absl::IsAborted(written)) written = WriteOnce(batch, Steps::kEach);
+  NoteHealth(written);
+  return written;
+}
+
+// One transaction. Errors: ABORTED when steps are needed; else as above.
+absl::Status GroupCommit::WriteOnce(std::span<Entry> batch, Steps steps) {
   ++commits_;
-  const absl::Status written = [&]() -> absl::Status {
+  absl::Status written = [&]() -> absl::Status {
     BCCSKEL_RETURN_IF_ERROR(store_->Begin());
+    if (on_begin_) on_begin_();
     for (Entry& entry : batch) {
-      if (entry.IsToWrite()) BCCSKEL_RETURN_IF_ERROR(RunStep(entry));
+      if (!entry.IsToWrite()) continue;
+      BCCSKEL_RETURN_IF_ERROR(steps == Steps::kEach ? RunStep(entry) : RunWithoutStep(entry));
     }
     return store_->Commit();
   }();
   if (!written.ok()) store_->Rollback();
-  NoteHealth(written);
   return written;
 }
 
@@ -101,6 +111,14 @@ absl::Status GroupCommit::Health() const {
     if (!failure_.ok()) return failure_;
   }
   return store_->Health();
+}
+
+absl::Status GroupCommit::RunWithoutStep(Entry& entry) {
+  const uint64_t traces = store_->traces();
+  entry.status = entry.change(*store_);
+  if (entry.status.ok() || store_->traces() == traces) return absl::OkStatus();
+  entry.status = absl::OkStatus();  // it runs again
+  return absl::AbortedError("a change has failed half done");
 }
 
 // Errors: of the store, not of the change.

@@ -10,6 +10,7 @@
 #include <span>
 #include <stop_token>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -39,6 +40,9 @@ class GroupCommit {
   ~GroupCommit();  // does what was posted, also by what it does, then joins
   GroupCommit(const GroupCommit&) = delete;
   GroupCommit& operator=(const GroupCommit&) = delete;
+  // Called from now on when a transaction has begun, before its changes: then the store is as all
+  // others have left it, and nobody changes it. Needs: nothing was posted yet.
+  void OnBegin(std::function<void()> task) { on_begin_ = std::move(task); }
 
   // Changes and their ends come in the order of posting. Neither may throw or block for long.
   // kReserve is for what makes room, or ends a job.
@@ -69,10 +73,14 @@ class GroupCommit {
   absl::Status WriteWithReserve(std::span<Entry> batch);
   void NoteHealth(const absl::Status& written);
   absl::Status WriteAll(std::span<Entry> batch);
+  enum class Steps { kNone, kEach };  // that can be taken back alone
+  absl::Status WriteOnce(std::span<Entry> batch, Steps steps);
   absl::Status RunStep(Entry& entry);
+  absl::Status RunWithoutStep(Entry& entry);
 
   const std::unique_ptr<JobStore> store_;
   std::atomic<uint64_t> commits_ = 0;
+  std::function<void()> on_begin_;
   const std::unique_ptr<DiskReserve> reserve_;  // may be null
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;

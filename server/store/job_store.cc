@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/store/tables.h"
@@ -19,10 +20,17 @@ absl::Status DamagedRow() {
 
 }  // namespace
 
+absl::StatusOr<std::vector<SqlRow>> JobStore::Execute(const std::string& sql,
+                                                      const std::vector<SqlValue>& values) {
+  auto rows = database_->Run(sql, values);
+  if (!rows.ok() || !absl::StartsWith(sql, "SELECT")) ++traces_;
+  return rows;
+}
+
 template <typename... Values>
 absl::StatusOr<std::vector<SqlRow>> JobStore::Query(const std::string& sql,
                                                     const Values&... values) {
-  return database_->Run(sql, {ToValue(values)...});
+  return Execute(sql, {ToValue(values)...});
 }
 
 template <typename... Values>
@@ -34,29 +42,10 @@ template <typename Row>
 absl::Status JobStore::Insert(const Row& row, const std::string& replacing) {
   std::vector<SqlValue> values = ValuesOf(row);
   values.push_back(SqlValue::Number(CheckOf(row)));
-  return database_
-      ->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row), ", row_check) VALUES(",
-                         Parameters(values.size()), ")", replacing),
-            values)
+  return Execute(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row),
+                              ", row_check) VALUES(", Parameters(values.size()), ")", replacing),
+                 values)
       .status();
-}
-
-// The checksum is of the number, too, which the database gives.
-template <typename Row>
-absl::StatusOr<int64_t> JobStore::InsertNumbered(Row row, const std::string& replacing) {
-  std::vector<SqlValue> values = ValuesOf(row);
-  values.erase(values.begin());
-  const std::string columns = ColumnsOf(row).substr(sizeof("number, ") - 1);
-  BCCSKEL_ASSIGN_OR_RETURN(
-      auto rows,
-      database_->Run(absl::StrCat("INSERT INTO ", TableOf(row), "(", columns, ") VALUES(",
-                                  Parameters(values.size()), ")", replacing, " RETURNING number"),
-                     values));
-  row.number = rows.front().Number();
-  BCCSKEL_RETURN_IF_ERROR(
-      Run(absl::StrCat("UPDATE ", TableOf(row), " SET row_check = $1 WHERE number = $2"),
-          CheckOf(row), row.number));
-  return row.number;
 }
 
 template <typename Row>
@@ -128,14 +117,12 @@ void JobStore::Rollback() {
 
 absl::Status JobStore::BeginStep() { return Run("SAVEPOINT step"); }
 absl::Status JobStore::KeepStep() { return Run("RELEASE SAVEPOINT step"); }
-
 absl::Status JobStore::UndoStep() {
   BCCSKEL_RETURN_IF_ERROR(Run("ROLLBACK TO SAVEPOINT step"));
   return KeepStep();
 }
 
 absl::Status JobStore::InsertUpload(const UploadRow& row) { return Insert(row); }
-
 absl::Status JobStore::UpdateUpload(const UploadRow& row) {
   return Run(
       "UPDATE uploads SET volume = $1, used = $2, file = $3, row_check = $4"
@@ -182,23 +169,30 @@ absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string
 
 absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
 
-absl::StatusOr<int64_t> JobStore::InsertJob(const JobRow& row) { return InsertNumbered(row); }
+// The number comes first: the checksum is of it, too.
+absl::StatusOr<int64_t> JobStore::InsertJob(JobRow row) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT " + database_->NextNumber("jobs")));
+  row.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(Insert(row));
+  return row.number;
+}
 
-absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row) {
+absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row, std::optional<uint64_t> from) {
   BCCSKEL_ASSIGN_OR_RETURN(
       const auto changed,
       Query("UPDATE jobs SET volume = $1, state = $2, attempts = $3, crashes = $4,"
             " sequence = $5, owner = $6, error = $7, result = $8, started = $9, ended = $10,"
-            " row_check = $11 WHERE number = $12 AND state < 3 RETURNING number",
+            " row_check = $11 WHERE number = $12 AND state < 3 AND $13 IN (sequence, -1)"
+            " RETURNING number",
             row.volume, row.state, row.attempts, row.crashes, row.sequence, row.owner, row.error,
-            row.result, row.started, row.ended, CheckOf(row), row.number));
+            row.result, row.started, row.ended, CheckOf(row), row.number,
+            static_cast<int64_t>(from.value_or(-1))));
   return !changed.empty();
 }
 
 absl::Status JobStore::DeleteJob(int64_t number) {
   return Run("DELETE FROM jobs WHERE number = $1", number);
 }
-
 absl::Status JobStore::DeleteDamagedJob(const std::string& tenant, const std::string& name) {
   return Delete<JobRow>(tenant, name);
 }
@@ -251,12 +245,19 @@ absl::StatusOr<std::vector<EventRow>> JobStore::EventsAfter(int64_t job, uint64_
                        sequence);
 }
 
-absl::StatusOr<int64_t> JobStore::InsertResult(const ResultRow& row) {
+absl::StatusOr<ResultRow> JobStore::InsertResult(ResultRow row) {
   static const std::string replacing =
-      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary"});
-  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
-  if (found.has_value()) return found->number;
-  return InsertNumbered(row, replacing);
+      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary", "row_check"});
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
+  if (found.has_value()) return *std::move(found);
+  const std::string next =
+      "SELECT coalesce((SELECT number FROM results WHERE tenant = $1 AND "
+      "key = $2), " +
+      database_->NextNumber("results") + ")";
+  BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query(next, row.tenant, row.key));
+  row.number = rows.front().Number();
+  BCCSKEL_RETURN_IF_ERROR(Insert(row, replacing));
+  return row;
 }
 
 absl::Status JobStore::DropResult(const ResultRow& row) {

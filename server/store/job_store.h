@@ -45,6 +45,9 @@ class JobStore {
   void Rollback();
   // Steps within a transaction, each of which can be taken back alone.
   absl::Status BeginStep();
+  // Grows with every statement that has changed something, or has failed: a step without one leaves
+  // nothing to take back.
+  uint64_t traces() const { return traces_; }
   absl::Status KeepStep();
   absl::Status UndoStep();
 
@@ -67,9 +70,10 @@ class JobStore {
   absl::StatusOr<std::vector<VolumeRow>> AllVolumes();
 
   // Yields its number.
-  absl::StatusOr<int64_t> InsertJob(const JobRow& row);
-  // False, and nothing happens, when the stored job has ended already or is gone.
-  absl::StatusOr<bool> UpdateJob(const JobRow& row);
+  absl::StatusOr<int64_t> InsertJob(JobRow row);
+  // False, and nothing happens, when the stored job has ended already or is gone, or has another
+  // sequence than `from`.
+  absl::StatusOr<bool> UpdateJob(const JobRow& row, std::optional<uint64_t> from = std::nullopt);
   // With its events.
   absl::Status DeleteJob(int64_t number);
   absl::Status DeleteDamagedJob(const std::string& tenant, const std::string& name);
@@ -90,9 +94,9 @@ class JobStore {
   absl::Status InsertEvent(const EventRow& row);
   absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence);
 
-  // Yields its number, or that of the result which already has this key: then `row` is not stored.
+  // Yields what is stored: the row with its number, or the result that already has this key.
   // Takes the place and the number of a damaged one, so that it heals the jobs that have that.
-  absl::StatusOr<int64_t> InsertResult(const ResultRow& row);
+  absl::StatusOr<ResultRow> InsertResult(ResultRow row);
   // Its file is damaged: it is not found by its key any more, but by its number.
   absl::Status DropResult(const ResultRow& row);
   absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number);
@@ -140,14 +144,14 @@ class JobStore {
  private:
   enum class Damaged { kFails, kLeftOut };
 
+  absl::StatusOr<std::vector<SqlRow>> Execute(const std::string& sql,
+                                              const std::vector<SqlValue>& values);
   template <typename... Values>
   absl::StatusOr<std::vector<SqlRow>> Query(const std::string& sql, const Values&... values);
   template <typename... Values>
   absl::Status Run(const std::string& sql, const Values&... values);
   template <typename Row>
   absl::Status Insert(const Row& row, const std::string& replacing = {});
-  template <typename Row>
-  absl::StatusOr<int64_t> InsertNumbered(Row row, const std::string& replacing = {});
   template <typename Row>
   absl::Status Delete(const std::string& tenant, const std::string& name);
   // `where` follows the table's name. For who looks after everything, and must not stop at a row
@@ -166,6 +170,7 @@ class JobStore {
   const std::unique_ptr<SqlDatabase> database_;
   std::string server_;  // empty before it has joined
   bool fenced_ = false;
+  uint64_t traces_ = 0;
   std::atomic<int> damaged_rows_ = 0;
 };
 

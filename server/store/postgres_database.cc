@@ -93,6 +93,9 @@ class PostgresDatabase final : public SqlDatabase {
                                           const std::vector<SqlValue>& values) override;
   absl::Status Begin(const std::string& server) override;
   bool InTransaction() const override;
+  std::string NextNumber(const std::string& table) const override {
+    return absl::StrCat("nextval('", table, "_number_seq')");
+  }
   absl::Status Health() const override;
   absl::Status Forget() override;
   bool shared() const override { return true; }

@@ -57,6 +57,8 @@ class SqlDatabase {
   // is empty, is no (longer) a member of the fleet.
   virtual absl::Status Begin(const std::string& server) = 0;
   virtual bool InTransaction() const = 0;
+  // An expression for the number of the next row of a table that numbers its rows.
+  virtual std::string NextNumber(const std::string& table) const = 0;
 
   virtual absl::Status Health() const = 0;
   // What was deleted is then nowhere in the files any more, as far as that is ours to say.

@@ -71,6 +71,10 @@ class SqliteDatabase final : public SqlDatabase {
                                           const std::vector<SqlValue>& values) override;
   absl::Status Begin(const std::string& server) override;
   bool InTransaction() const override;
+  std::string NextNumber(const std::string& table) const override {
+    return absl::StrCat("1 + coalesce((SELECT seq FROM sqlite_sequence WHERE name = '", table,
+                        "'), 0)");
+  }
   absl::Status Health() const override;
   absl::Status Forget() override;
   bool shared() const override { return false; }

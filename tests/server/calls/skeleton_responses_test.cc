@@ -71,6 +71,20 @@ TEST(SkeletonResponses, CutsTheResultOnePieceAtATime) {
   EXPECT_TRUE(responses.AtEnd());
 }
 
+TEST(SkeletonResponses, StoredPiecesAreTheSameOnTheWire) {
+  JobResult result = TorusResult(300'000);
+  ResultPieces pieces(result);
+  int count = 0;
+  while (const auto piece = pieces.Next()) {
+    v1::SkeletonizeResponse stored;
+    ASSERT_TRUE(SetPiece(RecordOf(*piece), stored).ok());
+    EXPECT_EQ(stored.SerializeAsString(), piece->SerializeAsString());
+    EXPECT_FALSE(stored.has_skeleton_chunk() || stored.has_thin_volume_chunk()) << "was parsed";
+    ++count;
+  }
+  EXPECT_EQ(count, 4);
+}
+
 // A write that waits for another one that does not come would never be sent.
 TEST(SkeletonResponses, HasMoreExactlyWhenTheNextResponseIsThere) {
   SkeletonResponses responses;

@@ -128,6 +128,31 @@ TEST_F(DurableJobsTest, CancelsAJobThatRunsAndOneThatWaits) {
   EXPECT_EQ(runner_->computed(), 1);
 }
 
+TEST_F(DurableJobsTest, BeginsShortJobsBeforeThereIsAPlaceButNoLargeOneAndNoneBeforeThat) {
+  Close();
+  options_.max_runs = 1;
+  options_.soon = std::chrono::hours(1);  // however slow the machine is
+  Open();
+  const std::string volume = Upload("clinic", "volume");
+  const auto make = [&](const std::string& options) {
+    return CreateName("clinic", JobOf(volume, options));
+  };
+  WaitForEnd("clinic", make("so it is known how long they take"));
+  runner_->Hold();
+  const std::string first = make("first"), second = make("second");
+  WaitForState("clinic", first, JobState::kRunning);
+  WaitForState("clinic", second, JobState::kRunning);
+  const std::string large = make("large"), third = make("third");
+  EXPECT_EQ(GetJob("clinic", third)->state, JobState::kQueued);
+  EXPECT_EQ(GetJob("clinic", large)->state, JobState::kQueued);  // what was to begin has begun
+  EXPECT_EQ(GetJob("clinic", third)->state, JobState::kQueued);
+  EXPECT_TRUE(Cancel("clinic", second).ok());
+  runner_->Release();
+  for (const std::string& job : {first, large, third}) {
+    EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
+  }
+}
+
 TEST_F(DurableJobsTest, NeverChangesAJobThatHasEnded) {
   const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
   WaitForEnd("clinic", job);

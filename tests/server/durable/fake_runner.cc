@@ -33,6 +33,7 @@ absl::StatusOr<JobRequest> FakeCodec::RequestOf(const std::string& declaration,
   if (!absl::SimpleAtoi(declaration.substr(0, digits), &request.size_bytes)) {
     return absl::InvalidArgumentError(absl::StrCat("declaration: ", declaration));
   }
+  if (options == "large") request.header.max_bricks = uint64_t{1} << 20;
   if (options == "bad") return absl::InvalidArgumentError("options: bad");
   return request;
 }
@@ -59,7 +60,7 @@ class FakeJob final : public Job, public std::enable_shared_from_this<FakeJob> {
     Post([this] { Compute(); });
   }
   void EndWith(absl::Status why) override {
-    Post([this, why = std::move(why)] { End(why); });
+    Post([this, why = std::move(why)]() mutable { End(std::move(why)); });
   }
 
  private:

@@ -15,8 +15,8 @@
 
 namespace bccskel::server {
 
-// "<size>" or "<size> <anything>" declares so many bytes. A result is what the volume's bytes say,
-// in three records, and a summary.
+// "<size>" or "<size> <anything>" declares so many bytes; with options "large", many bricks. A
+// result is what the volume's bytes say, in three records, and a summary.
 class FakeCodec final : public JobCodec {
  public:
   absl::StatusOr<JobRequest> RequestOf(const std::string& declaration,

@@ -82,6 +82,27 @@ TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
   EXPECT_TRUE(store->FindJob("clinic", "jobs/after")->has_value());
 }
 
+TEST(GroupCommitTest, AChangeThatFindsNothingCostsNoFurtherTransaction) {
+  const TemporaryFolder folder;
+  GroupCommit commit(Open(folder));
+  std::promise<void> go;
+  commit.Post([&] { go.get_future().wait(); });
+  absl::Status failed;
+  commit.Post(Insert("jobs/before"), nullptr);
+  commit.Post(
+      [](JobStore& store) -> absl::Status {
+        EXPECT_TRUE((*store.FindJob("clinic", "jobs/before")).has_value());
+        return absl::NotFoundError("no");
+      },
+      [&](const absl::Status& status) { failed = status; });
+  std::promise<void> done;
+  commit.Post([&] { done.set_value(); });
+  go.set_value();
+  done.get_future().wait();
+  EXPECT_EQ(failed.code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(commit.commits(), 1u);
+}
+
 // While it lives, files end at `bytes`.
 class LimitedFiles {
  public:

@@ -176,8 +176,8 @@ TEST_P(JobStoreTest, GivesUpAResultWithItsLastJob) {
   result.tenant = "clinic";
   result.key = "key";
   result.file = "file";
-  const int64_t number = *store_->InsertResult(result);
-  EXPECT_EQ(*store_->InsertResult(result), number) << "the same key is the same result";
+  const int64_t number = store_->InsertResult(result)->number;
+  EXPECT_EQ(store_->InsertResult(result)->number, number) << "the same key is the same result";
   std::vector<int64_t> jobs;
   for (const char* name : {"jobs/1", "jobs/2"}) {
     JobRow job = Job("clinic", name);

@@ -1,0 +1,60 @@
+#ifndef BCCSKEL_SERVER_DURABLE_FLEET_MEMBERS_H_
+#define BCCSKEL_SERVER_DURABLE_FLEET_MEMBERS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/store/rows.h"
+
+namespace bccskel::server {
+
+// Tells which other servers of the fleet are gone, by this process's clock alone: what counts is
+// that it looked all the time and saw no sign of life.
+// Threads: one at a time.
+class FleetMembers {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit FleetMembers(std::chrono::milliseconds lease) : lease_(lease) {}
+
+  // Those who gave no sign for a lease.
+  std::vector<Member> Look(const std::vector<Member>& members, const std::string& self,
+                           Clock::time_point now) {
+    if (now - last_look_ > kLongestGap) seen_.clear();
+    last_look_ = now;
+    std::map<std::string, Sign> seen;
+    std::vector<Member> gone;
+    for (const Member& member : members) {
+      if (member.server == self) continue;
+      const auto before = seen_.find(member.server);
+      const bool silent = before != seen_.end() && before->second.beats == member.beats;
+      const Clock::time_point since = silent ? before->second.since : now;
+      seen[member.server] = {.beats = member.beats, .since = since};
+      if (now - since >= lease_) gone.push_back(member);
+    }
+    seen_ = std::move(seen);
+    return gone;
+  }
+  // At the last look.
+  bool Has(const std::string& server) const { return seen_.contains(server); }
+  void Forget() { seen_.clear(); }
+
+ private:
+  // Who was away for longer, or could not ask, does not know who gave signs of life meanwhile.
+  static constexpr std::chrono::milliseconds kLongestGap{2500};
+  struct Sign {
+    int64_t beats = 0;        // that it has given
+    Clock::time_point since;  // and no other
+  };
+
+  const std::chrono::milliseconds lease_;
+  std::map<std::string, Sign> seen_;
+  Clock::time_point last_look_;
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_FLEET_MEMBERS_H_

@@ -1,0 +1,75 @@
+#ifndef BCCSKEL_SERVER_DURABLE_UPLOAD_TABLE_H_
+#define BCCSKEL_SERVER_DURABLE_UPLOAD_TABLE_H_
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "server/durable/upload_session.h"
+#include "server/store/rows.h"
+
+namespace bccskel::server {
+
+// Unfinished uploads that go on here.
+// Threads: safe.
+class UploadTable {
+ public:
+  using Session = std::shared_ptr<UploadSession>;
+
+  // Null: none.
+  Session Find(const std::string& tenant, const std::string& upload) const {
+    std::lock_guard lock(mutex_);
+    const auto found = sessions_.find({tenant, upload});
+    return found == sessions_.end() ? nullptr : found->second;
+  }
+  size_t size() const {
+    std::lock_guard lock(mutex_);
+    return sessions_.size();
+  }
+  // Until it is added or removed nobody else opens it. False where it is there, or being opened.
+  bool BeginOpening(const UploadRow& row) {
+    std::lock_guard lock(mutex_);
+    return !sessions_.contains(KeyOf(row)) && opening_.insert(KeyOf(row)).second;
+  }
+  void EndOpening(const UploadRow& row) {
+    std::lock_guard lock(mutex_);
+    opening_.erase(KeyOf(row));
+  }
+  void Add(const Session& session) {
+    std::lock_guard lock(mutex_);
+    sessions_[KeyOf(session->row())] = session;
+    opening_.erase(KeyOf(session->row()));
+  }
+  void Remove(const UploadRow& row) {
+    std::lock_guard lock(mutex_);
+    sessions_.erase(KeyOf(row));
+    opening_.erase(KeyOf(row));
+  }
+  // Only if it still goes on in the row's file.
+  void RemoveFile(const UploadRow& row) {
+    std::lock_guard lock(mutex_);
+    const auto found = sessions_.find(KeyOf(row));
+    if (found != sessions_.end() && found->second->row().file == row.file) sessions_.erase(found);
+    opening_.erase(KeyOf(row));
+  }
+  // None is decoded along any more.
+  void TakeAllAlong() {
+    std::lock_guard lock(mutex_);
+    for (const auto& [key, session] : sessions_) session->TakeAlong();
+  }
+
+ private:
+  using Key = std::pair<std::string, std::string>;  // tenant, name
+  static Key KeyOf(const UploadRow& row) { return {row.tenant, row.name}; }
+
+  mutable std::mutex mutex_;
+  std::map<Key, Session> sessions_;  // guarded by mutex_
+  std::set<Key> opening_;            // guarded by mutex_
+};
+
+}  // namespace bccskel::server
+
+#endif  // BCCSKEL_SERVER_DURABLE_UPLOAD_TABLE_H_
