@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Raised whenever the same volume and options may give another skeleton: stored results are found
 // again by it.
-inline constexpr char kAlgorithmVersion[] = "10";
+inline constexpr char kAlgorithmVersion[] = "11";
 
 // The same for masks, whose conversion counts, too.
-inline constexpr char kMaskAlgorithmVersion[] = "10.mask-2";
+inline constexpr char kMaskAlgorithmVersion[] = "11.mask-2";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

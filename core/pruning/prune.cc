@@ -61,7 +61,8 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = curves.space != nullptr ? *curves.space : object;
   const double noise = SurfaceNoise(space, curves.surface_step);
-  Significance significance(space, noise);
+  const ExactRadius space_radius = curves.space == nullptr ? radius : ExactRadius(space);
+  Significance significance(space, space_radius, noise);
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());

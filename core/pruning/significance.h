@@ -12,6 +12,7 @@
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/thin_set.h"
+#include "core/pruning/way_on.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -20,16 +21,17 @@ namespace bccskel {
 struct Run {
   size_t from = 0;  // positions in the path, the junction's end first
   size_t to = 0;
-  double elongation = 0;  // |p - q| - 2 (D(q) - D(p)) from q to p, lattice units
+  double elongation = 0;  // |p - q| - 1.5 (D(q) - D(p)) from q to p, lattice units
   double ratio = 0;       // what of that is no noise, in radii at `from`
 };
 
-// Shapes: `path` has at least two points, from the junction, or the middle of a path, to the end.
-// Long paths are looked at in 48 places.
-Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise);
+// Needs: at least two points, from the junction, or the middle of a path, to the end. Long paths
+// are looked at in 48 places.
+Run LargestRun(const ThinSet& set, const BranchPath& path, double noise);
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
-// Does:  finds the branch's run: leaving a body or going up a bump the radius D falls about as fast
+// Does:  lets the branch go on to where its limb may end (WayOn), where that may matter, and finds
+//        its run: leaving a body or going up a bump the radius D falls about as fast
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
 //          S = (elongation - noise) / (D + 2 (H - D)) * uncovered,
@@ -38,7 +40,7 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
 //        H is the half-width of the object across the branch, the median of the places from there
 //        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
 //        more beside the widest: lines that do not lie in a thin plate leave it soon. Where H less
-//        the half-width near the tip is more than 2 (D(q) - D(p)), it takes the place of that in
+//        the half-width near the tip is more than 1.5 (D(q) - D(p)), it takes the place of that in
 //        the elongation: the corner of a plate sticks out no farther than a bump. `uncovered` is
 //        the share of the run that lies outside 0.9 of the balls of other branches. In a limb H is
 //        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
@@ -50,8 +52,9 @@ class Significance {
  public:
   static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
 
-  // Needs: `object` outlives this; `noise`, lattice units, as SurfaceNoise() has it.
-  Significance(const Volume& object, double noise);
+  // Needs: `object` outlives this, `radius` belongs to it; `noise`, lattice units, as
+  //        SurfaceNoise() has it.
+  Significance(const Volume& object, const ExactRadius& radius, double noise);
 
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
@@ -76,18 +79,19 @@ class Significance {
   using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
+  Run RunOf(const ThinSet& set, BranchPath& path);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
-  Sections SectionsAcross(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
-                          double reach);
+  Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   void TurnFinely(double reach, Section& section);
   bool Widen(const Coordinates& side, double reach, Section& section);
-  double BestRoot(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
+  double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                   const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
 
   const double noise_;
   const AxisScale scale_;
   NearbyBricks bricks_;
+  WayOn way_on_;
   std::optional<BallIndex> balls_;  // made when it is asked for first
   PointTable<Verdict> verdicts_;    // by the branch's end
 };

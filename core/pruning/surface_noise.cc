@@ -13,7 +13,7 @@ namespace bccskel {
 namespace {
 
 constexpr double kSmooth = 0.01, kRough = 0.025;  // roughness
-constexpr double kLeastSteps = 1, kMostSteps = 3;
+constexpr double kLeastSteps = 2, kMostSteps = 3;
 
 constexpr uint64_t kFirstInRows = 0x0001'0001'0001'0001;
 constexpr uint64_t kLastInRows = kFirstInRows << 15;
