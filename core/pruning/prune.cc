@@ -61,8 +61,12 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = curves.space != nullptr ? *curves.space : object;
   const double noise = SurfaceNoise(space, curves.surface_step);
-  const ExactRadius space_radius = curves.space == nullptr ? radius : ExactRadius(space);
-  Significance significance(space, space_radius, noise);
+  std::optional<WayOn> way_on;
+  // A voxel's edge is longer than what thinning leaves out.
+  if (curves.surface_step == 1) {
+    way_on.emplace(space, curves.space == nullptr ? radius : ExactRadius(space));
+  }
+  Significance significance(space, noise, std::move(way_on));
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());

@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/distance/points_along.h"
 
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 1.5;   // a radius that falls by half the way belongs to a limb
+constexpr double kSteepness = 1.75;  // a radius that falls by half the way belongs to a limb
 constexpr double kWidthShare = 2;    // of what the object is wider than thick
 constexpr double kSureRatio = 2;     // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
@@ -86,11 +87,11 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise) {
   return best;
 }
 
-Significance::Significance(const Volume& object, const ExactRadius& radius, double noise)
+Significance::Significance(const Volume& object, double noise, std::optional<WayOn> way_on)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
       bricks_(object),
-      way_on_(object, radius) {}
+      way_on_(std::move(way_on)) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   const LatticePoint end = branch.points[0];
@@ -125,10 +126,11 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
   const Run run = LargestRun(set, path, noise_);
-  if (run.ratio > kSureRatio || LargestRun(set, path, noise_ - kMost).ratio < kLeastRatio) {
+  if (!way_on_.has_value() || run.ratio > kSureRatio ||
+      LargestRun(set, path, noise_ - kMost).ratio < kLeastRatio) {
     return run;
   }
-  way_on_.Append(path);
+  way_on_->Append(path);
   return LargestRun(set, path, noise_);
 }
 

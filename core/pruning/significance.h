@@ -21,7 +21,7 @@ namespace bccskel {
 struct Run {
   size_t from = 0;  // positions in the path, the junction's end first
   size_t to = 0;
-  double elongation = 0;  // |p - q| - 1.5 (D(q) - D(p)) from q to p, lattice units
+  double elongation = 0;  // |p - q| - 1.75 (D(q) - D(p)) from q to p, lattice units
   double ratio = 0;       // what of that is no noise, in radii at `from`
 };
 
@@ -40,7 +40,7 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise);
 //        H is the half-width of the object across the branch, the median of the places from there
 //        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
 //        more beside the widest: lines that do not lie in a thin plate leave it soon. Where H less
-//        the half-width near the tip is more than 1.5 (D(q) - D(p)), it takes the place of that in
+//        the half-width near the tip is more than 1.75 (D(q) - D(p)), it takes the place of that in
 //        the elongation: the corner of a plate sticks out no farther than a bump. `uncovered` is
 //        the share of the run that lies outside 0.9 of the balls of other branches. In a limb H is
 //        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
@@ -52,9 +52,9 @@ class Significance {
  public:
   static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
 
-  // Needs: `object` outlives this, `radius` belongs to it; `noise`, lattice units, as
-  //        SurfaceNoise() has it.
-  Significance(const Volume& object, const ExactRadius& radius, double noise);
+  // Needs: `object` outlives this; `noise`, lattice units, as SurfaceNoise() has it; `way_on` in
+  //        the same object, none for branches that end where thinning ended them.
+  Significance(const Volume& object, double noise, std::optional<WayOn> way_on = std::nullopt);
 
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
@@ -91,7 +91,7 @@ class Significance {
   const double noise_;
   const AxisScale scale_;
   NearbyBricks bricks_;
-  WayOn way_on_;
+  std::optional<WayOn> way_on_;
   std::optional<BallIndex> balls_;  // made when it is asked for first
   PointTable<Verdict> verdicts_;    // by the branch's end
 };

@@ -11,8 +11,8 @@ namespace bccskel {
 // at the surface give 0.02, 0.04 to 0.05, and 0.06 to 0.09.
 double Roughness(const Volume& object);
 
-// What sampling may add to how far a branch sticks out, lattice units: two steps of the surface
-// where it is smooth, three where it is rough.
+// What sampling may add to how far a branch sticks out, lattice units: one step of the surface
+// and two units at least where it is smooth, three where it is rough.
 // Needs: `step`, the length of a step of the surface: 1, or the edge of a voxel; > 0.
 double SurfaceNoise(const Volume& object, double step);
 

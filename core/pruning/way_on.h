@@ -24,7 +24,7 @@ struct BranchPath {
 // Threads: one thread per instance.
 class WayOn {
  public:
-  static constexpr double kLongest = 4.5;      // lattice units
+  static constexpr double kLongest = 3;        // lattice units
   static constexpr double kLargestRise = 0.5;  // of the radius: beyond, another limb begins
 
   // Needs: `radius` belongs to `object`, which outlives this.

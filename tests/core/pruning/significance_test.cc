@@ -230,7 +230,7 @@ double StrandBeside(int32_t apart) {
   const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
   const std::vector<float> radii(curves.PointCount(), 10.0f);
   const ThinSet set({curves, radii});
-  return Significance(solid, ExactRadius(solid), 3).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
+  return Significance(solid, 3).Of(set, BranchFrom(set, {190, 40 + apart, 60}));
 }
 
 TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {
