@@ -67,7 +67,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
   command
       .add_option("--pruning-threshold", pruning.threshold,
                   "How far a branch must stick out: half-widths of the object beside it for "
-                  "significance (default 0.45), world units for length, radii of the junction for "
+                  "significance (default 0.47), world units for length, radii of the junction for "
                   "relative-length (default 1), passes "
                   "of thinning for persistence (default 6)")
       ->option_text("X");

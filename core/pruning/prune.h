@@ -17,7 +17,7 @@ namespace bccskel {
 
 // Which branches, from an end to the first junction, are spurious.
 enum class PruningRule : uint8_t {
-  // Those that stick out by less than the threshold, 0.45 by default, in half-widths of the object
+  // Those that stick out by less than the threshold, 0.47 by default, in half-widths of the object
   // beside them: bumps, ribs of flat parts, and strands beside another one. See significance.h.
   kSignificance,
   // Those shorter than the threshold, in world units.
@@ -31,7 +31,7 @@ enum class PruningRule : uint8_t {
 };
 
 // Of the rule of significance, half-widths.
-inline constexpr double kDefaultSignificance = 0.45;
+inline constexpr double kDefaultSignificance = 0.47;
 
 // Whether ends are moved along the ridge of the distances to where it ends.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };

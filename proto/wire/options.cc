@@ -288,7 +288,7 @@ absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
     return InvalidField(field + ".pruning_threshold",
                         absl::StrCat("margin ", pruning.threshold,
                                      " of the slope rule, which is no more: give the rule "
-                                     "SIGNIFICANCE and a threshold in half-widths (default 0.45)"));
+                                     "SIGNIFICANCE and a threshold in half-widths (default 0.47)"));
   }
   if (absl::Status checked = CheckPruningOptions(pruning); !checked.ok()) {
     return InvalidField(field + ".pruning_threshold", std::string(checked.message()));

@@ -92,7 +92,7 @@ class CommandsTest(harness.TestCase):
         self.assertEqual((summary["method"], summary["kind"], summary["distance"]),
                          ("directional", "curve", "chamfer"))
         options = json.loads((self.folder / "s.json").read_text())["options"]
-        self.assertEqual((options["pruning"], options["pruning_threshold"]), ("significance", 0.45))
+        self.assertEqual((options["pruning"], options["pruning_threshold"]), ("significance", 0.47))
         kernel = ("skeletonize", volume, "--local", "-o", self.path("s.json"), "--kind", "kernel")
         self.assertIn("skeleton:  1 point, 1 component, 0 loops, 0 cavities, 1 node, 0 edges\n",
                       self.succeed(*kernel))

@@ -16,7 +16,7 @@ constexpr PruningOptions kNothing = {.rule = PruningRule::kNone, .tips = TipPlac
 
 TEST(CanonicalOptions, NameTheThresholdThatADefaultStandsFor) {
   const ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
-  EXPECT_EQ(Canonical({.rule = PruningRule::kSignificance}, thinning).threshold, 0.45);
+  EXPECT_EQ(Canonical({.rule = PruningRule::kSignificance}, thinning).threshold, 0.47);
   EXPECT_EQ(Canonical({.rule = PruningRule::kRelativeLength}, thinning).threshold, 1);
   EXPECT_EQ(Canonical({.rule = PruningRule::kPersistence}, thinning).threshold, 6);
 }
@@ -67,7 +67,7 @@ TEST(CanonicalOptions, AreThoseOfAResult) {
   const exec::Context context;
   const auto pruned = Skeletonize(ball, {}, context);
   ASSERT_TRUE(pruned.ok()) << pruned.status();
-  EXPECT_EQ(pruned->options.pruning.threshold, 0.45);
+  EXPECT_EQ(pruned->options.pruning.threshold, 0.47);
   const auto surface = Skeletonize(
       ball, {.thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kSurface}},
       context);

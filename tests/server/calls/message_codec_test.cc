@@ -37,8 +37,8 @@ constexpr auto kMask = v1::VOLUME_ENCODING_CUBIC_MASK;
 SkeletonizeOptions WithThreshold(double threshold) { return {.pruning = {.threshold = threshold}}; }
 
 TEST(OptionsForAVolume, AreTheSameForADefaultAndItsValue) {
-  EXPECT_EQ(OptionsFor(kPlanes, {}), OptionsFor(kPlanes, WithThreshold(0.45)));
-  EXPECT_EQ(OptionsFor(kMask, {}), OptionsFor(kMask, WithThreshold(0.45)));
+  EXPECT_EQ(OptionsFor(kPlanes, {}), OptionsFor(kPlanes, WithThreshold(0.47)));
+  EXPECT_EQ(OptionsFor(kMask, {}), OptionsFor(kMask, WithThreshold(0.47)));
 }
 
 TEST(OptionsForAVolume, TellAMaskFromALatticeVolumeOfTheSamePoints) {
