@@ -1,5 +1,8 @@
 #include "core/pruning/prune.h"
 
+#include <optional>
+#include <utility>
+
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/pruning/branch_pruner.h"
@@ -61,7 +64,12 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = curves.space != nullptr ? *curves.space : object;
   const double noise = SurfaceNoise(space, curves.surface_step);
-  Significance significance(space, noise);
+  std::optional<WayOn> way_on;
+  // A voxel's edge is longer than what thinning leaves out.
+  if (curves.surface_step == 1) {
+    way_on.emplace(space, curves.space == nullptr ? radius : ExactRadius(space));
+  }
+  Significance significance(space, noise, std::move(way_on));
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());

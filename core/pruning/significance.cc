@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/distance/points_along.h"
 
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;     // a radius that falls by half the way belongs to a limb
+constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
 constexpr double kWidthShare = 2;    // of what the object is wider than thick
+constexpr double kSureRatio = 2;     // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
 constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
@@ -35,10 +37,10 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
 constexpr double kFirstTurn = 0.2;
 constexpr double kLeastTurn = 0.01;
 
-// The junction first.
-std::vector<LatticePoint> PathOf(const FreeBranch& branch) {
-  std::vector<LatticePoint> path = {*branch.junction};
-  path.insert(path.end(), branch.points.rbegin(), branch.points.rend());
+BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
+  BranchPath path{{*branch.junction}, {}};
+  path.points.insert(path.points.end(), branch.points.rbegin(), branch.points.rend());
+  for (LatticePoint p : path.points) path.radii.push_back(set.RadiusOf(p));
   return path;
 }
 
@@ -64,18 +66,19 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 
 }  // namespace
 
-Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise, size_t first) {
-  const size_t last = path.size() - 1, stride = (last - first) / kMostSamples + 1;
+Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t first) {
+  const size_t last = path.points.size() - 1, stride = (last - first) / kMostSamples + 1;
   std::vector<std::pair<size_t, double>> samples;  // positions and radii
-  for (size_t n = first; n < last; n += stride) samples.emplace_back(n, set.RadiusOf(path[n]));
-  samples.emplace_back(last, set.RadiusOf(path[last]));
+  for (size_t n = first; n < last; n += stride) samples.emplace_back(n, path.radii[n]);
+  samples.emplace_back(last, path.radii[last]);
   Run best{.ratio = -std::numeric_limits<double>::infinity()};
   for (size_t i = 0; i + 1 < samples.size(); ++i) {
     const auto [from, depth] = samples[i];
     Run run{.from = from, .elongation = -std::numeric_limits<double>::infinity()};
     for (size_t j = i + 1; j < samples.size(); ++j) {
       const auto [to, radius] = samples[j];
-      const double out = set.Between(path[from], path[to]) - kSteepness * (depth - radius);
+      const double way = set.Between(path.points[from], path.points[to]);
+      const double out = way - kSteepness * (depth - radius);
       if (out > run.elongation) run.to = to, run.elongation = out;
     }
     run.ratio = (run.elongation - noise) / depth;
@@ -84,8 +87,11 @@ Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double no
   return best;
 }
 
-Significance::Significance(const Volume& object, double noise)
-    : noise_(noise), scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+Significance::Significance(const Volume& object, double noise, std::optional<WayOn> way_on)
+    : noise_(noise),
+      scale_(AxisScaleOf(object.placement())),
+      bricks_(object),
+      way_on_(std::move(way_on)) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   const LatticePoint end = branch.points[0];
@@ -102,15 +108,13 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
 // The limb may begin late in the largest run, in something wide: so the run of the later half
 // counts, too, that of the later half of this, and so on.
 Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& branch) {
-  const std::vector<LatticePoint> path = PathOf(branch);
-  Verdict best{.junction = *branch.junction,
-               .points = branch.points.size(),
-               .run = LargestRun(set, path, noise_)};
+  BranchPath path = PathOf(set, branch);
+  Verdict best{*branch.junction, branch.points.size(), RunOf(set, path)};
   best.value = best.run.ratio;
   if (best.run.ratio < kLeastRatio) return best;
   best.value = ValueOf(set, path, best.run);
   size_t first = PlaceIn(best.run, kPlaces / 2);
-  while (first + kPlaces <= path.size()) {
+  while (first + kPlaces <= path.points.size()) {
     const Run run = LargestRun(set, path, noise_, first);
     if (run.ratio < kLeastRatio) break;
     const double value = ValueOf(set, path, run);
@@ -122,11 +126,10 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   return best;
 }
 
-double Significance::ValueOf(const ThinSet& set, std::span<const LatticePoint> path,
-                             const Run& run) {
-  const double out = run.elongation - noise_, radius = set.RadiusOf(path[run.from]);
+double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {
+  const double out = run.elongation - noise_, radius = path.radii[run.from];
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
-  Sections sections = SectionsAcross(set, path, run, reach);
+  Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
     for (Section& section : sections) TurnFinely(reach, section);
@@ -135,23 +138,37 @@ double Significance::ValueOf(const ThinSet& set, std::span<const LatticePoint> p
   return value;
 }
 
+// What lies beyond the end is looked for where it may decide: it adds its length and the rise of
+// its radius at most.
+Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
+  constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
+  const Run run = LargestRun(set, path, noise_);
+  if (!way_on_.has_value() || run.ratio > kSureRatio ||
+      LargestRun(set, path, noise_ - kMost).ratio < kLeastRatio) {
+    return run;
+  }
+  way_on_->Append(path);
+  return LargestRun(set, path, noise_);
+}
+
 // The limb begins at the root that makes the most of it.
-double Significance::BestRoot(const ThinSet& set, std::span<const LatticePoint> path,
-                              const Run& run, const Sections& sections) const {
+double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
+                              const Sections& sections) const {
   // How much farther the object goes on to the sides than the radius.
   std::array<double, kPlaces> wider;
   std::ranges::transform(sections, wider.begin(), [](const Section& section) {
     return std::max(section.half_width - section.radius, 0.0);
   });
-  const double half_width_near_tip = wider[kNearTip] + set.RadiusOf(path[PlaceIn(run, kNearTip)]);
+  const double half_width_near_tip = wider[kNearTip] + path.radii[PlaceIn(run, kNearTip)];
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
-    const LatticePoint from = path[PlaceIn(run, place)], to = path[run.to];
-    const double depth = set.RadiusOf(from);
+    const size_t root = PlaceIn(run, place);
+    const double depth = path.radii[root];
     const double wide = MedianFrom(wider, place);
     const double narrower = depth + wide - half_width_near_tip;
-    const double fallen = std::max(kSteepness * (depth - set.RadiusOf(to)), narrower);
-    const double sticks_out = set.Between(from, to) - fallen - noise_;
+    const double fallen = std::max(kSteepness * (depth - path.radii[run.to]), narrower);
+    const double way = set.Between(path.points[root], path.points[run.to]);
+    const double sticks_out = way - fallen - noise_;
     const double width = depth + kWidthShare * wide;
     value = std::max(value, sticks_out / width);
   }
@@ -163,22 +180,23 @@ double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch
   if (!balls_.has_value()) balls_.emplace(set, scale_);
   balls_->SetOwn(branch.points);
   const size_t stride = (run.to - run.from) / kCoverSamples + 1;
+  const size_t last = std::min(run.to, branch.points.size());
   size_t covered = 0, samples = 0;
-  for (size_t n = std::max<size_t>(run.from, 1); n <= run.to; n += stride, ++samples) {
+  for (size_t n = std::max<size_t>(run.from, 1); n <= last; n += stride, ++samples) {
     const LatticePoint p = branch.points[branch.points.size() - n];
     if (balls_->IsCovered(p, set.Between(p, *branch.junction), set)) ++covered;
   }
+  if (samples == 0) return 1;
   return 1 - static_cast<double>(covered) / static_cast<double>(samples);
 }
 
-Significance::Sections Significance::SectionsAcross(const ThinSet& set,
-                                                    std::span<const LatticePoint> path,
-                                                    const Run& run, double reach) {
+Significance::Sections Significance::SectionsAcross(const BranchPath& path, const Run& run,
+                                                    double reach) {
   Sections sections;
   for (size_t place = 0; place < kPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
     Section& section = sections[place];
-    section = {PlaceOf(path[n], scale_), WayAt(path, n, scale_), set.RadiusOf(path[n])};
+    section = {PlaceOf(path.points[n], scale_), WayAt(path.points, n, scale_), path.radii[n]};
     const auto [u, v] = Across(section.way);
     section.side = u;
     for (const auto& [cosine, sine] : kTurns) {

@@ -12,6 +12,7 @@
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/thin_set.h"
+#include "core/pruning/way_on.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -24,13 +25,13 @@ struct Run {
   double ratio = 0;       // what of that is no noise, in radii at `from`
 };
 
-// Shapes: `path` has at least two points, from the junction, or the middle of a path, to the end.
-// The run begins at position `first` or later. Long paths are sampled at 48 positions.
-Run LargestRun(const ThinSet& set, std::span<const LatticePoint> path, double noise,
-               size_t first = 0);
+// Needs: at least two points, from the junction, or the middle of a path, to the end. The run
+// begins at position `first` or later. Long paths are sampled at 48 positions.
+Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t first = 0);
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
-// Does:  finds the branch's run: leaving a body or going up a bump the radius D falls about as fast
+// Does:  lets the branch go on to where its limb may end (WayOn), where that may matter, and finds
+//        its run: leaving a body or going up a bump the radius D falls about as fast
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
 //          S = (elongation - noise) / (D + 2 (H - D)) * uncovered,
@@ -54,8 +55,9 @@ class Significance {
  public:
   static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
 
-  // Needs: `object` outlives this; `noise`, lattice units, as SurfaceNoise() has it.
-  Significance(const Volume& object, double noise);
+  // Needs: `object` outlives this; `noise`, lattice units, as SurfaceNoise() has it; `way_on` in
+  //        the same object, none for branches that end where thinning ended them.
+  Significance(const Volume& object, double noise, std::optional<WayOn> way_on = std::nullopt);
 
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
@@ -80,20 +82,21 @@ class Significance {
   using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
+  Run RunOf(const ThinSet& set, BranchPath& path);
   // As if nothing of it were covered.
-  double ValueOf(const ThinSet& set, std::span<const LatticePoint> path, const Run& run);
+  double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
-  Sections SectionsAcross(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
-                          double reach);
+  Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   void TurnFinely(double reach, Section& section);
   bool Widen(const Coordinates& side, double reach, Section& section);
-  double BestRoot(const ThinSet& set, std::span<const LatticePoint> path, const Run& run,
+  double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                   const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
 
   const double noise_;
   const AxisScale scale_;
   NearbyBricks bricks_;
+  std::optional<WayOn> way_on_;
   std::optional<BallIndex> balls_;  // made when it is asked for first
   PointTable<Verdict> verdicts_;    // by the branch's end
 };

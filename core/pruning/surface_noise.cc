@@ -13,7 +13,8 @@ namespace bccskel {
 namespace {
 
 constexpr double kSmooth = 0.01, kRough = 0.025;  // roughness
-constexpr double kLeastSteps = 1, kMostSteps = 3;
+constexpr double kLeastNoise = 1.5;                 // lattice units
+constexpr double kMostSteps = 3;
 
 constexpr uint64_t kFirstInRows = 0x0001'0001'0001'0001;
 constexpr uint64_t kLastInRows = kFirstInRows << 15;
@@ -66,7 +67,8 @@ double Roughness(const Volume& object) {
 
 double SurfaceNoise(const Volume& object, double step) {
   const double share = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
-  return step * (kLeastSteps + (kMostSteps - kLeastSteps) * share);
+  const double least = std::max(step, kLeastNoise);
+  return least + (kMostSteps * step - least) * share;
 }
 
 }  // namespace bccskel

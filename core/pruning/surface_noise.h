@@ -12,7 +12,7 @@ namespace bccskel {
 double Roughness(const Volume& object);
 
 // What sampling may add to how far a branch sticks out, lattice units: one step of the surface
-// where it is smooth, three where it is rough.
+// and 1.5 units at least where it is smooth, three where it is rough.
 // Needs: `step`, the length of a step of the surface: 1, or the edge of a voxel; > 0.
 double SurfaceNoise(const Volume& object, double step);
 

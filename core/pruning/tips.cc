@@ -75,15 +75,17 @@ class TipPlacer {
  private:
   // Finds where the limb begins, by its largest run: no tip lies before that.
   void FindRoot(const FreeBranch& branch) {
-    std::vector<LatticePoint> path(branch.points.rbegin(), branch.points.rend());
+    BranchPath path{{branch.points.rbegin(), branch.points.rend()}, {}};
+    std::vector<LatticePoint>& points = path.points;
     junction_ = branch.junction;
-    own_ = path;
+    own_ = points;
     if (junction_.has_value()) {
-      path.insert(path.begin(), *junction_);
+      points.insert(points.begin(), *junction_);
     } else {
-      path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2));
+      points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2));
     }
-    root_ = path.size() < 2 ? path[0] : path[LargestRun(set_, path, noise_).from];
+    for (LatticePoint p : points) path.radii.push_back(set_.RadiusOf(p));
+    root_ = points.size() < 2 ? points[0] : points[LargestRun(set_, path, noise_).from];
     root_radius_ = set_.RadiusOf(root_);
   }
 

@@ -264,6 +264,37 @@ TEST(Significance, OfALimbThatBeginsLateIsItsOwn) {
   EXPECT_LT(LimbOfASlab(4), 0.4);  // a bump
 }
 
+// A rod along x and a branch in it that ends before it; returns the points that Append() adds.
+BranchPath GoneOn(int32_t rod_end, int32_t branch_end) {
+  VolumeBuilder object({60, 20, 20});
+  for (int32_t z = 0; z < 40; ++z) {
+    for (int32_t y = 0; y < 40; ++y) {
+      for (int32_t x = 0; x <= rod_end; ++x) {
+        if (IsOnLattice({x, y, z}) && std::hypot(y - 20, z - 20) <= 5) object.Add({x, y, z});
+      }
+    }
+  }
+  const Volume rod = *std::move(object).Build();
+  ExactRadius radius(rod);
+  BranchPath path;
+  for (int32_t x = 20; x <= branch_end; x += 2) {
+    path.points.push_back({x, 20, 20});
+    path.radii.push_back(radius.At({x, 20, 20}));
+  }
+  const size_t before = path.points.size();
+  WayOn(rod, radius).Append(path);
+  path.points.erase(path.points.begin(), path.points.begin() + static_cast<ptrdiff_t>(before));
+  return path;
+}
+
+TEST(WayOn, FollowsTheLimbByAFewUnits) {
+  const BranchPath path = GoneOn(80, 60);
+  ASSERT_FALSE(path.points.empty());
+  EXPECT_EQ(path.points.back(), (LatticePoint{62, 20, 20}));
+}
+
+TEST(WayOn, EndsWhereTheObjectDoes) { EXPECT_TRUE(GoneOn(60, 60).points.empty()); }
+
 TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {
   EXPECT_LT(StrandBeside(8), 0.25 * StrandBeside(24));
 }

@@ -52,12 +52,12 @@ TEST(Roughness, IsThatOfItsDefinition) {
   EXPECT_EQ(Roughness(Volume()), 0);
 }
 
-TEST(SurfaceNoise, IsOneStepWhereSmoothAndThreeWhereRough) {
+TEST(SurfaceNoise, IsOneStepButMoreThanAUnitWhereSmoothAndThreeStepsWhereRough) {
   for (const Shape shape : {Shape::kHorse, Shape::kTorus, Shape::kBox}) {
     for (const uint64_t points : {20'000u, 200'000u}) {
       SCOPED_TRACE(testing::Message() << ShapeName(shape) << ' ' << points);
       const Volume smooth = *GenerateShape(shape, {.points = points});
-      EXPECT_EQ(SurfaceNoise(smooth, 1), 1);
+      EXPECT_EQ(SurfaceNoise(smooth, 1), 1.5);
       EXPECT_EQ(SurfaceNoise(smooth, 2.5), 2.5);
       EXPECT_EQ(SurfaceNoise(test::WithSimpleNoise(smooth, 0.05, 7), 1), 3);
     }
