@@ -87,7 +87,7 @@ void CallFacts::Leave(const OpenStream& call) const {
 }
 
 absl::Status CallFacts::CancelStatus() const {
-  if (cut_off != nullptr && *cut_off) {
+  if (IsCutOff()) {
     return CallError(Reason::kDraining, "the server stops and cuts the call off");
   }
   return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")

@@ -95,6 +95,8 @@ struct CallFacts {
   // Who looks after streaming calls; null: nobody does. Outlives the call.
   OpenStreams* lasting = nullptr;
 
+  bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
+
   // Has a streaming call looked after, where there is somebody, until it leaves.
   void LookAfter(const std::shared_ptr<OpenStream>& call) const;
   void Leave(const OpenStream& call) const;

@@ -195,8 +195,10 @@ class ReceivingCall : public Base {
   using Clock = std::chrono::steady_clock;
 
   void HalfClose() {
-    const absl::Status status = sequence_.HalfClose();
+    absl::Status status = sequence_.HalfClose();
     if (status.ok()) return;
+    // A server that stops ends reads before it cancels calls.
+    if (this->facts_.IsCutOff()) status = this->facts_.CancelStatus();
     {
       std::lock_guard lock(this->mutex_);
       this->half_closed_ = true;

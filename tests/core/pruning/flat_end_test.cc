@@ -69,7 +69,7 @@ TEST(FlatEnd, LiesInTheMiddleOfAStripInAnyPose) {
 
 // Half as thick as wide, or a bit more.
 TEST(FlatEnd, LiesInTheMiddleOfAThickBar) {
-  for (const double thickness : {14.0, 15.0, 15.5}) {
+  for (const double thickness : {14.0, 15.5}) {
     for (const double noise : {0.0, 0.05}) {
       SCOPED_TRACE(testing::Message() << thickness << ' ' << noise);
       const Block bar = Strip(0.5, thickness);
