@@ -11,7 +11,7 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;  // a radius that falls by half the way belongs to a limb
+constexpr double kSteepness = 2;     // a radius that falls by half the way belongs to a limb
 constexpr double kWidthShare = 2;    // of what the object is wider than thick
 constexpr double kSureRatio = 2;     // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump

@@ -13,7 +13,7 @@ namespace bccskel {
 namespace {
 
 constexpr double kSmooth = 0.01, kRough = 0.025;  // roughness
-constexpr double kLeastNoise = 1.5;                 // lattice units
+constexpr double kLeastNoise = 1.5;               // lattice units
 constexpr double kMostSteps = 3;
 
 constexpr uint64_t kFirstInRows = 0x0001'0001'0001'0001;
