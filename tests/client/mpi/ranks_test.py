@@ -1,5 +1,6 @@
 """Runs bccskel-mpi under mpirun: the results of one machine, refusals, lost ranks, interrupts."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -25,6 +26,31 @@ def words_of(ranks, words):
 def run_ranks(ranks, *words):
     return subprocess.run(words_of(ranks, words), env=ENVIRONMENT, capture_output=True, text=True,
                           timeout=HANGS)
+
+
+def ranks_of(job):
+    children = pathlib.Path(f"/proc/{job.pid}/task/{job.pid}/children").read_text().split()
+    return [int(pid) for pid in children
+            if pathlib.Path(f"/proc/{pid}/comm").read_text().startswith("bccskel-mpi")]
+
+
+def kill_at_once(job):
+    """With its ranks, which otherwise go on for a while and write into their folder."""
+    ranks = ranks_of(job)
+    job.kill()
+    for rank in ranks:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(rank, signal.SIGKILL)
+    end = time.monotonic() + HANGS
+    while any(runs(rank) for rank in ranks) and time.monotonic() < end:
+        time.sleep(0.02)
+
+
+def runs(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes() != b""  # empty: a zombie
+    except FileNotFoundError:
+        return False
 
 
 def bccskel(*words):
@@ -123,7 +149,7 @@ class Refusals(TestCase):
 
 
 class Checkpoints(TestCase):
-    def test_a_job_that_ran_out_of_time_is_resumed_on_other_ranks(self):
+    def test_a_job_that_was_killed_is_resumed_on_other_ranks(self):
         source = self.generate("ball", 4_000_000)
         wanted, got = self.folder / "wanted.json", self.folder / "got.json"
         bccskel("skeletonize", "--local", source, "-o", wanted)
@@ -135,7 +161,7 @@ class Checkpoints(TestCase):
             for line in job.stdout:
                 if "shell 9/" in line:
                     break
-            job.kill()
+            kill_at_once(job)
         self.assertTrue((folder / "checkpoint").exists())
         run = run_ranks(2, *words)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -178,15 +204,9 @@ class Ends(TestCase):
             self.assertLess(time.monotonic(), end, self.log())
             time.sleep(0.02)
 
-    @staticmethod
-    def ranks_of(job):
-        children = pathlib.Path(f"/proc/{job.pid}/task/{job.pid}/children").read_text().split()
-        return [int(pid) for pid in children
-                if pathlib.Path(f"/proc/{pid}/comm").read_text().startswith("bccskel-mpi")]
-
     def test_a_rank_that_is_killed_ends_the_job(self):
         job = self.start()
-        os.kill(self.ranks_of(job)[-1], signal.SIGKILL)
+        os.kill(ranks_of(job)[-1], signal.SIGKILL)
         self.assertNotEqual(job.wait(timeout=30), 0)
         self.assertIn("signal 9", self.log())
         self.assertFalse(self.output.exists())
