@@ -41,6 +41,13 @@ constexpr double kGrowthMargin = 6;    // a tip grows by this and the radius at 
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
 constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 
+// Needs: at least one.
+double MedianOf(std::vector<float> radii) {
+  const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::ranges::nth_element(radii, median);
+  return *median;
+}
+
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
@@ -143,29 +150,25 @@ class TipPlacer {
   // median radius.
   bool Bends(std::span<const LatticePoint> points, size_t front, size_t back) const {
     const LatticePoint a = points[front], b = points[back];
-    const double ab = set_.Between(a, b);
-    if (ab < kLeastAim) return false;
+    if (set_.Between(a, b) < kLeastAim) return false;
     std::vector<float> radii;
     double farthest = 0;  // squared
     const size_t stride = (back - front) / kBendSamples + 1;
     for (size_t n = front; n < back; n += stride) {
       radii.push_back(set_.RadiusOf(points[n]));
-      const double ap = set_.Between(a, points[n]), bp = set_.Between(b, points[n]);
-      const double along = (ap * ap + ab * ab - bp * bp) / (2 * ab);
-      farthest = std::max(farthest, ap * ap - along * along);
+      const double way = set_.Between(a, points[n]), along = AlongFrom(a, b, points[n]);
+      farthest = std::max(farthest, way * way - along * along);
     }
-    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::ranges::nth_element(radii, median);
-    const double allowed = kBendRadii * *median + kBendMargin;
+    const double allowed = kBendRadii * MedianOf(std::move(radii)) + kBendMargin;
     return farthest > allowed * allowed;
   }
 
-  // How far p lies from the anchor along the limb, by the law of cosines.
-  double Along(LatticePoint p) const {
-    const double ap = set_.Between(anchor_, p), pq = set_.Between(p, aim_),
-                 aq = set_.Between(anchor_, aim_);
+  // How far p lies from a in the direction of q, by the law of cosines.
+  double AlongFrom(LatticePoint a, LatticePoint q, LatticePoint p) const {
+    const double ap = set_.Between(a, p), pq = set_.Between(p, q), aq = set_.Between(a, q);
     return (ap * ap + aq * aq - pq * pq) / (2 * aq);
   }
+  double Along(LatticePoint p) const { return AlongFrom(anchor_, aim_, p); }
 
   double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
   // Merit() is no more: sums and products of more are no less, in floating point, too.
@@ -217,9 +220,7 @@ class TipPlacer {
   double MedianRadius() const {
     std::vector<float> radii;
     for (LatticePoint p : path_) radii.push_back(set_.RadiusOf(p));
-    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::ranges::nth_element(radii, median);
-    return *median;
+    return MedianOf(std::move(radii));
   }
 
   // Position in the path of the first point that may become the tip. What is cut off must lie in
