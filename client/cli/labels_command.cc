@@ -21,6 +21,7 @@
 #include "client/cli/thinning_options.h"
 #include "client/export/atomic_file.h"
 #include "client/export/labeled_graph.h"
+#include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
@@ -249,15 +250,8 @@ void AddLabelJson(Text& text, const LabelFigures& label) {
   text.Add("{\"label\":", label.label, ",\"voxels\":", label.voxels,
            ",\"object_points\":", label.object_points,
            ",\"skeleton_points\":", label.skeleton_points, ",\"nodes\":", label.nodes,
-           ",\"edges\":", label.edges, ",\"certificate\":{");
-  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
-  if (certificate.unprepared.has_value()) {
-    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
-  }
-  if (certificate.sampled) text.Add("\"sampled\":true,");
-  text.Add("\"input\":", BettiJson(certificate.input),
-           ",\"skeleton\":", BettiJson(certificate.skeleton),
-           ",\"simple_points_left\":", certificate.simple_points_left, "},\"topology_kept\":",
+           ",\"edges\":", label.edges, ",\"certificate\":", exporting::CertificateJson(certificate),
+           ",\"topology_kept\":",
            certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false",
            ",\"sha256\":\"", label.sha256, "\"}");
 }

@@ -154,16 +154,8 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
            "\",\"object_points\":", result.object_points,
            ",\"skeleton_points\":", result.skeleton_points, ",\"last_shell\":", result.last_shell,
            ",\"nodes\":", result.graph.nodes.size(), ",\"edges\":", result.graph.edges.size());
-  text.Add(",\"certificate\":{");
-  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
-  if (certificate.unprepared.has_value()) {
-    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
-  }
-  if (certificate.sampled) text.Add("\"sampled\":true,");
-  text.Add("\"input\":", BettiJson(certificate.input),
-           ",\"skeleton\":", BettiJson(certificate.skeleton),
-           ",\"simple_points_left\":", certificate.simple_points_left,
-           "},\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", result.sha256,
+  text.Add(",\"certificate\":", exporting::CertificateJson(certificate),
+           ",\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", result.sha256,
            "\",\"preparing\":", exporting::PreparingJson(result.preparing),
            ",\"notes\":", NotesJson(NotesOn(result)), ",\"timings\":");
   AddTimingsJson(text, result.timings);

@@ -271,6 +271,15 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void AddRunOptions(CLI::App& command, SkeletonizeArguments& arguments) {
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  AddThreads(command, arguments.common, kThreadsBoth);
+  AddProgress(command, arguments.progress);
+  AddSeconds(command, "--timeout", arguments.timeout,
+             "Give up after this many seconds (default 3600)");
+  AddJson(command, arguments.common);
+}
+
 }  // namespace
 
 void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
@@ -287,12 +296,7 @@ void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
   command.add_flag_callback(
       "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
       "With --detach: keep the thinned volume, too, which fetch can write then");
-  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
-  AddThreads(command, arguments.common, kThreadsBoth);
-  AddProgress(command, arguments.progress);
-  AddSeconds(command, "--timeout", arguments.timeout,
-             "Give up after this many seconds (default 3600)");
-  AddJson(command, arguments.common);
+  AddRunOptions(command, arguments);
 }
 
 void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
@@ -313,12 +317,7 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
           "--local", [&arguments] { arguments.place = Place::kLocal; },
           "Compute on this machine, without a server (default, unless a server is named)")
       ->excludes(address);
-  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
-  AddThreads(command, arguments.common, kThreadsBoth);
-  AddProgress(command, arguments.progress);
-  AddSeconds(command, "--timeout", arguments.timeout,
-             "Give up after this many seconds (default 3600)");
-  AddJson(command, arguments.common);
+  AddRunOptions(command, arguments);
 }
 
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "client/cli/load_object.h"
+#include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 
@@ -207,13 +208,6 @@ void AddList(Text& text, const Values& values) {
 
 }  // namespace
 
-std::string BettiJson(const BettiNumbers& betti) {
-  Text text;
-  text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,
-           ",\"cavities\":", betti.cavities, '}');
-  return std::move(text).Take();
-}
-
 std::string PlacementJson(const Placement& placement) {
   Text text;
   text.Add("\"spacing\":");
@@ -246,7 +240,7 @@ std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& 
   text.Add("{\"extent\":[", extent.nx, ',', extent.ny, ',', extent.nz, "],",
            PlacementJson(volume.placement()));
   text.Add(",\"points\":", volume.PointCount(), ",\"bricks\":", volume.brick_count());
-  if (betti.has_value()) text.Add(",\"topology\":", BettiJson(*betti));
+  if (betti.has_value()) text.Add(",\"topology\":", exporting::BettiJson(*betti));
   text.Add('}');
   return std::move(text).Take();
 }
@@ -292,7 +286,7 @@ std::string ImageJson(const ImageStage& image, const std::string& members) {
            ',', info.size.nz, "],\"type\":", JsonString(VoxelTypeName(info.type)), ',',
            PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
            ",\"world\":", JsonString(info.world), ",\"voxels\":", image.voxels,
-           ",\"topology\":", BettiJson(image.mask));
+           ",\"topology\":", exporting::BettiJson(image.mask));
   text.Add(members);
   return std::move(text.Add('}')).Take();
 }

@@ -35,8 +35,6 @@ std::string FillRuleName(FillRule rule);
 std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti);
 std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti);
 
-std::string BettiJson(const BettiNumbers& betti);
-
 // "spacing":[...],"origin":[...],"direction":[...]
 std::string PlacementJson(const Placement& placement);
 

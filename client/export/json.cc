@@ -169,31 +169,6 @@ void AddFigures(Text& text, const ComponentFigures& figures) {
            ",\"max_radius\":", figures.max_radius, '}');
 }
 
-void AddBettiNumbers(Text& text, const BettiNumbers& betti) {
-  text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,
-           ",\"cavities\":", betti.cavities, '}');
-}
-
-void AddCertificate(Text& text, const Certificate& certificate) {
-  text.Add('{');
-  if (certificate.mask.has_value()) {
-    text.Add("\"mask\":");
-    AddBettiNumbers(text, *certificate.mask);
-    text.Add(',');
-  }
-  if (certificate.unprepared.has_value()) {
-    text.Add("\"unprepared\":");
-    AddBettiNumbers(text, *certificate.unprepared);
-    text.Add(',');
-  }
-  text.Add("\"input\":");
-  AddBettiNumbers(text, certificate.input);
-  text.Add(",\"skeleton\":");
-  AddBettiNumbers(text, certificate.skeleton);
-  if (certificate.sampled) text.Add(",\"sampled\":true");
-  text.Add(",\"simple_points_left\":", certificate.simple_points_left, '}');
-}
-
 double Milliseconds(StageTimings::Duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
@@ -230,10 +205,9 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
   text.Add(",\n\"totals\":");
   AddFigures(text, TotalOf(components));
   if (order.has_value()) AddOrder(text, *order);
-  text.Add(",\n\"certificate\":");
-  AddCertificate(text, result.certificate);
-  text.Add(",\n\"method\":\"", result.method, "\",\n\"algorithm_version\":\"",
-           result.algorithm_version, "\",\n\"options\":", OptionsJson(result.options),
+  text.Add(",\n\"certificate\":", CertificateJson(result.certificate), ",\n\"method\":\"",
+           result.method, "\",\n\"algorithm_version\":\"", result.algorithm_version,
+           "\",\n\"options\":", OptionsJson(result.options),
            ",\n\"preparing\":", PreparingJson(result.preparing), ",\n\"notes\":");
   AddList(text, ",\n", NotesOn(result), [&](const std::string& note) { text.Add('"', note, '"'); });
   text.Add(",\n\"placement\":");

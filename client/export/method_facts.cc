@@ -63,4 +63,25 @@ std::string PreparingJson(const std::vector<PreparingStep>& steps) {
   return std::move(text.Add(']')).Take();
 }
 
+std::string BettiJson(const BettiNumbers& betti) {
+  Text text;
+  text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,
+           ",\"cavities\":", betti.cavities, '}');
+  return std::move(text).Take();
+}
+
+std::string CertificateJson(const Certificate& certificate) {
+  Text text;
+  text.Add('{');
+  if (certificate.mask.has_value()) text.Add("\"mask\":", BettiJson(*certificate.mask), ',');
+  if (certificate.unprepared.has_value()) {
+    text.Add("\"unprepared\":", BettiJson(*certificate.unprepared), ',');
+  }
+  text.Add("\"input\":", BettiJson(certificate.input),
+           ",\"skeleton\":", BettiJson(certificate.skeleton));
+  if (certificate.sampled) text.Add(",\"sampled\":true");
+  text.Add(",\"simple_points_left\":", certificate.simple_points_left, '}');
+  return std::move(text).Take();
+}
+
 }  // namespace bccskel::exporting

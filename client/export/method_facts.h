@@ -7,6 +7,7 @@
 
 #include "client/export/world.h"
 #include "client/view/result_graph.h"
+#include "core/certificate/certificate.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel::exporting {
@@ -22,6 +23,10 @@ MethodFacts MethodFactsOf(const view::ResultGraph& result);
 // The same as JSON values: an object of the options, and a list of the steps of preparing.
 std::string OptionsJson(const SkeletonizeOptions& options);
 std::string PreparingJson(const std::vector<PreparingStep>& steps);
+
+// An object of three numbers, and one of those of mask, object and skeleton.
+std::string BettiJson(const BettiNumbers& betti);
+std::string CertificateJson(const Certificate& certificate);
 
 }  // namespace bccskel::exporting
 
