@@ -30,7 +30,7 @@ std::string Decimals(double seconds) {
 }
 
 std::string CheckPhrase(const Certificate& certificate) {
-  const std::string verdict = VerdictInWords(certificate);
+  std::string verdict = VerdictInWords(certificate);
   if (!certificate.TopologyKept()) return verdict;
   return verdict + ", " + Counted(certificate.simple_points_left, "simple point", "simple points") +
          " left";

@@ -94,7 +94,7 @@ absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes
   const std::string draft = DraftOf(path);
   const absl::Status written = WriteNewFile(draft, path, bytes, stop);
   if (written.ok() && std::rename(draft.c_str(), path.c_str()) == 0) return absl::OkStatus();
-  const absl::Status error = written.ok() ? ErrnoStatus(path) : written;
+  absl::Status error = written.ok() ? ErrnoStatus(path) : written;
   ::unlink(draft.c_str());
   return error;
 }

@@ -218,7 +218,8 @@ class Scene {
                    ",\"max_radius\":", rounded(figures.max_radius), "}}");
   }
 
-  std::string Json(const WorldPoint& center) && {
+  // Once: it takes the texts that Add() and AddNode() have written.
+  std::string TakeJson(const WorldPoint& center) {
     Text text;
     text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
              "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[", center[0],
@@ -310,7 +311,7 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
     scene.Add(maker.Around(curve));
     scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, edge, smooth));
   }
-  std::string json = std::move(scene).Json(center);
+  std::string json = scene.TakeJson(center);
   json.resize(RoundedUp(json.size()), ' ');
   const size_t binary = scene.vertices().size() + scene.corners().size();  // words alone
   constexpr size_t kHead = 8;

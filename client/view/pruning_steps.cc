@@ -136,7 +136,7 @@ class Collector {
       if (edge.has_value() && owners.OnlyAt(p).has_value()) branch.edges.push_back(*edge);
     }
     std::ranges::sort(branch.edges);
-    branch.edges.erase(std::ranges::unique(branch.edges).begin(), branch.edges.end());
+    branch.edges.erase(std::unique(branch.edges.begin(), branch.edges.end()), branch.edges.end());
     if (!branch.edges.empty()) return;
     branch.shared = true;
     branch.edges = {FirstEdgeOf(path)};

@@ -45,7 +45,7 @@ class MemoryShare final : public MemoryBudget {
   MemoryShare& operator=(const MemoryShare&) = delete;
 
   absl::Status Take(uint64_t bytes, const std::string& what_for) override {
-    const absl::Status status = whole_.Take(bytes, what_for);
+    absl::Status status = whole_.Take(bytes, what_for);
     if (status.ok()) taken_ += bytes;
     return status;
   }

@@ -23,7 +23,8 @@ class DepthMap {
   int width() const { return width_; }
   int height() const { return height_; }
   float At(int x, int y) const {
-    return x < 0 || y < 0 || x >= width_ || y >= height_ ? kEmpty : depth_[Index(x, y)];
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) return kEmpty;
+    return depth_[Index(x, y)];
   }
   bool Covered(int x, int y) const { return At(x, y) != kEmpty; }
 

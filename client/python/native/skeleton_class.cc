@@ -219,8 +219,9 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
   }
   if (outcome.read.has_value()) {
     absl::StatusOr<std::string> written = SaveRead(outcome, path, saying, job.stop());
-    if (written.ok()) note = *std::move(written);
-    return written.status();
+    if (!written.ok()) return std::move(written).status();
+    note = *std::move(written);
+    return absl::OkStatus();
   }
   cli::LocalTeam team(0, job.stop());
   auto object = std::make_shared<const Volume>();

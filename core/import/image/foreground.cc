@@ -192,6 +192,7 @@ absl::Status WriteLabelValues(const ImageSlice& slice, std::span<const T> values
   for (size_t n = 0; n < values.size(); ++n) {
     const T value = values[n];
     if (IsLabel(value)) {
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): it is not negative
       labels[n] = static_cast<uint64_t>(value);
     } else if (!IsNumber(value)) {
       labels[n] = 0;

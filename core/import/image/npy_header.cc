@@ -91,7 +91,7 @@ struct Header {
 
 absl::StatusOr<Header> HeaderOf(std::string_view front) {
   if (front.size() < 12) return absl::InvalidArgumentError("the header is cut");
-  const int version = front[6];
+  const int version = static_cast<unsigned char>(front[6]);
   if (version < 1 || version > 3) {
     return absl::InvalidArgumentError(
         absl::StrFormat("version %d of the format, it must be 1, 2 or 3", version));

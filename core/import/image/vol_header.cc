@@ -36,7 +36,8 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, const ImageSiz
   const std::array<int32_t, 3> lengths = {size.nx, size.ny, size.nz};
   for (size_t axis = 0; axis < 3; ++axis) {
     BCCSKEL_ASSIGN_OR_RETURN(const int64_t center, CountOf(fields, kCenters[axis]));
-    placement.origin[axis] = static_cast<double>(center) - (lengths[axis] - 1) / 2;
+    const int32_t middle = (lengths[axis] - 1) / 2;
+    placement.origin[axis] = static_cast<double>(center - middle);
   }
   return placement;
 }
