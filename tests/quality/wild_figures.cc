@@ -163,6 +163,40 @@ Sketch Fish(Pen pen, const Values& v) {
   return sketch;
 }
 
+// A ring, or a bar, with teeth cut flat, as wide as it is thick: their count, width by thickness,
+// how far they stick out, in half their widths, ring or bar.
+Sketch Teeth(Pen pen, const Values& v) {
+  const double s = pen.size, out = v[2] * s, pitch = std::max(4.5 * s / v[1], 3 * s);
+  Sketch sketch;
+  const auto tooth = [&](Vector root, Vector way, Vector normal) {
+    sketch.AddLimb(CutAtEnd({root, root + (s + out) * way, s, s, v[1], normal}), out);
+  };
+  if (v[3] == 0) {
+    const double half = (v[0] + 1) * pitch / 2;
+    const Piece bar = {{-half, 0, 0}, {half, 0, 0}, s, s};
+    sketch.pieces = {bar};
+    sketch.AddTipOf(bar, 2 * s);
+    sketch.AddTipOf(Reversed(bar), 2 * s);
+    for (int n = 0; n < v[0]; ++n) {
+      tooth({-half + (n + 1) * pitch, 0, 0}, {0, 1, 0}, {1, 0, 0});
+    }
+    return sketch;
+  }
+  const double ring = v[0] * pitch / (2 * kPi), turn = pen.Between(0, 1);
+  constexpr int kParts = 48;
+  for (int n = 0; n < kParts; ++n) {
+    const double angle = 2 * kPi * n / kParts;
+    sketch.pieces.push_back(
+        {InPlane(angle, ring), InPlane(angle + 2 * kPi / kParts, ring), s, s});
+  }
+  for (int n = 0; n < v[0]; ++n) {
+    const double angle = 2 * kPi * (n + turn) / v[0];
+    const Vector way = InPlane(angle, 1);
+    tooth(ring * way, way, {-way.y, way.x, 0});
+  }
+  return sketch;
+}
+
 // Cut flat at the thick end, sharp at the other, or at both: length, sharp radius, both.
 Sketch Cone(Pen pen, const Values& v) {
   const double s = pen.size;
@@ -334,6 +368,11 @@ constexpr WildFigure kFigures[] = {
     {"neurite", Neurite, {60, 0.3, 0.15}},
     {"neurite", Neurite, {80, 0.4, 0.2}, true},
     {"round", Round, {}},
+    {"teeth", Teeth, {10, 1.9, 1.4, 1}},
+    {"teeth", Teeth, {8, 1.3, 1.5, 0}},
+    {"teeth", Teeth, {12, 2.5, 1.6, 1}},
+    {"teeth", Teeth, {9, 1.6, 1.5, 0}, true},
+    {"teeth", Teeth, {8, 2.2, 1.5, 1}, true},
 };
 
 }  // namespace
