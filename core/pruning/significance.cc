@@ -21,6 +21,8 @@ constexpr size_t kRoots = 7;     // of the places, the first: there the limb may
 constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
+constexpr double kMostThick = 6;   // of a wall, along its normal, in radii
+constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
 constexpr size_t kCoverSamples = 16;
 
 // Quarter turns in eight steps: cosine and sine.
@@ -132,7 +134,10 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
-    for (Section& section : sections) TurnFinely(reach, section);
+    for (Section& section : sections) {
+      TurnFinely(reach, section);
+      FollowWall(reach, section);
+    }
     value = BestRoot(set, path, run, sections);
   }
   return value;
@@ -225,6 +230,50 @@ bool Significance::Widen(const Coordinates& side, double reach, Section& section
   if (half_width <= section.half_width) return false;
   section.side = side;
   section.half_width = half_width;
+  return true;
+}
+
+// A straight line leaves a bent wall soon, so the widest goes on in it, to either side.
+void Significance::FollowWall(double reach, Section& section) {
+  const Coordinates normal = Cross(section.way, section.side);
+  const Front there{section.middle, section.side, normal};
+  const Front back{section.middle, Sum({0, 0, 0}, -1, section.side), normal};
+  section.half_width = std::max(section.half_width, (WayInWall(there, section.radius, reach) +
+                                                     WayInWall(back, section.radius, reach)) / 2);
+}
+
+double Significance::WayInWall(Front front, double radius, double reach) {
+  double out = WayOut(front.middle, front.way, 0, reach);
+  while (front.length + out < reach && GoOnInWall(front, out, radius)) {
+    out = WayOut(front.middle, front.way, 0, reach - front.length);
+  }
+  return std::min(front.length + out, reach);
+}
+
+// Where the line leaves the wall it goes on from the wall's middle there. Returns whether it does:
+// at a rim, or in what is no wall, it does not.
+bool Significance::GoOnInWall(Front& front, double out, double radius) {
+  if (out < kLeastOn * radius + 1) return false;
+  const Coordinates at = Sum(front.middle, out, front.way);
+  const double most = kMostThick * radius + 4;
+  const double above = WayOut(at, front.normal, 0, most);
+  const double below = WayOut(at, Sum({0, 0, 0}, -1, front.normal), 0, most);
+  if (above + below >= most) {
+    const double side = above > below ? 1 : -1;
+    const Coordinates way = Sum({0, 0, 0}, side, front.normal);
+    front.normal = front.way;
+    front.middle = Sum(Sum(at, -radius, front.way), radius, way);
+    front.way = way;
+    front.length += out;
+    return true;
+  }
+  const Coordinates middle = Sum(at, (above - below) / 2, front.normal);
+  const Coordinates way = Sum(middle, -1, front.middle);
+  const double length = std::sqrt(Dot(way, way));
+  front.middle = middle;
+  front.way = Unit(way);
+  front.normal = Unit(Sum(front.normal, -Dot(front.normal, front.way), front.way));
+  front.length += length;
   return true;
 }
 

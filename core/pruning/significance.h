@@ -79,6 +79,13 @@ class Significance {
     Coordinates side = {0, 0, 0};  // of the widest line, of length 1
     double half_width = 0;         // along it, the mean of its two sides
   };
+  // Where a line leaves the object, and how it goes on in a bent wall.
+  struct Front {
+    Coordinates middle;  // of the wall
+    Coordinates way;     // of length 1
+    Coordinates normal;  // of the wall, of length 1
+    double length = 0;   // so far
+  };
   using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
@@ -89,6 +96,9 @@ class Significance {
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   void TurnFinely(double reach, Section& section);
   bool Widen(const Coordinates& side, double reach, Section& section);
+  void FollowWall(double reach, Section& section);
+  double WayInWall(Front front, double radius, double reach);
+  bool GoOnInWall(Front& front, double out, double radius);
   double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                   const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
