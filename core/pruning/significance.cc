@@ -12,16 +12,16 @@ namespace bccskel {
 namespace {
 
 constexpr double kSteepness = 2;     // a radius that falls by half the way belongs to a limb
+const double kWallSteepness = getenv("KW") ? atof(getenv("KW")) : 1;
 constexpr double kWidthShare = 2;    // of what the object is wider than thick
 constexpr double kSureRatio = 2;     // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
 constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
-constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
-constexpr double kMostThick = 6;   // of a wall, along its normal, in radii
+constexpr double kMostThick = 3;   // of a wall, along its normal, in radii
 constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
 constexpr size_t kCoverSamples = 16;
 
@@ -137,8 +137,15 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
     for (Section& section : sections) {
       TurnFinely(reach, section);
       FollowWall(reach, section);
+      FindInscribed(section);
     }
     value = BestRoot(set, path, run, sections);
+    if (getenv("DBG")) {
+      const auto w = path.points[run.to], r0 = path.points[run.from];
+      fprintf(stderr, "DBG end %d %d %d value %.2f out %.1f noise %.1f from (%d %d %d) D/H/W:", w.x, w.y, w.z, value, run.elongation, noise_, r0.x, r0.y, r0.z);
+      for (size_t i = 0; i < kPlaces; ++i) fprintf(stderr, " %.0f:%.1f/%.1f/%.1f", set.Between(path.points[PlaceIn(run, i)], r0), sections[i].radius, sections[i].half_width, sections[i].inscribed);
+      fprintf(stderr, "\n");
+    }
   }
   return value;
 }
@@ -164,18 +171,18 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
   std::ranges::transform(sections, wider.begin(), [](const Section& section) {
     return std::max(section.half_width - section.radius, 0.0);
   });
-  const double half_width_near_tip = wider[kNearTip] + path.radii[PlaceIn(run, kNearTip)];
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
-    const size_t root = PlaceIn(run, place);
-    const double depth = path.radii[root];
-    const double wide = MedianFrom(wider, place);
-    const double narrower = depth + wide - half_width_near_tip;
-    const double fallen = std::max(kSteepness * (depth - path.radii[run.to]), narrower);
-    const double way = set.Between(path.points[root], path.points[run.to]);
-    const double sticks_out = way - fallen - noise_;
-    const double width = depth + kWidthShare * wide;
-    value = std::max(value, sticks_out / width);
+    const LatticePoint root = path.points[PlaceIn(run, place)];
+    const Section& from = sections[place];
+    const double width = from.radius + kWidthShare * MedianFrom(wider, place);
+    for (size_t tip = place + 1; tip < kPlaces; ++tip) {
+      const Section& to = sections[tip];
+      const double fallen =
+          std::max(kSteepness * (from.radius - to.radius), kWallSteepness * (from.inscribed - to.inscribed));
+      const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
+      value = std::max(value, (way - fallen - noise_) / width);
+    }
   }
   return value;
 }
@@ -242,6 +249,23 @@ void Significance::FollowWall(double reach, Section& section) {
                                                      WayInWall(back, section.radius, reach)) / 2);
 }
 
+void Significance::FindInscribed(Section& section) {
+  const Coordinates normal = Cross(section.way, section.side);
+  std::array<double, 3> least;
+  least.fill(section.half_width);
+  for (const auto& [cosine, sine] : kTurns) {
+    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, section.side), sine, section.way);
+    for (const double side : {1.0, -1.0}) {
+      const Front front{section.middle, Sum({0, 0, 0}, side, way), normal};
+      const double length = WayInWall(front, section.radius, least.back());
+      if (length >= least.back()) continue;
+      least.back() = length;
+      std::ranges::sort(least);
+    }
+  }
+  section.inscribed = least.back();
+}
+
 double Significance::WayInWall(Front front, double radius, double reach) {
   double out = WayOut(front.middle, front.way, 0, reach);
   while (front.length + out < reach && GoOnInWall(front, out, radius)) {
@@ -254,19 +278,23 @@ double Significance::WayInWall(Front front, double radius, double reach) {
 // at a rim, or in what is no wall, it does not.
 bool Significance::GoOnInWall(Front& front, double out, double radius) {
   if (out < kLeastOn * radius + 1) return false;
-  const Coordinates at = Sum(front.middle, out, front.way);
-  const double most = kMostThick * radius + 4;
-  const double above = WayOut(at, front.normal, 0, most);
-  const double below = WayOut(at, Sum({0, 0, 0}, -1, front.normal), 0, most);
-  if (above + below >= most) {
-    const double side = above > below ? 1 : -1;
-    const Coordinates way = Sum({0, 0, 0}, side, front.normal);
+  const double back = std::min(out, radius), most = kMostThick * radius + 1;
+  const auto turn = [&](const Coordinates& from, Coordinates way, double length) {
     front.normal = front.way;
-    front.middle = Sum(Sum(at, -radius, front.way), radius, way);
+    front.middle = Sum(from, radius, way);
     front.way = way;
-    front.length += out;
+    front.length += length;
+  };
+  const Coordinates before = Sum(front.middle, out - back, front.way);
+  const Coordinates down = Sum({0, 0, 0}, -1, front.normal);
+  const double far_above = WayOut(before, front.normal, 0, most);
+  const double far_below = WayOut(before, down, 0, most);
+  if (std::max(far_above, far_below) >= most) {
+    turn(before, far_above > far_below ? front.normal : down, out - back + radius);
     return true;
   }
+  const Coordinates at = Sum(front.middle, out, front.way);
+  const double above = WayOut(at, front.normal, 0, most), below = WayOut(at, down, 0, most);
   const Coordinates middle = Sum(at, (above - below) / 2, front.normal);
   const Coordinates way = Sum(middle, -1, front.middle);
   const double length = std::sqrt(Dot(way, way));

@@ -78,6 +78,7 @@ class Significance {
     double radius = 0;
     Coordinates side = {0, 0, 0};  // of the widest line, of length 1
     double half_width = 0;         // along it, the mean of its two sides
+    double inscribed = 0;          // the shortest way to the rim in the plane of `way` and `side`
   };
   // Where a line leaves the object, and how it goes on in a bent wall.
   struct Front {
@@ -97,6 +98,7 @@ class Significance {
   void TurnFinely(double reach, Section& section);
   bool Widen(const Coordinates& side, double reach, Section& section);
   void FollowWall(double reach, Section& section);
+  void FindInscribed(Section& section);
   double WayInWall(Front front, double radius, double reach);
   bool GoOnInWall(Front& front, double out, double radius);
   double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
