@@ -187,7 +187,8 @@ class ClassLine {
     auto& [lost, spurious] = by_noise_[row.noise];
     lost += row.match.lost;
     spurious += row.match.spurious;
-    auto& [least, most] = ends_by_figure_.try_emplace(row.variant, row.ends, row.ends).first->second;
+    auto& [least, most] =
+        ends_by_figure_.try_emplace(row.variant, row.ends, row.ends).first->second;
     least = std::min(least, row.ends);
     most = std::max(most, row.ends);
     gap_ = std::max(gap_, row.match.largest_gap);

@@ -28,8 +28,7 @@ void AddArc(Sketch& sketch, double radius, double angle, double low, double high
     const double turn = margin + (angle - 2 * margin) * n / (parts - 1);
     const Vector normal = {std::cos(turn), std::sin(turn), 0};
     const Vector at = radius * normal;
-    sketch.pieces.push_back(
-        Wall({at.x, at.y, low}, {at.x, at.y, high}, half, thickness, normal));
+    sketch.pieces.push_back(Wall({at.x, at.y, low}, {at.x, at.y, high}, half, thickness, normal));
   }
 }
 
@@ -48,8 +47,8 @@ Sketch Profile(Pen pen, const Values& v) {
   const auto add = [&](double x, double y, double way_x, double way_y) {
     const double more = kOverlap * thickness;
     const Vector middle = {x + (0.5 * s - more / 2) * way_x, y + (0.5 * s - more / 2) * way_y, 0};
-    sketch.pieces.push_back(Wall(middle, {middle.x, middle.y, length}, (s + more) / 2, thickness,
-                                 {way_y, way_x, 0}));
+    sketch.pieces.push_back(
+        Wall(middle, {middle.x, middle.y, length}, (s + more) / 2, thickness, {way_y, way_x, 0}));
   };
   add(0, 0, 1, 0);
   if (v[0] == 2 || v[0] == 4) add(0, 0, 0, 1);
@@ -66,10 +65,10 @@ Sketch OpenBox(Pen pen, const Values& v) {
   sketch.pieces.push_back(
       Wall({-s - more, 0, 0}, {s + more, 0, 0}, width + more, thickness, {0, 0, 1}));
   for (const double side : {-1.0, 1.0}) {
-    sketch.pieces.push_back(Wall({side * s, 0, -more}, {side * s, 0, height}, width + more,
-                                 thickness, {1, 0, 0}));
-    sketch.pieces.push_back(Wall({0, side * width, -more}, {0, side * width, height}, s + more,
-                                 thickness, {0, 1, 0}));
+    sketch.pieces.push_back(
+        Wall({side * s, 0, -more}, {side * s, 0, height}, width + more, thickness, {1, 0, 0}));
+    sketch.pieces.push_back(
+        Wall({0, side * width, -more}, {0, side * width, height}, s + more, thickness, {0, 1, 0}));
   }
   return sketch;
 }
@@ -80,8 +79,8 @@ Sketch FlangedTube(Pen pen, const Values& v) {
   Sketch sketch{.knows_ends = false};
   AddArc(sketch, s, kTurn, 0, length, thickness);
   for (int n = 0; n < v[3]; ++n) {
-    AddArc(sketch, s + ring / 2, kTurn, n * (length - thickness), n * (length - thickness) + thickness,
-           ring);
+    AddArc(sketch, s + ring / 2, kTurn, n * (length - thickness),
+           n * (length - thickness) + thickness, ring);
   }
   return sketch;
 }

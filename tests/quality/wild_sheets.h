@@ -3,9 +3,9 @@
 
 #include "tests/quality/wild_figures.h"
 
-// Thin-walled parts. Nobody can say how many ends they should have, but it is the same number in all
-// poses and at all sizes: nothing about them is random, and walls are as thick as their figure is
-// large. All lengths are in the first one named, which grows with the object.
+// Thin-walled parts. Nobody can say how many ends they should have, but it is the same number in
+// all poses and at all sizes: nothing about them is random, and walls are as thick as their figure
+// is large. All lengths are in the first one named, which grows with the object.
 
 namespace bccskel::quality {
 
