@@ -11,12 +11,13 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;        // a radius that falls by half the way belongs to a limb
-constexpr double kWallSteepness = 0.4;  // of what its inscribed circle shrinks by
-constexpr double kWidthShare = 2;       // of what the object is wider than thick
-constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
-constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
-constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
+constexpr double kSteepness = 2;          // a radius that falls by half the way belongs to a limb
+constexpr double kWallSteepness = 0.4;    // of what its inscribed circle shrinks by
+constexpr double kWidthShare = 2;         // of what the object is wider than thick
+constexpr double kNoiseMargin = 4.0 / 3;  // of the allowance, whose square is taken off
+constexpr double kSureRatio = 2;          // above, what lies beyond the end does not matter
+constexpr double kLeastRatio = 0.2;       // below, the width is not looked at: the branch is a bump
+constexpr double kLeastFine = 0.35;       // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
 constexpr size_t kNearTip = 9;   // of the places
@@ -41,6 +42,13 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
 // Tangents of further turns, to either side of the widest of these.
 constexpr double kFirstTurn = 0.2;
 constexpr double kLeastTurn = 0.01;
+
+// What the shape must stick out by, where noise of that length adds to it by chance: their squares
+// add, since the two have nothing to do with each other.
+double WithoutNoise(double elongation, double noise) {
+  if (elongation <= noise) return elongation - noise;
+  return std::sqrt(elongation * elongation - noise * noise);
+}
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path{{*branch.junction}, {}};
@@ -183,7 +191,7 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
                                   : kWallSteepness * (from.inscribed - to.inscribed);
       const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
       const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
-      value = std::max(value, (way - fallen - noise_) / width);
+      value = std::max(value, WithoutNoise(way - fallen, kNoiseMargin * noise_) / width);
     }
   }
   return value;

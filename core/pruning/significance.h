@@ -34,9 +34,10 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 //        its run: leaving a body or going up a bump the radius D falls about as fast
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
-//          S = (elongation - noise) / (D + 2 (H - D)) * uncovered,
-//        D the radius where the limb begins, at one of the first seven of 11 places of the run,
-//        whichever makes the most of it: the run may begin in something flat that the limb leaves.
+//          S = sqrt(elongation^2 - noise^2) / (D + 2 (H - D)) * uncovered,
+//        noise 4/3 of the allowance, D the radius where the limb begins, at one of the first seven
+//        of 11 places of the run, whichever makes the most of it: the run may begin in something
+//        flat that the limb leaves.
 //        H is the half-width of the object across the branch, the median of the places from there
 //        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
 //        more beside the widest: lines that do not lie in a thin plate leave it soon. In a wall,

@@ -369,11 +369,6 @@ constexpr WildFigure kFigures[] = {
     {"neurite", Neurite, {60, 0.3, 0.15}},
     {"neurite", Neurite, {80, 0.4, 0.2}, true},
     {"round", Round, {}},
-    {"teeth", Teeth, {10, 1.9, 1.4, 1}},
-    {"teeth", Teeth, {8, 1.3, 1.5, 0}},
-    {"teeth", Teeth, {12, 2.5, 1.6, 1}},
-    {"teeth", Teeth, {9, 1.6, 1.5, 0}, true},
-    {"teeth", Teeth, {8, 2.2, 1.5, 1}, true},
     {"bent plate", BentPlate, {kPi, 3, 0.06}},
     {"bent plate", BentPlate, {1.6, 1, 0.08}},
     {"bent plate", BentPlate, {kPi, 1.5, 0.2}},
@@ -394,6 +389,11 @@ constexpr WildFigure kFigures[] = {
     {"perforated", PerforatedPlate, {4, 3, 0.6, 0.12}, true},
     {"ribbed", RibbedPlate, {2, 0.4, 0.08}},
     {"ribbed", RibbedPlate, {3, 0.7, 0.1}, true},
+    {"teeth", Teeth, {10, 1.9, 1.4, 1}},
+    {"teeth", Teeth, {8, 1.3, 1.5, 0}},
+    {"teeth", Teeth, {12, 2.5, 1.6, 1}},
+    {"teeth", Teeth, {9, 1.6, 1.5, 0}, true},
+    {"teeth", Teeth, {8, 2.2, 1.5, 1}, true},
 };
 
 }  // namespace

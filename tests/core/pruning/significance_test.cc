@@ -234,6 +234,32 @@ TEST(Significance, KeepsSmallLimbsWhereTheSurfaceIsSmooth) {
   EXPECT_EQ(EndsOf(smooth), 6u);
 }
 
+// A bar of 16 by 16 lattice units with five teeth on one side, as wide as it is, 8 thick and
+// `height` high.
+Volume Rack(int32_t height) {
+  constexpr int32_t kLength = 240, kWidth = 16, kPitch = 30, kFirst = 60;
+  VolumeBuilder builder({kLength / 2, (kWidth + height) / 2, kWidth / 2});
+  for (int32_t z = 0; z < kWidth; ++z) {
+    for (int32_t y = 0; y < kWidth + height; ++y) {
+      for (int32_t x = 0; x < kLength; ++x) {
+        const int32_t tooth = (x - kFirst + kPitch / 2) / kPitch, middle = kFirst + kPitch * tooth;
+        const bool in_tooth = std::abs(x - middle) <= 4 && tooth < 5;
+        if ((y < kWidth || in_tooth) && IsOnLattice({x, y, z})) builder.Add({x, y, z});
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+// Noise is short for teeth of any thickness: it does not count against them by its full length.
+TEST(Significance, KeepsTeethWhereTheSurfaceIsRough) {
+  for (const uint64_t seed : {1u, 2u, 3u}) {
+    for (const int32_t height : {18, 22}) {
+      EXPECT_EQ(EndsOf(test::WithSimpleNoise(Rack(height), 0.05, seed)), 7u);
+    }
+  }
+}
+
 TEST(Significance, OfLimbsIsTheSameAtAnyResolution) {
   const auto levels_of = [](uint64_t points) {
     const Volume horse = *GenerateShape(Shape::kHorse, {.points = points});
