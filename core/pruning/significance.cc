@@ -134,9 +134,12 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
   for (size_t place = 0; place < kRoots; ++place) {
     const size_t root = PlaceIn(run, place);
     const double depth = path.radii[root];
-    const double fallen = kSteepness * (depth - path.radii[run.to]);
-    const double way = set.Between(path.points[root], path.points[run.to]);
-    most = std::max(most, (way - fallen - noise_) / depth);
+    for (size_t later = place + 1; later < kPlaces; ++later) {
+      const size_t tip = PlaceIn(run, later);
+      const double fallen = kSteepness * (depth - path.radii[tip]);
+      const double way = set.Between(path.points[root], path.points[tip]);
+      most = std::max(most, (way - fallen - noise_) / depth);
+    }
   }
   return most;
 }
