@@ -130,13 +130,31 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   while (first + kPlaces <= path.points.size()) {
     const Run run = LargestRun(set, path, noise_, first);
     if (run.ratio < kLeastRatio) break;
-    const double value = ValueOf(set, path, run);
-    if (value > best.value) best.run = run, best.value = value;
+    if (ValueAtMost(set, path, run) > best.value) {
+      const double value = ValueOf(set, path, run);
+      if (value > best.value) best.run = run, best.value = value;
+    }
     const size_t later = PlaceIn(run, kPlaces / 2);
     if (later == first) break;
     first = later;
   }
   return best;
+}
+
+// What the object is wider than thick only lowers the value.
+double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const {
+  double most = 0;
+  for (size_t place = 0; place < kRoots; ++place) {
+    const size_t root = PlaceIn(run, place);
+    const double depth = path.radii[root];
+    for (size_t later = place + 1; later < kPlaces; ++later) {
+      const size_t tip = PlaceIn(run, later);
+      const double fallen = kSteepness * (depth - path.radii[tip]);
+      const double way = set.Between(path.points[root], path.points[tip]);
+      most = std::max(most, (way - fallen - noise_) / depth);
+    }
+  }
+  return most;
 }
 
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {

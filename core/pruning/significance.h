@@ -51,8 +51,8 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 //        So the largest run of the later half is evaluated, too, and so on; the largest S counts.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
-// Cost:  for each of these runs, of which there are one to five, 48 points of the branch; 176 rays
-//        where it sticks out at all, up to 396 where it may stay.
+// Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it
+//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay.
 // Threads: one thread per instance.
 class Significance {
  public:
@@ -96,6 +96,8 @@ class Significance {
   Run RunOf(const ThinSet& set, BranchPath& path);
   // As if nothing of it were covered.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
+  // ValueOf() is no more, in floating point, too; without rays.
+  double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   void TurnFinely(double reach, Section& section);

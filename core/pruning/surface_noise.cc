@@ -40,12 +40,13 @@ struct SurfaceCount {
   uint64_t pits = 0;
 
   void Add(uint64_t own, const std::array<uint64_t, 6>& p) {
-    points +=
-        static_cast<uint64_t>(std::popcount(own & ~(p[0] & p[1] & p[2] & p[3] & p[4] & p[5])));
+    const uint64_t surface = own & ~(p[0] & p[1] & p[2] & p[3] & p[4] & p[5]);
+    if (surface != 0) points += static_cast<uint64_t>(std::popcount(surface));
     const uint64_t ones_a = p[0] ^ p[1] ^ p[2], twos_a = (p[0] & p[1]) | (p[2] & (p[0] ^ p[1]));
     const uint64_t ones_b = p[3] ^ p[4] ^ p[5], twos_b = (p[3] & p[4]) | (p[5] & (p[3] ^ p[4]));
     const uint64_t four = (twos_a & twos_b) | ((twos_a ^ twos_b) & ones_a & ones_b);
-    pits += static_cast<uint64_t>(std::popcount(four & ~own));
+    const uint64_t pit = four & ~own;
+    if (pit != 0) pits += static_cast<uint64_t>(std::popcount(pit));
   }
 };
 

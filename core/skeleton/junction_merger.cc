@@ -1,8 +1,11 @@
 #include "core/skeleton/junction_merger.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -80,29 +83,56 @@ class Merger {
   void Rebuild();
 
  private:
+  // The way from the middle of the node, the edge, and the junctions it leads from and to.
+  using Step = std::tuple<double, uint32_t, uint32_t, uint32_t>;
+  using Steps = std::priority_queue<Step, std::vector<Step>, std::greater<>>;
+
   bool IsJunction(uint32_t n) const { return graph_.nodes[n].kind == NodeKind::kJunction; }
 
-  // Breadth first, so that ways inside the node have few edges.
+  // The nearest along the paths first, so that ways inside the node are short.
   bool TakeIn(uint32_t center) {
-    node_of_[center] = center;
+    std::vector<uint32_t> reached, inside;
+    Steps steps;
+    const auto take = [&](uint32_t n, double way) {
+      node_of_[n] = center;
+      reached.push_back(n);
+      AddStepsFrom(n, way, center, steps);
+    };
     ways_[center] = {graph_.nodes[center].at};
-    std::vector<uint32_t> reached = {center}, inside;
-    for (size_t n = 0; n < reached.size() && reached.size() <= kMostJoined + 1; ++n) {
-      const uint32_t from = reached[n];
-      for (uint32_t e : edges_at_[from]) {
-        const SkeletonEdge& edge = graph_.edges[e];
-        const uint32_t to = edge.source == from ? edge.target : edge.source;
-        if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(e, to, center)) continue;
-        node_of_[to] = center;
-        dissolved_[e] = 1;
-        inside.push_back(e);
-        const Path path = PathOf(edge);
-        ways_[to] = Joined(ways_[from], edge.source == from ? path : Reversed(path));
-        reached.push_back(to);
-      }
+    take(center, 0);
+    while (!steps.empty() && reached.size() <= kMostJoined + 1) {
+      const auto [way, e, from, to] = steps.top();
+      steps.pop();
+      if (node_of_[to] != kNone) continue;
+      dissolved_[e] = 1;
+      inside.push_back(e);
+      const Path path = PathOf(graph_.edges[e]);
+      ways_[to] = Joined(ways_[from], graph_.edges[e].source == from ? path : Reversed(path));
+      take(to, way);
     }
     if (reached.size() > kMostJoined + 1) LetGo(reached, inside);
     return node_of_[center] == center && reached.size() > 1;
+  }
+
+  // To the junctions that the node at `center` may take in next, each with the way there.
+  void AddStepsFrom(uint32_t from, double way, uint32_t center, Steps& steps) const {
+    for (uint32_t e : edges_at_[from]) {
+      const SkeletonEdge& edge = graph_.edges[e];
+      const uint32_t to = edge.source == from ? edge.target : edge.source;
+      if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(e, to, center)) continue;
+      steps.emplace(way + LengthOf(edge), e, from, to);
+    }
+  }
+
+  double LengthOf(const SkeletonEdge& edge) const {
+    const auto points = graph_.PointsOf(edge);
+    double length = 0;
+    for (size_t n = 1; n < points.size(); ++n) {
+      const Coordinates step =
+          Sum(PlaceOf(points[n].point, scale_), -1, PlaceOf(points[n - 1].point, scale_));
+      length += std::sqrt(Dot(step, step));
+    }
+    return length;
   }
 
   void LetGo(const std::vector<uint32_t>& junctions, const std::vector<uint32_t>& edges) {
@@ -114,14 +144,19 @@ class Merger {
   }
 
   // Whether the edge to `to` runs inside the node at `center`: within reach of its ball and of the
-  // limbs that leave at `to`. Thin limbs that leave a thick body side by side are no one node.
+  // limbs that leave it at `to`. Thin limbs that leave a thick body side by side are no one node.
   bool IsWithin(uint32_t e, uint32_t to, uint32_t center) const {
     const SkeletonPoint& at = graph_.nodes[center].at;
-    double radius = reach_ * at.radius;
+    const double ball = reach_ * at.radius;
+    double radius = ball;
     for (uint32_t other : edges_at_[to]) {
-      if (other != e) radius = std::min(radius, reach_ * MedianRadius(other));
+      if (other == e || IsNear(other, at, ball)) continue;
+      radius = std::min(radius, reach_ * MedianRadius(other));
     }
-    radius = std::max(radius, kOneBall * at.radius);
+    return IsNear(e, at, std::max(radius, kOneBall * at.radius));
+  }
+
+  bool IsNear(uint32_t e, const SkeletonPoint& at, double radius) const {
     return std::ranges::all_of(graph_.PointsOf(graph_.edges[e]), [&](const SkeletonPoint& p) {
       const Coordinates way = Sum(PlaceOf(p.point, scale_), -1, PlaceOf(at.point, scale_));
       return Dot(way, way) <= radius * radius;

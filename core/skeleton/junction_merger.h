@@ -17,8 +17,9 @@ absl::Status CheckJunctionReach(double reach);
 
 // Does:  makes one node of junctions that lie in one ball. The deepest junction first, each joins
 //        those that edges lead to whose points all lie within `reach` of its radii from it, and
-//        within `reach` of the radius of each limb that leaves there (or within half its radius,
-//        whatever the limbs): those edges become part of the node. A junction that was taken in
+//        within `reach` of the radius of each limb that leaves it there (or within half its
+//        radius, whatever the limbs), the nearest along the paths first: those edges become part
+//        of the node. A junction that was taken in
 //        takes in none, so that a row of junctions along a limb does not become one. All other
 //        edges of what was taken in run on to the node, along the way that is now inside it. A
 //        ball with more than 17 junctions is left as it is: that is a sponge, and all its edges

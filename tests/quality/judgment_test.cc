@@ -63,6 +63,21 @@ TEST(Hair, LeavesLoopsOfTheObject) {
   EXPECT_EQ(HairOf(Strands(NodeKind::kJunction).graph()).redundant_length, 0);
 }
 
+// Near its trunk a straight limb lies in balls of the trunk more than two radii away along both,
+// if the sine of half the angle is less than 0.45.
+TEST(Hair, CountsStraightLimbsThatLeaveAtNarrowAngles) {
+  for (const int32_t x : {0, 200}) {
+    GraphMaker maker;
+    const uint32_t middle = maker.Node(NodeKind::kJunction, {0, 0, 0}, 40);
+    for (const int32_t end : {-300, 300}) {
+      maker.Edge(middle, maker.Node(NodeKind::kEnd, {end, 0, 0}, 40), {{0, 0, 0}, {end, 0, 0}}, 40);
+    }
+    maker.Edge(middle, maker.Node(NodeKind::kEnd, {x, 200, 0}, 3), {{0, 0, 0}, {x, 200, 0}}, 3);
+    const double redundant = HairOf(maker.graph()).redundant_length;
+    EXPECT_NEAR(redundant, x == 0 ? 0 : 0.025, 0.01) << x;
+  }
+}
+
 TEST(Hair, TellsTwigsFromLimbs) {
   for (const int32_t length : {5, 12, 20}) {
     GraphMaker maker;

@@ -7,7 +7,7 @@
 
 // Usage: bccskel_quality STUDY [--points N,...] [--turns N] [--half tune|judge|all]
 //        [--as bcc,mask] [--noise PERCENT,...] [--only NAME,...] [--data PLACE] [--dump FOLDER]
-//        [--rule RULE] [--threshold X] [--kind KIND] [--json]
+//        [--rule RULE] [--threshold X] [--merge-junctions X] [--kind KIND] [--json]
 
 namespace {
 

@@ -50,6 +50,7 @@ struct Sketch {
   std::vector<Tip> tips = {};
   std::vector<Piece> line = {};  // the middle of limbs, with half their widths
   int junctions = -1;            // -1: not known
+  int loops = -1;                // the same
   bool knows_ends = true;        // else nobody can say how many there should be
   double rough = 0;              // how far the surface goes in and out,
   double wavelength = 1;         // and in which distance

@@ -88,6 +88,10 @@ std::map<std::string, Setter> SettersOf(StudyOptions& options) {
                         {"none", PruningRule::kNone}},
                        given, pruning.rule);
        }},
+      {"merge-junctions",
+       [&](const std::string& given) {
+         return absl::SimpleAtod(given, &options.skeleton.junction_reach);
+       }},
       {"kind",
        [&](const std::string& given) {
          return Choose({{"curve", SkeletonKind::kCurve},

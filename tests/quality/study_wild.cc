@@ -4,6 +4,7 @@
 #include <map>
 
 #include "absl/strings/str_format.h"
+#include "core/certificate/certificate.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -18,6 +19,8 @@ namespace bccskel::quality {
 namespace {
 
 constexpr double kMargin = 4;
+constexpr uint64_t kMostPoses = 12;
+constexpr uint64_t kPoseStride = 1'000'000;  // no seed of another figure
 
 // One object of the study and how its skeleton was judged.
 struct WildRow {
@@ -110,29 +113,54 @@ struct WildObject {
   std::optional<VoxelMask> mask;
 };
 
+absl::Status Sample(Grid grid, WildObject& object) {
+  if (grid == Grid::kCubic) {
+    object.mask = SampleOnVoxels(object.sketch);
+    return absl::OkStatus();
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(object.volume, SampleOnBcc(object.sketch));
+  return absl::OkStatus();
+}
+
+absl::StatusOr<bool> HasTheLoops(const WildObject& object) {
+  if (object.sketch.loops < 0) return true;
+  BettiNumbers numbers;
+  if (object.mask) {
+    VoxelMask mask = *object.mask;
+    BCCSKEL_ASSIGN_OR_RETURN(const MaskObject converted, Convert(mask, {}));
+    BCCSKEL_ASSIGN_OR_RETURN(numbers, CountBettiNumbers(converted.volume, {}));
+  } else {
+    BCCSKEL_ASSIGN_OR_RETURN(numbers, CountBettiNumbers(*object.volume, {}));
+  }
+  return numbers.loops == object.sketch.loops;
+}
+
 absl::StatusOr<WildObject> Draw(const WildFigure& figure, const WildRow& row) {
   const Grid grid = row.as == "mask" ? Grid::kCubic : Grid::kBcc;
   const uint64_t seed = 1000 * row.seed + static_cast<uint64_t>(row.variant);
-  const auto draw = [&](double size) {
+  const auto draw = [&](double size, uint64_t pose) {
     shapes::Random random(seed);
     const Sketch sketch = figure.draw({random, size}, figure.values);
-    return Moved(Turned(sketch, RandomFrame(seed)), kMargin, seed);
+    return Moved(Turned(sketch, RandomFrame(pose)), kMargin, pose);
   };
   // Thin parts do not grow with the figure, so it takes a few tries.
   double size = 0.4 * std::cbrt(static_cast<double>(row.wanted_points));
   WildObject object;
   for (int tries = 0; tries < 6; ++tries) {
-    object.sketch = draw(size);
+    object.sketch = draw(size, seed);
     const double ratio = static_cast<double>(CountPoints(object.sketch, grid)) /
                          static_cast<double>(row.wanted_points);
     if (std::abs(ratio - 1) < 0.05) break;
     size /= std::cbrt(ratio);
   }
-  if (grid == Grid::kCubic) {
-    object.mask = SampleOnVoxels(object.sketch);
-    return object;
+  BCCSKEL_RETURN_IF_ERROR(Sample(grid, object));
+  // Where thin tubes meet, sampling may open a tunnel: a junction more in truth. So another pose.
+  for (uint64_t tries = 1; tries < kMostPoses; ++tries) {
+    BCCSKEL_ASSIGN_OR_RETURN(const bool right, HasTheLoops(object));
+    if (right) return object;
+    object.sketch = draw(size, seed + kPoseStride * tries);
+    BCCSKEL_RETURN_IF_ERROR(Sample(grid, object));
   }
-  BCCSKEL_ASSIGN_OR_RETURN(object.volume, SampleOnBcc(object.sketch));
   return object;
 }
 

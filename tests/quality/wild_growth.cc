@@ -126,9 +126,10 @@ class Tubes {
     std::vector<int> sizes(places_.size());
     for (const size_t p : part) ++sizes[p];
     const auto largest = static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin());
-    Sketch sketch{.junctions = 0};
+    Sketch sketch{.junctions = 0, .loops = 1 - sizes[largest]};
     for (const auto& [a, b] : tubes_) {
       if (part[a] != largest) continue;
+      ++sketch.loops;
       const Piece piece = PieceOf(a, b);
       sketch.pieces.push_back(piece);
       if (degrees_[b] == 1) sketch.AddTipOf(piece, Length(piece.to - piece.from) / 2);

@@ -115,6 +115,33 @@ TEST(MergeJunctions, LosesNoLoop) {
   }
 }
 
+// Two junctions with a short way between them and, around a tunnel in the same ball, a long one.
+std::vector<LatticePoint> CombWithTunnel(int32_t side) {
+  auto points = Comb({30, 46});
+  AddLine(points, {30, kMiddle, kMiddle + side}, {0, 0, side}, 6);
+  AddLine(points, {32, kMiddle, kMiddle + 6 * side}, {2, 0, 0}, 7);
+  AddLine(points, {46, kMiddle, kMiddle + 6 * side}, {0, 0, -side}, 6);
+  return points;
+}
+
+// Whether the rim of the tunnel is thick or thin: it is no limb that leaves the ball.
+TEST(MergeJunctions, TakesTheShortWayAroundATunnel) {
+  for (const int32_t side : {-2, 2}) {
+    for (const float rim : {20.0f, 1.0f}) {
+      SCOPED_TRACE(testing::Message() << side << ", rim of " << rim);
+      SkeletonGraph graph = test::Trace(
+          CombWithTunnel(side), [&](LatticePoint p) { return p.z == kMiddle ? 20.0f : rim; });
+      ASSERT_TRUE(MergeJunctions(kDefaultJunctionReach, {}, graph).ok());
+      EXPECT_EQ(JunctionsOf(graph), 1);
+      ASSERT_EQ(graph.edges.size(), 5u);
+      for (const SkeletonEdge& edge : graph.edges) {
+        if (edge.source == edge.target) continue;
+        EXPECT_LE(graph.PointsOf(edge).size(), 26u);  // an arm of 18, 8 steps of the short way
+      }
+    }
+  }
+}
+
 TEST(MergeJunctions, ChecksItsReach) {
   EXPECT_TRUE(CheckJunctionReach(0).ok());
   EXPECT_TRUE(CheckJunctionReach(kMaxJunctionReach).ok());
