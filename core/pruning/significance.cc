@@ -43,13 +43,6 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
 constexpr double kFirstTurn = 0.2;
 constexpr double kLeastTurn = 0.01;
 
-// What the shape must stick out by, where noise of that length adds to it by chance: their squares
-// add, since the two have nothing to do with each other.
-double WithoutNoise(double elongation, double noise) {
-  if (elongation <= noise) return elongation - noise;
-  return std::sqrt(elongation * elongation - noise * noise);
-}
-
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path{{*branch.junction}, {}};
   path.points.insert(path.points.end(), branch.points.rbegin(), branch.points.rend());
@@ -141,6 +134,13 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   return best;
 }
 
+// Shape and noise have nothing to do with each other, so their squares add.
+double Significance::BeyondNoise(double elongation) const {
+  const double noise = kNoiseMargin * noise_;
+  if (elongation <= noise) return elongation - noise;
+  return std::sqrt(elongation * elongation - noise * noise);
+}
+
 // What the object is wider than thick only lowers the value.
 double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const {
   double most = 0;
@@ -151,14 +151,14 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
       const size_t tip = PlaceIn(run, later);
       const double fallen = kSteepness * (depth - path.radii[tip]);
       const double way = set.Between(path.points[root], path.points[tip]);
-      most = std::max(most, (way - fallen - noise_) / depth);
+      most = std::max(most, BeyondNoise(way - fallen) / depth);
     }
   }
   return most;
 }
 
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {
-  const double out = run.elongation - noise_, radius = path.radii[run.from];
+  const double out = BeyondNoise(run.elongation), radius = path.radii[run.from];
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
@@ -209,7 +209,7 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
                                   : kWallSteepness * (from.inscribed - to.inscribed);
       const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
       const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
-      value = std::max(value, WithoutNoise(way - fallen, kNoiseMargin * noise_) / width);
+      value = std::max(value, BeyondNoise(way - fallen) / width);
     }
   }
   return value;

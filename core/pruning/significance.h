@@ -97,6 +97,7 @@ class Significance {
   // As if nothing of it were covered.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
   // ValueOf() is no more, in floating point, too; without rays.
+  double BeyondNoise(double elongation) const;
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
