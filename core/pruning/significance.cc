@@ -11,16 +11,20 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;     // a radius that falls by half the way belongs to a limb
-constexpr double kWidthShare = 2;    // of what the object is wider than thick
-constexpr double kSureRatio = 2;     // above, what lies beyond the end does not matter
-constexpr double kLeastRatio = 0.2;  // below, the width is not looked at: the branch is a bump
-constexpr double kLeastFine = 0.35;  // below, the width is looked at in few directions
+constexpr double kSteepness = 2;        // a radius that falls by half the way belongs to a limb
+constexpr double kWallSteepness = 0.4;  // of what its inscribed circle shrinks by
+constexpr double kWidthShare = 2;       // of what the object is wider than thick
+constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
+constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
+constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
-constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
+constexpr double kFlatness = 1.5;  // half-width by radius: less is round
+constexpr double kFlatMargin = 3;  // so are limbs as thick as the steps of the surface
+constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
+constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
 constexpr size_t kCoverSamples = 16;
 
 // Quarter turns in eight steps: cosine and sine.
@@ -132,7 +136,12 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
-    for (Section& section : sections) TurnFinely(reach, section);
+    for (Section& section : sections) {
+      TurnFinely(reach, section);
+      if (section.half_width < kFlatness * section.radius + kFlatMargin) continue;
+      FollowWall(reach, section);
+      FindInscribed(section);
+    }
     value = BestRoot(set, path, run, sections);
   }
   return value;
@@ -159,18 +168,18 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
   std::ranges::transform(sections, wider.begin(), [](const Section& section) {
     return std::max(section.half_width - section.radius, 0.0);
   });
-  const double half_width_near_tip = wider[kNearTip] + path.radii[PlaceIn(run, kNearTip)];
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
-    const size_t root = PlaceIn(run, place);
-    const double depth = path.radii[root];
-    const double wide = MedianFrom(wider, place);
-    const double narrower = depth + wide - half_width_near_tip;
-    const double fallen = std::max(kSteepness * (depth - path.radii[run.to]), narrower);
-    const double way = set.Between(path.points[root], path.points[run.to]);
-    const double sticks_out = way - fallen - noise_;
-    const double width = depth + kWidthShare * wide;
-    value = std::max(value, sticks_out / width);
+    const LatticePoint root = path.points[PlaceIn(run, place)];
+    const Section& from = sections[place];
+    const double width = from.radius + kWidthShare * MedianFrom(wider, place);
+    for (size_t tip = place + 1; tip < kPlaces; ++tip) {
+      const Section& to = sections[tip];
+      const double fallen = std::max(kSteepness * (from.radius - to.radius),
+                                     kWallSteepness * (from.inscribed - to.inscribed));
+      const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
+      value = std::max(value, (way - fallen - noise_) / width);
+    }
   }
   return value;
 }
@@ -197,6 +206,7 @@ Significance::Sections Significance::SectionsAcross(const BranchPath& path, cons
     const size_t n = PlaceIn(run, place);
     Section& section = sections[place];
     section = {PlaceOf(path.points[n], scale_), WayAt(path.points, n, scale_), path.radii[n]};
+    section.inscribed = section.radius;
     const auto [u, v] = Across(section.way);
     section.side = u;
     for (const auto& [cosine, sine] : kTurns) {
@@ -225,6 +235,68 @@ bool Significance::Widen(const Coordinates& side, double reach, Section& section
   if (half_width <= section.half_width) return false;
   section.side = side;
   section.half_width = half_width;
+  return true;
+}
+
+// A straight line leaves a bent wall soon, so the widest goes on in it, to either side.
+void Significance::FollowWall(double reach, Section& section) {
+  const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
+  const Coordinates other_side = Sum({0, 0, 0}, -1, section.side);
+  const double back = WayInWall(FrontOf(section, other_side), section.radius, reach);
+  section.half_width = std::max(section.half_width, (there + back) / 2);
+}
+
+// A line may end early at noise or in a bend that it meets at a slant: the third shortest of 16
+// counts.
+void Significance::FindInscribed(Section& section) {
+  std::array<double, 3> least;
+  least.fill(section.half_width);
+  for (const auto& [cosine, sine] : kTurns) {
+    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, section.side), sine, section.way);
+    for (const double side : {1.0, -1.0}) {
+      const Front front = FrontOf(section, Sum({0, 0, 0}, side, way));
+      least.back() = std::min(least.back(), WayInWall(front, section.radius, least.back()));
+      std::ranges::sort(least);
+    }
+  }
+  section.inscribed = std::max(least.back(), section.radius);
+}
+
+Significance::Front Significance::FrontOf(const Section& section, const Coordinates& way) {
+  return {section.middle, way, Cross(section.way, section.side)};
+}
+
+double Significance::WayInWall(Front front, double radius, double reach) {
+  double out = WayOut(front.middle, front.way, std::floor(radius), reach);
+  while (front.length + out < reach && GoOnInWall(front, out, radius)) {
+    out = WayOut(front.middle, front.way, 0, reach - front.length);
+  }
+  return std::min(front.length + out, reach);
+}
+
+// Where the line leaves the wall it turns into the wall that stands there, or goes on from the
+// middle of its own. Returns whether it does: at a rim, or in what is no wall, it does not.
+bool Significance::GoOnInWall(Front& front, double out, double radius) {
+  if (out < kLeastOn * radius + 1) return false;
+  const double back = std::min(out, radius);
+  const double most = kMostThick * radius + 1;
+  const Coordinates below = Sum({0, 0, 0}, -1, front.normal);
+  const auto ways = [&](const Coordinates& at) {
+    return std::array{WayOut(at, front.normal, 0, most), WayOut(at, below, 0, most)};
+  };
+  const Coordinates corner = Sum(front.middle, out - back, front.way);
+  const auto [wall_above, wall_below] = ways(corner);
+  if (std::max(wall_above, wall_below) >= most) {
+    const Coordinates way = wall_above > wall_below ? front.normal : below;
+    front = {Sum(corner, radius, way), way, front.way, front.length + out - back + radius};
+    return true;
+  }
+  const Coordinates at = Sum(front.middle, out, front.way);
+  const auto [thick_above, thick_below] = ways(at);
+  const Coordinates middle = Sum(at, (thick_above - thick_below) / 2, front.normal);
+  const Coordinates step = Sum(middle, -1, front.middle), way = Unit(step);
+  const Coordinates normal = Unit(Sum(front.normal, -Dot(front.normal, way), way));
+  front = {middle, way, normal, front.length + std::sqrt(Dot(step, step))};
   return true;
 }
 

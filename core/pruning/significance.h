@@ -39,9 +39,11 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 //        whichever makes the most of it: the run may begin in something flat that the limb leaves.
 //        H is the half-width of the object across the branch, the median of the places from there
 //        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
-//        more beside the widest: lines that do not lie in a thin plate leave it soon. Where H less
-//        the half-width near the tip is more than 2 (D(q) - D(p)), it takes the place of that in
-//        the elongation: the corner of a plate sticks out no farther than a bump. `uncovered` is
+//        more beside the widest: lines that do not lie in a thin plate leave it soon. In a wall,
+//        where H > 1.5 D + 3, the widest line goes on where the wall bends, round or with an edge;
+//        so do 16 lines in the wall, of which the third shortest is W, the radius of the circle
+//        inscribed in the wall. Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the
+//        place of that in the elongation: in a wall W is what D is in space. `uncovered` is
 //        the share of the run that lies outside 0.9 of the balls of other branches. In a limb H is
 //        D; a rib lies in something wide; a strand lies in the balls of the strand beside it.
 //        A limb may begin late in a long run through something wide, as a thumb does behind a palm.
@@ -78,6 +80,14 @@ class Significance {
     double radius = 0;
     Coordinates side = {0, 0, 0};  // of the widest line, of length 1
     double half_width = 0;         // along it, the mean of its two sides
+    double inscribed = 0;          // radius of the circle inscribed in the wall here
+  };
+  // Of a line that goes on in a bent wall.
+  struct Front {
+    Coordinates middle;  // of the wall
+    Coordinates way;     // of length 1
+    Coordinates normal;  // of the wall, of length 1
+    double length = 0;   // so far
   };
   using Sections = std::array<Section, kPlaces>;
 
@@ -89,6 +99,11 @@ class Significance {
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   void TurnFinely(double reach, Section& section);
   bool Widen(const Coordinates& side, double reach, Section& section);
+  void FollowWall(double reach, Section& section);
+  void FindInscribed(Section& section);
+  static Front FrontOf(const Section& section, const Coordinates& way);
+  double WayInWall(Front front, double radius, double reach);
+  bool GoOnInWall(Front& front, double out, double radius);
   double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                   const Sections& sections) const;
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);

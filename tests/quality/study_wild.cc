@@ -187,6 +187,10 @@ class ClassLine {
     auto& [lost, spurious] = by_noise_[row.noise];
     lost += row.match.lost;
     spurious += row.match.spurious;
+    auto& [least, most] =
+        ends_by_figure_.try_emplace(row.variant, row.ends, row.ends).first->second;
+    least = std::min(least, row.ends);
+    most = std::max(most, row.ends);
     gap_ = std::max(gap_, row.match.largest_gap);
     off_ = std::max(off_, row.line_mean);
     junctions_ += row.junctions;
@@ -201,6 +205,11 @@ class ClassLine {
       absl::PrintF(" %9s", knows_ends_ ? absl::StrFormat("%d/%d", counts.first, counts.second)
                                        : std::string("-"));
     }
+    if (!knows_ends_) {
+      for (auto& [v, m] : ends_by_figure_) absl::PrintF(" %d-%d", m.first, m.second);
+      absl::PrintF("\n");
+      return;
+    }
     absl::PrintF("  %5s %6.1f %6.2f %7.1f %9s %8.1f %5.1f%%\n",
                  knows_ends_ ? std::to_string(exact_) : "-", gap_, off_,
                  static_cast<double>(ends_) / objects_,
@@ -211,7 +220,8 @@ class ClassLine {
  private:
   int objects_ = 0, tips_ = 0, ends_ = 0, exact_ = 0, junctions_ = 0, true_junctions_ = 0;
   bool knows_ends_ = true;
-  std::map<double, std::pair<int, int>> by_noise_;  // lost and spurious
+  std::map<double, std::pair<int, int>> by_noise_;     // lost and spurious
+  std::map<int, std::pair<int, int>> ends_by_figure_;  // least and most
   double gap_ = 0, off_ = 0, pruning_ms_ = 0, total_ms_ = 0;
 };
 

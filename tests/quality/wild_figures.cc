@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/quality/wild_growth.h"
+#include "tests/quality/wild_sheets.h"
 
 namespace bccskel::quality {
 namespace {
@@ -327,6 +328,26 @@ constexpr WildFigure kFigures[] = {
     {"disk", Plate, {2, 6}, true},
     {"casting", Casting, {4, 0.6}},
     {"casting", Casting, {6, 0.3}, true},
+    {"bent plate", BentPlate, {kPi, 3, 0.06}},
+    {"bent plate", BentPlate, {1.6, 1, 0.08}},
+    {"bent plate", BentPlate, {kPi, 1.5, 0.2}},
+    {"bent plate", BentPlate, {4.5, 4, 0.05}, true},
+    {"bent plate", BentPlate, {2.4, 1.5, 0.1}, true},
+    {"profile", Profile, {2, 4, 0.12}},
+    {"profile", Profile, {4, 3, 0.1}},
+    {"profile", Profile, {3, 4, 0.1}, true},
+    {"profile", Profile, {5, 3, 0.12}, true},
+    {"profile", Profile, {2, 1.5, 0.08}, true},
+    {"open box", OpenBox, {1, 0.12, 1}},
+    {"open box", OpenBox, {0.5, 0.06, 0.6}},
+    {"open box", OpenBox, {1.6, 0.1, 0.7}, true},
+    {"open box", OpenBox, {0.7, 0.2, 0.8}, true},
+    {"flanged tube", FlangedTube, {3, 0.15, 0.5, 1}},
+    {"flanged tube", FlangedTube, {4, 0.1, 0.4, 2}, true},
+    {"perforated", PerforatedPlate, {3, 2, 0.5, 0.15}},
+    {"perforated", PerforatedPlate, {4, 3, 0.6, 0.12}, true},
+    {"ribbed", RibbedPlate, {2, 0.4, 0.08}},
+    {"ribbed", RibbedPlate, {3, 0.7, 0.1}, true},
     {"network", Network, {30, 40, 5}},
     {"network", Network, {40, 50, 5}, true},
     {"spiral", Spiral, {3, 0.6, 3}},
