@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Raised whenever the same volume and options may give another skeleton: stored results are found
 // again by it.
-inline constexpr char kAlgorithmVersion[] = "11";
+inline constexpr char kAlgorithmVersion[] = "12";
 
 // The same for masks, whose conversion counts, too.
-inline constexpr char kMaskAlgorithmVersion[] = "11.mask-3";
+inline constexpr char kMaskAlgorithmVersion[] = "12.mask-3";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

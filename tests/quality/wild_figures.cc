@@ -328,6 +328,13 @@ constexpr WildFigure kFigures[] = {
     {"disk", Plate, {2, 6}, true},
     {"casting", Casting, {4, 0.6}},
     {"casting", Casting, {6, 0.3}, true},
+    {"network", Network, {30, 40, 5}},
+    {"network", Network, {40, 50, 5}, true},
+    {"spiral", Spiral, {3, 0.6, 3}},
+    {"spiral", Spiral, {4, 0.4, 1}, true},
+    {"neurite", Neurite, {60, 0.3, 0.15}},
+    {"neurite", Neurite, {80, 0.4, 0.2}, true},
+    {"round", Round, {}},
     {"bent plate", BentPlate, {kPi, 3, 0.06}},
     {"bent plate", BentPlate, {1.6, 1, 0.08}},
     {"bent plate", BentPlate, {kPi, 1.5, 0.2}},
@@ -348,13 +355,6 @@ constexpr WildFigure kFigures[] = {
     {"perforated", PerforatedPlate, {4, 3, 0.6, 0.12}, true},
     {"ribbed", RibbedPlate, {2, 0.4, 0.08}},
     {"ribbed", RibbedPlate, {3, 0.7, 0.1}, true},
-    {"network", Network, {30, 40, 5}},
-    {"network", Network, {40, 50, 5}, true},
-    {"spiral", Spiral, {3, 0.6, 3}},
-    {"spiral", Spiral, {4, 0.4, 1}, true},
-    {"neurite", Neurite, {60, 0.3, 0.15}},
-    {"neurite", Neurite, {80, 0.4, 0.2}, true},
-    {"round", Round, {}},
 };
 
 }  // namespace

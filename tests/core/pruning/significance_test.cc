@@ -117,6 +117,44 @@ TEST(Ribs, DoNotStayOnThinPlatesInAnyPose) {
   }
 }
 
+// A wall around the x axis, turned like a plate: half a tube, or three sides of a square with
+// edges; `thickness`, `length` and the radius, or half a side, in lattice units.
+struct BentSize {
+  double thickness = 0, length = 0, radius = 0;
+  bool edged = false;
+};
+
+Volume BentWall(const BentSize& size, double turn) {
+  const auto reach = static_cast<int32_t>(std::hypot(size.length / 2, 2 * size.radius)) + 4;
+  const double c = std::cos(turn), s = std::sin(turn);
+  VolumeBuilder builder({reach + 1, reach + 1, reach + 1}, {});
+  for (int32_t z = 0; z <= 2 * reach; ++z) {
+    for (int32_t y = 0; y <= 2 * reach; ++y) {
+      for (int32_t x = 0; x <= 2 * reach; ++x) {
+        if (!IsOnLattice({x, y, z})) continue;
+        const double px = x - reach, py = y - reach, pz = z - reach;
+        const double u = c * px + s * py, w = -s * px + c * py;
+        const double v = c * w + s * pz, height = -s * w + c * pz;
+        const double out = size.edged ? std::max(std::abs(v), height) : std::hypot(v, height);
+        const bool open = height < (size.edged ? -size.radius : 0);
+        if (open || std::abs(u) > size.length / 2) continue;
+        if (std::abs(out - size.radius) <= size.thickness / 2) builder.Add({x, y, z});
+      }
+    }
+  }
+  return *std::move(builder).Build();
+}
+
+// A straight line across a branch leaves a bent wall soon.
+TEST(Ribs, DoNotStayOnBentWallsInAnyPose) {
+  for (const double turn : {0.0, 0.3, 0.7, 1.1}) {
+    for (const bool edged : {false, true}) {
+      SCOPED_TRACE(testing::Message() << turn << ' ' << edged);
+      EXPECT_LE(EndsOf(BentWall({5, 150, 40, edged}, turn)), 4u);  // its corners, at most
+    }
+  }
+}
+
 // In lattice coordinates the limb of the last case would be too narrow.
 TEST(Ribs, AreMeasuredAsTheyLieInTheWorld) {
   struct Case {
