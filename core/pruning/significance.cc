@@ -19,6 +19,7 @@ constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: th
 constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
+constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
 constexpr double kFlatness = 1.5;  // half-width by radius: less is round
@@ -138,6 +139,7 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   if (value >= kLeastFine) {
     for (Section& section : sections) {
       TurnFinely(reach, section);
+      section.inscribed = section.radius;
       if (section.half_width < kFlatness * section.radius + kFlatMargin) continue;
       FollowWall(reach, section);
       FindInscribed(section);
@@ -168,15 +170,18 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
   std::ranges::transform(sections, wider.begin(), [](const Section& section) {
     return std::max(section.half_width - section.radius, 0.0);
   });
+  const double half_width_near_tip = wider[kNearTip] + sections[kNearTip].radius;
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
     const LatticePoint root = path.points[PlaceIn(run, place)];
     const Section& from = sections[place];
-    const double width = from.radius + kWidthShare * MedianFrom(wider, place);
+    const double wide = MedianFrom(wider, place), width = from.radius + kWidthShare * wide;
     for (size_t tip = place + 1; tip < kPlaces; ++tip) {
       const Section& to = sections[tip];
-      const double fallen = std::max(kSteepness * (from.radius - to.radius),
-                                     kWallSteepness * (from.inscribed - to.inscribed));
+      const double narrower = from.inscribed == 0
+                                  ? from.radius + wide - half_width_near_tip
+                                  : kWallSteepness * (from.inscribed - to.inscribed);
+      const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
       const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
       value = std::max(value, (way - fallen - noise_) / width);
     }
@@ -206,7 +211,6 @@ Significance::Sections Significance::SectionsAcross(const BranchPath& path, cons
     const size_t n = PlaceIn(run, place);
     Section& section = sections[place];
     section = {PlaceOf(path.points[n], scale_), WayAt(path.points, n, scale_), path.radii[n]};
-    section.inscribed = section.radius;
     const auto [u, v] = Across(section.way);
     section.side = u;
     for (const auto& [cosine, sine] : kTurns) {

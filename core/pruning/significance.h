@@ -80,7 +80,7 @@ class Significance {
     double radius = 0;
     Coordinates side = {0, 0, 0};  // of the widest line, of length 1
     double half_width = 0;         // along it, the mean of its two sides
-    double inscribed = 0;          // radius of the circle inscribed in the wall here
+    double inscribed = 0;          // radius of the circle inscribed in a wall; 0: not known yet
   };
   // Of a line that goes on in a bent wall.
   struct Front {
