@@ -205,11 +205,7 @@ class ClassLine {
       absl::PrintF(" %9s", knows_ends_ ? absl::StrFormat("%d/%d", counts.first, counts.second)
                                        : std::string("-"));
     }
-    if (!knows_ends_) {
-      for (auto& [v, m] : ends_by_figure_) absl::PrintF(" %d-%d", m.first, m.second);
-      absl::PrintF("\n");
-      return;
-    }
+    if (!knows_ends_) return PrintEnds();
     absl::PrintF("  %5s %6.1f %6.2f %7.1f %9s %8.1f %5.1f%%\n",
                  knows_ends_ ? std::to_string(exact_) : "-", gap_, off_,
                  static_cast<double>(ends_) / objects_,
@@ -218,6 +214,15 @@ class ClassLine {
   }
 
  private:
+  // The fewest and the most of each figure, over poses and noise.
+  void PrintEnds() const {
+    absl::PrintF("  ends:");
+    for (const auto& [figure, ends] : ends_by_figure_) {
+      absl::PrintF(" %d to %d", ends.first, ends.second);
+    }
+    absl::PrintF("\n");
+  }
+
   int objects_ = 0, tips_ = 0, ends_ = 0, exact_ = 0, junctions_ = 0, true_junctions_ = 0;
   bool knows_ends_ = true;
   std::map<double, std::pair<int, int>> by_noise_;     // lost and spurious
