@@ -52,7 +52,8 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
 // Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it
-//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay.
+//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay, and in a
+//        wall up to 198 more that follow it.
 // Threads: one thread per instance.
 class Significance {
  public:
