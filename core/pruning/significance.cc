@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSteepness = 2;          // a radius that falls by half the way belongs to a limb
 constexpr double kWallSteepness = 0.4;    // of what its inscribed circle shrinks by
-constexpr double kWidthShare = 2;         // of what the object is wider than thick
+constexpr double kWidthShare = 2.2;       // of what the object is wider than thick
 constexpr double kNoiseMargin = 4.0 / 3;  // of the allowance, whose square is taken off
 constexpr double kSureRatio = 2;          // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;       // below, the width is not looked at: the branch is a bump

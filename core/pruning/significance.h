@@ -34,7 +34,7 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 //        its run: leaving a body or going up a bump the radius D falls about as fast
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
-//          S = sqrt(elongation^2 - noise^2) / (D + 2 (H - D)) * uncovered,
+//          S = sqrt(elongation^2 - noise^2) / (D + 2.2 (H - D)) * uncovered,
 //        noise 4/3 of the allowance, D the radius where the limb begins, at one of the first seven
 //        of 11 places of the run, whichever makes the most of it: the run may begin in something
 //        flat that the limb leaves.
