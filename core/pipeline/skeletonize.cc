@@ -41,9 +41,8 @@ SimplePoints ThatMayGo(const SkeletonizeOptions& options) {
   return ends_stay ? SimplePoints::kNonEnd : SimplePoints::kAll;
 }
 
-absl::Status Certify(const Volume& object, const Volume& thin, const exec::Context& context,
-                     Certificate& certificate) {
-  BCCSKEL_ASSIGN_OR_RETURN(certificate.input, CountBettiNumbers(object, context));
+// `certificate` has the numbers of the object.
+absl::Status Certify(const Volume& thin, const exec::Context& context, Certificate& certificate) {
   BCCSKEL_ASSIGN_OR_RETURN(certificate.skeleton, CountBettiNumbers(thin, context));
   if (certificate.TopologyKept()) return absl::OkStatus();
   return absl::InternalError("thinning changed the topology: " +
@@ -126,6 +125,17 @@ class Pipeline {
     result_.algorithm_version = AlgorithmVersionOf(options.source);
   }
 
+  // The whole object takes the place of the part that is given.
+  absl::StatusOr<SkeletonizeResult> RunByPeeler(Volume& given) && {
+    if (options_.preparing.Wanted()) {
+      BCCSKEL_ASSIGN_OR_RETURN(Volume prepared, PrepareObject(given));
+      BCCSKEL_RETURN_IF_ERROR(PeelAndRun(prepared));
+    } else {
+      BCCSKEL_RETURN_IF_ERROR(PeelAndRun(given));
+    }
+    return std::move(result_);
+  }
+
   absl::StatusOr<SkeletonizeResult> Run(const Volume& given) && {
     if (!options_.preparing.Wanted()) {
       BCCSKEL_RETURN_IF_ERROR(RunFrom(given));
@@ -189,14 +199,28 @@ class Pipeline {
   }
 
   absl::Status RunIn(const Volume& object) {
-    // Those who peel elsewhere keep the distances, so radii are searched for.
-    DistanceField distance =
-        NoDistances(peeler_ == nullptr ? options_.distance : DistanceKind::kChamfer);
+    DistanceField distance = NoDistances(options_.distance);
     BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
+    return FinishIn(object, std::move(distance));
+  }
+
+  // Those who peel elsewhere keep the distances, so radii are searched for.
+  absl::Status PeelAndRun(Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, thinning_));
+    TakeOver(std::move(peeled.thinned));
+    result_.object_points = peeled.points;
+    result_.certificate.input = peeled.topology;
+    return FinishIn(object, NoDistances(DistanceKind::kChamfer));
+  }
+
+  absl::Status FinishIn(const Volume& object, DistanceField distance) {
     BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
                                             "points that thinning leaves"));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
-    BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
+    if (peeler_ == nullptr) {
+      BCCSKEL_ASSIGN_OR_RETURN(result_.certificate.input, CountBettiNumbers(object, context_));
+    }
+    BCCSKEL_RETURN_IF_ERROR(Certify(result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
         CountSimplePoints(result_.thin, ThatMayGo(options_),
                           SparedPoints(result_.thin, isthmuses_, thinning_), context_);
@@ -250,14 +274,7 @@ class Pipeline {
   }
 
   absl::Status Thin(const Volume& object, DistanceField& distance) {
-    if (peeler_ != nullptr) return ThinElsewhere(object);
     return NeedsDistances() ? ThinInField(object, distance) : ThinInShells(object);
-  }
-
-  absl::Status ThinElsewhere(const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned, (*peeler_)(object, thinning_));
-    TakeOver(std::move(thinned));
-    return absl::OkStatus();
   }
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
@@ -381,7 +398,7 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
   return Pipeline(options, memory, context, on_points, nullptr).Run(object);
 }
 
-absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
@@ -390,7 +407,7 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volu
   }
   exec::UnlimitedMemory memory;
   const OnShellPoints nobody;
-  return Pipeline(options, memory, context, nobody, &peeler).Run(object);
+  return Pipeline(options, memory, context, nobody, &peeler).RunByPeeler(object);
 }
 
 }  // namespace bccskel

@@ -182,17 +182,17 @@ class RankRelay : public LayerRelay {
 };
 
 absl::Status MeasureChamfer(Exchange& exchange, const LayerOwners& layers, const Volume& volume,
-                            DistanceKind kind, const exec::Context& context, ShellStore& store) {
+                            DistanceKind kind, double shell_width, Depths depths,
+                            const exec::Context& context, ShellStore& store) {
   RankRelay relay(exchange);
-  const int32_t first = layers.FirstOf(exchange.rank()), end = layers.EndOf(exchange.rank());
-  const DistanceField field = ComputeChamferOfLayers(volume, first, end, kind, context, relay);
+  const HeldLayers held = {layers.FirstOf(exchange.rank()), layers.EndOf(exchange.rank())};
+  store.Expect(volume, BricksOfLayers(volume, held.first, held.end));
+  const ShellPlaces shells = [&](BrickIndex n) { return store.ShellsOf(n); };
+  ShellPlaces deep;
+  if (depths == Depths::kWanted) deep = [&](BrickIndex n) { return store.DepthsOf(n); };
+  (void)StreamShellsOfLayers(volume, held, kind, shell_width, context, relay, shells, deep);
   BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange, context));
-  const auto index_of = [&](int32_t layer) {
-    const auto at = std::ranges::lower_bound(volume.keys(), layer, {},
-                                             [](BrickKey key) { return key.coordinates().bz; });
-    return static_cast<size_t>(at - volume.keys().begin());
-  };
-  store.Trade(volume, {index_of(first), index_of(end)}, field, context);
+  store.SendAway(volume);
   return absl::OkStatus();
 }
 
@@ -205,9 +205,10 @@ absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& b
   {
     const LayerOwners layers(exchange, bricks.local, bricks.own);
     const Volume volume = MoveToLayers(exchange, layers, bricks.local, bricks.own);
-    BCCSKEL_RETURN_IF_ERROR(kind == DistanceKind::kEuclidean
-                                ? MeasureEuclidean(exchange, bricks, layers, volume, context, store)
-                                : MeasureChamfer(exchange, layers, volume, kind, context, store));
+    BCCSKEL_RETURN_IF_ERROR(
+        kind == DistanceKind::kEuclidean
+            ? MeasureEuclidean(exchange, bricks, layers, volume, context, store)
+            : MeasureChamfer(exchange, layers, volume, kind, shell_width, depths, context, store));
   }
   // A rank thins for long and measures once, so blocks of squares are not kept for another time.
   exec::ProcessLargeBlocks().ReleaseUnused();
