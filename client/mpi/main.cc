@@ -106,7 +106,9 @@ ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::st
 
 ExitCode Main(std::vector<char*> words) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // as in client/cli/main.cc
-  const bccskel::cli::Interrupt interrupt;                              // before MPI's threads
+  // Letters of megabytes go back to the system when they have been read.
+  mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  const bccskel::cli::Interrupt interrupt;  // before MPI's threads
   std::signal(SIGPIPE, SIG_IGN);
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);

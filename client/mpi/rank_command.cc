@@ -9,6 +9,7 @@
 #include "client/export/skeleton_file.h"
 #include "client/mpi/file_folder.h"
 #include "core/exec/status_macros.h"
+#include "core/ranks/agreement.h"
 #include "core/ranks/rank_skeletonize.h"
 
 namespace bccskel::cli {
@@ -42,11 +43,8 @@ std::function<absl::StatusOr<Volume>(const exec::Context&)> MakerOf(
 
 ExitCode RunLead(const SkeletonizeArguments& arguments, const RankOptions& options,
                  ranks::Exchange& exchange, const ranks::CheckpointOptions& checkpoints,
-                 const FileFolder& folder, const std::stop_token& stop) {
+                 const std::stop_token& stop) {
   ranks::Lead lead(exchange, checkpoints);
-  absl::Status writable = CheckOutputs(arguments);
-  if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
-  if (!writable.ok()) return FailWith(ExitCode::kOutput, writable);
   const auto compute = [&](Volume& object, const SkeletonizeOptions& chosen,
                            const exec::Context& context) {
     return lead.Skeletonize(object, chosen, context);
@@ -80,7 +78,15 @@ ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
   const ranks::CheckpointOptions checkpoints = {
       options.checkpoint_folder.empty() ? nullptr : &folder, options.resuming,
       options.checkpoint_interval};
-  if (exchange.rank() == 0) return RunLead(arguments, options, exchange, checkpoints, folder, stop);
+  absl::Status writable;
+  if (exchange.rank() == 0) {
+    writable = CheckOutputs(arguments);
+    if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
+  }
+  const bool all_ready = ranks::AgreeOn(exchange, writable).ok();
+  if (!all_ready && exchange.rank() != 0) return ExitCode::kOk;  // rank 0 says why
+  if (!all_ready) return FailWith(ExitCode::kOutput, writable);
+  if (exchange.rank() == 0) return RunLead(arguments, options, exchange, checkpoints, stop);
   LocalTeam team(arguments.common.threads, stop);
   const auto make = MakerOf(arguments, options, exchange);
   absl::StatusOr<Volume> part = make ? make(team.context()) : LoadPart(arguments, team.context());
