@@ -49,10 +49,12 @@ class Peeling {
   }
 
   absl::StatusOr<PeeledObject> Run(Volume& part) && {
+    exchange_.Enter(Stage::kSharing);
     BCCSKEL_ASSIGN_OR_RETURN(Volume own, ShareEvenly(exchange_, std::exchange(part, NoneOf(part))));
     const RankBricks bricks = AddGhosts(exchange_, std::move(own));
     BCCSKEL_ASSIGN_OR_RETURN(Remains remains, PeelOwn(bricks));
     PeeledObject peeled;
+    exchange_.Enter(Stage::kTopology);
     BCCSKEL_ASSIGN_OR_RETURN(peeled.topology,
                              CountBettiNumbersOverRanks(exchange_, bricks, context_));
     peeled.points = PointsIn(bricks.local.bricks(), bricks.own);
@@ -60,6 +62,7 @@ class Peeling {
     absl::Status finished;
     if (exchange_.rank() == 0) finished = Finish(part, std::move(remains));
     BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, finished));
+    exchange_.Enter(Stage::kGathering);
     part = GatherBricks(exchange_, bricks.local, bricks.own);
     peeled.thinned = std::move(result_);
     return peeled;
@@ -72,14 +75,16 @@ class Peeling {
 
   // What is left of the object, on rank 0.
   absl::StatusOr<Remains> PeelOwn(const RankBricks& bricks) {
+    exchange_.Enter(Stage::kDistances);
     BCCSKEL_ASSIGN_OR_RETURN(
         const RankShells shells,
         MeasureShells(exchange_, bricks, distance_, options_.shell_width,
                       IsSymmetric() ? Depths::kWanted : Depths::kNone, context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
+    exchange_.Enter(Stage::kThinning);
     Checkpoints checkpoints(exchange_, bricks, checkpoint_options_, distance_, options_);
-    std::vector<BrickBits> object(bricks.local.bricks().begin(), bricks.local.bricks().end());
+    std::vector<BrickBits> object;
     BCCSKEL_ASSIGN_OR_RETURN(ShellsDone done, checkpoints.Resume(object));
     ThinningState state(bricks.local, KeptPoints(done));
     std::ranges::copy(object, state.object.begin());
