@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
@@ -20,6 +21,18 @@ inline Volume OnlyLayers(const Volume& object, const LayerPart& part) {
   }
   return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
                                   std::move(bricks));
+}
+
+// What several parts make together; fails where two have the same brick.
+inline absl::StatusOr<Volume> Joined(const std::vector<Volume>& parts) {
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (const Volume& part : parts) {
+    keys.insert(keys.end(), part.keys().begin(), part.keys().end());
+    bricks.insert(bricks.end(), part.bricks().begin(), part.bricks().end());
+  }
+  return Volume::Create(parts.front().extent(), parts.front().placement(), std::move(keys),
+                        std::move(bricks));
 }
 
 }  // namespace bccskel::test
