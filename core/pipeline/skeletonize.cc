@@ -1,4 +1,3 @@
-
 #include "core/certificate/describe_changes.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
