@@ -44,7 +44,7 @@ uint64_t CountJoined(const std::vector<Glued>& pairs) {
   std::vector<Named> names;
   for (const auto& [a, b] : pairs) names.insert(names.end(), {a, b});
   std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   const auto place_of = [&](const Named& name) {
     return static_cast<size_t>(std::ranges::lower_bound(names, name) - names.begin());
   };
@@ -144,7 +144,7 @@ class LabeledLayers {
                        {static_cast<uint64_t>(exchange_.rank()), own[n]}});
     }
     std::ranges::sort(pairs);
-    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
   }
 
