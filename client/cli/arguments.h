@@ -23,6 +23,7 @@
 #include "core/io/volume_header.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/tree_order.h"
+#include "core/volume/layer_part.h"
 
 namespace CLI {
 class App;
@@ -80,6 +81,7 @@ struct SkeletonizeArguments {
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
+  LayerPart part;  // of the object, that this process reads
 };
 
 // What stands in a path for the number of the label: such a path is one file per label.
@@ -279,12 +281,22 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
 
-// Skeletonize() by others than the threads of this process.
-using ComputeSkeleton = std::function<absl::StatusOr<SkeletonizeResult>(
-    const Volume& object, const SkeletonizeOptions& options, const exec::Context& context)>;
-// `skeletonize` on this machine, where `compute` does what lies between reading and writing.
-ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& arguments,
-               const std::stop_token& stop);
+// What several processes do together in place of this one.
+struct SharedWork {
+  // Makes this process's part of the object in place of reading it; may be null.
+  std::function<absl::StatusOr<Volume>(const exec::Context& context)> make;
+  // Skeletonize() of all parts. The whole object takes the place of the part.
+  std::function<absl::StatusOr<SkeletonizeResult>(Volume& object, const SkeletonizeOptions& options,
+                                                  const exec::Context& context)>
+      compute;
+};
+// `skeletonize` as the process of several that writes and tells.
+ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments,
+                   const std::stop_token& stop);
+// What another of them reads, or makes of the input: the part of the arguments, which for meshes
+// and OpenEXR files is nothing.
+absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
+                                const exec::Context& context);
 
 // Whether the command's files can be written, asked before work of hours. Errors: as
 // CheckWritable(), for the first that cannot.

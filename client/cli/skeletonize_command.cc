@@ -71,6 +71,7 @@ struct Object {
 
 absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
                                 const exec::Context& context) {
+  if (arguments.part.index > 0) return Object();
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
                            VoxelizeFile(arguments.input, arguments.grid, context));
   for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
@@ -80,15 +81,21 @@ absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
 
 absl::StatusOr<Object> FromVolume(const SkeletonizeArguments& arguments,
                                   const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, ReadVolumeFile(arguments.input, {}, context));
+  VolumeLimits limits;
+  if (arguments.part.count > 1) limits.max_bricks = limits.max_decoded_bytes = ~uint64_t{0};
+  BCCSKEL_ASSIGN_OR_RETURN(Volume volume,
+                           ReadVolumePart(arguments.input, arguments.part, limits, context));
   return Object{std::move(volume)};
 }
 
 absl::StatusOr<Object> FromImage(const SkeletonizeArguments& arguments,
                                  const exec::Context& context) {
-  const KeptVoxels kept = arguments.images.wanted() ? KeptVoxels::kAll : KeptVoxels::kNone;
+  const bool draws = arguments.images.wanted() && arguments.part.index == 0;
+  const KeptVoxels kept = draws ? KeptVoxels::kAll : KeptVoxels::kNone;
+  ImageArguments image = arguments.image;
+  image.mask.part = arguments.part;
   BCCSKEL_ASSIGN_OR_RETURN(ImageObject object,
-                           ConvertImageFile(arguments.input, arguments.image, kept, context));
+                           ConvertImageFile(arguments.input, image, kept, context));
   return Object{std::move(object.volume), std::nullopt, std::move(object.image),
                 std::move(object.voxels)};
 }
@@ -147,14 +154,13 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
   return client::SkeletonizeClient(std::move(connection)).Skeletonize(object, options);
 }
 
-// `compute` may be null: this process computes.
+// `work` may be null: this process computes alone.
 absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,
-                                                const Volume& object, Listeners& listeners,
-                                                exec::Context context,
-                                                const ComputeSkeleton& compute) {
+                                                Volume& object, Listeners& listeners,
+                                                exec::Context context, const SharedWork* work) {
   context.deadline = Clock::now() + arguments.timeout;
   context.on_shell = listeners.bar.Callback();
-  if (compute) return compute(object, arguments.skeletonize, context);
+  if (work != nullptr) return work->compute(object, arguments.skeletonize, context);
   OnShellPoints on_points;
   if (listeners.shells.has_value()) {
     on_points = [&](int32_t shell, const Volume& points) {
@@ -169,12 +175,12 @@ struct Computed {
   std::optional<view::PeeledShells> shells;
 };
 
-absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, const Volume& object,
-                                 const exec::Context& context, const ComputeSkeleton& compute) {
+absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, Volume& object,
+                                 const exec::Context& context, const SharedWork* work) {
   Listeners listeners(arguments, object);
   const bool local = arguments.place != Place::kServer;
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result,
-                           local ? OnThisMachine(arguments, object, listeners, context, compute)
+                           local ? OnThisMachine(arguments, object, listeners, context, work)
                                  : OnServer(arguments, object, listeners, context.stop));
   Computed computed = {std::move(result), std::nullopt};
   if (listeners.shells.has_value()) computed.shells = std::move(*listeners.shells).Take();
@@ -320,24 +326,36 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   AddRunOptions(command, arguments);
 }
 
-ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
-  return RunBy(nullptr, arguments, stop);
+absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
+                                const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(Object object, Load(arguments, context));
+  return std::move(object.volume);
 }
 
-ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& given,
-               const std::stop_token& stop) {
+namespace {
+
+absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const SharedWork* work,
+                                  const exec::Context& context) {
+  if (work == nullptr || !work->make) return Load(arguments, context);
+  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, work->make(context));
+  return Object{std::move(volume)};
+}
+
+// `work` may be null: this process computes alone, or a server does.
+ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
+                 const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   if (given.place == Place::kHere) {
     Note("computing on this machine, as with --local; --server HOST:PORT names a server");
   }
   LocalTeam team(given.common.threads, stop);
-  const absl::StatusOr<Object> object = Load(given, team.context());
+  absl::StatusOr<Object> object = LoadOrMake(given, work, team.context());
   if (!object.ok()) return Fail(object.status());
   const SkeletonizeArguments arguments = ForInput(given, *object);
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);
   }
-  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), compute);
+  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), work);
   if (!computed.ok()) return FailComputing(arguments, computed.status());
   SkeletonizeResult* const result = &computed->result;
   const absl::Status rooted = CheckRoot(arguments, result->graph);
@@ -353,6 +371,17 @@ ExitCode RunBy(const ComputeSkeleton& compute, const SkeletonizeArguments& given
   const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,
                                          object->image, *std::move(files), SecondsSince(start)});
   return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;
+}
+
+}  // namespace
+
+ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
+  return RunWith(nullptr, arguments, stop);
+}
+
+ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments,
+                   const std::stop_token& stop) {
+  return RunWith(&work, arguments, stop);
 }
 
 }  // namespace bccskel::cli

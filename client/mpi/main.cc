@@ -75,19 +75,29 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
   return Command{*std::move(arguments), *options};
 }
 
+// A line for each stage, which scripts read, and one for the rank.
 void Report(const MpiExchange& exchange) {
-  const bccskel::cli::ExchangeCounts& counts = exchange.counts();
+  constexpr const char* kStages[bccskel::ranks::kStageCount] = {"sharing", "distances", "thinning",
+                                                                "topology", "gathering"};
+  for (size_t n = 0; n < bccskel::ranks::kStageCount; ++n) {
+    const bccskel::cli::ExchangeCounts& counts =
+        exchange.counts(static_cast<bccskel::ranks::Stage>(n));
+    std::fprintf(stderr,
+                 "bccskel-mpi: rank %d of %d: %s: %llu trades, %llu sums, %llu letters, %llu bytes "
+                 "sent, %.3f s in them, %lld MiB so far\n",
+                 exchange.rank(), exchange.size(), kStages[n],
+                 static_cast<unsigned long long>(counts.trades),
+                 static_cast<unsigned long long>(counts.sums),
+                 static_cast<unsigned long long>(counts.letters),
+                 static_cast<unsigned long long>(counts.bytes), counts.waited,
+                 static_cast<long long>(counts.peak / 1024));
+  }
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   const double seconds = static_cast<double>(usage.ru_utime.tv_sec) +
                          1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-  std::fprintf(stderr,
-               "bccskel-mpi: rank %d of %d: %llu trades, %llu sums, %llu letters, %llu bytes sent, "
-               "%.2f s of processor time, %ld MiB at most\n",
-               exchange.rank(), exchange.size(), static_cast<unsigned long long>(counts.trades),
-               static_cast<unsigned long long>(counts.sums),
-               static_cast<unsigned long long>(counts.letters),
-               static_cast<unsigned long long>(counts.bytes), seconds, usage.ru_maxrss / 1024);
+  std::fprintf(stderr, "bccskel-mpi: rank %d of %d: %.2f s of processor time, %ld MiB at most\n",
+               exchange.rank(), exchange.size(), seconds, usage.ru_maxrss / 1024);
 }
 
 // Whoever cannot go on takes the others along, who would wait for ever.
@@ -106,7 +116,9 @@ ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::st
 
 ExitCode Main(std::vector<char*> words) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // as in client/cli/main.cc
-  const bccskel::cli::Interrupt interrupt;                              // before MPI's threads
+  // Letters of megabytes go back to the system when they have been read.
+  mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  const bccskel::cli::Interrupt interrupt;  // before MPI's threads
   std::signal(SIGPIPE, SIG_IGN);
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);

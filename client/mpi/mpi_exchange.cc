@@ -1,5 +1,7 @@
 #include "client/mpi/mpi_exchange.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -31,6 +33,22 @@ class Lookout {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Adds its lifetime.
+class WaitClock {
+ public:
+  explicit WaitClock(double& seconds) : seconds_(seconds) {}
+  ~WaitClock() {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+    seconds_ += time.count();
+  }
+  WaitClock(const WaitClock&) = delete;
+  WaitClock& operator=(const WaitClock&) = delete;
+
+ private:
+  double& seconds_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 // Takes a piece of the letter if one has come. Returns whether it was the last.
 bool TakePiece(int peer, MPI_Comm communicator, Bytes& letter) {
   int has_come = 0;
@@ -56,6 +74,13 @@ MpiExchange::MpiExchange(MPI_Comm communicator) {
 
 MpiExchange::~MpiExchange() { MPI_Comm_free(&communicator_); }
 
+void MpiExchange::Enter(ranks::Stage stage) {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  now().peak = usage.ru_maxrss;
+  stage_ = stage;
+}
+
 void MpiExchange::Send(int peer, const Bytes& letter, std::vector<MPI_Request>& requests) {
   size_t at = 0, piece = 0;
   do {
@@ -64,13 +89,14 @@ void MpiExchange::Send(int peer, const Bytes& letter, std::vector<MPI_Request>& 
               &requests.emplace_back());
     at += piece;
   } while (piece == kPieceBytes);
-  ++counts_.letters;
-  counts_.bytes += letter.size();
+  ++now().letters;
+  now().bytes += letter.size();
 }
 
 void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
                         std::span<Bytes> in) {
-  ++counts_.trades;
+  const WaitClock waiting(now().waited);
+  ++now().trades;
   std::vector<MPI_Request> sent;
   for (size_t n = 0; n < peers.size(); ++n) Send(peers[n], out[n], sent);
   for (Bytes& letter : in) letter.clear();
@@ -85,7 +111,8 @@ void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
 }
 
 void MpiExchange::Reduce(std::span<uint64_t> numbers, MPI_Op operation) {
-  ++counts_.sums;
+  const WaitClock waiting(now().waited);
+  ++now().sums;
   MPI_Request request;
   MPI_Iallreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T,
                  operation, communicator_, &request);

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <cstdint>
 
 #include "core/ranks/exchange.h"
@@ -15,6 +16,8 @@ struct ExchangeCounts {
   uint64_t sums = 0;
   uint64_t letters = 0;  // sent to one other rank
   uint64_t bytes = 0;    // in these
+  double waited = 0;     // seconds in trades and sums, of which sending takes its part
+  int64_t peak = 0;      // KiB of memory, most until the end of the stage; 0: never there
 };
 
 // The ranks of an MPI job. Waits without burning the processor: after some microseconds of looking
@@ -34,7 +37,11 @@ class MpiExchange : public ranks::Exchange {
   void Sum(std::span<uint64_t> numbers) override { Reduce(numbers, MPI_SUM); }
   void Max(std::span<uint64_t> numbers) override { Reduce(numbers, MPI_MAX); }
 
-  const ExchangeCounts& counts() const { return counts_; }
+  void Enter(ranks::Stage stage) override;
+
+  const ExchangeCounts& counts(ranks::Stage stage) const {
+    return counts_[static_cast<size_t>(stage)];
+  }
 
  private:
   void Reduce(std::span<uint64_t> numbers, MPI_Op operation);
@@ -43,7 +50,10 @@ class MpiExchange : public ranks::Exchange {
   MPI_Comm communicator_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
-  ExchangeCounts counts_;
+  ExchangeCounts& now() { return counts_[static_cast<size_t>(stage_)]; }
+
+  ranks::Stage stage_ = ranks::Stage::kSharing;
+  std::array<ExchangeCounts, ranks::kStageCount> counts_;
 };
 
 }  // namespace bccskel::cli

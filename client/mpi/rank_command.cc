@@ -1,12 +1,15 @@
 #include "client/mpi/rank_command.h"
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "client/cli/arguments.h"
 #include "client/cli/console.h"
 #include "client/export/skeleton_file.h"
 #include "client/mpi/file_folder.h"
 #include "core/exec/status_macros.h"
+#include "core/ranks/agreement.h"
 #include "core/ranks/rank_skeletonize.h"
 
 namespace bccskel::cli {
@@ -24,18 +27,29 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
   return absl::OkStatus();
 }
 
-ExitCode RunLead(const SkeletonizeArguments& arguments, ranks::Exchange& exchange,
-                 const ranks::CheckpointOptions& checkpoints, const FileFolder& folder,
+// Makes this rank's part of a generated object; null where there is none.
+std::function<absl::StatusOr<Volume>(const exec::Context&)> MakerOf(
+    const SkeletonizeArguments& arguments, const RankOptions& options, ranks::Exchange& exchange) {
+  if (!options.shape.has_value()) return nullptr;
+  ShapeOptions shape = options.shape_options;
+  shape.points = arguments.grid.points.value_or(shape.points);
+  return [&exchange, shape, kind = *options.shape, part = arguments.part](const exec::Context&) {
+    return GenerateShapePart(kind, shape, part, [&exchange](uint64_t points) {
+      exchange.Sum({&points, 1});
+      return points;
+    });
+  };
+}
+
+ExitCode RunLead(const SkeletonizeArguments& arguments, const RankOptions& options,
+                 ranks::Exchange& exchange, const ranks::CheckpointOptions& checkpoints,
                  const std::stop_token& stop) {
   ranks::Lead lead(exchange, checkpoints);
-  absl::Status writable = CheckOutputs(arguments);
-  if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
-  if (!writable.ok()) return FailWith(ExitCode::kOutput, writable);
-  return RunBy(
-      [&](const Volume& object, const SkeletonizeOptions& options, const exec::Context& context) {
-        return lead.Skeletonize(object, options, context);
-      },
-      arguments, stop);
+  const auto compute = [&](Volume& object, const SkeletonizeOptions& chosen,
+                           const exec::Context& context) {
+    return lead.Skeletonize(object, chosen, context);
+  };
+  return RunShared({MakerOf(arguments, options, exchange), compute}, arguments, stop);
 }
 
 }  // namespace
@@ -57,16 +71,27 @@ absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments) {
   return std::move(*chosen);
 }
 
-ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
                  ranks::Exchange& exchange, const std::stop_token& stop) {
+  arguments.part = {exchange.rank(), exchange.size()};
   FileFolder folder(options.checkpoint_folder);
   const ranks::CheckpointOptions checkpoints = {
       options.checkpoint_folder.empty() ? nullptr : &folder, options.resuming,
       options.checkpoint_interval};
-  if (exchange.rank() == 0) return RunLead(arguments, exchange, checkpoints, folder, stop);
+  absl::Status writable;
+  if (exchange.rank() == 0) {
+    writable = CheckOutputs(arguments);
+    if (writable.ok() && checkpoints.folder != nullptr) writable = folder.Make();
+  }
+  const bool all_ready = ranks::AgreeOn(exchange, writable).ok();
+  if (!all_ready && exchange.rank() != 0) return ExitCode::kOk;  // rank 0 says why
+  if (!all_ready) return FailWith(ExitCode::kOutput, writable);
+  if (exchange.rank() == 0) return RunLead(arguments, options, exchange, checkpoints, stop);
   LocalTeam team(arguments.common.threads, stop);
+  const auto make = MakerOf(arguments, options, exchange);
+  absl::StatusOr<Volume> part = make ? make(team.context()) : LoadPart(arguments, team.context());
   // Rank 0 reports how the job ends.
-  (void)ranks::FollowLead(exchange, team.context(), checkpoints);
+  (void)ranks::FollowLead(exchange, team.context(), std::move(part), checkpoints);
   return ExitCode::kOk;
 }
 

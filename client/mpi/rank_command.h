@@ -16,8 +16,9 @@ namespace bccskel::cli {
 // Errors: INVALID_ARGUMENT for other commands and for options that ranks do not have.
 absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments);
 
-// Runs the command as this rank of all. Rank 0 reads, writes and reports.
-ExitCode RunRank(const SkeletonizeArguments& arguments, const RankOptions& options,
+// Runs the command as this rank of all. Each reads its part of the input; rank 0 writes and
+// reports.
+ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
                  ranks::Exchange& exchange, const std::stop_token& stop);
 
 }  // namespace bccskel::cli

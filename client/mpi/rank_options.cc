@@ -1,10 +1,13 @@
 #include "client/mpi/rank_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
@@ -54,6 +57,28 @@ absl::StatusOr<std::chrono::milliseconds> IntervalOf(const std::string& text) {
                                     ": must be 0 to 1000000 seconds");
 }
 
+template <typename Number>
+absl::Status TakeNumber(Words& words, std::string_view name, Number& number) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::optional<std::string> text, words.TakeValue(name));
+  if (!text.has_value()) return absl::OkStatus();
+  const char* const end = text->data() + text->size();
+  const auto [at, error] = std::from_chars(text->data(), end, number);
+  if (error == std::errc() && at == end) return absl::OkStatus();
+  return absl::InvalidArgumentError(std::string(name) + " " + *text + ": is not a number");
+}
+
+// The name of the shape takes the place of the input.
+absl::Status TakeShape(Words& words, std::vector<char*>& given, RankOptions& options) {
+  const auto is_option = [](std::string_view word) { return word == "--generate"; };
+  const auto option = std::ranges::find_if(given, is_option);
+  if (option == given.end()) return absl::OkStatus();
+  if (option + 1 == given.end()) return absl::InvalidArgumentError("--generate: needs a shape");
+  BCCSKEL_ASSIGN_OR_RETURN(options.shape, ParseShapeName(*(option + 1)));
+  given.erase(option);
+  BCCSKEL_RETURN_IF_ERROR(TakeNumber(words, "--seed", options.shape_options.seed));
+  return TakeNumber(words, "--noise", options.shape_options.noise);
+}
+
 }  // namespace
 
 absl::StatusOr<RankOptions> TakeRankOptions(std::vector<char*>& given) {
@@ -61,6 +86,7 @@ absl::StatusOr<RankOptions> TakeRankOptions(std::vector<char*>& given) {
   RankOptions options;
   if (words.TakeFlag("--report-exchange")) options.report = ExchangeReport::kYes;
   if (words.TakeFlag("--resume")) options.resuming = ranks::Resuming::kWhereDone;
+  BCCSKEL_RETURN_IF_ERROR(TakeShape(words, given, options));
   auto every = words.TakeValue("--checkpoint-every");
   if (!every.ok()) return every.status();
   if (every->has_value()) {

@@ -31,7 +31,8 @@ size_t LowerBoundFrom(const std::vector<uint64_t>& places, size_t start, uint64_
 
 }  // namespace
 
-BackgroundGaps::BackgroundGaps(std::span<const BrickKey> keys) {
+BackgroundGaps::BackgroundGaps(std::span<const BrickKey> keys, const KnownLayers& known)
+    : known_(known) {
   for (BrickKey key : keys) rows_[key.value() & 1].push_back(key.value() >> 1);
   for (const Places& places : rows_) {
     for (size_t n = 0; n < places.size(); ++n) gap_count_ += IsGapBefore(places, n) ? 1 : 0;
@@ -100,9 +101,11 @@ int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hi
   int64_t joined = 0;
   int row = 0;
   const auto link = [&](BrickCoordinates first, int32_t last) {
-    ForEachNodeOfRow(first, last, hints.of(brick, row++), [&](size_t other) {
+    if (!known_.Has(first.bz)) return;
+    ForEachNodeOfRow(first, last, hints.of(brick, row), [&](size_t other) {
       joined += sets.Unite(first_member + gap->node, first_member + other) ? 1 : 0;
     });
+    ++row;
   };
   for (const auto& [dy, dz] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     link({brick.bx, brick.by + dy, brick.bz + dz, sublattice}, last_x);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,15 @@ class GapPlaces {
   alignas(64) std::array<std::array<size_t, 14>, 2> places_ = {};
 };
 
+// The layers of bricks that are known, where an object is spread over several holders: beyond them
+// a brick that is not stored need not be background.
+struct KnownLayers {
+  int32_t first = std::numeric_limits<int32_t>::min();
+  int32_t last = std::numeric_limits<int32_t>::max();
+
+  constexpr bool Has(int32_t bz) const { return first <= bz && bz <= last; }
+};
+
 // The background where no bricks are stored, as few pieces instead of many empty bricks. A row is
 // all bricks of one sublattice with the same by and bz. The bricks missing between two stored
 // bricks of a row are one piece, a gap. All other missing bricks are the outside: they lie at the
@@ -32,8 +42,10 @@ class GapPlaces {
 // however large the box.
 class BackgroundGaps {
  public:
-  // Needs: `keys` strictly increasing.
-  explicit BackgroundGaps(std::span<const BrickKey> keys);
+  // Needs: `keys` strictly increasing, those of whole known layers.
+  explicit BackgroundGaps(std::span<const BrickKey> keys, const KnownLayers& known = {});
+
+  const KnownLayers& known() const { return known_; }
 
   static constexpr size_t kOutside = 0;
 
@@ -59,9 +71,8 @@ class BackgroundGaps {
   std::optional<Gap> GapBefore(size_t place) const;
 
   // Unites that gap, if there is one, with the gaps and the outside that touch it in the eight
-  // neighboring rows. Node g is member first_member + g of the sets. Returns how many sets it
-  // joined.
-  // Needs: place < place_count().
+  // neighboring rows of known layers. Node g is member first_member + g of the sets. Returns how
+  // many sets it joined. Needs: place < place_count().
   int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places, UnionFind& sets) const;
 
  private:
@@ -73,6 +84,7 @@ class BackgroundGaps {
   template <typename Visit>
   void ForEachNodeOfRow(BrickCoordinates first, int32_t last_x, size_t& place, Visit visit) const;
 
+  const KnownLayers known_;
   std::array<Places, 2> rows_;
   int64_t gap_count_ = 0;
 };

@@ -61,7 +61,8 @@ PositionMask GroupOf(int position, PositionMask among, Sublattice sublattice) {
 int64_t ComponentLinks::LinkBrick(BrickIndex n, GapPlaces& places) {
   if (!components_.HasPoints(n)) return 0;
   const BricksAround around = LookAround(n);
-  const PositionMask missing = gaps_ == nullptr ? 0 : around.missing;
+  const PositionMask missing =
+      gaps_ == nullptr || around.missing == 0 ? 0 : around.missing & KnownAround(n);
   const PositionMask open = missing | around.in_other_sets;
   int64_t joined = 0;
   if (open != 0) {
@@ -94,6 +95,18 @@ ComponentLinks::BricksAround ComponentLinks::LookAround(BrickIndex n) {
     around.in_other_sets &= ~(1u << position);
   });
   return around;
+}
+
+// The positions in known layers.
+PositionMask ComponentLinks::KnownAround(BrickIndex n) const {
+  const BrickCoordinates brick = object_.keys()[n].coordinates();
+  PositionMask known = ~PositionMask{0};
+  if (gaps_->known().Has(brick.bz - 1) && gaps_->known().Has(brick.bz + 1)) return known;
+  for (int position = 0; position < kNeighborCount; ++position) {
+    if (gaps_->known().Has(NeighborBrick(brick, position).bz)) continue;
+    known &= ~(PositionMask{1} << position);
+  }
+  return known;
 }
 
 int64_t ComponentLinks::LinkMains(BrickIndex n, PositionMask touched) {

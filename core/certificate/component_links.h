@@ -39,6 +39,7 @@ class ComponentLinks {
     PositionMask in_other_sets;  // stored, to be linked from here, main component in another set
   };
   BricksAround LookAround(BrickIndex n);
+  PositionMask KnownAround(BrickIndex n) const;
   int64_t LinkMains(BrickIndex n, PositionMask touched);
   int64_t LinkMainToGaps(BrickIndex n, PositionMask touched, PositionMask missing,
                          GapPlaces& places);

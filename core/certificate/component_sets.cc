@@ -8,16 +8,17 @@
 namespace bccskel {
 namespace {
 
-std::optional<BackgroundGaps> GapsOf(const Volume& object, Phase phase) {
+std::optional<BackgroundGaps> GapsOf(const Volume& object, Phase phase, const KnownLayers& known) {
   if (phase == Phase::kObject) return std::nullopt;
-  return BackgroundGaps(object.keys());
+  return BackgroundGaps(object.keys(), known);
 }
 
 }  // namespace
 
-ComponentSets::ComponentSets(const Volume& object, Phase phase, const exec::Context& context)
+ComponentSets::ComponentSets(const Volume& object, Phase phase, const exec::Context& context,
+                             const KnownLayers& known)
     : pieces_(object, phase, context),
-      gaps_(GapsOf(object, phase)),
+      gaps_(GapsOf(object, phase, known)),
       sets_(pieces_.number_limit() + (gaps_.has_value() ? gaps_->node_limit() : 0)) {
   count_ = pieces_.count();
   if (gaps_.has_value()) count_ += gaps_->node_count() - LinkGaps(context);

@@ -17,8 +17,10 @@ namespace bccskel {
 // Which points belong together does not depend on threads; the names of the sets do.
 class ComponentSets {
  public:
-  // Unfinished when the context says stop. `object` must outlive it.
-  ComponentSets(const Volume& object, Phase phase, const exec::Context& context);
+  // Unfinished when the context says stop. `object` must outlive it and has all bricks of the known
+  // layers and no others; what touches in a layer beyond them is not linked.
+  ComponentSets(const Volume& object, Phase phase, const exec::Context& context,
+                const KnownLayers& known = {});
 
   int64_t count() const { return count_; }
   const PhaseComponents& pieces() const { return pieces_; }

@@ -150,83 +150,6 @@ absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
 // Of a section, where an object has several; a slab with more is one all the same.
 constexpr size_t kSectionPoints = size_t{1} << 22;
 
-// Scans an object section by section: all from below, where each leaves its top layer, then all
-// from above, where each but the last is scanned from below once more.
-template <typename T>
-class Stream {
- public:
-  Stream(const Volume& object, const ChamferWeights& weights, const RunTables* runs,
-         const exec::Context& context, size_t at_once)
-      : object_(object),
-        weights_(weights),
-        runs_(runs),
-        context_(context),
-        slabs_(SlabsOf(object)) {
-    const bool all_at_once = object.brick_count() * kBrickPoints <= at_once;
-    const size_t most = all_at_once ? at_once : std::min(at_once, kSectionPoints);
-    size_t points = 0;
-    for (size_t s = 0; s < slabs_.size(); ++s) {
-      if (points == 0 || points + slabs_[s].size() * kBrickPoints > most) {
-        starts_.push_back(s);
-        points = 0;
-      }
-      points += slabs_[s].size() * kBrickPoints;
-    }
-    starts_.push_back(slabs_.size());
-  }
-
-  // Returns the largest distance, or one that is not below `limit` and then was too large.
-  absl::StatusOr<uint32_t> Run(uint32_t limit, DistanceSink& sink) {
-    for (size_t n = 0; n + 1 < sections(); ++n) {
-      tops_.push_back(Risen(n).TopLayer());
-      BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-    }
-    std::atomic<uint32_t> largest = 0;
-    for (size_t n = sections(); n-- > 0 && largest < limit;) {
-      Finish(n, sink, largest);
-      BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-    }
-    return largest.load();
-  }
-
- private:
-  using Layer = typename ChamferSection<T>::Layer;
-
-  size_t sections() const { return starts_.size() - 1; }
-
-  ChamferSection<T> Risen(size_t n) const {
-    ChamferSection<T> section(object_, slabs_, starts_[n], starts_[n + 1]);
-    if (n > 0) section.SetLayerBelow(tops_[n - 1]);
-    SectionScan<T>(section, weights_, runs_, context_).Rise();
-    return section;
-  }
-
-  void Finish(size_t n, DistanceSink& sink, std::atomic<uint32_t>& largest) {
-    ChamferSection<T> section = Risen(n);
-    if (n + 1 < sections()) section.SetLayerAbove(bottom_);
-    const auto take = [&](BrickIndex first, BrickIndex last) {
-      uint32_t most = 0;
-      for (BrickIndex brick = first; brick < last; ++brick) {
-        most = std::max(most, sink.Take(section.start() + brick, section.Of(brick)));
-      }
-      uint32_t before = largest.load();
-      while (before < most && !largest.compare_exchange_weak(before, most)) {
-      }
-    };
-    SectionScan<T>(section, weights_, runs_, context_).Fall(take);
-    bottom_ = section.BottomLayer();
-  }
-
-  const Volume& object_;
-  const ChamferWeights weights_;
-  const RunTables* const runs_;
-  const exec::Context& context_;
-  const std::vector<BrickSlab> slabs_;
-  std::vector<size_t> starts_;  // of the sections, and the end
-  std::vector<Layer> tops_;     // of the sections, as seen from below
-  Layer bottom_;                // of the section above
-};
-
 // What a holder tells the next: the layer of bricks that the distances are of, and these.
 template <typename T>
 LayerRelay::Bytes PackLayer(int32_t bz, const exec::UninitializedVector<T>& layer) {
@@ -238,51 +161,128 @@ LayerRelay::Bytes PackLayer(int32_t bz, const exec::UninitializedVector<T>& laye
 
 // Nothing where the distances are of another layer: then none lies beside the section.
 template <typename T>
-std::optional<exec::UninitializedVector<T>> UnpackLayer(const LayerRelay::Bytes& bytes,
-                                                        int32_t wanted) {
+exec::UninitializedVector<T> UnpackLayer(const LayerRelay::Bytes& bytes, int32_t wanted) {
   int32_t bz = -1;
-  if (bytes.size() < sizeof(bz)) return std::nullopt;
+  if (bytes.size() < sizeof(bz)) return {};
   std::memcpy(&bz, bytes.data(), sizeof(bz));
-  if (bz != wanted) return std::nullopt;
+  if (bz != wanted) return {};
   exec::UninitializedVector<T> layer((bytes.size() - sizeof(bz)) / sizeof(T));
   std::memcpy(layer.data(), bytes.data() + sizeof(bz), layer.size() * sizeof(T));
   return layer;
 }
 
-// Both scans over one holder's layers.
+// Of an object that one holder has as a whole.
+class NoRelay : public LayerRelay {
+ public:
+  Bytes TakeFromBelow() override { return {}; }
+  void GiveAbove(const Bytes&) override {}
+  Bytes TakeFromAbove() override { return {}; }
+  void GiveBelow(const Bytes&) override {}
+  uint32_t Largest(uint32_t own) override { return own; }
+};
+
+// Scans a holder's layers section by section: all from below, where each leaves its top layer, then
+// all from above, where each but the last is scanned from below once more.
 template <typename T>
-exec::UninitializedVector<T> ScanLayersOfHolder(const Volume& object, int32_t first_bz,
-                                                int32_t end_bz, const ChamferWeights& weights,
-                                                const RunTables* runs, const exec::Context& context,
-                                                LayerRelay& relay) {
-  const std::vector<BrickSlab> slabs = SlabsOf(object);
-  const auto bz_of = [&](size_t slab) { return object.keys()[slabs[slab].first].coordinates().bz; };
-  size_t first = 0, last = slabs.size();
-  while (first < last && bz_of(first) < first_bz) ++first;
-  while (last > first && bz_of(last - 1) >= end_bz) --last;
-  exec::UninitializedVector<T> values((object.brick_count() + 1) * kBrickPoints);
-  std::ranges::fill(values, T{0});
-  if (first == last) {
-    relay.GiveAbove(relay.TakeFromBelow());
-    relay.GiveBelow(relay.TakeFromAbove());
-    return values;
+class Stream {
+ public:
+  Stream(const Volume& object, const HeldLayers& held, const ChamferWeights& weights,
+         const RunTables* runs, const exec::Context& context, size_t at_once)
+      : object_(object),
+        weights_(weights),
+        runs_(runs),
+        context_(context),
+        slabs_(SlabsOf(object)) {
+    size_t first = 0, last = slabs_.size(), held_points = 0;
+    while (first < last && LayerOf(first) < held.first) ++first;
+    while (last > first && LayerOf(last - 1) >= held.end) --last;
+    for (size_t s = first; s < last; ++s) held_points += slabs_[s].size() * kBrickPoints;
+    const size_t most = held_points <= at_once ? at_once : std::min(at_once, kSectionPoints);
+    size_t points = 0;
+    for (size_t s = first; s < last; ++s) {
+      if (points == 0 || points + slabs_[s].size() * kBrickPoints > most) {
+        starts_.push_back(s);
+        points = 0;
+      }
+      points += slabs_[s].size() * kBrickPoints;
+    }
+    starts_.push_back(last);
   }
-  ChamferSection<T> section(object, slabs, first, last);
-  const SectionScan<T> scan(section, weights, runs, context);
-  const auto below = UnpackLayer<T>(relay.TakeFromBelow(), first > 0 ? bz_of(first - 1) : -2);
-  if (below.has_value()) section.SetLayerBelow(*below);
-  scan.Rise();
-  relay.GiveAbove(PackLayer(bz_of(last - 1), section.TopLayer()));
-  const auto above = UnpackLayer<T>(relay.TakeFromAbove(), last < slabs.size() ? bz_of(last) : -2);
-  if (above.has_value()) section.SetLayerAbove(*above);
-  scan.Fall([](BrickIndex, BrickIndex) {});
-  relay.GiveBelow(PackLayer(bz_of(first), section.BottomLayer()));
-  for (BrickIndex n = slabs[first].first; n < slabs[last - 1].last; ++n) {
-    std::copy_n(section.Of(n - section.start()), kBrickPoints,
-                values.data() + size_t{n} * kBrickPoints);
+
+  // Returns the largest distance of all holders, or one that is not below `limit` and then was too
+  // large. A holder that has to stop still gives and takes, or others would wait for it.
+  uint32_t Run(uint32_t limit, DistanceSink& sink, LayerRelay& relay) {
+    if (sections() == 0) {
+      relay.GiveAbove(relay.TakeFromBelow());
+      relay.GiveBelow(relay.TakeFromAbove());
+      return relay.Largest(0);
+    }
+    const size_t first = starts_.front(), last = starts_.back() - 1;
+    below_ = UnpackLayer<T>(relay.TakeFromBelow(), first > 0 ? LayerOf(first - 1) : -2);
+    for (size_t n = 0; n + 1 < sections() && !context_.ShouldStop(); ++n) {
+      tops_.push_back(Risen(n).TopLayer());
+    }
+    if (context_.ShouldStop()) return PassVoid(relay);
+    highest_.emplace(Risen(sections() - 1));
+    relay.GiveAbove(PackLayer(LayerOf(last), highest_->TopLayer()));
+    above_ =
+        UnpackLayer<T>(relay.TakeFromAbove(), last + 1 < slabs_.size() ? LayerOf(last + 1) : -2);
+    std::atomic<uint32_t> largest = 0;
+    for (size_t n = sections(); n-- > 0 && largest < limit && !context_.ShouldStop();) {
+      Finish(n, sink, largest);
+    }
+    relay.GiveBelow(PackLayer(LayerOf(first), above_));
+    return relay.Largest(largest);
   }
-  return values;
-}
+
+ private:
+  using Layer = typename ChamferSection<T>::Layer;
+
+  size_t sections() const { return starts_.size() - 1; }
+  int32_t LayerOf(size_t slab) const { return object_.keys()[slabs_[slab].first].coordinates().bz; }
+
+  static uint32_t PassVoid(LayerRelay& relay) {
+    relay.GiveAbove({});
+    relay.TakeFromAbove();
+    relay.GiveBelow({});
+    return relay.Largest(0);
+  }
+
+  ChamferSection<T> Risen(size_t n) const {
+    ChamferSection<T> section(object_, slabs_, starts_[n], starts_[n + 1]);
+    section.SetLayerBelow(n > 0 ? tops_[n - 1] : below_);
+    SectionScan<T>(section, weights_, runs_, context_).Rise();
+    return section;
+  }
+
+  void Finish(size_t n, DistanceSink& sink, std::atomic<uint32_t>& largest) {
+    ChamferSection<T> section = highest_.has_value() ? *std::move(highest_) : Risen(n);
+    highest_.reset();
+    section.SetLayerAbove(above_);
+    const auto take = [&](BrickIndex first, BrickIndex last) {
+      uint32_t most = 0;
+      for (BrickIndex brick = first; brick < last; ++brick) {
+        most = std::max(most, sink.Take(section.start() + brick, section.Of(brick)));
+      }
+      uint32_t before = largest.load();
+      while (before < most && !largest.compare_exchange_weak(before, most)) {
+      }
+    };
+    SectionScan<T>(section, weights_, runs_, context_).Fall(take);
+    above_ = section.BottomLayer();
+  }
+
+  const Volume& object_;
+  const ChamferWeights weights_;
+  const RunTables* const runs_;
+  const exec::Context& context_;
+  const std::vector<BrickSlab> slabs_;
+  std::vector<size_t> starts_;                // of the sections, and the end
+  Layer below_;                               // below the first section
+  std::vector<Layer> tops_;                   // of the sections, as seen from below
+  Layer above_;                               // above the section that is finished next
+  std::optional<ChamferSection<T>> highest_;  // which has risen
+};
 
 // Made once for equal spacing: small objects would spend more time on them than on their points.
 RunTables RunTablesOf(const ChamferWeights& weights) {
@@ -316,40 +316,28 @@ absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind 
   return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
 }
 
-DistanceField ComputeChamferOfLayers(const Volume& object, int32_t first, int32_t end,
-                                     DistanceKind kind, const exec::Context& context,
-                                     LayerRelay& relay) {
-  const AxisScale scale = AxisScaleOf(object.placement());
-  const ChamferWeights weights = ShortWeights(scale);
-  if (FitShortRows(weights)) {
-    const RunTables runs = RunTablesOf(weights);
-    auto values = ScanLayersOfHolder<uint16_t>(object, first, end, weights, &runs, context, relay);
-    const uint32_t largest = relay.Largest(LargestOf(std::span<const uint16_t>(values)));
-    if (largest < runs.limit()) {
-      return DistanceField(kind, InUnitOf(kind, weights, scale), std::move(values), largest);
-    }
-  }
-  const ChamferWeights wide = LongWeights(scale);
-  auto values = ScanLayersOfHolder<uint32_t>(object, first, end, wide, nullptr, context, relay);
-  const uint32_t largest = relay.Largest(LargestOf(std::span<const uint32_t>(values)));
-  return DistanceField(kind, InUnitOf(kind, wide, scale), std::move(values), largest);
-}
-
 absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::Context& context,
                            DistanceSink& sink, size_t at_once) {
+  NoRelay alone;
+  return StreamChamferOfLayers(object, {}, kind, context, sink, alone, at_once);
+}
+
+absl::Status StreamChamferOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
+                                   const exec::Context& context, DistanceSink& sink,
+                                   LayerRelay& relay, size_t at_once) {
   const AxisScale scale = AxisScaleOf(object.placement());
   const ChamferWeights weights = ShortWeights(scale);
   if (FitShortRows(weights)) {
     const RunTables runs = RunTablesOf(weights);
     sink.Begin(InUnitOf(kind, weights, scale), runs.limit());
-    Stream<uint16_t> stream(object, weights, &runs, context, at_once);
-    BCCSKEL_ASSIGN_OR_RETURN(const uint32_t largest, stream.Run(runs.limit(), sink));
-    if (largest < runs.limit()) return absl::OkStatus();
+    Stream<uint16_t> stream(object, held, weights, &runs, context, at_once);
+    if (stream.Run(runs.limit(), sink, relay) < runs.limit()) return context.StopStatus();
   }
   const ChamferWeights wide = LongWeights(scale);
   sink.Begin(InUnitOf(kind, wide, scale), UINT32_MAX);
-  Stream<uint32_t> stream(object, wide, nullptr, context, at_once);
-  return stream.Run(UINT32_MAX, sink).status();
+  Stream<uint32_t> stream(object, held, wide, nullptr, context, at_once);
+  stream.Run(UINT32_MAX, sink, relay);
+  return context.StopStatus();
 }
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -57,13 +58,19 @@ class LayerRelay {
   virtual uint32_t Largest(uint32_t own) = 0;
 };
 
-// ComputeChamfer() for one holder's brick layers [first, end): `object` are its bricks and those of
-// the layers below and above, whose values are 0 in the result. The holders scan one after the
-// other. The largest distance is that of all.
-// Errors: none; where the context stops a scan its values are void.
-DistanceField ComputeChamferOfLayers(const Volume& object, int32_t first, int32_t end,
-                                     DistanceKind kind, const exec::Context& context,
-                                     LayerRelay& relay);
+// Brick layers [first, end).
+struct HeldLayers {
+  int32_t first = 0;
+  int32_t end = std::numeric_limits<int32_t>::max();
+};
+
+// StreamChamfer() for one holder's layers: `object` are its bricks and those of the layers below
+// and above, of which the sink gets none. The holders scan one after the other. Errors: CANCELLED,
+// DEADLINE_EXCEEDED, where this holder has to stop; then those of others are void,
+//         who do not know.
+absl::Status StreamChamferOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
+                                   const exec::Context& context, DistanceSink& sink,
+                                   LayerRelay& relay, size_t at_once = kMostPointsAtOnce);
 
 }  // namespace bccskel
 

@@ -12,6 +12,9 @@ namespace bccskel::exec {
 // on it.
 void PreferHugePages(void* block, size_t bytes);
 
+// Gives the memory of huge pages inside a block back to the system; what was in them is lost.
+void DropHugePages(void* block, size_t bytes);
+
 // Room for `count` elements, on huge pages where it is large. Needs: an empty vector.
 template <typename T, typename Allocator>
 void ReserveLarge(size_t count, std::vector<T, Allocator>& into) {

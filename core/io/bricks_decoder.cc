@@ -56,11 +56,11 @@ absl::Status BricksDecoder::AddRecords(std::span<const std::byte> bytes) {
   return absl::OkStatus();
 }
 
-absl::Status BricksDecoder::AddRecord(std::span<const std::byte> record) {
+absl::StatusOr<BrickRecord> ParseBrickRecord(uint64_t number, std::span<const std::byte> record) {
   const auto sublattice = LoadNumber<uint32_t>(record, 12);
   if (sublattice > 1) {
     return absl::InvalidArgumentError(absl::StrFormat(
-        "brick record %d: sublattice %d must be 0 (even) or 1 (odd)", records_, sublattice));
+        "brick record %d: sublattice %d must be 0 (even) or 1 (odd)", number, sublattice));
   }
   const BrickCoordinates brick = {LoadNumber<int32_t>(record, 0), LoadNumber<int32_t>(record, 4),
                                   LoadNumber<int32_t>(record, 8),
@@ -68,12 +68,18 @@ absl::Status BricksDecoder::AddRecord(std::span<const std::byte> record) {
   if (!FitsBrickKey(brick)) {
     return absl::InvalidArgumentError(
         absl::StrFormat("brick record %d: brick (%d, %d, %d), each coordinate must be 0 to %d",
-                        records_, brick.bx, brick.by, brick.bz, kMaxBrickCoordinate));
+                        number, brick.bx, brick.by, brick.bz, kMaxBrickCoordinate));
   }
-  BrickBits bits;
-  std::memcpy(bits.words.data(), record.data() + 16, sizeof(bits.words));
+  BrickRecord parsed = {BrickKey(brick), {}};
+  std::memcpy(parsed.bits.words.data(), record.data() + 16, sizeof(parsed.bits.words));
+  return parsed;
+}
+
+absl::Status BricksDecoder::AddRecord(std::span<const std::byte> record) {
+  BCCSKEL_ASSIGN_OR_RETURN(const BrickRecord parsed, ParseBrickRecord(records_, record));
   ++records_;
-  return collector_.AddBrick(BrickKey(brick), bits);
+  if (!part_.Has(parsed.key.coordinates().bz)) return absl::OkStatus();
+  return collector_.AddBrick(parsed.key, parsed.bits);
 }
 
 absl::StatusOr<Volume> BricksDecoder::Finish(const exec::Context& context) {

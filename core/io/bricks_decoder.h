@@ -8,6 +8,7 @@
 #include "core/io/bricks_header.h"
 #include "core/io/encoded_body.h"
 #include "core/io/volume_decoder.h"
+#include "core/volume/layer_part.h"
 
 namespace bccskel {
 
@@ -15,9 +16,13 @@ namespace bccskel {
 // bricks without points are allowed and dropped.
 class BricksDecoder final : public VolumeDecoder {
  public:
-  // Needs: a header of the bricks encoding.
-  BricksDecoder(const VolumeHeader& header, const VolumeLimits& limits)
-      : header_(header), limits_(limits), body_(header.compression), collector_(header) {}
+  // Needs: a header of the bricks encoding. Bricks of other parts are checked and dropped.
+  BricksDecoder(const VolumeHeader& header, const VolumeLimits& limits, const LayerPart& part = {})
+      : header_(header),
+        limits_(limits),
+        part_(part),
+        body_(header.compression),
+        collector_(header) {}
 
   absl::Status Append(std::span<const std::byte> bytes) override;
   absl::StatusOr<Volume> Finish(const exec::Context& context) override;
@@ -30,6 +35,7 @@ class BricksDecoder final : public VolumeDecoder {
 
   VolumeHeader header_;
   VolumeLimits limits_;
+  LayerPart part_;
   BodyReader body_;
   BrickCollector collector_;
   std::array<std::byte, kBricksHeaderBytes> front_;
@@ -38,6 +44,14 @@ class BricksDecoder final : public VolumeDecoder {
   size_t record_bytes_ = 0;
   uint64_t records_ = 0;
 };
+
+// What record number `number` of an encoding says.
+// Shapes: kBrickRecordBytes. Errors: INVALID_ARGUMENT.
+struct BrickRecord {
+  BrickKey key;
+  BrickBits bits;
+};
+absl::StatusOr<BrickRecord> ParseBrickRecord(uint64_t number, std::span<const std::byte> record);
 
 }  // namespace bccskel
 

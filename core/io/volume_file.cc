@@ -1,8 +1,10 @@
 #include "core/io/volume_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -14,6 +16,9 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/worker_team.h"
+#include "core/io/brick_collector.h"
+#include "core/io/bricks_decoder.h"
 #include "core/io/byte_sink.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
@@ -143,14 +148,51 @@ absl::StatusOr<EncodeVolumeOptions> EncodingFor(const std::string& path,
   return chosen;
 }
 
-absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const VolumeLimits& limits,
-                                  const exec::Context& context) {
+// The share of the records that lie at their places in the file.
+absl::StatusOr<Volume> ReadRecords(const FileDescriptor& file, const VolumeHeader& header,
+                                   const LayerPart& share, const exec::Context& context) {
+  struct stat status = {};
+  if (fstat(file.get(), &status) != 0) return SystemError("cannot read");
+  const uint64_t count = *header.declared_bricks;
+  if (static_cast<uint64_t>(status.st_size) != kBricksHeaderBytes + count * kBrickRecordBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%d bricks declared, but the file has %d bytes", count, status.st_size));
+  }
+  const exec::Share records = exec::ShareOf(count, share.index, share.count);
+  const auto start = static_cast<off_t>(kBricksHeaderBytes + records.begin * kBrickRecordBytes);
+  if (lseek(file.get(), start, SEEK_SET) < 0) return SystemError("cannot read");
+  BrickCollector collector(header);
+  std::vector<std::byte> buffer(kReadBytes / kBrickRecordBytes * kBrickRecordBytes);
+  for (uint64_t n = records.begin; n < records.end;) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    const size_t wanted = std::min(buffer.size(), (records.end - n) * kBrickRecordBytes);
+    BCCSKEL_ASSIGN_OR_RETURN(std::span<const std::byte> some,
+                             ReadSome(file, std::span(buffer).first(wanted)));
+    if (some.size() != wanted) return absl::DataLossError("the file became shorter");
+    for (; !some.empty(); some = some.subspan(kBrickRecordBytes), ++n) {
+      BCCSKEL_ASSIGN_OR_RETURN(const BrickRecord record,
+                               ParseBrickRecord(n, some.first(kBrickRecordBytes)));
+      BCCSKEL_RETURN_IF_ERROR(collector.AddBrick(record.key, record.bits));
+    }
+  }
+  return std::move(collector).Build();
+}
+
+absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const LayerPart& share,
+                                  const VolumeLimits& limits, const exec::Context& context) {
   std::vector<std::byte> buffer(kReadBytes);
   BCCSKEL_ASSIGN_OR_RETURN(std::span<const std::byte> part, ReadSome(file, buffer));
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeEncoding encoding, SniffVolumeEncoding(part));
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, ScanVolumeHeader(encoding, part, limits));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<VolumeDecoder> decoder,
-                           MakeVolumeDecoder(header, limits));
+  std::unique_ptr<VolumeDecoder> decoder;
+  if (encoding == VolumeEncoding::kBricks) {
+    const bool in_place = header.compression == VolumeCompression::kNone && share.count > 1;
+    if (in_place) return ReadRecords(file, header, share, context);
+    decoder = std::make_unique<BricksDecoder>(header, limits, share);
+  } else {
+    if (share.index > 0) return Volume::FromSortedBricks(header.extent, header.placement, {}, {});
+    BCCSKEL_ASSIGN_OR_RETURN(decoder, MakeVolumeDecoder(header, limits));
+  }
   while (!part.empty()) {
     BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
     BCCSKEL_RETURN_IF_ERROR(decoder->Append(part));
@@ -180,9 +222,14 @@ absl::Status ReplaceFile(const std::string& path, const Volume& volume,
 
 absl::StatusOr<Volume> ReadVolumeFile(const std::string& path, const VolumeLimits& limits,
                                       const exec::Context& context) {
+  return ReadVolumePart(path, {}, limits, context);
+}
+
+absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& part,
+                                      const VolumeLimits& limits, const exec::Context& context) {
   const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.is_open()) return InFile(path, SystemError("cannot open"));
-  absl::StatusOr<Volume> volume = DecodeFile(file, limits, context);
+  absl::StatusOr<Volume> volume = DecodeFile(file, part, limits, context);
   if (!volume.ok()) return InFile(path, volume.status());
   return volume;
 }

@@ -23,7 +23,7 @@ absl::StatusOr<MaskConverter> MaskConverter::Create(const MaskGrid& grid,
   MaskConverter converter(grid, options);
   if (options.sampling) {
     BCCSKEL_ASSIGN_OR_RETURN(const MaskLattice lattice, LatticeFor(grid, *options.sampling));
-    converter.sampler_.emplace(grid, options.sampling->weights, lattice);
+    converter.sampler_.emplace(grid, options.sampling->weights, lattice, options.part);
   }
   return converter;
 }
@@ -32,7 +32,7 @@ MaskConverter::MaskConverter(const MaskGrid& grid, const MaskOptions& options)
     : grid_(grid),
       options_(options),
       topology_(grid, options.adjacency),
-      bricks_(options.adjacency) {}
+      bricks_(options.adjacency, options.part) {}
 
 absl::Status MaskConverter::AddSlice(std::span<const uint64_t> words,
                                      const exec::Context& context) {

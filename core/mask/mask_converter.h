@@ -17,6 +17,7 @@
 #include "core/mask/row_tubes.h"
 #include "core/mask/slice_rows.h"
 #include "core/mask/tube_bricks.h"
+#include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -27,6 +28,7 @@ struct MaskOptions {
   // None: the exact conversion, which keeps the mask's topology.
   std::optional<MaskSamplingOptions> sampling = std::nullopt;
   uint64_t max_bricks = uint64_t{1} << 28;
+  LayerPart part = {};  // of the object, that is made
 };
 
 // The edge of a voxel in lattice units, which is the height of the steps in the object's surface:
@@ -34,8 +36,8 @@ struct MaskOptions {
 double VoxelEdge(const MaskOptions& options);
 
 struct ConvertedMask {
-  Volume volume;
-  BettiNumbers mask;  // counted on the cubic grid, in the reading of MaskOptions::adjacency
+  Volume volume;      // the part of the object
+  BettiNumbers mask;  // of all, counted on the cubic grid, in the reading of MaskOptions::adjacency
   uint64_t voxels = 0;
 };
 

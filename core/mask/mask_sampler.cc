@@ -58,8 +58,9 @@ absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingO
   return lattice;
 }
 
-MaskSampler::MaskSampler(const MaskGrid& grid, MaskWeights weights, const MaskLattice& lattice)
-    : grid_(grid), weights_(weights), lattice_(lattice) {
+MaskSampler::MaskSampler(const MaskGrid& grid, MaskWeights weights, const MaskLattice& lattice,
+                         const LayerPart& part)
+    : grid_(grid), weights_(weights), lattice_(lattice), part_(part) {
   for (int32_t p = 0; p < 2 * lattice.extent.nx; ++p) stops_x_.push_back(StopAt(0, p));
 }
 
@@ -94,7 +95,7 @@ void MaskSampler::AdvanceTo(int32_t z) {
     const Stop stop = StopAt(2, next_layer_);
     if (stop.lower + (stop.upper_weight > 0 ? 1 : 0) > z) return;
     if (next_layer_ % (2 * kBrickZ) == 0) places_.clear();  // all bricks behind are complete
-    SampleLayer(next_layer_);
+    if (part_.Has(next_layer_ / (2 * kBrickZ))) SampleLayer(next_layer_);
   }
 }
 

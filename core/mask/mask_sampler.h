@@ -10,6 +10,7 @@
 #include "absl/status/statusor.h"
 #include "core/mask/mask_grid.h"
 #include "core/mask/slice_rows.h"
+#include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -50,7 +51,8 @@ absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingO
 // Memory: the occupied rows of two slices. Cost: follows the runs and the points near them.
 class MaskSampler {
  public:
-  MaskSampler(const MaskGrid& grid, MaskWeights weights, const MaskLattice& lattice);
+  MaskSampler(const MaskGrid& grid, MaskWeights weights, const MaskLattice& lattice,
+              const LayerPart& part = {});
 
   // Needs: z grows from call to call; slices that are left out are empty.
   void AddSlice(int32_t z, const SliceRows& rows);
@@ -83,6 +85,7 @@ class MaskSampler {
   const MaskGrid grid_;
   const MaskWeights weights_;
   const MaskLattice lattice_;
+  const LayerPart part_;
   std::vector<BrickKey> keys_;
   std::vector<BrickBits> bricks_;
   std::unordered_map<uint64_t, size_t> places_;  // of the layer's bricks

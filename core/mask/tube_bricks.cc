@@ -162,6 +162,7 @@ void TubeBricks::AddTube(const RowTube& tube) {
 }
 
 void TubeBricks::Add(const RowTube& tube) {
+  if (!part_.Has(tube.bz)) return;
   if (adjacency_ == MaskAdjacency::k26) {
     AddTube<MaskAdjacency::k26>(tube);
   } else {

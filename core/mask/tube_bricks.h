@@ -5,6 +5,7 @@
 
 #include "core/mask/mask_grid.h"
 #include "core/mask/row_tubes.h"
+#include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -19,7 +20,8 @@ namespace bccskel {
 //       16 bits make a word of a brick.
 class TubeBricks {
  public:
-  explicit TubeBricks(MaskAdjacency adjacency) : adjacency_(adjacency) {}
+  explicit TubeBricks(MaskAdjacency adjacency, const LayerPart& part = {})
+      : adjacency_(adjacency), part_(part) {}
 
   // Needs: tubes in the order in which RowTubes gives them.
   void Add(const RowTube& tube);
@@ -32,6 +34,7 @@ class TubeBricks {
   void Push(BrickCoordinates brick, const BrickBits& bits);
 
   const MaskAdjacency adjacency_;
+  const LayerPart part_;
   std::vector<BrickKey> keys_;
   std::vector<BrickBits> bricks_;
 };

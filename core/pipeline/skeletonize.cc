@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "core/certificate/describe_changes.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
@@ -8,6 +6,7 @@
 #include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
+#include "core/pipeline/isthmus_births.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/pruned_graphs.h"
 #include "core/pipeline/skeletonize_within.h"
@@ -41,33 +40,12 @@ SimplePoints ThatMayGo(const SkeletonizeOptions& options) {
   return ends_stay ? SimplePoints::kNonEnd : SimplePoints::kAll;
 }
 
-absl::Status Certify(const Volume& object, const Volume& thin, const exec::Context& context,
-                     Certificate& certificate) {
-  BCCSKEL_ASSIGN_OR_RETURN(certificate.input, CountBettiNumbers(object, context));
+// `certificate` has the numbers of the object.
+absl::Status Certify(const Volume& thin, const exec::Context& context, Certificate& certificate) {
   BCCSKEL_ASSIGN_OR_RETURN(certificate.skeleton, CountBettiNumbers(thin, context));
   if (certificate.TopologyKept()) return absl::OkStatus();
   return absl::InternalError("thinning changed the topology: " +
                              DescribeChanges(certificate.input, certificate.skeleton));
-}
-
-// 0 if the point never was an isthmus.
-int32_t BirthOf(LatticePoint p, const std::vector<IsthmusBirth>& isthmuses) {
-  const auto found = std::ranges::lower_bound(isthmuses, p, {}, &IsthmusBirth::point);
-  return found != isthmuses.end() && found->point == p ? found->pass : 0;
-}
-
-void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph) {
-  if (isthmuses.empty()) return;
-  for (SkeletonNode& node : graph.nodes) node.at.birth = BirthOf(node.at.point, isthmuses);
-  for (SkeletonPoint& p : graph.points) p.birth = BirthOf(p.point, isthmuses);
-  for (SkeletonPoint& p : graph.sheets) p.birth = BirthOf(p.point, isthmuses);
-}
-
-// In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.
-std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses) {
-  std::vector<int32_t> births;
-  thin.ForEachPoint([&](LatticePoint p) { births.push_back(BirthOf(p, isthmuses)); });
-  return births;
 }
 
 Volume PointsOnlyIn(const Volume& more, const Volume& less) {
@@ -124,6 +102,17 @@ class Pipeline {
     result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
     result_.method = MethodInWords(options.thinning, options.distance, options.source);
     result_.algorithm_version = AlgorithmVersionOf(options.source);
+  }
+
+  // The whole object takes the place of the part that is given.
+  absl::StatusOr<SkeletonizeResult> RunByPeeler(Volume& given) && {
+    if (options_.preparing.Wanted()) {
+      BCCSKEL_ASSIGN_OR_RETURN(Volume prepared, PrepareObject(given));
+      BCCSKEL_RETURN_IF_ERROR(PeelAndRun(prepared));
+    } else {
+      BCCSKEL_RETURN_IF_ERROR(PeelAndRun(given));
+    }
+    return std::move(result_);
   }
 
   absl::StatusOr<SkeletonizeResult> Run(const Volume& given) && {
@@ -189,14 +178,28 @@ class Pipeline {
   }
 
   absl::Status RunIn(const Volume& object) {
-    // Those who peel elsewhere keep the distances, so radii are searched for.
-    DistanceField distance =
-        NoDistances(peeler_ == nullptr ? options_.distance : DistanceKind::kChamfer);
+    DistanceField distance = NoDistances(options_.distance);
     BCCSKEL_RETURN_IF_ERROR(Thin(object, distance));
+    return FinishIn(object, std::move(distance));
+  }
+
+  // Those who peel elsewhere keep the distances, so radii are searched for.
+  absl::Status PeelAndRun(Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, thinning_));
+    TakeOver(std::move(peeled.thinned));
+    result_.object_points = peeled.points;
+    result_.certificate.input = peeled.topology;
+    return FinishIn(object, NoDistances(DistanceKind::kChamfer));
+  }
+
+  absl::Status FinishIn(const Volume& object, DistanceField distance) {
     BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
                                             "points that thinning leaves"));
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
-    BCCSKEL_RETURN_IF_ERROR(Certify(object, result_.thin, context_, result_.certificate));
+    if (peeler_ == nullptr) {
+      BCCSKEL_ASSIGN_OR_RETURN(result_.certificate.input, CountBettiNumbers(object, context_));
+    }
+    BCCSKEL_RETURN_IF_ERROR(Certify(result_.thin, context_, result_.certificate));
     result_.certificate.simple_points_left =
         CountSimplePoints(result_.thin, ThatMayGo(options_),
                           SparedPoints(result_.thin, isthmuses_, thinning_), context_);
@@ -250,14 +253,7 @@ class Pipeline {
   }
 
   absl::Status Thin(const Volume& object, DistanceField& distance) {
-    if (peeler_ != nullptr) return ThinElsewhere(object);
     return NeedsDistances() ? ThinInField(object, distance) : ThinInShells(object);
-  }
-
-  absl::Status ThinElsewhere(const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned, (*peeler_)(object, thinning_));
-    TakeOver(std::move(thinned));
-    return absl::OkStatus();
   }
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
@@ -381,7 +377,7 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
   return Pipeline(options, memory, context, on_points, nullptr).Run(object);
 }
 
-absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
@@ -390,7 +386,7 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volu
   }
   exec::UnlimitedMemory memory;
   const OnShellPoints nobody;
-  return Pipeline(options, memory, context, nobody, &peeler).Run(object);
+  return Pipeline(options, memory, context, nobody, &peeler).RunByPeeler(object);
 }
 
 }  // namespace bccskel

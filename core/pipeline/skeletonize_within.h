@@ -24,14 +24,24 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points = nullptr);
 
-// Thins in place of ThinToCurve(), with the same result.
-using Peeler = std::function<absl::StatusOr<ThinningResult>(const Volume& object,
-                                                            const ThinningOptions& options)>;
+// An object and what others made of it.
+struct PeeledObject {
+  ThinningResult thinned;  // as of ThinToCurve()
+  BettiNumbers topology;   // of the object
+  uint64_t points = 0;
+};
 
-// Skeletonize() where others peel the object; the same result. All other stages run here.
-// Errors: as Skeletonize(); the peeler's; INVALID_ARGUMENT for objects that continue beyond their
+// Thins in place of ThinToCurve(), and counts the topology of the object in place of
+// CountBettiNumbers(). `object` may be a part of the object, and is the whole afterwards.
+using Peeler =
+    std::function<absl::StatusOr<PeeledObject>(Volume& object, const ThinningOptions& options)>;
+
+// Skeletonize() where others peel the object, which they may have most of: the same result.
+// Pruning, the certificate of the result and the graph are made here, of the whole object.
+// Preparing needs a whole one from the beginning. Errors: as Skeletonize(); the peeler's;
+// INVALID_ARGUMENT for objects that continue beyond their
 //         border.
-absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, const Volume& object,
+absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context);
 

@@ -16,6 +16,9 @@ inline absl::Status AgreeToGoOn(Exchange& exchange, const exec::Context& context
   return absl::CancelledError("the job was stopped on another rank");
 }
 
+// OK on all ranks, or on none. Rank 0 gets the first error of all, and whose it is.
+absl::Status AgreeOn(Exchange& exchange, const absl::Status& own);
+
 }  // namespace bccskel::ranks
 
 #endif  // BCCSKEL_CORE_RANKS_AGREEMENT_H_

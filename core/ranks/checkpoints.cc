@@ -131,7 +131,7 @@ absl::StatusOr<ShellsDone> Checkpoints::Resume(std::vector<BrickBits>& object) {
     }
     Pack(std::span<const IsthmusBirth>(from.TakeRest<IsthmusBirth>()), births);
   }
-  std::ranges::fill(object, BrickBits());
+  object.assign(bricks_.local.brick_count(), BrickBits());
   for (const Bytes& letter : TradeWithAll(exchange_, std::move(out))) {
     for (Unpacker from(letter); !from.done();) {
       const BrickIndex n = *bricks_.local.Find(from.Take<BrickKey>());

@@ -55,8 +55,8 @@ class Checkpoints {
   Checkpoints(Exchange& exchange, const RankBricks& bricks, const CheckpointOptions& options,
               DistanceKind distance, const ThinningOptions& thinning);
 
-  // Takes what the last checkpoint left of the object into `object`, in the order of
-  // bricks.local; 0 shells where there is none or none is wanted.
+  // Puts what the last checkpoint left of the object into `object`, in the order of bricks.local;
+  // 0 shells, and nothing there, where there is none or none is wanted.
   // Errors: FAILED_PRECONDITION where it is one of another object or of other options, DATA_LOSS;
   //         on all ranks.
   absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);

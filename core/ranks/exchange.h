@@ -10,6 +10,10 @@ namespace bccskel::ranks {
 
 using Bytes = std::vector<std::byte>;
 
+// What ranks are at, for those who count what they say to each other.
+enum class Stage : uint8_t { kSharing, kDistances, kThinning, kTopology, kGathering };
+inline constexpr size_t kStageCount = 5;
+
 // What the ranks of a job say to each other. All ranks make the same calls in the same order.
 // Where a rank is lost, calls need not come back: whoever started the ranks ends the others.
 // Threads: one thread of each rank.
@@ -24,6 +28,9 @@ class Exchange {
   // Needs: peers of each other name each other; no rank is its own peer; peers increase.
   virtual void Trade(std::span<const int> peers, std::span<const Bytes> out,
                      std::span<Bytes> in) = 0;
+
+  // What follows belongs to another stage.
+  virtual void Enter(Stage) {}
 
   // Puts the sum over all ranks, modulo 2^64, in the place of each number.
   virtual void Sum(std::span<uint64_t> numbers) = 0;

@@ -41,6 +41,15 @@ int32_t LayerOwners::FirstOf(int rank) const {
   return static_cast<int32_t>(first - ranks_.begin());
 }
 
+exec::Share BricksOfLayers(const Volume& volume, int32_t first, int32_t end) {
+  const auto index_of = [&](int32_t layer) {
+    const auto at = std::ranges::lower_bound(volume.keys(), layer, {},
+                                             [](BrickKey key) { return key.coordinates().bz; });
+    return static_cast<size_t>(at - volume.keys().begin());
+  };
+  return {index_of(first), index_of(end)};
+}
+
 Volume MoveToLayers(Exchange& exchange, const LayerOwners& layers, const Volume& local,
                     exec::Share own) {
   std::vector<Bytes> out(static_cast<size_t>(exchange.size()));

@@ -22,6 +22,8 @@ class LayerOwners {
   // `own` of the bricks of `local`.
   LayerOwners(Exchange& exchange, const Volume& local, exec::Share own);
 
+  // Layers of the box.
+  int32_t count() const { return static_cast<int32_t>(ranks_.size()); }
   // Of the nearest layer where there is none.
   size_t RankOf(int32_t layer) const;
   // The layers of a rank.
@@ -31,6 +33,9 @@ class LayerOwners {
  private:
   std::vector<uint64_t> ranks_;
 };
+
+// Those in layers [first, end).
+exec::Share BricksOfLayers(const Volume& volume, int32_t first, int32_t end);
 
 // The bricks of this rank's layers and those of the layers below and above.
 Volume MoveToLayers(Exchange& exchange, const LayerOwners& layers, const Volume& local,

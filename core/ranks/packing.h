@@ -20,6 +20,11 @@ void Pack(std::span<const T> values, Bytes& to) {
   if (!values.empty()) std::memcpy(to.data() + at, values.data(), values.size_bytes());
 }
 template <typename T>
+requires(!std::is_const_v<T>) void Pack(std::span<T> values,
+                                        Bytes& to) {  // or it would be packed as a value
+  Pack(std::span<const T>(values), to);
+}
+template <typename T>
 void Pack(const T& value, Bytes& to) {
   Pack(std::span<const T>(&value, 1), to);
 }

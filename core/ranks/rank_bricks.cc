@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 #include <utility>
+
+#include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
+#include "core/ranks/agreement.h"
 
 namespace bccskel::ranks {
 namespace {
@@ -74,6 +79,56 @@ Volume Joined(const Volume& own, const std::vector<PackedBrick>& ghosts) {
   return Volume::FromSortedBricks(own.extent(), own.placement(), std::move(keys), std::move(bits));
 }
 
+// Where the share of each rank begins among these keys, and where the last one ends: the first keys
+// of shares are searched for bit by bit, all at a time, by counting what lies below.
+// Shapes: `keys` increase.
+std::vector<size_t> FindStarts(Exchange& exchange, std::span<const BrickKey> keys) {
+  const int ranks = exchange.size();
+  uint64_t total = keys.size();
+  exchange.Sum({&total, 1});
+  uint64_t last = keys.empty() ? 0 : keys.back().value();
+  exchange.Max({&last, 1});
+  const auto below = [&](uint64_t key) {  // how many of these keys
+    return static_cast<size_t>(std::ranges::lower_bound(keys, key, {}, &BrickKey::value) -
+                               keys.begin());
+  };
+  // The largest key that has no more than the wanted number below it.
+  std::vector<uint64_t> firsts(static_cast<size_t>(ranks));
+  for (int bit = static_cast<int>(std::bit_width(last)) - 1; bit >= 0; --bit) {
+    std::vector<uint64_t> counts;
+    for (const uint64_t first : firsts) counts.push_back(below(first | uint64_t{1} << bit));
+    exchange.Sum(counts);
+    for (int rank = 0; rank < ranks; ++rank) {
+      const auto r = static_cast<size_t>(rank);
+      if (counts[r] <= exec::ShareOf(total, rank, ranks).begin) firsts[r] |= uint64_t{1} << bit;
+    }
+  }
+  std::vector<size_t> starts = {0};
+  for (size_t rank = 1; rank < firsts.size(); ++rank) starts.push_back(below(firsts[rank]));
+  starts.push_back(keys.size());
+  return starts;
+}
+
+void SortBricks(std::vector<BrickKey>& keys, std::vector<BrickBits>& bits) {
+  if (std::ranges::is_sorted(keys)) return;
+  std::vector<BrickIndex> order(keys.size());
+  std::iota(order.begin(), order.end(), BrickIndex{0});
+  std::ranges::sort(order, {}, [&](BrickIndex n) { return keys[n]; });
+  std::vector<BrickBits> sorted;
+  sorted.reserve(bits.size() + 1);  // Volume adds one
+  for (const BrickIndex n : order) sorted.push_back(bits[n]);
+  bits = std::move(sorted);
+  std::ranges::sort(keys);
+}
+
+absl::Status CheckDistinct(std::span<const BrickKey> keys) {
+  const auto twice = std::ranges::adjacent_find(keys);
+  if (twice == keys.end()) return absl::OkStatus();
+  const BrickCoordinates brick = twice->coordinates();
+  return absl::InvalidArgumentError(
+      absl::StrFormat("brick (%d, %d, %d) is given twice", brick.bx, brick.by, brick.bz));
+}
+
 }  // namespace
 
 Owners::Owners(Exchange& exchange, std::optional<BrickKey> first) {
@@ -93,38 +148,36 @@ int Owners::OwnerOf(BrickKey key) const {
   return ranks_[static_cast<size_t>(run)];
 }
 
-Volume ShareEvenly(Exchange& exchange, const Volume& part) {
-  const std::vector<uint64_t> counts = ShareNumber(exchange, part.brick_count());
-  const auto total = std::accumulate(counts.begin(), counts.end(), size_t{0});
-  const size_t before =
-      std::accumulate(counts.begin(), counts.begin() + exchange.rank(), size_t{0});
-  std::vector<Bytes> out(counts.size());
-  for (int rank = 0; rank < exchange.size(); ++rank) {
-    const exec::Share share = exec::ShareOf(total, rank, exchange.size());
-    const size_t first = std::clamp(share.begin, before, before + part.brick_count()) - before;
-    const size_t last = std::clamp(share.end, before + first, before + part.brick_count()) - before;
-    Bytes& to = out[static_cast<size_t>(rank)];
-    to.reserve((last - first) * (sizeof(BrickKey) + sizeof(BrickBits)) + sizeof(uint64_t));
-    Pack(uint64_t{last - first}, to);
-    Pack(part.keys().subspan(first, last - first), to);
-    Pack(part.bricks().subspan(first, last - first), to);
+absl::StatusOr<Volume> ShareEvenly(Exchange& exchange, Volume part) {
+  const std::vector<size_t> starts = FindStarts(exchange, part.keys());
+  std::vector<Bytes> out(starts.size() - 1);
+  for (size_t rank = 0; rank < out.size(); ++rank) {
+    const size_t first = starts[rank], count = starts[rank + 1] - first;
+    out[rank].reserve(count * (sizeof(BrickKey) + sizeof(BrickBits)) + sizeof(uint64_t));
+    Pack(uint64_t{count}, out[rank]);
+    Pack(part.keys().subspan(first, count), out[rank]);
+    Pack(part.bricks().subspan(first, count), out[rank]);
   }
-  const std::vector<Bytes> in = TradeWithAll(exchange, std::move(out));
+  part = Volume::FromSortedBricks(part.extent(), part.placement(), {}, {});
+  std::vector<Bytes> in = TradeWithAll(exchange, std::move(out));
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bits;
-  for (const Bytes& letter : in) {
+  for (Bytes& letter : in) {
     Unpacker from(letter);
     const size_t count = from.Take<uint64_t>(), at = keys.size();
     keys.resize(at + count);
     bits.resize(at + count);
     from.Take(std::span(keys).subspan(at));
     from.Take(std::span(bits).subspan(at));
+    letter = {};
   }
+  SortBricks(keys, bits);
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange, CheckDistinct(keys)));
   return Volume::FromSortedBricks(part.extent(), part.placement(), std::move(keys),
                                   std::move(bits));
 }
 
-RankBricks AddGhosts(Exchange& exchange, const Volume& own) {
+RankBricks AddGhosts(Exchange& exchange, Volume own) {
   RankBricks bricks{{}, {0, 0}, {}, Owners(exchange, FirstOf(own))};
   const std::vector<std::vector<BrickIndex>> offered =
       FindTold(own, bricks.owners, exchange.rank(), exchange.size());
@@ -152,10 +205,12 @@ RankBricks AddGhosts(Exchange& exchange, const Volume& own) {
   }
   answers = TradeWithAll(exchange, std::move(answers));
 
-  bricks.local = own.empty() ? own : Joined(own, ghosts);
+  const size_t own_count = own.brick_count();
   const auto low = static_cast<size_t>(std::ranges::count_if(
       ghosts, [&](const PackedBrick& ghost) { return ghost.key < own.keys().front(); }));
-  bricks.own = {low, low + own.brick_count()};
+  bricks.local = own.empty() ? std::move(own) : Joined(own, ghosts);
+  own = {};
+  bricks.own = {low, low + own_count};
   size_t next = 0;  // ghosts come by rank, and so in the order of their keys
   for (size_t rank = 0; rank < answers.size(); ++rank) {
     RankBricks::Peer peer = {static_cast<int>(rank), {}, {}};
@@ -165,12 +220,47 @@ RankBricks AddGhosts(Exchange& exchange, const Volume& own) {
       }
     }
     for (size_t n = 0; n < taken[rank]; ++n, ++next) {
-      const size_t at = next < low ? next : next + own.brick_count();
+      const size_t at = next < low ? next : next + own_count;
       peer.heard.push_back(static_cast<BrickIndex>(at));
     }
     if (!peer.told.empty() || !peer.heard.empty()) bricks.peers.push_back(std::move(peer));
   }
   return bricks;
+}
+
+Volume GatherBricks(Exchange& exchange, const Volume& local, exec::Share own) {
+  const auto own_keys = local.keys().subspan(own.begin, own.end - own.begin);
+  const auto own_bits = local.bricks().subspan(own.begin, own.end - own.begin);
+  const std::vector<uint64_t> counts = ShareNumber(exchange, own_keys.size());
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bits;
+  const Bytes nothing;
+  Bytes letter;
+  if (exchange.rank() == 0) {
+    const auto total = std::accumulate(counts.begin(), counts.end(), size_t{0});
+    keys.reserve(total);
+    bits.reserve(total + 1);  // Volume adds one
+    keys.assign(own_keys.begin(), own_keys.end());
+    bits.assign(own_bits.begin(), own_bits.end());
+    for (int rank = 1; rank < exchange.size(); ++rank) {
+      exchange.Trade({&rank, 1}, {&nothing, 1}, {&letter, 1});
+      const size_t at = keys.size(), count = counts[static_cast<size_t>(rank)];
+      Unpacker from(letter);
+      keys.resize(at + count);
+      bits.resize(at + count);
+      from.Take(std::span(keys).subspan(at));
+      from.Take(std::span(bits).subspan(at));
+    }
+  } else {
+    const int lead = 0;
+    Bytes out;
+    out.reserve(own_keys.size_bytes() + own_bits.size_bytes());
+    Pack(own_keys, out);
+    Pack(own_bits, out);
+    exchange.Trade({&lead, 1}, {&out, 1}, {&letter, 1});
+  }
+  return Volume::FromSortedBricks(local.extent(), local.placement(), std::move(keys),
+                                  std::move(bits));
 }
 
 }  // namespace bccskel::ranks

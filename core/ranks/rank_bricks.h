@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "core/exec/worker_team.h"
 #include "core/ranks/exchange.h"
 #include "core/ranks/packing.h"
@@ -43,13 +44,19 @@ struct RankBricks {
   Owners owners;
 };
 
-// Moves bricks so that ranks own equal numbers of them.
-// Needs: the bricks of each rank come before those of the next.
-Volume ShareEvenly(Exchange& exchange, const Volume& part);
+// Moves bricks so that ranks own equal numbers of them, and the bricks of each rank come before
+// those of the next. Before, any rank may have any of them.
+// Cost:   besides moving the bricks, about 60 sums over all ranks of a number for each.
+// Errors: INVALID_ARGUMENT where two ranks have the same brick, on all ranks.
+absl::StatusOr<Volume> ShareEvenly(Exchange& exchange, Volume part);
 
 // Adds ghosts: all bricks of others that touch an own one by a side, an edge or a corner, whatever
-// their sublattice. Needs: as ShareEvenly().
-RankBricks AddGhosts(Exchange& exchange, const Volume& own);
+// their sublattice. Needs: the bricks of each rank come before those of the next.
+RankBricks AddGhosts(Exchange& exchange, Volume own);
+
+// The bricks `own` of all ranks, on rank 0; none elsewhere. The ranks send one after the other.
+// Needs: as AddGhosts().
+Volume GatherBricks(Exchange& exchange, const Volume& local, exec::Share own);
 
 // Sends the value of each own brick to those who have the brick as a ghost.
 // Shapes: `values` has one for each brick of `local`; may be longer.

@@ -9,10 +9,12 @@
 
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
+#include "core/ranks/agreement.h"
 #include "core/ranks/border_partners.h"
 #include "core/ranks/packing.h"
 #include "core/ranks/rank_bricks.h"
 #include "core/ranks/rank_shells.h"
+#include "core/ranks/rank_topology.h"
 #include "core/thinning/cleanup.h"
 #include "core/thinning/direction_rule.h"
 #include "core/thinning/shell_sweep.h"
@@ -46,16 +48,43 @@ class Peeling {
     context_.stop = give_up_.get_token();
   }
 
-  absl::StatusOr<ThinningResult> Run(const Volume& part) && {
-    const RankBricks bricks = AddGhosts(exchange_, ShareEvenly(exchange_, part));
+  absl::StatusOr<PeeledObject> Run(Volume& part) && {
+    exchange_.Enter(Stage::kSharing);
+    BCCSKEL_ASSIGN_OR_RETURN(Volume own, ShareEvenly(exchange_, std::exchange(part, NoneOf(part))));
+    const RankBricks bricks = AddGhosts(exchange_, std::move(own));
+    BCCSKEL_ASSIGN_OR_RETURN(Remains remains, PeelOwn(bricks));
+    PeeledObject peeled;
+    exchange_.Enter(Stage::kTopology);
+    BCCSKEL_ASSIGN_OR_RETURN(peeled.topology,
+                             CountBettiNumbersOverRanks(exchange_, bricks, context_));
+    peeled.points = PointsIn(bricks.local.bricks(), bricks.own);
+    exchange_.Sum({&peeled.points, 1});
+    absl::Status finished;
+    if (exchange_.rank() == 0) finished = Finish(part, std::move(remains));
+    BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, finished));
+    exchange_.Enter(Stage::kGathering);
+    part = GatherBricks(exchange_, bricks.local, bricks.own);
+    peeled.thinned = std::move(result_);
+    return peeled;
+  }
+
+ private:
+  static Volume NoneOf(const Volume& volume) {
+    return Volume::FromSortedBricks(volume.extent(), volume.placement(), {}, {});
+  }
+
+  // What is left of the object, on rank 0.
+  absl::StatusOr<Remains> PeelOwn(const RankBricks& bricks) {
+    exchange_.Enter(Stage::kDistances);
     BCCSKEL_ASSIGN_OR_RETURN(
         const RankShells shells,
         MeasureShells(exchange_, bricks, distance_, options_.shell_width,
                       IsSymmetric() ? Depths::kWanted : Depths::kNone, context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
+    exchange_.Enter(Stage::kThinning);
     Checkpoints checkpoints(exchange_, bricks, checkpoint_options_, distance_, options_);
-    std::vector<BrickBits> object(bricks.local.bricks().begin(), bricks.local.bricks().end());
+    std::vector<BrickBits> object;
     BCCSKEL_ASSIGN_OR_RETURN(ShellsDone done, checkpoints.Resume(object));
     ThinningState state(bricks.local, KeptPoints(done));
     std::ranges::copy(object, state.object.begin());
@@ -64,11 +93,9 @@ class Peeling {
     BCCSKEL_RETURN_IF_ERROR(Sweep(bricks, shells, checkpoints, done.shells, state));
     Remains remains = Collect(bricks, state);
     result_.times.passes = clock_.Lap();
-    if (exchange_.rank() == 0) BCCSKEL_RETURN_IF_ERROR(Finish(part, std::move(remains)));
-    return std::move(result_);
+    return remains;
   }
 
- private:
   bool IsSymmetric() const { return options_.method == ThinningMethod::kSymmetric; }
 
   // What has become an isthmus stays for good.
@@ -198,10 +225,10 @@ class Peeling {
 
 }  // namespace
 
-absl::StatusOr<ThinningResult> PeelOverRanks(Exchange& exchange, const Volume& part,
-                                             DistanceKind distance, const ThinningOptions& options,
-                                             const CheckpointOptions& checkpoints,
-                                             const exec::Context& context) {
+absl::StatusOr<PeeledObject> PeelOverRanks(Exchange& exchange, Volume& part, DistanceKind distance,
+                                           const ThinningOptions& options,
+                                           const CheckpointOptions& checkpoints,
+                                           const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
   return Peeling(exchange, distance, options, checkpoints, context).Run(part);
 }

@@ -1,13 +1,14 @@
 #include "core/ranks/rank_shells.h"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "core/distance/chamfer_scan.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/euclidean_parts.h"
+#include "core/exec/huge_pages.h"
 #include "core/exec/large_blocks.h"
 #include "core/exec/status_macros.h"
 #include "core/ranks/agreement.h"
@@ -28,45 +29,22 @@ uint64_t ColumnHash(const BrickCoordinates& at) {
   return hash ^ hash >> 32;
 }
 
-// Bricks of layers, sorted into the columns that are measured together: in `rounds` rounds, one
-// after the other, each rank measures some columns.
-class ColumnRounds {
- public:
-  ColumnRounds(Exchange& exchange, const LayerOwners& layers, const Volume& volume,
-               size_t bytes_per_brick)
-      : ranks_(static_cast<size_t>(exchange.size())) {
+// Which columns are measured together: in `count` rounds, one after the other, each rank measures
+// some columns.
+struct ColumnRounds {
+  ColumnRounds(Exchange& exchange, const Volume& volume, size_t bytes_per_brick)
+      : ranks(static_cast<size_t>(exchange.size())) {
     uint64_t bricks = volume.brick_count();
     exchange.Max({&bricks, 1});
-    rounds_ = bricks * bytes_per_brick / kBytesPerRound + 1;
-    starts_.resize(rounds_ * ranks_ + 1);
-    const auto own_rank = static_cast<size_t>(exchange.rank());
-    std::vector<std::pair<size_t, BrickIndex>> slots;
-    for (BrickIndex n = 0; n < volume.brick_count(); ++n) {
-      const BrickCoordinates at = volume.keys()[n].coordinates();
-      if (layers.RankOf(at.bz) != own_rank) continue;  // of the layer below or above
-      slots.emplace_back(ColumnHash(at) % (rounds_ * ranks_), n);
-    }
-    std::ranges::sort(slots);
-    bricks_.reserve(slots.size());
-    for (const auto& [slot, n] : slots) {
-      ++starts_[slot + 1];
-      bricks_.push_back(n);
-    }
-    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    count = bricks * bytes_per_brick / kBytesPerRound + 1;
   }
 
-  size_t rounds() const { return rounds_; }
-  // In the order of their keys.
-  std::span<const BrickIndex> BricksFor(size_t round, size_t rank) const {
-    const size_t slot = round * ranks_ + rank;
-    return std::span(bricks_).subspan(starts_[slot], starts_[slot + 1] - starts_[slot]);
-  }
+  size_t letters() const { return count * ranks; }
+  // Of all rounds' letters, the one for the rank that measures the brick's column.
+  size_t LetterOf(BrickKey key) const { return ColumnHash(key.coordinates()) % letters(); }
 
- private:
-  size_t ranks_;
-  size_t rounds_ = 1;
-  std::vector<size_t> starts_;
-  std::vector<BrickIndex> bricks_;
+  size_t ranks;
+  size_t count;
 };
 
 // The rounds of an object's columns.
@@ -77,14 +55,19 @@ class EuclideanRounds {
                   ShellStore& store)
       : exchange_(exchange), bricks_(bricks), context_(context), store_(store) {}
 
+  // Takes the bricks of this rank's layers and of those beside, and lets go of them on its way.
   // Errors: OUT_OF_RANGE where T is too small for the distances of the object.
-  absl::Status Run(const LayerOwners& layers, const Volume& volume) {
-    EuclideanParts<T> parts(volume.brick_count());
-    MeasureWithinLayers(volume, context_, parts);
-    const ColumnRounds columns(exchange_, layers, volume, kSquares * sizeof(T));
-    for (size_t round = 0; round < columns.rounds(); ++round) {
+  absl::Status Run(const LayerOwners& layers, Volume volume) {
+    const ColumnRounds columns(exchange_, volume, kBytes);
+    std::vector<Bytes> letters = MeasureLayers(layers, columns, volume);
+    volume = {};
+    for (size_t round = 0; round < columns.count; ++round) {
       BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange_, context_));
-      const uint64_t largest = Measure(columns, round, volume, parts);
+      const auto first = letters.begin() + static_cast<ptrdiff_t>(round * columns.ranks);
+      const auto last = first + static_cast<ptrdiff_t>(columns.ranks);
+      uint64_t largest = MeasureColumns(
+          TradeWithAll(exchange_, {std::make_move_iterator(first), std::make_move_iterator(last)}));
+      exchange_.Max({&largest, 1});
       if (sizeof(T) == sizeof(uint16_t) && largest >= kFirstUnsureSquare) {
         return absl::OutOfRangeError("deeper than 16 bits");
       }
@@ -95,21 +78,32 @@ class EuclideanRounds {
  private:
   static constexpr size_t kBeside = kLayersBeside * kLayerPoints;
   static constexpr size_t kSquares = kBrickPoints + kBeside;
+  static constexpr size_t kBytes = sizeof(BrickKey) + sizeof(BrickBits) + kSquares * sizeof(T);
 
-  // Returns the largest square of the round, of all ranks.
-  uint64_t Measure(const ColumnRounds& columns, size_t round, const Volume& volume,
-                   const EuclideanParts<T>& parts) {
-    std::vector<Bytes> out(static_cast<size_t>(exchange_.size()));
-    for (size_t rank = 0; rank < out.size(); ++rank) {
-      for (const BrickIndex n : columns.BricksFor(round, rank)) {
-        PackBrick(volume.keys()[n], volume.bricks()[n], out[rank]);
-        Pack(std::span(parts.own).subspan(size_t{n} * kBrickPoints, kBrickPoints), out[rank]);
-        Pack(std::span(parts.beside).subspan(size_t{n} * kBeside, kBeside), out[rank]);
-      }
+  // Packs the squares of this rank's layers for those who measure columns. The memory of what is
+  // packed goes back, so that nearly all squares are there only once.
+  std::vector<Bytes> MeasureLayers(const LayerOwners& layers, const ColumnRounds& columns,
+                                   const Volume& volume) {
+    EuclideanParts<T> parts(volume.brick_count());
+    MeasureWithinLayers(volume, context_, parts);
+    const exec::Share own =
+        BricksOfLayers(volume, layers.FirstOf(exchange_.rank()), layers.EndOf(exchange_.rank()));
+    std::vector<size_t> counts(columns.letters());
+    for (size_t n = own.begin; n < own.end; ++n) ++counts[columns.LetterOf(volume.keys()[n])];
+    std::vector<Bytes> letters(columns.letters());
+    constexpr size_t kAtOnce = 8192;
+    for (size_t n = own.begin; n < own.end; ++n) {
+      const size_t slot = columns.LetterOf(volume.keys()[n]);
+      Bytes& letter = letters[slot];
+      if (letter.empty()) letter.reserve(counts[slot] * kBytes);
+      PackBrick(volume.keys()[n], volume.bricks()[n], letter);
+      Pack(std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints), letter);
+      Pack(std::span(parts.beside).subspan(n * kBeside, kBeside), letter);
+      if ((n - own.begin) % kAtOnce != 0) continue;
+      exec::DropHugePages(parts.own.data(), n * kBrickPoints * sizeof(T));
+      exec::DropHugePages(parts.beside.data(), n * kBeside * sizeof(T));
     }
-    uint64_t largest = MeasureColumns(TradeWithAll(exchange_, std::move(out)));
-    exchange_.Max({&largest, 1});
-    return largest;
+    return letters;
   }
 
   uint64_t MeasureColumns(std::vector<Bytes> in) {
@@ -117,7 +111,7 @@ class EuclideanRounds {
     std::vector<BrickBits> bits;
     size_t count = 0;
     for (const Bytes& letter : in) {
-      count += letter.size() / (sizeof(BrickKey) + sizeof(BrickBits) + kSquares * sizeof(T));
+      count += letter.size() / kBytes;
     }
     EuclideanParts<T> parts(count);
     for (Bytes& letter : in) {
@@ -144,16 +138,19 @@ class EuclideanRounds {
 };
 
 absl::Status MeasureEuclidean(Exchange& exchange, const RankBricks& bricks,
-                              const LayerOwners& layers, const Volume& volume,
-                              const exec::Context& context, ShellStore& store) {
+                              const LayerOwners& layers, const exec::Context& context,
+                              ShellStore& store) {
+  const auto move = [&] { return MoveToLayers(exchange, layers, bricks.local, bricks.own); };
+  Volume volume = move();
   uint64_t is_deep = IsDeep(volume) ? 1 : 0;
   exchange.Max({&is_deep, 1});
   if (AxisScaleOf(volume.placement()) == kIsotropic && is_deep == 0) {
     EuclideanRounds<uint16_t> rounds(exchange, bricks, context, store);
-    const absl::Status done = rounds.Run(layers, volume);
+    const absl::Status done = rounds.Run(layers, std::move(volume));
     if (!absl::IsOutOfRange(done)) return done;
+    volume = move();
   }
-  return EuclideanRounds<float>(exchange, bricks, context, store).Run(layers, volume);
+  return EuclideanRounds<float>(exchange, bricks, context, store).Run(layers, std::move(volume));
 }
 
 // Ranks are holders in their order.
@@ -181,18 +178,19 @@ class RankRelay : public LayerRelay {
   Exchange& exchange_;
 };
 
-absl::Status MeasureChamfer(Exchange& exchange, const LayerOwners& layers, const Volume& volume,
-                            DistanceKind kind, const exec::Context& context, ShellStore& store) {
+absl::Status MeasureChamfer(Exchange& exchange, const RankBricks& bricks, const LayerOwners& layers,
+                            DistanceKind kind, double shell_width, Depths depths,
+                            const exec::Context& context, ShellStore& store) {
+  const Volume volume = MoveToLayers(exchange, layers, bricks.local, bricks.own);
   RankRelay relay(exchange);
-  const int32_t first = layers.FirstOf(exchange.rank()), end = layers.EndOf(exchange.rank());
-  const DistanceField field = ComputeChamferOfLayers(volume, first, end, kind, context, relay);
+  const HeldLayers held = {layers.FirstOf(exchange.rank()), layers.EndOf(exchange.rank())};
+  store.Expect(volume, BricksOfLayers(volume, held.first, held.end));
+  const ShellPlaces shells = [&](BrickIndex n) { return store.ShellsOf(n); };
+  ShellPlaces deep;
+  if (depths == Depths::kWanted) deep = [&](BrickIndex n) { return store.DepthsOf(n); };
+  (void)StreamShellsOfLayers(volume, held, kind, shell_width, context, relay, shells, deep);
   BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange, context));
-  const auto index_of = [&](int32_t layer) {
-    const auto at = std::ranges::lower_bound(volume.keys(), layer, {},
-                                             [](BrickKey key) { return key.coordinates().bz; });
-    return static_cast<size_t>(at - volume.keys().begin());
-  };
-  store.Trade(volume, {index_of(first), index_of(end)}, field, context);
+  store.SendAway(volume);
   return absl::OkStatus();
 }
 
@@ -204,10 +202,10 @@ absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& b
   ShellStore store(exchange, bricks, shell_width, depths);
   {
     const LayerOwners layers(exchange, bricks.local, bricks.own);
-    const Volume volume = MoveToLayers(exchange, layers, bricks.local, bricks.own);
-    BCCSKEL_RETURN_IF_ERROR(kind == DistanceKind::kEuclidean
-                                ? MeasureEuclidean(exchange, bricks, layers, volume, context, store)
-                                : MeasureChamfer(exchange, layers, volume, kind, context, store));
+    BCCSKEL_RETURN_IF_ERROR(
+        kind == DistanceKind::kEuclidean
+            ? MeasureEuclidean(exchange, bricks, layers, context, store)
+            : MeasureChamfer(exchange, bricks, layers, kind, shell_width, depths, context, store));
   }
   // A rank thins for long and measures once, so blocks of squares are not kept for another time.
   exec::ProcessLargeBlocks().ReleaseUnused();

@@ -26,10 +26,12 @@ struct RankShells {
 //        and nothing else (euclidean_scan.cc): so squares go on to ranks that own whole columns.
 //        Chamfer scans go up and down, and of what is below or above a layer they need the next
 //        layer (chamfer_scan.cc): so ranks scan one after the other. Shells go to the owners.
-// Cost:  besides the result what one machine takes for ComputeEuclidean() of the layers of a rank;
-//        columns come some at a time. On the wire 72 to 216 bytes for a brick on its way to the
-//        layers, 1,088 squares on to the columns, 400 or 784 bytes back. Chamfer scans take as long
-//        as on one machine, and 2 bytes for each lattice point of a rank's layers.
+// Cost:  what one machine takes for ComputeEuclidean() of the layers of a rank and of the two
+// beside
+//        them; as columns go, some at a time, the result takes their place. On the wire 72 to 216
+//        bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or 784
+//        bytes back. Chamfer scans take as long as on one machine, and the memory of StreamShells()
+//        for a rank's layers.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.
 absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& bricks,
                                          DistanceKind kind, double shell_width, Depths depths,

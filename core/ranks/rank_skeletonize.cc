@@ -5,15 +5,17 @@
 
 #include "core/exec/status_macros.h"
 #include "core/pipeline/skeletonize_within.h"
+#include "core/ranks/agreement.h"
 #include "core/ranks/packing.h"
+#include "core/ranks/rank_bricks.h"
 #include "core/ranks/rank_peeling.h"
 
 namespace bccskel::ranks {
 namespace {
 
-enum class Task : uint8_t { kPeel, kLeave };
+enum class Task : uint8_t { kBringParts, kPeel, kLeave };
 
-// What all must know of the object and the options to peel.
+// What all must know of the object and the options to peel; to bring parts, of the object.
 struct Order {
   Task task = Task::kLeave;
   LatticeExtent extent;
@@ -72,6 +74,20 @@ Order Receive(Exchange& exchange) {
   return Unpacked(in);
 }
 
+// The part of an object with that extent and placement.
+absl::StatusOr<Volume> FitPart(absl::StatusOr<Volume> part, const Volume& object) {
+  if (!part.ok() || part->empty()) return part.ok() ? object : std::move(part);
+  if (part->extent() == object.extent() && part->placement() == object.placement()) return part;
+  return absl::InvalidArgumentError("has read another object than rank 0");
+}
+
+// All ranks together: the whole object on rank 0, nothing elsewhere.
+absl::StatusOr<Volume> BringParts(Exchange& exchange, absl::StatusOr<Volume> part) {
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange, part.status()));
+  BCCSKEL_ASSIGN_OR_RETURN(Volume own, ShareEvenly(exchange, *std::move(part)));
+  return GatherBricks(exchange, own, {0, own.brick_count()});
+}
+
 }  // namespace
 
 absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
@@ -85,26 +101,43 @@ absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
 
 Lead::~Lead() { Send(exchange_, {}); }
 
-absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(const Volume& object,
+absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(Volume& object,
                                                     const SkeletonizeOptions& options,
                                                     const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckRankOptions(options));
-  const Peeler peeler = [&](const Volume& prepared, const ThinningOptions& thinning) {
+  if (options.preparing.Wanted()) {
+    Order order;
+    order.task = Task::kBringParts;
+    order.extent = object.extent();
+    order.placement = object.placement();
+    Send(exchange_, order);
+    BCCSKEL_ASSIGN_OR_RETURN(object, BringParts(exchange_, std::move(object)));
+  }
+  const Peeler peeler = [&](Volume& prepared,
+                            const ThinningOptions& thinning) -> absl::StatusOr<PeeledObject> {
     Send(exchange_,
          {Task::kPeel, prepared.extent(), prepared.placement(), options.distance, thinning});
+    BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, absl::OkStatus()));
     return PeelOverRanks(exchange_, prepared, options.distance, thinning, checkpoints_, context);
   };
   return SkeletonizeBy(peeler, object, options, context);
 }
 
 absl::Status FollowLead(Exchange& exchange, const exec::Context& context,
-                        const CheckpointOptions& checkpoints) {
+                        absl::StatusOr<Volume> part, const CheckpointOptions& checkpoints) {
   absl::Status last;
   while (true) {
     const Order order = Receive(exchange);
     if (order.task == Task::kLeave) return last;
     const Volume nothing = Volume::FromSortedBricks(order.extent, order.placement, {}, {});
-    last = PeelOverRanks(exchange, nothing, order.distance, order.thinning, checkpoints, context)
+    if (order.task == Task::kBringParts) {
+      last = BringParts(exchange, FitPart(std::exchange(part, nothing), nothing)).status();
+      continue;
+    }
+    absl::StatusOr<Volume> own = FitPart(std::exchange(part, nothing), nothing);
+    last = AgreeOn(exchange, own.status());
+    if (!last.ok()) continue;
+    last = PeelOverRanks(exchange, *own, order.distance, order.thinning, checkpoints, context)
                .status();
   }
 }

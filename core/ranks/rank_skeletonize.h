@@ -24,12 +24,13 @@ class Lead {
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
 
-  // Skeletonize(), where all ranks measure distances and thin; the same result for any number of
-  // them. The other stages run here alone, on the bits of the whole object.
-  // Errors: as Skeletonize() and CheckRankOptions(); CANCELLED and DEADLINE_EXCEEDED where any rank
-  //         has to stop.
-  absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
-                                                const SkeletonizeOptions& options,
+  // Skeletonize(), where all ranks measure distances, thin and count the object's topology; the
+  // same result for any number of them. `object` is this rank's part of it, and the whole
+  // afterwards: of that radii, pruning and the graph are made here alone, after the others have
+  // thinned. Preparing has the whole here from the beginning. Errors: as Skeletonize() and
+  // CheckRankOptions(); those of other ranks' parts; CANCELLED and
+  //         DEADLINE_EXCEEDED where any rank has to stop.
+  absl::StatusOr<SkeletonizeResult> Skeletonize(Volume& object, const SkeletonizeOptions& options,
                                                 const exec::Context& context);
 
  private:
@@ -37,10 +38,12 @@ class Lead {
   const CheckpointOptions checkpoints_;
 };
 
-// What ranks other than 0 do until rank 0 lets them go.
+// What ranks other than 0 do until rank 0 lets them go, in the first job with their part of the
+// object or why they have none: no brick is in two ranks' parts, and parts with bricks have the
+// extent and placement of rank 0's.
 // Errors: of the last job.
 absl::Status FollowLead(Exchange& exchange, const exec::Context& context,
-                        const CheckpointOptions& checkpoints = {});
+                        absl::StatusOr<Volume> part, const CheckpointOptions& checkpoints = {});
 
 }  // namespace bccskel::ranks
 

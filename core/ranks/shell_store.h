@@ -25,6 +25,15 @@ class ShellStore {
   void Trade(const Volume& volume, exec::Share measured, const DistanceField& field,
              const exec::Context& context);
 
+  // The same where distances are measured and sliced in one go: the shells of bricks that are this
+  // rank's own go to their places, those of others to ones from where they are sent.
+  void Expect(const Volume& volume, exec::Share measured);
+  // Needs: `brick` of that volume, measured here.
+  ShellPlace ShellsOf(BrickIndex brick);
+  ShellPlace DepthsOf(BrickIndex brick);
+  // All ranks together.
+  void SendAway(const Volume& volume);
+
   // Needs: all own bricks have come.
   RankShells Finish() &&;
 
@@ -35,7 +44,8 @@ class ShellStore {
     exec::UninitializedVector<ShellPlanes> planes;
     std::vector<Shells::Range> ranges;
   };
-  static Shells ShellsOf(Planes planes, int32_t last);
+  static Shells Joined(Planes planes, int32_t last);
+  void KeepAll(const std::vector<Bytes>& letters);
   void Keep(Unpacker& from);
 
   Exchange& exchange_;
@@ -44,6 +54,16 @@ class ShellStore {
   const Depths depths_;
   Planes shells_;
   Planes deep_;  // its ranges are not used
+
+  struct Place {
+    bool is_own;
+    BrickIndex n;  // among the bricks of this rank, or among those to be sent
+  };
+  size_t first_measured_ = 0;
+  std::vector<Place> places_;     // of the measured bricks
+  std::vector<BrickIndex> away_;  // measured bricks of others
+  Planes away_shells_ = Planes(0);
+  Planes away_deep_ = Planes(0);
 };
 
 }  // namespace bccskel::ranks

@@ -118,11 +118,12 @@ PlanesOfBricks PlanesFor(const Volume& object) {
 // Slices distances while they are at hand.
 class StreamSlicer : public DistanceSink {
  public:
-  StreamSlicer(const Volume& object, double width)
-      : object_(object), width_(width), planes_(PlanesFor(object)), ranges_(object.brick_count()) {}
+  explicit StreamSlicer(const Volume& object) : object_(object) {}
+
+  void Add(double width, ShellPlaces places) { cuts_.push_back({width, std::move(places), {}}); }
 
   void Begin(const ChamferWeights& weights, uint32_t limit) override {
-    slice_.emplace(weights, width_, limit - 1);
+    for (Cut& cut : cuts_) cut.slice.emplace(weights, cut.width, limit - 1);
   }
   uint32_t Take(BrickIndex brick, const uint16_t* distances) override {
     return Slice(brick, distances);
@@ -130,21 +131,29 @@ class StreamSlicer : public DistanceSink {
   uint32_t Take(BrickIndex brick, const uint32_t* distances) override {
     return Slice(brick, distances);
   }
-  Shells Finish() && { return Shells(std::move(planes_), std::move(ranges_)); }
 
  private:
+  struct Cut {
+    double width;
+    ShellPlaces places;
+    std::optional<ChamferSlicer> slice;
+  };
+
   template <typename T>
   uint32_t Slice(BrickIndex brick, const T* distances) {
-    const DistanceExtremes found = (*slice_)(object_.bricks()[brick], distances, planes_[brick]);
-    ranges_[brick] = slice_->ShellsOf(found);
-    return found.largest;
+    uint32_t largest = 0;
+    for (const Cut& cut : cuts_) {
+      const ShellPlace place = cut.places(brick);
+      const DistanceExtremes found =
+          (*cut.slice)(object_.bricks()[brick], distances, *place.planes);
+      *place.range = cut.slice->ShellsOf(found);
+      largest = found.largest;
+    }
+    return largest;
   }
 
   const Volume& object_;
-  const double width_;
-  std::optional<ChamferSlicer> slice_;
-  PlanesOfBricks planes_;
-  std::vector<Shells::Range> ranges_;
+  std::vector<Cut> cuts_;
 };
 
 constexpr size_t kSliceWork = 16;  // in the unit of Context::WorkersFor()
@@ -197,10 +206,25 @@ Shells BuildShells(const Volume& object, const DistanceField& distance, double s
 
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
                                     const exec::Context& context, size_t at_once) {
-  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  StreamSlicer slicer(object, width);
+  PlanesOfBricks planes = PlanesFor(object);
+  std::vector<Shells::Range> ranges(object.brick_count());
+  StreamSlicer slicer(object);
+  slicer.Add(EffectiveShellWidth(shell_width, AxisScaleOf(object.placement())), [&](BrickIndex n) {
+    return ShellPlace{&planes[n], &ranges[n]};
+  });
   BCCSKEL_RETURN_IF_ERROR(StreamChamfer(object, kind, context, slicer, at_once));
-  return std::move(slicer).Finish();
+  return Shells(std::move(planes), std::move(ranges));
+}
+
+absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
+                                  double shell_width, const exec::Context& context,
+                                  LayerRelay& relay, const ShellPlaces& shells,
+                                  const ShellPlaces& depths) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  StreamSlicer slicer(object);
+  slicer.Add(EffectiveShellWidth(shell_width, scale), shells);
+  if (depths) slicer.Add(DepthWidth(scale), depths);
+  return StreamChamferOfLayers(object, held, kind, context, slicer, relay);
 }
 
 Shells BuildDepths(const Volume& object, const DistanceField& distance,

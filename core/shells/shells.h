@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,21 @@ Shells BuildShells(const Volume& object, const DistanceField& distance, double s
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
                                     const exec::Context& context,
                                     size_t at_once = kMostPointsAtOnce);
+
+// Where a brick's shells are to be written.
+struct ShellPlace {
+  ShellPlanes* planes;
+  Shells::Range* range;
+};
+using ShellPlaces = std::function<ShellPlace(BrickIndex)>;
+
+// StreamShells() of one holder's layers, as StreamChamferOfLayers(); `depths`, which may be null,
+// are as from BuildDepths().
+// Threads: places are asked for on several workers at once.
+absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
+                                  double shell_width, const exec::Context& context,
+                                  LayerRelay& relay, const ShellPlaces& shells,
+                                  const ShellPlaces& depths);
 
 // Thinner shells that tell which of two neighbors is deeper, but no longer the shells of a whole
 // brick apart: those of neighbors differ by less than 16, so planes 0 to 4 are enough.

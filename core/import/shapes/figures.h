@@ -18,6 +18,10 @@ std::vector<Solid> FigureOf(Shape shape, uint64_t seed);
 // The union of the solids at the scale that gives it the wanted number of points.
 // Errors: as GenerateShape().
 absl::StatusOr<Volume> GenerateFigure(std::span<const Solid> figure, const ShapeOptions& options);
+// As GenerateShapePart().
+absl::StatusOr<Volume> GenerateFigurePart(std::span<const Solid> figure,
+                                          const ShapeOptions& options, const LayerPart& part,
+                                          const SumOfParts& sum);
 
 }  // namespace bccskel::shapes
 

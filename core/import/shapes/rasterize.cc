@@ -50,14 +50,15 @@ using ColumnRows = std::array<std::array<CellRange, 2>, kRows>;
 
 class SolidRasterizer {
  public:
-  SolidRasterizer(double scale, Vector shift, VolumeBuilder& builder)
-      : scale_(scale), shift_(shift), builder_(builder) {}
+  SolidRasterizer(double scale, Vector shift, const ChooseLayer& chosen, VolumeBuilder& builder)
+      : scale_(scale), shift_(shift), chosen_(chosen), builder_(builder) {}
 
   void Add(const Solid& solid) {
     const Bounds bounds = BoundsOf(solid);
     const Vector low = ToLattice(bounds.low), high = ToLattice(bounds.high);
     for (Sublattice sublattice : kSublattices) {
       for (int32_t bz = CellAt(low.z) / kBrickZ; bz <= CellAt(high.z) / kBrickZ; ++bz) {
+        if (!chosen_(bz)) continue;
         for (int32_t by = CellAt(low.y) / kBrickY; by <= CellAt(high.y) / kBrickY; ++by) {
           AddColumn(solid, {0, by, bz, sublattice});
         }
@@ -108,12 +109,18 @@ class SolidRasterizer {
 
   const double scale_;
   const Vector shift_;
+  const ChooseLayer& chosen_;
   VolumeBuilder& builder_;
 };
 
 }  // namespace
 
 absl::StatusOr<Volume> Rasterize(std::span<const Solid> solids, double scale) {
+  return RasterizeLayers(solids, scale, [](int32_t) { return true; });
+}
+
+absl::StatusOr<Volume> RasterizeLayers(std::span<const Solid> solids, double scale,
+                                       const ChooseLayer& chosen) {
   const Bounds bounds = BoundsOfAll(solids);
   const Vector size = scale * (bounds.high - bounds.low) +
                       Vector{2 * kMarginUnits, 2 * kMarginUnits, 2 * kMarginUnits};
@@ -125,7 +132,7 @@ absl::StatusOr<Volume> Rasterize(std::span<const Solid> solids, double scale) {
   const auto cells = [](double units) { return static_cast<int32_t>(std::ceil(units / 2)); };
   VolumeBuilder builder({cells(size.x), cells(size.y), cells(size.z)});
   const Vector margin = {kMarginUnits, kMarginUnits, kMarginUnits};
-  SolidRasterizer rasterizer(scale, margin - scale * bounds.low, builder);
+  SolidRasterizer rasterizer(scale, margin - scale * bounds.low, chosen, builder);
   for (const Solid& solid : solids) rasterizer.Add(solid);
   return std::move(builder).Build();
 }

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_IMPORT_SHAPES_RASTERIZE_H_
 #define BCCSKEL_CORE_IMPORT_SHAPES_RASTERIZE_H_
 
+#include <functional>
 #include <span>
 
 #include "absl/status/statusor.h"
@@ -15,6 +16,12 @@ namespace bccskel::shapes {
 // Cost:   per solid one square root or a few for each row of each brick column that it may touch,
 //         and word operations for the bricks that it does touch.
 absl::StatusOr<Volume> Rasterize(std::span<const Solid> solids, double scale);
+
+// Tells layers of bricks.
+using ChooseLayer = std::function<bool(int32_t bz)>;
+// The same without the bricks of other layers. Cost: of the chosen layers only.
+absl::StatusOr<Volume> RasterizeLayers(std::span<const Solid> solids, double scale,
+                                       const ChooseLayer& chosen);
 
 }  // namespace bccskel::shapes
 

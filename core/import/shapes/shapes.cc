@@ -42,11 +42,30 @@ double CubeRoot(double v) {
   return root;
 }
 
+Volume OnlyLayers(const Volume& volume, const LayerPart& part) {
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (size_t n = 0; n < volume.brick_count(); ++n) {
+    if (!part.Has(volume.keys()[n].coordinates().bz)) continue;
+    keys.push_back(volume.keys()[n]);
+    bricks.push_back(volume.bricks()[n]);
+  }
+  return Volume::FromSortedBricks(volume.extent(), volume.placement(), std::move(keys),
+                                  std::move(bricks));
+}
+
+// Whether a point flips depends on its neighbors, which may lie in the layers beside its own.
 absl::StatusOr<Volume> GenerateAtScale(std::span<const shapes::Solid> figure, double scale,
-                                       const ShapeOptions& options) {
-  BCCSKEL_ASSIGN_OR_RETURN(Volume clean, shapes::Rasterize(figure, scale));
-  if (options.noise == 0) return clean;
-  return shapes::WithBoundaryNoise(clean, options.noise, options.seed);
+                                       const ShapeOptions& options, const LayerPart& part) {
+  if (options.noise == 0) {
+    return shapes::RasterizeLayers(figure, scale, [&](int32_t bz) { return part.Has(bz); });
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(Volume clean, shapes::RasterizeLayers(figure, scale, [&](int32_t bz) {
+                             return part.IsNear(bz);
+                           }));
+  BCCSKEL_ASSIGN_OR_RETURN(Volume noisy,
+                           shapes::WithBoundaryNoise(clean, options.noise, options.seed));
+  return part.count == 1 ? std::move(noisy) : OnlyLayers(noisy, part);
 }
 
 // A lattice point stands for four cubic units. The solids' boxes hold more than the solids do, so
@@ -79,15 +98,26 @@ absl::StatusOr<Volume> GenerateShape(Shape shape, const ShapeOptions& options) {
   return shapes::GenerateFigure(shapes::FigureOf(shape, options.seed), options);
 }
 
+absl::StatusOr<Volume> GenerateShapePart(Shape shape, const ShapeOptions& options,
+                                         const LayerPart& part, const SumOfParts& sum) {
+  return shapes::GenerateFigurePart(shapes::FigureOf(shape, options.seed), options, part, sum);
+}
+
 absl::StatusOr<Volume> shapes::GenerateFigure(std::span<const Solid> figure,
                                               const ShapeOptions& options) {
+  return GenerateFigurePart(figure, options, {}, [](uint64_t points) { return points; });
+}
+
+absl::StatusOr<Volume> shapes::GenerateFigurePart(std::span<const Solid> figure,
+                                                  const ShapeOptions& options,
+                                                  const LayerPart& part, const SumOfParts& sum) {
   BCCSKEL_RETURN_IF_ERROR(CheckShapeOptions(options));
   const double wanted = static_cast<double>(options.points);
   double scale = FirstScale(figure, options.points);
   double ratio = 0;
   for (int n = 0; n < kMaxScales; ++n) {
-    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, GenerateAtScale(figure, scale, options));
-    ratio = static_cast<double>(volume.PointCount()) / wanted;
+    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, GenerateAtScale(figure, scale, options, part));
+    ratio = static_cast<double>(sum(volume.PointCount())) / wanted;
     const double allowed = n < kMaxScales / 2 ? kGoodEnough : kTolerance;
     if (std::abs(ratio - 1) <= allowed) return volume;
     scale /= CubeRoot(ratio);

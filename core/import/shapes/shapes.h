@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -28,7 +30,7 @@ inline constexpr std::array<Shape, 9> kShapes = {Shape::kBall, Shape::kTorus, Sh
                                                  Shape::kKnot, Shape::kBox,   Shape::kHollowBall};
 
 inline constexpr uint64_t kMinShapePoints = 5'000;
-inline constexpr uint64_t kMaxShapePoints = 1'000'000'000;
+inline constexpr uint64_t kMaxShapePoints = 100'000'000'000;
 inline constexpr double kMaxShapeNoise = 0.1;
 
 struct ShapeOptions {
@@ -49,6 +51,13 @@ absl::StatusOr<Shape> ParseShapeName(std::string_view name);
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 // Cost:   time and memory follow the object, not its box.
 absl::StatusOr<Volume> GenerateShape(Shape shape, const ShapeOptions& options);
+
+// The sum of all parts' numbers, for each of them.
+using SumOfParts = std::function<uint64_t(uint64_t)>;
+// GenerateShape() by several at a time, each of which gets the bricks of its layers. All of them
+// call `sum` equally often.
+absl::StatusOr<Volume> GenerateShapePart(Shape shape, const ShapeOptions& options,
+                                         const LayerPart& part, const SumOfParts& sum);
 
 }  // namespace bccskel
 

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import tempfile
 import time
@@ -65,6 +66,25 @@ def result_of(path):
     return result
 
 
+def plain_bricks():
+    """A bricks file without compression: a thick ring of two sublattices in 60 x 60 x 40 cells."""
+    words = {}
+    for odd in (0, 1):
+        for k in range(40):
+            for j in range(60):
+                for i in range(60):
+                    x, y, z = i - 30 + odd / 2, j - 30 + odd / 2, k - 20 + odd / 2
+                    if ((x * x + y * y) ** 0.5 - 20) ** 2 + z * z >= 49:
+                        continue
+                    brick = words.setdefault((k // 8, j // 4, i // 16, odd), [0] * 8)
+                    brick[k % 8] |= 1 << (16 * (j % 4) + i % 16)
+    header = b"BCCB\r\n\x1a\n" + struct.pack("<II3iIQ", 1, 0, 60, 60, 40, 0, len(words))
+    header += struct.pack("<15d", 1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
+    records = [struct.pack("<3iI8Q", bx, by, bz, odd, *bits)
+               for (bz, by, bx, odd), bits in sorted(words.items())]
+    return header + b"".join(records)
+
+
 class TestCase(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -106,6 +126,37 @@ class Results(TestCase):
         self.expect_same(DATA / "mesh/elephant.off", ranks=(2, 5))
         self.expect_same(DATA / "volume/neuron_28018323.nrrd", ranks=(2, 5))
 
+    def test_parts_of_files(self):
+        bricks = self.generate("tree", 60_000, ".bccb")
+        plain = self.folder / "plain.bccb"
+        plain.write_bytes(plain_bricks())
+        self.expect_same(plain, ranks=(2, 3, 8))
+        self.expect_same(bricks, "--fill-cavities", ranks=(3,))
+
+    def test_parts_of_masks(self):
+        mask = self.folder / "mask.raw"
+        values = [(x - 20) ** 2 + (y - 15) ** 2 + (z - 30) ** 2 < 180 or (x * 7 + y * 5 + z * 3) % 97 == 0
+                  for z in range(60) for y in range(30) for x in range(40)]
+        mask.write_bytes(bytes(map(int, values)))
+        raw = ("--raw-size", "40,30,60")
+        self.expect_same(mask, *raw, ranks=(2, 5))
+        self.expect_same(mask, *raw, "--adjacency", "6,26", ranks=(3,))
+        self.expect_same(mask, *raw, "--voxel-points", "16", ranks=(3,))
+        self.expect_same(mask, *raw, "--sampling", "trilinear", ranks=(3,))
+
+    def test_shapes_that_ranks_generate(self):
+        for shape, noise in (("ball", "0"), ("tree", "0.02")):
+            source = self.folder / f"{shape}.bccb"
+            bccskel("generate", shape, "--points", 50_000, "--seed", 4, "--noise", noise, "-o", source)
+            wanted = self.folder / "wanted.json"
+            bccskel("skeletonize", "--local", source, "-o", wanted)
+            for count in (1, 3, 8):
+                got = self.folder / "got.json"
+                run = run_ranks(count, "skeletonize", "--generate", shape, "--points", 50_000,
+                                "--seed", 4, "--noise", noise, "-o", got)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(result_of(got), result_of(wanted))
+
     def test_other_formats(self):
         source = self.generate("knot", 30_000)
         for ending in (".swc", ".vtp", ".obj"):
@@ -138,6 +189,18 @@ class Refusals(TestCase):
     def test_input_that_is_not_there(self):
         self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",
                             self.folder / "out.json")
+
+    def test_shapes_that_are_none(self):
+        out = self.folder / "out.json"
+        self.expect_refused(2, "no shape is named", "skeletonize", "--generate", "bal", "-o", out)
+        self.expect_refused(3, "must be", "skeletonize", "--generate", "ball", "--points", 7, "-o",
+                            out)
+
+    def test_bricks_that_are_there_twice(self):
+        plain = self.folder / "plain.bccb"
+        data = plain_bricks()
+        plain.write_bytes(data[:-80] + data[160:240])  # the first brick again, in the last part
+        self.expect_refused(3, "given twice", "skeletonize", plain, "-o", self.folder / "out.json")
 
     def test_output_that_cannot_be_written(self):
         self.expect_refused(8, "no/such", "skeletonize", self.generate("ball", 20_000), "-o",

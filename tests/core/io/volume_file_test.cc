@@ -11,8 +11,11 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/core/io/test_volumes.h"
+#include "tests/support/object_parts.h"
 
 namespace bccskel {
 namespace {
@@ -62,6 +65,46 @@ TEST_F(VolumeFile, ComesBackWhenItIsLargerThanOneRead) {
                                         .compression = VolumeCompression::kNone};
     ASSERT_TRUE(WriteVolumeFile(Path("v"), volume, options).ok());
     EXPECT_EQ(*ReadVolumeFile(Path("v")), volume);
+  }
+}
+
+TEST_F(VolumeFile, PartsOfReadersAreTheWholeTogether) {
+  const Volume volume = RandomVolume({300, 200, 150}, 6);
+  struct Kind {
+    VolumeEncoding encoding;
+    VolumeCompression compression;
+  };
+  for (const Kind& kind : {Kind{VolumeEncoding::kBricks, VolumeCompression::kNone},
+                           Kind{VolumeEncoding::kBricks, VolumeCompression::kZstd},
+                           Kind{VolumeEncoding::kOpenExr, VolumeCompression::kZip}}) {
+    const WriteVolumeOptions options = {.encoding = kind.encoding, .compression = kind.compression};
+    ASSERT_TRUE(WriteVolumeFile(Path("v"), volume, options).ok());
+    for (const int32_t count : {1, 2, 3, 7, 1000}) {
+      std::vector<Volume> parts;
+      for (int32_t index = 0; index < count; ++index) {
+        auto part = ReadVolumePart(Path("v"), {index, count});
+        ASSERT_TRUE(part.ok()) << part.status();
+        parts.push_back(*std::move(part));
+      }
+      EXPECT_EQ(*test::Joined(parts), volume);
+      if (kind.encoding == VolumeEncoding::kBricks && count == 2) {
+        EXPECT_LT(parts[0].brick_count(), volume.brick_count() * 2 / 3);
+      }
+    }
+  }
+}
+
+TEST_F(VolumeFile, PlainBricksOfAnotherLengthAreRefusedByEachReader) {
+  const WriteVolumeOptions options = {.encoding = VolumeEncoding::kBricks,
+                                      .compression = VolumeCompression::kNone};
+  ASSERT_TRUE(WriteVolumeFile(Path("v"), RandomVolume({60, 60, 60}, 7), options).ok());
+  const std::string bytes = Get("v");
+  for (const std::string& other : {bytes.substr(0, bytes.size() - 1), bytes + "x"}) {
+    Put("v", other);
+    for (const int32_t index : {0, 1}) {
+      EXPECT_THAT(std::string(ReadVolumePart(Path("v"), {index, 2}).status().message()),
+                  HasSubstr("declared"));
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/core/mask/mask_words.h"
+#include "tests/support/object_parts.h"
 #include "tests/support/reference_mask.h"
 
 namespace bccskel {
@@ -52,6 +53,30 @@ TEST(MaskConverter, RefusesABitPastTheLastVoxelOfARow) {
   const absl::Status status = StatusOfSlices({3, 2, 1, {}}, {{0b111, 0b1000}});
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(status.message(), HasSubstr("slice 0, row 1"));
+}
+
+TEST(MaskConverter, PartsAreTheWholeTogetherAndKnowTheWholeTopology) {
+  const ReferenceMask mask = test::RandomMask(5, 60, 40, 70, 0.4);
+  std::vector<MaskOptions> all;
+  for (const MaskAdjacency adjacency : test::kBothAdjacencies) {
+    all.push_back({.adjacency = adjacency});
+    all.push_back({.adjacency = adjacency, .points = VoxelPoints::kSixteen});
+  }
+  all.push_back({.sampling = MaskSamplingOptions{}});
+  for (const MaskOptions& options : all) {
+    const ConvertedMask whole = Converted(mask, options);
+    std::vector<Volume> parts;
+    for (int32_t index = 0; index < 3; ++index) {
+      MaskOptions chosen = options;
+      chosen.part = {index, 3};
+      ConvertedMask part = Converted(mask, chosen);
+      EXPECT_EQ(part.mask, whole.mask);
+      EXPECT_EQ(part.voxels, whole.voxels);
+      EXPECT_LT(part.volume.brick_count(), whole.volume.brick_count());
+      parts.push_back(std::move(part.volume));
+    }
+    EXPECT_EQ(*test::Joined(parts), whole.volume);
+  }
 }
 
 TEST(MaskConverter, RefusesTooFewAndTooManySlices) {

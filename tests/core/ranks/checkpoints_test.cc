@@ -10,6 +10,7 @@
 
 #include "core/ranks/rank_skeletonize.h"
 #include "core/ranks/thread_exchange.h"
+#include "tests/support/object_parts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -61,8 +62,9 @@ absl::StatusOr<SkeletonizeResult> RunJob(const Job& job, const Volume& object,
   ranks::RunAsThreads(job.ranks, [&](ranks::Exchange& exchange) {
     exec::Context context;
     std::stop_source source;
+    Volume part = test::OnlyLayers(object, {exchange.rank(), exchange.size()});
     if (exchange.rank() != 0) {
-      (void)ranks::FollowLead(exchange, context, checkpoints);
+      (void)ranks::FollowLead(exchange, context, std::move(part), checkpoints);
       return;
     }
     context.stop = source.get_token();
@@ -70,7 +72,7 @@ absl::StatusOr<SkeletonizeResult> RunJob(const Job& job, const Volume& object,
       if (progress.shell == job.stop_after) source.request_stop();
     };
     ranks::Lead lead(exchange, checkpoints);
-    result = lead.Skeletonize(object, options, context);
+    result = lead.Skeletonize(part, options, context);
   });
   return result;
 }
@@ -125,7 +127,8 @@ TEST(Checkpoints, AResumedJobGoesOnWhereItWas) {
       shells.push_back(progress.shell);
     };
     ranks::Lead lead(exchange, {&folder, ranks::Resuming::kWhereDone});
-    ASSERT_TRUE(lead.Skeletonize(object, {}, context).ok());
+    Volume part = object;
+    ASSERT_TRUE(lead.Skeletonize(part, {}, context).ok());
   });
   EXPECT_GT(shells.front(), 3);
 }

@@ -7,6 +7,7 @@
 
 #include "core/distance/distance_field.h"
 #include "core/ranks/thread_exchange.h"
+#include "tests/support/object_parts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -70,11 +71,14 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
     context.team = &team;
     context.min_bricks_per_worker = 1;
     context.patience = 1e9;
-    const Volume nothing = Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
-    auto peeled = ranks::PeelOverRanks(exchange, exchange.rank() == 0 ? object : nothing, kind,
-                                       options, {}, context);
+    Volume part = test::OnlyLayers(object, {exchange.rank(), exchange.size()});
+    auto peeled = ranks::PeelOverRanks(exchange, part, kind, options, {}, context);
     ASSERT_TRUE(peeled.ok()) << peeled.status();
-    if (exchange.rank() == 0) result = *std::move(peeled);
+    if (exchange.rank() != 0) return;
+    EXPECT_EQ(part, object);
+    EXPECT_EQ(peeled->points, object.PointCount());
+    EXPECT_EQ(peeled->topology, *CountBettiNumbers(object, {}));
+    result = std::move(peeled->thinned);
   });
   return result;
 }

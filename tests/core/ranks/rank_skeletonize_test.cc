@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/ranks/thread_exchange.h"
+#include "tests/support/object_parts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -22,12 +23,17 @@ absl::StatusOr<SkeletonizeResult> OnRanks(const Volume& object, const Skeletoniz
   ranks::RunAsThreads(ranks, [&](ranks::Exchange& exchange) {
     exec::Context context;
     if (exchange.rank() == ranks - 1) context.stop = stop_of_last;
+    const LayerPart part = {exchange.rank(), exchange.size()};
+    Volume own = test::OnlyLayers(object, part);
     if (exchange.rank() != 0) {
-      (void)ranks::FollowLead(exchange, context);
+      (void)ranks::FollowLead(exchange, context, std::move(own));
       return;
     }
     ranks::Lead lead(exchange);
-    result = lead.Skeletonize(object, options, context);
+    result = lead.Skeletonize(own, options, context);
+    if (result.ok() && !options.preparing.Wanted()) {
+      EXPECT_EQ(own, object);
+    }
   });
   return result;
 }

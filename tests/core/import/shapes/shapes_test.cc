@@ -7,8 +7,11 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/certificate/certificate.h"
+#include "tests/support/object_parts.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 
@@ -38,6 +41,17 @@ BettiNumbers DocumentedBetti(Shape shape) {
   }
 }
 
+// The numbers of points of the tries for a scale.
+std::vector<uint64_t> SumsOf(Shape shape, const ShapeOptions& options) {
+  std::vector<uint64_t> sums;
+  const auto note = [&](uint64_t points) {
+    sums.push_back(points);
+    return points;
+  };
+  EXPECT_TRUE(GenerateShapePart(shape, options, {}, note).ok());
+  return sums;
+}
+
 class EveryShape : public testing::TestWithParam<Shape> {};
 
 TEST_P(EveryShape, HasTheDocumentedTopologyWhateverTheSizeAndTheSeed) {
@@ -48,6 +62,25 @@ TEST_P(EveryShape, HasTheDocumentedTopologyWhateverTheSizeAndTheSeed) {
     // Flood fills of a tree's box would take seconds here.
     const Volume large = Generate(GetParam(), Options(20'000, seed));
     EXPECT_EQ(*CountBettiNumbers(large, {}), expected) << seed;
+  }
+}
+
+TEST_P(EveryShape, IsTheSameInParts) {
+  for (const double noise : {0.0, 0.05}) {
+    const ShapeOptions options = Options(60'000, 3, noise);
+    const Volume whole = Generate(GetParam(), options);
+    // The parts one after the other need to know what the sums will be: those of the whole.
+    for (const int32_t count : {2, 3, 5}) {
+      std::vector<Volume> parts;
+      for (int32_t index = 0; index < count; ++index) {
+        std::vector<uint64_t> sums = SumsOf(GetParam(), options);
+        auto part = GenerateShapePart(GetParam(), options, {index, count},
+                                      [&, n = size_t{0}](uint64_t) mutable { return sums[n++]; });
+        ASSERT_TRUE(part.ok()) << part.status();
+        parts.push_back(*std::move(part));
+      }
+      EXPECT_EQ(*test::Joined(parts), whole);
+    }
   }
 }
 
@@ -125,7 +158,7 @@ TEST(Shapes, RefusesOptionsOutOfRange) {
     return std::string(GenerateShape(Shape::kBall, options).status().message());
   };
   EXPECT_THAT(message(Options(kMinShapePoints - 1)), HasSubstr("4999 points: must be 5000 to"));
-  EXPECT_THAT(message(Options(kMaxShapePoints + 1)), HasSubstr("must be 5000 to 1000000000"));
+  EXPECT_THAT(message(Options(kMaxShapePoints + 1)), HasSubstr("must be 5000 to 100000000000"));
   EXPECT_THAT(message(Options(10'000, 0, 0.11)), HasSubstr("noise 0.11: must be 0 to 0.1"));
   EXPECT_THAT(message(Options(10'000, 0, -1)), HasSubstr("noise -1"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
