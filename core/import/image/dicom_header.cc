@@ -143,7 +143,9 @@ absl::StatusOr<DicomKind> KindOf(DcmItem& data) {
   if (Text(data, DCM_SOPClassUID) != kSegmentationClass) return DicomKind::kImage;
   if (const std::string type = Text(data, DCM_SegmentationType); type != "BINARY") {
     return absl::UnimplementedError(absl::StrFormat(
-        "a segmentation of the type '%s' is not read, only BINARY", type.substr(0, 40)));
+        "a segmentation of the type '%s' is not read, only BINARY; threshold it first, and store "
+        "it as a binary one, NIfTI or NRRD",
+        type.substr(0, 40)));
   }
   return DicomKind::kSegmentation;
 }
