@@ -88,7 +88,7 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
   const ExitCode code = FailWith(CodeOf(error), absl::Status(error.code(), message));
   if (!hint.empty()) PrintLine("hint", hint);
   if (MayWantTls(server, error)) {
-    PrintLine("hint", "should the server speak TLS, say with --tls-ca who signs its certificate");
+    PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
   }
   return code;
 }

@@ -97,8 +97,8 @@ absl::Status ReadPlace(const Places& places, DicomFrame& frame) {
       places.TextOf(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient);
   if (position.empty() || orientation.empty()) {
     return absl::InvalidArgumentError(
-        "there is no ImagePositionPatient or no ImageOrientationPatient, so nobody knows where the "
-        "slice lies");
+        "there is no ImagePositionPatient or no ImageOrientationPatient, so the position of the "
+        "slice is unknown");
   }
   BCCSKEL_ASSIGN_OR_RETURN(frame.position, Numbers<3>("ImagePositionPatient", position));
   BCCSKEL_RETURN_IF_ERROR(ReadOrientation(orientation, frame));

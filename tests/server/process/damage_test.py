@@ -137,7 +137,7 @@ class DamageTest(DurableTest):
         for service in durable_services:
             self.wait_for_health(service, 1)
         server.wait_for_event("data is damaged")
-        server.wait_for_event("data is well again")
+        server.wait_for_event("data is intact again")
 
     def wait_for_health(self, service, wanted):
         while health(self.channel, service) != wanted:  # the test's time limit ends it
