@@ -88,9 +88,9 @@ void Run::OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds 
 void Run::OnEnd(absl::StatusOr<JobResult> result) {
   const bool may_be_damage = absl::IsInvalidArgument(result.status()) && file_.has_value();
   if (!may_be_damage) return End(std::move(result));
-  threads_->Post({.tenant = tenant_}, [self = shared_from_this(), error = std::move(result).status()] {
-    self->CheckRest(error);
-  });
+  threads_->Post(
+      {.tenant = tenant_},
+      [self = shared_from_this(), error = std::move(result).status()] { self->CheckRest(error); });
 }
 
 void Run::CheckRest(const absl::Status& error) {
