@@ -82,7 +82,33 @@ void AddRow(std::span<const std::byte> row, int label_bytes, PromiseCounter& cou
   }
 }
 
+template <typename Number>
+DenseLabels Paint(const LabeledObjects& labels) {
+  const MaskGrid& grid = labels.grid;
+  const size_t slice = grid.VoxelsPerSlice();
+  DenseLabels image = {sizeof(Number)};
+  image.voxels.resize(slice * static_cast<size_t>(grid.nz) * sizeof(Number));
+  for (const LabeledObject& object : labels.objects) {
+    for (const VoxelRun& run : object.runs) {
+      const size_t row = static_cast<size_t>(run.z) * slice +
+                         static_cast<size_t>(run.y) * static_cast<size_t>(grid.nx);
+      for (int32_t x = run.begin; x < run.end; ++x) {
+        StoreNumber(static_cast<Number>(object.label), image.voxels,
+                    (row + static_cast<size_t>(x)) * sizeof(Number));
+      }
+    }
+  }
+  return image;
+}
+
 }  // namespace
+
+DenseLabels DenseLabelsOf(const LabeledObjects& labels) {
+  const uint64_t largest = labels.objects.empty() ? 0 : labels.objects.back().label;
+  if (largest <= 0xFF) return Paint<uint8_t>(labels);
+  if (largest <= 0xFFFF) return Paint<uint16_t>(labels);
+  return largest <= 0xFFFF'FFFF ? Paint<uint32_t>(labels) : Paint<uint64_t>(labels);
+}
 
 absl::StatusOr<EncodedLabels> EncodeForSending(const LabelVolume& volume,
                                                const std::vector<uint64_t>& wanted,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/labels/voxel_runs.h"
 #include "core/mask/mask_grid.h"
 
 namespace bccskel::client {
@@ -30,6 +31,13 @@ struct EncodedLabels {
   uint64_t runs = 0;
   uint64_t labels = 0;
 };
+
+// Labels as a dense image of the smallest numbers that hold them.
+struct DenseLabels {
+  int label_bytes = 1;
+  std::vector<std::byte> voxels = {};
+};
+DenseLabels DenseLabelsOf(const LabeledObjects& labels);
 
 // Counts only `wanted`; none means all labels.
 // Cost: one comparison a voxel, and compression.

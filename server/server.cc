@@ -284,7 +284,7 @@ void Server::LookAfterData() {
                                  data_is_well_ ? Listener::Serving::kYes : Listener::Serving::kNo);
   }
   Log(data_is_well_ ? LogLevel::kInfo : LogLevel::kError,
-      data_is_well_                 ? "data is well again"
+      data_is_well_                 ? "data is intact again"
       : absl::IsUnavailable(health) ? "data cannot be reached"
                                     : "data is damaged",
       {{"message", std::string(health.message())}});

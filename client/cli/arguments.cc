@@ -6,6 +6,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,6 +36,60 @@ std::string HintFor(std::string_view error) {
   return "see --help";
 }
 
+// How many letters have to be changed, added or left out to make one of the other.
+size_t EditDistance(std::string_view one, std::string_view other) {
+  std::vector<size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < one.size(); ++i) {
+    size_t diagonal = std::exchange(row[0], i + 1);
+    for (size_t j = 0; j < other.size(); ++j) {
+      const size_t changed = diagonal + (one[i] == other[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+// "; did you mean ...?", where a known word is near.
+std::string Suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const auto distance = [&](const std::string& name) { return EditDistance(word, name); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  if (nearest == known.end() || 3 * distance(*nearest) > word.size()) return "";
+  return "; did you mean " + *nearest + "?";
+}
+
+void AddOptionNames(const CLI::App& command, std::vector<std::string>& names) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (group->get_name().empty()) AddOptionNames(*group, names);
+  }
+}
+
+// What is said of a command or an option that does not exist; empty: all do. CLI11 would rather
+// tell what is missing beside it.
+std::string UnknownWord(const CLI::App& app) {
+  const std::vector<std::string> rest = app.remaining(true);
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  std::vector<std::string> known;
+  if (command == &app) {
+    if (rest.empty() || rest.front().starts_with("-")) return "";
+    for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) {
+      known.push_back(one->get_name());
+    }
+    return "there is no command " + rest.front() + Suggestion(rest.front(), known);
+  }
+  const auto found = std::ranges::find_if(
+      rest, [](const std::string& word) { return word.starts_with("--") && word.size() > 2; });
+  if (found == rest.end()) return "";
+  AddOptionNames(*command, known);
+  const std::string option = found->substr(0, found->find('='));
+  return command->get_name() + " has no option " + option + Suggestion(option, known);
+}
+
 // The command that completions/ call with the words of a command line.
 constexpr std::string_view kComplete = "__complete";
 
@@ -46,8 +101,9 @@ class CommandLine {
     app_.require_subcommand(0, 1);  // not 1: CLI11 would not name a misspelled one
     app_.set_version_flag("--version", "bccskel " + std::string(Version()));
     app_.footer(kFooter);
-    app_.failure_message([](const CLI::App*, const CLI::Error& error) {
-      const std::string what = error.what();
+    app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
+      const std::string unknown = UnknownWord(*app);
+      const std::string what = unknown.empty() ? error.what() : unknown;
       return "bccskel: error: " + what + "\nbccskel: hint: " + HintFor(what) + "\n";
     });
     for (CLI::App* command : app_.get_subcommands({})) command->footer(kFooter);
@@ -86,8 +142,7 @@ class CommandLine {
     Add(app_, "voxelize", AddVoxelize, "Turn a mesh or an image into bcc lattice points");
     Add(app_, "submit", AddSubmit, "Send a volume to a server for its skeleton");
     Add(app_, "skeletonize", AddSkeletonize, "Make the skeleton of a mesh, a volume or an image");
-    Add(app_, "labels", AddLabelsCommand,
-        "Make a skeleton of every label of an image, on this machine");
+    Add(app_, "labels", AddLabels, "Make a skeleton of every label of an image");
     Add(app_, "info", AddInfo, "Describe a mesh, a volume or an image");
     Add(app_, "view", AddView,
         "Make an interactive page of a result for a browser, without a network");

@@ -101,6 +101,10 @@ struct LabelsArguments {
   SkeletonizeOptions skeletonize;
   std::optional<RootChoice> root;  // the trees are ordered from there
   exporting::CurveSampling swc;    // of SWC files
+  Place place = Place::kHere;
+  ServerArguments server;
+  ProgressStyle progress = ProgressStyle::kAuto;
+  std::chrono::milliseconds timeout = std::chrono::hours(1);
 };
 
 struct InfoArguments {
@@ -244,7 +248,7 @@ using Arguments = std::variant<VoxelizeArguments, SkeletonizeArguments, LabelsAr
 void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments);
 void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments);
 void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments);
-void AddLabelsCommand(CLI::App& command, LabelsArguments& arguments);
+void AddLabels(CLI::App& command, LabelsArguments& arguments);
 void AddInfo(CLI::App& command, InfoArguments& arguments);
 void AddView(CLI::App& command, ViewArguments& arguments);
 void AddRender(CLI::App& command, RenderArguments& arguments);

@@ -113,6 +113,20 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
       ->option_text("HOST:PORT|unix:PATH");
 }
 
+void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
+  CLI::Option_group& group = *command.add_option_group("Server", "Compute on a server instead");
+  CLI::Option* address = AddServer(group, server);
+  place = Place::kHere;
+  group.parse_complete_callback([&group, &place] {
+    if (group.count_all() > 0) place = Place::kServer;
+  });
+  command
+      .add_flag_callback(
+          "--local", [&place] { place = Place::kLocal; },
+          "Compute on this machine, without a server (default, unless a server is named)")
+      ->excludes(address);
+}
+
 absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server) {
   client::Endpoint endpoint;
   endpoint.address = server.address;

@@ -36,6 +36,9 @@ CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::millis
 // Adds --server and its companions; returns --server.
 CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
 
+// --server and its companions, and --local: where to compute. kHere unless one is given.
+void AddPlace(CLI::App& command, ServerArguments& server, Place& place);
+
 // Reads the files.
 // Errors: NOT_FOUND for a file that cannot be read; INVALID_ARGUMENT for a token file without a
 //         token.

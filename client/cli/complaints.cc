@@ -124,8 +124,16 @@ Complaint ComplaintAbout(const ReconstructArguments& arguments) {
   return ResultComplaint(arguments.source, arguments.output);
 }
 Complaint ComplaintAbout(const LabelsArguments& arguments) {
+  const bool on_server = arguments.place == Place::kServer;
+  if (on_server && arguments.image.mask.sampling.has_value()) {
+    return "--sampling is for this machine; a server converts labels exactly";
+  }
   for (const std::string& output : arguments.outputs) {
     if (Complaint c = IfError(CheckLabelOutput(output)); c.has_value()) return c;
+    if (on_server &&
+        exporting::SkeletonFormatOf(output).value() == exporting::SkeletonFormat::kVolume) {
+      return output + ": a server returns no thinned volumes of labels; compute here with --local";
+    }
     if (Complaint c = OverwriteComplaint(arguments.input, output); c.has_value()) return c;
   }
   if (Complaint c = ComplaintAboutRootOfLabels(arguments.root); c.has_value()) return c;

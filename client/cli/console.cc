@@ -88,7 +88,7 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
   const ExitCode code = FailWith(CodeOf(error), absl::Status(error.code(), message));
   if (!hint.empty()) PrintLine("hint", hint);
   if (MayWantTls(server, error)) {
-    PrintLine("hint", "should the server speak TLS, say with --tls-ca who signs its certificate");
+    PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
   }
   return code;
 }
@@ -102,24 +102,30 @@ ExitCode Print(std::string_view text) {
 
 namespace {
 
-constexpr int64_t kBarWidth = 28;
+constexpr uint64_t kBarWidth = 28;
 // A terminal is redrawn no more often than the eye sees.
 constexpr std::chrono::milliseconds kRedrawPause(50);
+
+// "[####----] WHAT N/TOTAL  MORE12.3 s"
+std::string BarLine(const char* what, uint64_t done, uint64_t total, const std::string& more,
+                    std::chrono::duration<double> elapsed) {
+  const uint64_t filled = kBarWidth * std::min(done, total) / std::max<uint64_t>(total, 1);
+  std::string seconds(32, '\0');
+  seconds.resize(static_cast<size_t>(
+      std::snprintf(seconds.data(), seconds.size(), "%.1f s", elapsed.count())));
+  return '[' + std::string(filled, '#') + std::string(kBarWidth - filled, '-') + "] " + what + ' ' +
+         std::to_string(done) + '/' + std::to_string(total) + "  " + more + seconds;
+}
 
 }  // namespace
 
 std::string ProgressLine(const exec::ShellProgress& progress,
                          std::chrono::duration<double> elapsed) {
-  const int64_t last = std::max(progress.last_shell, 1);
-  const int64_t filled = std::clamp<int64_t>(kBarWidth * progress.shell / last, 0, kBarWidth);
-  std::string seconds(32, '\0');
-  seconds.resize(static_cast<size_t>(
-      std::snprintf(seconds.data(), seconds.size(), "%.1f s", elapsed.count())));
-  return '[' + std::string(static_cast<size_t>(filled), '#') +
-         std::string(static_cast<size_t>(kBarWidth - filled), '-') + "] shell " +
-         std::to_string(progress.shell) + '/' + std::to_string(progress.last_shell) + "  " +
-         exporting::GroupedDigits(progress.removed) + " points removed, " +
-         exporting::GroupedDigits(progress.remaining) + " left  " + seconds;
+  return BarLine("shell", static_cast<uint64_t>(std::max(progress.shell, 0)),
+                 static_cast<uint64_t>(std::max(progress.last_shell, 0)),
+                 exporting::GroupedDigits(progress.removed) + " points removed, " +
+                     exporting::GroupedDigits(progress.remaining) + " left  ",
+                 elapsed);
 }
 
 ProgressBar::Form ProgressBar::FormOf(ProgressStyle style) {
@@ -137,17 +143,25 @@ ProgressBar::~ProgressBar() {
 
 std::function<void(const exec::ShellProgress&)> ProgressBar::Callback() {
   if (form_ == Form::kNothing) return {};
-  return [this](const exec::ShellProgress& progress) { Show(progress); };
+  return [this](const exec::ShellProgress& progress) {
+    Show(ProgressLine(progress, elapsed()), progress.shell >= progress.last_shell);
+  };
 }
 
-void ProgressBar::Show(const exec::ShellProgress& progress) {
-  const Clock::time_point now = Clock::now();
-  const std::string line = ProgressLine(progress, now - start_);
+std::function<void(uint64_t, uint64_t)> ProgressBar::LabelsCallback() {
+  if (form_ == Form::kNothing) return {};
+  return [this](uint64_t done, uint64_t total) {
+    Show(BarLine("label", done, total, "", elapsed()), done >= total);
+  };
+}
+
+void ProgressBar::Show(const std::string& line, bool last) {
   if (form_ == Form::kLines) {
     std::fprintf(stderr, "%s\n", line.c_str());
     return;
   }
-  if (now - shown_ < kRedrawPause && progress.shell < progress.last_shell) return;
+  const Clock::time_point now = Clock::now();
+  if (now - shown_ < kRedrawPause && !last) return;
   std::fprintf(stderr, "\r%s\033[K", line.c_str());  // and clears what a longer line left
   std::fflush(stderr);
   shown_ = now;

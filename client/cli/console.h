@@ -55,6 +55,8 @@ ExitCode FailWith(ExitCode code, const absl::Status& error);
 
 // For what went wrong between the user and a server, which it names. A hint of its own says what
 // else may be wrong with the connection.
+inline constexpr std::string_view kNoServerHint =
+    "start bccskel-server, name another with --server, or compute here with --local";
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint = "");
 
@@ -74,15 +76,18 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // What a job calls after each shell; empty when nothing is to be shown.
+  // What a job calls after each shell, or after some labels of so many; empty when nothing is to be
+  // shown.
   std::function<void(const exec::ShellProgress&)> Callback();
+  std::function<void(uint64_t done, uint64_t total)> LabelsCallback();
 
  private:
   enum class Form { kNothing, kBar, kLines };
   static Form FormOf(ProgressStyle style);
-  void Show(const exec::ShellProgress& progress);
-
   using Clock = std::chrono::steady_clock;
+  void Show(const std::string& line, bool last);
+  Clock::duration elapsed() const { return Clock::now() - start_; }
+
   Form form_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_;

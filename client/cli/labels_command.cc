@@ -25,63 +25,13 @@
 #include "client/export/picture/caption.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
+#include "client/skeletonize_client.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/image_info.h"
 #include "core/import/image/open_image.h"
 #include "core/labels/skeletonize_labels.h"
 
 namespace bccskel::cli {
-
-// The output files of the skeletons of many labels.
-class LabelFiles {
- public:
-  // Needs: CheckLabelOutput() is OK for all.
-  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
-             exporting::World world, exporting::CurveSampling swc);
-
-  // Writes the label's own files, and keeps what goes into the files of all labels.
-  // Errors: as WriteSkeletonFile().
-  absl::Status Add(LabelSkeleton&& skeleton);
-
-  // Writes the files of all labels. Errors: as above; CANCELLED.
-  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) &&;
-
- private:
-  std::vector<std::string> paths_of_each_;
-  std::vector<std::string> paths_of_all_;
-  const std::optional<RootChoice> root_;
-  const exporting::World world_;
-  const exporting::CurveSampling swc_;
-  exporting::LabeledSkeletons all_;
-  uint64_t labels_ = 0;
-};
-
-// What is said of one label.
-struct LabelFigures {
-  uint64_t label = 0;
-  uint64_t voxels = 0;
-  uint64_t object_points = 0;
-  uint64_t skeleton_points = 0;
-  size_t nodes = 0;
-  size_t edges = 0;
-  Certificate certificate;
-  std::vector<PreparingStep> preparing;
-  std::string sha256;
-};
-LabelFigures FiguresOf(const LabelSkeleton& skeleton);
-
-// All that `labels` has to say at its end.
-struct LabelsSummary {
-  const LabelsArguments& arguments;
-  const ImageInfo& info;
-  uint64_t left_out = 0;
-  std::vector<LabelFigures> labels;
-  std::vector<WrittenFile> files;
-  double seconds = 0;
-};
-
-// Text, or one JSON object on one line, as the arguments ask.
-std::string LabelsSummaryOf(const LabelsSummary& summary);
 
 namespace {
 
@@ -114,44 +64,84 @@ absl::Status CheckLabelOutput(const std::string& path) {
       ".graphml, .json, .csv, .glb or .mrk.json file or a .precomputed folder");
 }
 
-LabelFiles::LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
-                       exporting::World world, exporting::CurveSampling swc)
-    : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
-  for (const std::string& path : paths) {
-    (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
-  }
-}
-
-absl::Status LabelFiles::Add(LabelSkeleton&& skeleton) {
-  const std::string title = "label " + std::to_string(skeleton.label);
-  const exporting::Subject subject = {.result = skeleton.result,
-                                      .object = skeleton.result.thin,
-                                      .title = title,
-                                      .root = root_,
-                                      .world = world_,
-                                      .swc = swc_};
-  for (const std::string& path : paths_of_each_) {
-    BCCSKEL_RETURN_IF_ERROR(
-        exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
-  }
-  ++labels_;
-  if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
-  return absl::OkStatus();
-}
-
-absl::StatusOr<std::vector<WrittenFile>> LabelFiles::Finish(const std::stop_token& stop) && {
-  std::vector<WrittenFile> files;
-  for (const std::string& path : paths_of_each_) {
-    files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
-  }
-  for (const std::string& path : paths_of_all_) {
-    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteLabeledFile(path, all_, stop));
-    files.push_back({path, std::move(note)});
-  }
-  return files;
-}
-
 namespace {
+
+// The output files of the skeletons of many labels.
+class LabelFiles {
+ public:
+  // Needs: CheckLabelOutput() is OK for all.
+  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
+             exporting::World world, exporting::CurveSampling swc)
+      : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
+    for (const std::string& path : paths) {
+      (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
+    }
+  }
+
+  // Writes the label's own files, and keeps what goes into the files of all labels.
+  // Errors: as WriteSkeletonFile().
+  absl::Status Add(LabelSkeleton&& skeleton) {
+    const std::string title = "label " + std::to_string(skeleton.label);
+    const exporting::Subject subject = {.result = skeleton.result,
+                                        .object = skeleton.result.thin,
+                                        .title = title,
+                                        .root = root_,
+                                        .world = world_,
+                                        .swc = swc_};
+    for (const std::string& path : paths_of_each_) {
+      BCCSKEL_RETURN_IF_ERROR(
+          exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
+    }
+    ++labels_;
+    if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
+    return absl::OkStatus();
+  }
+
+  // Writes the files of all labels. Errors: as above; CANCELLED.
+  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) && {
+    std::vector<WrittenFile> files;
+    for (const std::string& path : paths_of_each_) {
+      files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
+    }
+    for (const std::string& path : paths_of_all_) {
+      BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteLabeledFile(path, all_, stop));
+      files.push_back({path, std::move(note)});
+    }
+    return files;
+  }
+
+ private:
+  std::vector<std::string> paths_of_each_;
+  std::vector<std::string> paths_of_all_;
+  const std::optional<RootChoice> root_;
+  const exporting::World world_;
+  const exporting::CurveSampling swc_;
+  exporting::LabeledSkeletons all_;
+  uint64_t labels_ = 0;
+};
+
+// What is said of one label.
+struct LabelFigures {
+  uint64_t label = 0;
+  uint64_t voxels = 0;
+  uint64_t object_points = 0;
+  uint64_t skeleton_points = 0;
+  size_t nodes = 0;
+  size_t edges = 0;
+  Certificate certificate;
+  std::vector<PreparingStep> preparing;
+  std::string sha256;
+};
+
+// All that `labels` has to say at its end.
+struct LabelsSummary {
+  const LabelsArguments& arguments;
+  const ImageInfo& info;
+  uint64_t left_out = 0;
+  std::vector<LabelFigures> labels;
+  std::vector<WrittenFile> files;
+  double seconds = 0;
+};
 
 using exporting::Counted;
 using exporting::GroupedDigits;
@@ -273,8 +263,6 @@ std::string SummaryJson(const LabelsSummary& summary) {
   return std::move(text).Take();
 }
 
-}  // namespace
-
 LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
   const SkeletonizeResult& result = skeleton.result;
   return {.label = skeleton.label,
@@ -288,12 +276,11 @@ LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
           .sha256 = result.sha256};
 }
 
+// Text, or one JSON object on one line, as the arguments ask.
 std::string LabelsSummaryOf(const LabelsSummary& summary) {
   const bool json = summary.arguments.common.summary == SummaryStyle::kJson;
   return json ? SummaryJson(summary) : SummaryText(summary);
 }
-
-namespace {
 
 using Clock = std::chrono::steady_clock;
 
@@ -314,18 +301,64 @@ absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
   return labels;
 }
 
-// Writes each label's files as soon as it is done, and remembers what the summary says of it.
-absl::Status Deliver(LabelSkeleton&& skeleton, LabelFiles& files,
-                     std::vector<LabelFigures>& figures) {
-  figures.push_back(FiguresOf(skeleton));
-  return files.Add(std::move(skeleton));
+absl::Status OnServer(const LabelsArguments& arguments, const LabeledObjects& labels,
+                      const LabelConsumer& consume, const std::stop_token& stop) {
+  const client::DenseLabels image = client::DenseLabelsOf(labels);
+  client::LabelsCallOptions options;
+  options.skeletonize = arguments.skeletonize;
+  options.adjacency = arguments.image.mask.adjacency;
+  options.points = arguments.image.mask.points;
+  options.threads = arguments.common.threads;
+  options.timeout = arguments.timeout;
+  options.stop = stop;
+  BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
+  BCCSKEL_ASSIGN_OR_RETURN(auto connection, client::Connect(endpoint));
+  return client::SkeletonizeClient(std::move(connection))
+      .SkeletonizeLabels({labels.grid, image.label_bytes, image.voxels}, options, consume)
+      .status();
+}
+
+absl::Status Compute(const LabelsArguments& arguments, const LabeledObjects& labels,
+                     const LabelConsumer& consume, exec::Context context) {
+  if (arguments.place == Place::kServer) {
+    return OnServer(arguments, labels, consume, context.stop);
+  }
+  context.deadline = Clock::now() + arguments.timeout;
+  return SkeletonizeLabels(
+      labels, {.mask = arguments.image.mask, .skeleton = arguments.skeletonize}, consume, context);
+}
+
+ExitCode FailComputing(const LabelsArguments& arguments, const absl::Status& error) {
+  if (arguments.place != Place::kServer) return Fail(WithPath(error, arguments.input));
+  return FailOnServer(arguments.server, error,
+                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
 }
 
 }  // namespace
 
-void AddLabelsCommand(CLI::App& command, LabelsArguments& arguments) {
-  AddLabels(command, arguments);
-  AddCommonHere(command, arguments.common);
+void AddLabels(CLI::App& command, LabelsArguments& arguments) {
+  command.add_option("IMAGE", arguments.input, "Image file of labels")
+      ->required()
+      ->option_text(" ");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "Output file: with {label} in its path one file per label, in any format but "
+                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or "
+                  ".precomputed; "
+                  "may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE (required)");
+  AddSwcStep(command, arguments.swc);
+  AddLabelImage(command, arguments.image);
+  AddMinVoxels(command, arguments.min_voxels);
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  AddPlace(command, arguments.server, arguments.place);
+  AddThreads(command, arguments.common, kThreadsBoth);
+  AddProgress(command, arguments.progress);
+  AddSeconds(command, "--timeout", arguments.timeout,
+             "Give up after this many seconds (default 3600)");
+  AddJson(command, arguments.common);
 }
 
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
@@ -335,16 +368,21 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   if (!labels.ok()) return Fail(labels.status());
   LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc);
   std::vector<LabelFigures> figures;
-  absl::Status writing;
-  const absl::Status computed = SkeletonizeLabels(
-      labels->objects, {.mask = arguments.image.mask, .skeleton = arguments.skeletonize},
-      [&](LabelSkeleton&& skeleton) {
-        writing = Deliver(std::move(skeleton), files, figures);
-        return writing;
-      },
-      team.context());
+  absl::Status writing, computed;
+  {
+    ProgressBar bar(arguments.progress);
+    const auto on_label = bar.LabelsCallback();
+    // Writes each label's files as soon as it is done.
+    const auto deliver = [&](LabelSkeleton&& skeleton) {
+      figures.push_back(FiguresOf(skeleton));
+      writing = files.Add(std::move(skeleton));
+      if (on_label) on_label(figures.size(), labels->objects.objects.size());
+      return writing;
+    };
+    computed = Compute(arguments, labels->objects, deliver, team.context());
+  }
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
-  if (!computed.ok()) return Fail(WithPath(computed, arguments.input));
+  if (!computed.ok()) return FailComputing(arguments, computed);
   absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),

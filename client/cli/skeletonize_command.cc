@@ -248,10 +248,7 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
 ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (arguments.place != Place::kServer) return Fail(error);
   return FailOnServer(arguments.server, error,
-                      absl::IsUnavailable(error)
-                          ? "start bccskel-server, name another with --server, or compute here "
-                            "with `bccskel skeletonize --local`"
-                          : "");
+                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
 }
 
 // The one invalid argument of writing is an object with coordinates that no format can hold.
@@ -312,17 +309,7 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
-  CLI::Option_group& server = *command.add_option_group("Server", "Compute on a server instead");
-  CLI::Option* address = AddServer(server, arguments.server);
-  arguments.place = Place::kHere;
-  server.parse_complete_callback([&server, &arguments] {
-    if (server.count_all() > 0) arguments.place = Place::kServer;
-  });
-  command
-      .add_flag_callback(
-          "--local", [&arguments] { arguments.place = Place::kLocal; },
-          "Compute on this machine, without a server (default, unless a server is named)")
-      ->excludes(address);
+  AddPlace(command, arguments.server, arguments.place);
   AddRunOptions(command, arguments);
 }
 

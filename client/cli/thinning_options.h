@@ -29,9 +29,6 @@ void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling);
 // Adds --min-voxels.
 void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
 
-// Adds the options of `labels` without those that all commands know.
-void AddLabels(CLI::App& command, LabelsArguments& arguments);
-
 // What is wrong with options of a skeleton that are right one by one; nothing where they fit.
 std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options);
 

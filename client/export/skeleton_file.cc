@@ -140,8 +140,11 @@ absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;
   }
-  return absl::InvalidArgumentError(path + ": no output format has this ending; there are " +
-                                    SkeletonFormatEndings());
+  const bool picture = lower.ends_with(".png");
+  return absl::InvalidArgumentError(
+      path + ": no output format has this ending; " +
+      (picture ? "`bccskel render` draws pictures of a result, a .json file"
+               : "there are " + SkeletonFormatEndings()));
 }
 
 std::string SkeletonFormatEndings() {

@@ -32,7 +32,6 @@ class PhaseComponents {
   void LinkRow(int32_t y);
   void LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other);
   void LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b);
-  void JoinOutside(std::span<PhaseRun> row);
   void Join(uint32_t a, uint32_t b);
   uint32_t Find(uint32_t set);
   void Renumber();

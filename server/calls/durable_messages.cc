@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/result.h"
@@ -47,6 +48,8 @@ void SetTimes(const JobInfo& job, v1::Job& message) {
 
 constexpr size_t kMaxRequestIdBytes = 128;
 constexpr int kMaxPageSize = 1000, kDefaultPageSize = 50;
+constexpr int kMaxKeys = 256;
+constexpr size_t kBlobDigestBytes = 32;
 
 absl::Status CheckRequestId(const std::string& id) {
   const auto printable = [](char c) { return c > ' ' && c <= '~'; };
@@ -182,6 +185,24 @@ absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request) {
     query.states.push_back(known);
   }
   return query;
+}
+
+absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request) {
+  if (request.volumes().empty() || request.volumes_size() > kMaxKeys) {
+    return InvalidField("volumes",
+                        absl::StrCat(request.volumes_size(), " keys, must be 1 to ", kMaxKeys));
+  }
+  std::vector<StoredKey> keys;
+  for (const v1::VolumeKey& key : request.volumes()) {
+    if (key.blob_sha256().size() != kBlobDigestBytes) {
+      return InvalidField(
+          "volumes.blob_sha256",
+          absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kBlobDigestBytes));
+    }
+    keys.push_back(
+        {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
+  }
+  return keys;
 }
 
 }  // namespace bccskel::server

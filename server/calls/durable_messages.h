@@ -4,6 +4,7 @@
 #include <google/protobuf/timestamp.pb.h>
 
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "bccskel/v1/job_service.pb.h"
@@ -24,10 +25,20 @@ v1::JobState ToMessage(JobState state);
 absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field);
 absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field);
 
-// What callers of JobService send, as DurableJobs takes it. Errors: INVALID_ARGUMENT with the
-// field.
+// A volume as DurableJobs stores it.
+struct StoredKey {
+  std::string declaration;
+  std::string digest;
+
+  bool IsOf(const VolumeInfo& volume) const {
+    return volume.blob_digest == digest && volume.declaration == declaration;
+  }
+};
+
+// What callers send, as DurableJobs takes it. Errors: INVALID_ARGUMENT with the field.
 absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request);
 absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request);
+absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request);
 
 }  // namespace bccskel::server
 

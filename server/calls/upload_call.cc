@@ -148,7 +148,7 @@ void UploadCall::Create() {
 void UploadCall::Resume(const UploadInfo& upload) {
   if (upload.declaration != declaration_) {
     return End(CallError(Reason::kUploadExists,
-                         absl::StrCat(upload_, " was begun with another declaration")));
+                         absl::StrCat(upload_, " was started with another declaration")));
   }
   open_ = true;
   complete_ = !upload.volume.empty();

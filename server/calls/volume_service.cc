@@ -2,15 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/escaping.h"
-#include "absl/strings/str_cat.h"
-#include "core/exec/status_macros.h"
 #include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
-#include "server/calls/message_codec.h"
 #include "server/calls/services.h"
 #include "server/calls/unary_answer.h"
-#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -20,36 +15,6 @@ constexpr Method kGetUploadStatus{"VolumeService/GetUploadStatus", Method::Kind:
 constexpr Method kDeleteUpload{"VolumeService/DeleteUpload"};
 constexpr Method kFindMissingVolumes{"VolumeService/FindMissingVolumes", Method::Kind::kQuestion};
 constexpr Method kDeleteVolume{"VolumeService/DeleteVolume"};
-
-constexpr int kMaxKeys = 256;
-constexpr size_t kDigestBytes = 32;
-
-// A volume as DurableJobs stores it.
-struct StoredKey {
-  std::string declaration;
-  std::string digest;
-
-  bool IsOf(const VolumeInfo& volume) const {
-    return volume.blob_digest == digest && volume.declaration == declaration;
-  }
-};
-
-absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request) {
-  if (request.volumes().empty() || request.volumes_size() > kMaxKeys) {
-    return InvalidField("volumes",
-                        absl::StrCat(request.volumes_size(), " keys, must be 1 to ", kMaxKeys));
-  }
-  std::vector<StoredKey> keys;
-  for (const v1::VolumeKey& key : request.volumes()) {
-    if (key.blob_sha256().size() != kDigestBytes) {
-      return InvalidField("volumes.blob_sha256",
-                          absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kDigestBytes));
-    }
-    keys.push_back(
-        {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
-  }
-  return keys;
-}
 
 std::string NameOf(const StoredKey& key, const std::vector<VolumeInfo>& volumes) {
   for (const VolumeInfo& volume : volumes) {

@@ -73,7 +73,7 @@ void DurableJobs::DropResult(const ResultRow& row, std::function<void()> then) {
       },
       [this, row, dropped, then = std::move(then)](const absl::Status& status) {
         if (status.ok() && *dropped) {
-          options_.on_warning("a stored result is damaged: equal jobs make it anew");
+          options_.on_warning("a stored result is damaged; the next equal job recomputes it");
           RemoveResult(row, blobs_, quota_);
         }
         then();

@@ -51,7 +51,8 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   void Append(std::string bytes, std::function<void(absl::Status)> room);
   void FinishVolume();
 
-  // From a file, which is read on `threads`. A damaged file ends the run with DATA_LOSS.
+  // From a file, which is read on `threads`. A damaged file ends the run with DATA_LOSS, also where
+  // its bytes do not decode.
   void Feed(CheckedFile file, TaskThreads& threads);
 
   // Ends the run soon; OnRunEnd() comes all the same.
@@ -70,6 +71,8 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
 
  private:
   void FeedNext();
+  void CheckRest(const absl::Status& error);
+  void End(absl::StatusOr<JobResult> result);
 
   RunObserver& observer_;
   const std::string tenant_;
@@ -77,7 +80,7 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   std::shared_ptr<Job> job_;  // set by Start()
   std::atomic<bool> cancelled_{false};
   TaskThreads* threads_ = nullptr;   // set by Feed()
-  std::optional<CheckedFile> file_;  // used by one task at a time
+  std::optional<CheckedFile> file_;  // until it is found whole; used by one task at a time
 
   std::mutex mutex_;
   bool ended_ = false;                             // guarded by mutex_

@@ -99,7 +99,7 @@ absl::Status DurableJobs::CheckSameUpload(JobStore& store, const Opening& openin
   }
   if (same) return absl::OkStatus();
   return CallError(Reason::kUploadExists,
-                   absl::StrCat(found.name, " was begun with another declaration or job"));
+                   absl::StrCat(found.name, " was started with another declaration or job"));
 }
 
 absl::Status DurableJobs::StoreReceivingJob(JobStore& store, Opening& opening) {

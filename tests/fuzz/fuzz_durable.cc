@@ -1,8 +1,8 @@
 // Any bytes as what a caller of VolumeService and JobService sends: the first byte chooses the
 // call, length-delimited requests follow. They go through the checks of order and fields to a real
-// DurableJobs, whose jobs wait and compute nothing. "volumes/known" and "jobs/known" stand for
-// names that the tenant has. Every answer is OK or the caller's error with its details, never
-// UNKNOWN or INTERNAL.
+// DurableJobs, whose jobs wait and compute nothing. "uploads/known", "volumes/known" and
+// "jobs/known" stand for names that the tenant has. Every answer is OK or the caller's error with
+// its details, never UNKNOWN or INTERNAL.
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
@@ -13,10 +13,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bccskel/v1/job_service.pb.h"
 #include "bccskel/v1/rpc_details.pb.h"
@@ -116,6 +118,10 @@ absl::StatusOr<UploadInfo> Upload(const NewUpload& wanted) {
       [&](auto done) { TheJobs()->CreateUpload(kTenant, wanted, std::move(done)); });
 }
 
+absl::Status DeleteUpload(const std::string& upload) {
+  return Tell([&](auto done) { TheJobs()->DeleteUpload(kTenant, upload, std::move(done)); });
+}
+
 std::optional<Sha256Digest> DigestIn(const v1::VolumeFinish& finish) {
   Sha256Digest digest;
   if (finish.sha256().size() != digest.bytes.size()) return std::nullopt;
@@ -130,9 +136,7 @@ class UploadCall {
   ~UploadCall() {
     if (name_.empty()) return;
     TheJobs()->SenderGone(kTenant, name_);
-    Tell([&](auto done) {
-      TheJobs()->DeleteUpload(kTenant, name_, std::move(done));
-    }).IgnoreError();
+    DeleteUpload(name_).IgnoreError();
   }
 
   absl::Status Take(Request& request) {
@@ -179,21 +183,30 @@ class UploadCall {
   std::string name_;
 };
 
-// A volume of one empty point set.
-std::string MakeVolume() {
+// Of a cell without points.
+constexpr uint64_t kCellBytes = 8;
+std::string CellDeclaration() {
   v1::VolumeDeclaration declaration;
   declaration.set_encoding(v1::VOLUME_ENCODING_RAW_PLANES);
   declaration.mutable_extent()->set_nx(1);
   declaration.mutable_extent()->set_ny(1);
   declaration.mutable_extent()->set_nz(1);
-  declaration.set_size_bytes(8);
-  const UploadInfo upload = *Upload(
-      {.name = "uploads/known", .declaration = DeclarationBytes(declaration), .then_job = {}});
+  declaration.set_size_bytes(kCellBytes);
+  return DeclarationBytes(declaration);
+}
+
+std::string BeginCell(const std::string& name) {
+  return Upload({.name = name, .declaration = CellDeclaration(), .then_job = {}})->name;
+}
+
+std::string MakeVolume() {
+  const std::string upload = BeginCell("uploads/volume");
   Insist(Ask<uint64_t>([&](auto done) {
-           TheJobs()->Append(kTenant, upload.name, 0, std::string(8, '\0'), {}, std::move(done));
+           TheJobs()->Append(kTenant, upload, 0, std::string(kCellBytes, '\0'), {},
+                             std::move(done));
          }).ok());
   return Ask<VolumeInfo>([&](auto done) {
-           TheJobs()->FinishUpload(kTenant, upload.name, 8, {}, std::move(done));
+           TheJobs()->FinishUpload(kTenant, upload, kCellBytes, {}, std::move(done));
          })
       ->name;
 }
@@ -217,7 +230,32 @@ const std::string& KnownJob() {
   return name;
 }
 
-struct CreateJobCall {
+// Of calls with one request each; here one follows the other.
+struct UnaryCall {
+  static absl::Status HalfClose() { return absl::OkStatus(); }
+};
+
+// The name that a caller gives. One that he has must exist.
+const std::string& JobNamed(const std::string& name) {
+  return name == "jobs/known" ? KnownJob() : name;
+}
+
+// What may go: the known one is made anew. Its name.
+std::string SpareJob(const std::string& name) {
+  if (name != "jobs/known") return name;
+  NewJob job;
+  job.volume = KnownVolume();
+  return Create(job)->name;
+}
+std::string SpareUpload(const std::string& name) {
+  return name == "uploads/known" ? BeginCell("uploads/spare") : name;
+}
+
+absl::Status DeleteJob(const std::string& job) {
+  return Tell([&](auto done) { TheJobs()->DeleteJob(kTenant, job, std::move(done)); });
+}
+
+struct CreateJobCall : UnaryCall {
   using Request = v1::CreateJobRequest;
   static absl::Status Take(const Request& request) {
     BCCSKEL_ASSIGN_OR_RETURN(const NewJob job, NewJobOf(request));
@@ -225,12 +263,11 @@ struct CreateJobCall {
     const v1::Job message = ToMessage(made);
     Insist(message.request_id() == request.request_id());
     if (request.validate_only() || made.name == KnownJob()) return absl::OkStatus();
-    return Tell([&](auto done) { TheJobs()->DeleteJob(kTenant, made.name, std::move(done)); });
+    return DeleteJob(made.name);
   }
-  static absl::Status HalfClose() { return absl::OkStatus(); }
 };
 
-struct ListJobsCall {
+struct ListJobsCall : UnaryCall {
   using Request = v1::ListJobsRequest;
   static absl::Status Take(const Request& request) {
     BCCSKEL_ASSIGN_OR_RETURN(const JobQuery query, QueryOf(request));
@@ -241,19 +278,102 @@ struct ListJobsCall {
     for (const JobInfo& job : page.jobs) ToMessage(job);
     return absl::OkStatus();
   }
-  static absl::Status HalfClose() { return absl::OkStatus(); }
 };
 
-struct WatchJobCall {
+struct GetJobCall : UnaryCall {
+  using Request = v1::GetJobRequest;
+  static absl::Status Take(const Request& request) {
+    const std::string& job = JobNamed(request.job());
+    BCCSKEL_ASSIGN_OR_RETURN(const JobInfo info, Ask<JobInfo>([&](auto done) {
+                               TheJobs()->GetJob(kTenant, job, std::move(done));
+                             }));
+    Insist(ToMessage(info).name() == job);
+    return absl::OkStatus();
+  }
+};
+
+struct CancelJobCall : UnaryCall {
+  using Request = v1::CancelJobRequest;
+  static absl::Status Take(const Request& request) {
+    const std::string job = SpareJob(request.job());
+    BCCSKEL_ASSIGN_OR_RETURN(const JobInfo info, Ask<JobInfo>([&](auto done) {
+                               TheJobs()->CancelJob(kTenant, job, std::move(done));
+                             }));
+    Insist(info.state == JobState::kCancelled);
+    return DeleteJob(job);
+  }
+};
+
+struct DeleteJobCall : UnaryCall {
+  using Request = v1::DeleteJobRequest;
+  static absl::Status Take(const Request& request) { return DeleteJob(SpareJob(request.job())); }
+};
+
+struct WatchJobCall : UnaryCall {
   using Request = v1::WatchJobRequest;
   static absl::Status Take(const Request& request) {
-    const std::string& job = request.job() == "jobs/known" ? KnownJob() : request.job();
+    const std::string& job = JobNamed(request.job());
     const auto watch = TheJobs()->WatchJob(kTenant, job, request.after_sequence(),
                                            std::make_shared<SilentWatcher>());
     return Ask<JobInfo>([&](auto done) { TheJobs()->GetJob(kTenant, job, std::move(done)); })
         .status();
   }
-  static absl::Status HalfClose() { return absl::OkStatus(); }
+};
+
+struct ReadSkeletonCall : UnaryCall {
+  using Request = v1::ReadSkeletonRequest;
+  static absl::Status Take(const Request& request) {
+    const auto reader = Ask<std::shared_ptr<ResultReader>>([&](auto done) {
+      TheJobs()->OpenResult(kTenant, JobNamed(request.job()), request.piece_index(),
+                            std::move(done));
+    });
+    Insist(!reader.ok());  // no job has ended
+    return reader.status();
+  }
+};
+
+struct GetUploadStatusCall : UnaryCall {
+  using Request = v1::GetUploadStatusRequest;
+  static absl::Status Take(const Request& request) {
+    const std::string upload = SpareUpload(request.upload());
+    BCCSKEL_ASSIGN_OR_RETURN(const UploadInfo info, Ask<UploadInfo>([&](auto done) {
+                               TheJobs()->GetUpload(kTenant, upload, std::move(done));
+                             }));
+    Insist(ToMessage(info).name() == upload);
+    return DeleteUpload(upload);
+  }
+};
+
+struct DeleteUploadCall : UnaryCall {
+  using Request = v1::DeleteUploadRequest;
+  static absl::Status Take(const Request& request) {
+    return DeleteUpload(SpareUpload(request.upload()));
+  }
+};
+
+struct FindMissingVolumesCall : UnaryCall {
+  using Request = v1::FindMissingVolumesRequest;
+  static absl::Status Take(const Request& request) {
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<StoredKey> keys, KeysOf(request));
+    std::vector<std::string> digests;
+    for (const StoredKey& key : keys) digests.push_back(key.digest);
+    return Ask<std::vector<VolumeInfo>>(
+               [&](auto done) { TheJobs()->FindVolumes(kTenant, digests, std::move(done)); })
+        .status();
+  }
+};
+
+struct DeleteVolumeCall : UnaryCall {
+  using Request = v1::DeleteVolumeRequest;
+  static absl::Status Take(const Request& request) {
+    KnownJob();  // so that the known volume is needed
+    const std::string& volume =
+        request.volume() == "volumes/known" ? KnownVolume() : request.volume();
+    const absl::Status deleted =
+        Tell([&](auto done) { TheJobs()->DeleteVolume(kTenant, volume, std::move(done)); });
+    Insist(!deleted.ok());
+    return deleted;
+  }
 };
 
 template <typename Call>
@@ -267,18 +387,23 @@ absl::Status Converse(google::protobuf::io::CodedInputStream& input) {
   return call.HalfClose();
 }
 
-absl::Status Answer(int call, google::protobuf::io::CodedInputStream& input) {
-  switch (call) {
-    case 0:
-      return Converse<UploadCall>(input);
-    case 1:
-      return Converse<CreateJobCall>(input);
-    case 2:
-      return Converse<ListJobsCall>(input);
-    default:
-      return Converse<WatchJobCall>(input);
-  }
-}
+using Answerer = absl::Status (*)(google::protobuf::io::CodedInputStream&);
+
+// In the order of the seeds' first bytes.
+constexpr Answerer kCalls[] = {
+    &Converse<UploadCall>,
+    &Converse<CreateJobCall>,
+    &Converse<ListJobsCall>,
+    &Converse<WatchJobCall>,
+    &Converse<GetJobCall>,
+    &Converse<CancelJobCall>,
+    &Converse<DeleteJobCall>,
+    &Converse<ReadSkeletonCall>,
+    &Converse<GetUploadStatusCall>,
+    &Converse<DeleteUploadCall>,
+    &Converse<FindMissingVolumesCall>,
+    &Converse<DeleteVolumeCall>,
+};
 
 void CheckAnswer(const absl::Status& status) {
   const grpc::Status answer = ToGrpcStatus(status);
@@ -297,6 +422,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   google::protobuf::io::ArrayInputStream bytes(data + 1, static_cast<int>(size - 1));
   google::protobuf::io::CodedInputStream input(&bytes);
-  CheckAnswer(Answer(data[0] % 4, input));
+  CheckAnswer(kCalls[data[0] % std::size(kCalls)](input));
   return 0;
 }

@@ -23,6 +23,10 @@ def touching_labels():
     return labels
 
 
+def outputs(paths):
+    return [word for path in paths for word in ("-o", path)]
+
+
 class LabelsTest(harness.TestCase):
     def setUp(self):
         super().setUp()
@@ -53,6 +57,30 @@ class LabelsTest(harness.TestCase):
                 "skeletonize", self.image, "--label", str(label["label"]), "--local", "--json",
                 "-o", self.path("alone.json")))
             self.assertEqual(alone["sha256"], label["sha256"])
+
+    def test_a_server_makes_the_same_skeletons(self):
+        chosen = ("--label", "3-12", "--min-voxels", "2", "--preset", "vessels",
+                  "--adjacency", "6,26", "--voxel-points", "16")
+        with harness.Server(self.folder) as server:
+            for words in ((), chosen):
+                here, there = ([self.path(f"{where}.{ending}") for ending in ("json", "csv", "glb")]
+                               for where in ("here", "there"))
+                local = self.labels(*words, *outputs(here))
+                remote = self.labels(*words, *outputs(there), "--server", server.address)
+                self.assertEqual(local["labels"], remote["labels"])
+                self.assertEqual(local["left_out"], remote["left_out"])
+                for mine, theirs in zip(here[1:], there[1:]):  # the JSON says how long it took
+                    self.assertEqual(pathlib.Path(mine).read_bytes(),
+                                     pathlib.Path(theirs).read_bytes())
+            done = harness.bccskel("labels", self.image, "-o", self.path("a.csv"), "--server",
+                                   server.address, "--progress", "always")
+            self.assertIn("] label 5/5  ", done.stderr)
+            for words, message in ((("--sampling", "nearest", "-o", self.path("a.csv")),
+                                    "--sampling is for this machine"),
+                                   (("-o", self.path("{label}.exr")), "no thinned volumes")):
+                self.fail_with(2, message, "labels", self.image, "--server", server.address, *words)
+        self.fail_with(4, "compute here with --local", "labels", self.image, "--server",
+                       server.address, "-o", self.path("a.csv"))
 
     def test_a_list_and_a_smallest_size_choose(self):
         summary = self.labels("--label", "1,3,8", "--min-voxels", "2", "-o", self.path("a.vtp"))

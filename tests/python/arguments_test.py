@@ -24,6 +24,7 @@ class ArgumentsTest(harness.TestCase):
     def test_masks(self):
         refuse = lambda error, message, mask: self.refuse(error, message, bccskel.skeletonize, mask)
         refuse(ValueError, "mask must have 3 axes, got shape (5, 5)", numpy.ones((5, 5)))
+        refuse(TypeError, "mask must be an array, got a path: read('a.nii') reads the file", "a.nii")
         refuse(ValueError, "mask must not be empty, got shape (3, 0, 2)", numpy.ones((3, 0, 2)))
         refuse(TypeError, "mask must hold booleans or real numbers, got dtype complex128",
                numpy.ones((2, 2, 2), complex))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import os
 from typing import Any
 
 import numpy as np
@@ -129,6 +130,8 @@ def _three(name: str, value: Any) -> np.ndarray:
 def voxels_of(array: Any, name: str) -> np.ndarray:
     """An array of three axes with a type that the extension module takes, copied only where its
     type is another."""
+    if isinstance(array, (str, os.PathLike)):
+        raise TypeError(f"{name} must be an array, got a path: read({str(array)!r}) reads the file")
     if isinstance(array, np.ma.MaskedArray):
         array = array.filled(0)
     array = np.asarray(array)

@@ -46,9 +46,9 @@ class Skeleton:
         self._frame = frame
         self._of_voxels = voxels
         self.unit = getattr(image, "unit", unit)
-        """Of coordinates, radii and lengths: "mm", "um", ...; empty where nobody said."""
+        """Of coordinates, radii and lengths: "mm", "um", ...; empty if unknown."""
         self.world = getattr(image, "world", world)
-        """What the axes point to: "RAS", "LPS", ...; empty where nobody said."""
+        """What the axes point to: "RAS", "LPS", ...; empty if unknown."""
         self.title = title
         """Of pages and pictures."""
         self.label = label

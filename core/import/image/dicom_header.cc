@@ -97,8 +97,8 @@ absl::Status ReadPlace(const Places& places, DicomFrame& frame) {
       places.TextOf(DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient);
   if (position.empty() || orientation.empty()) {
     return absl::InvalidArgumentError(
-        "there is no ImagePositionPatient or no ImageOrientationPatient, so nobody knows where the "
-        "slice lies");
+        "there is no ImagePositionPatient or no ImageOrientationPatient, so the position of the "
+        "slice is unknown");
   }
   BCCSKEL_ASSIGN_OR_RETURN(frame.position, Numbers<3>("ImagePositionPatient", position));
   BCCSKEL_RETURN_IF_ERROR(ReadOrientation(orientation, frame));
@@ -143,7 +143,9 @@ absl::StatusOr<DicomKind> KindOf(DcmItem& data) {
   if (Text(data, DCM_SOPClassUID) != kSegmentationClass) return DicomKind::kImage;
   if (const std::string type = Text(data, DCM_SegmentationType); type != "BINARY") {
     return absl::UnimplementedError(absl::StrFormat(
-        "a segmentation of the type '%s' is not read, only BINARY", type.substr(0, 40)));
+        "a segmentation of the type '%s' is not read, only BINARY; threshold it first, and store "
+        "it as a binary one, NIfTI or NRRD",
+        type.substr(0, 40)));
   }
   return DicomKind::kSegmentation;
 }

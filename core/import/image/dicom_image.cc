@@ -91,8 +91,10 @@ absl::Status LoadExpanded(const std::string& path, DcmFileFormat& file) {
   const OFCondition expanded =
       file.getDataset()->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
   if (expanded.good()) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrFormat("its voxels (%s) cannot be expanded: %s",
-                                                    stored.getXferName(), expanded.text()));
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "its voxels (%s) cannot be expanded: %s; `gdcmconv --raw` of GDCM writes files without "
+      "compression",
+      stored.getXferName(), expanded.text()));
 }
 
 // The first `needed` bytes of voxels.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -143,6 +144,22 @@ WorldPoint StepVector(const std::vector<Placed>& frames, double step) {
   return Sum({0, 0, 0}, 1 / steps, way);
 }
 
+// Slices of a tilted gantry are each moved against the one before within their plane.
+absl::Status CheckStraight(const DicomFrame& first, const WorldPoint& along_z) {
+  constexpr double kMostLean = 1e-3;  // of the step, as for every image
+  const WorldPoint normal = Cross(first.along_row, first.along_column);
+  const double step = Dot(normal, along_z);
+  const WorldPoint aside = Sum(along_z, -step, normal);
+  const double moved = std::sqrt(Dot(aside, aside));
+  if (moved <= kMostLean * std::abs(step)) return absl::OkStatus();
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  return absl::InvalidArgumentError(
+      absl::StrFormat("each slice is moved by %.3g mm against the one before, as by a gantry "
+                      "tilted by %.1f degrees; "
+                      "resample the series to a straight grid first",
+                      moved, kDegrees * std::atan2(moved, std::abs(step))));
+}
+
 }  // namespace
 
 absl::StatusOr<DicomStack> StackFrames(std::vector<DicomFrame> unsorted, DicomGaps gaps,
@@ -151,6 +168,7 @@ absl::StatusOr<DicomStack> StackFrames(std::vector<DicomFrame> unsorted, DicomGa
   BCCSKEL_ASSIGN_OR_RETURN(const double step, StepOf(frames, gaps));
   const DicomFrame first = frames.front().frame;
   const WorldPoint along_z = StepVector(frames, step);
+  BCCSKEL_RETURN_IF_ERROR(CheckStraight(first, along_z));
   const double slices = std::round((frames.back().along - frames.front().along) / step) + 1;
   const double most = static_cast<double>(limits.max_axis_voxels) + 1;
   const std::array<int64_t, 3> lengths = {first.columns, first.rows,

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,15 @@ TEST_F(DurableResultsTest, TellsADamagedVolume) {
   EXPECT_EQ(ended.error.code(), absl::StatusCode::kDataLoss);
   EXPECT_THAT(std::string(ended.error.message()), HasSubstr(Sha256Of("volume").Hex()));
   EXPECT_EQ(runner_->computed(), 0) << "nothing is computed from damaged bytes";
+  EXPECT_EQ(Upload("clinic", "volume"), volume) << "sending it again mends it";
+  EXPECT_EQ(WaitForEnd("clinic", CreateName("clinic", JobOf(volume))).state, JobState::kSucceeded);
+}
+
+TEST_F(DurableResultsTest, TellsADamagedVolumeThatCannotBeDecodedFromOneThatCameSo) {
+  const std::string volume = Upload("clinic", "volume");
+  std::ofstream(FilesIn("blobs").at(0), std::ios::in) << "vol!";
+  const JobInfo ended = WaitForEnd("clinic", CreateName("clinic", JobOf(volume)));
+  EXPECT_EQ(ended.error.code(), absl::StatusCode::kDataLoss) << ended.error;
   EXPECT_EQ(Upload("clinic", "volume"), volume) << "sending it again mends it";
   EXPECT_EQ(WaitForEnd("clinic", CreateName("clinic", JobOf(volume))).state, JobState::kSucceeded);
 }

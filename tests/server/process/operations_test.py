@@ -141,7 +141,7 @@ class MetricsTest(unittest.TestCase):
                 stub = example.service_grpc.SkeletonizationServiceStub(channel)
                 with self.assertRaises(grpc.RpcError):
                     list(stub.Skeletonize(iter([example.service.SkeletonizeRequest()])))
-            lines = server_process.metrics(page)
+            lines = server_process.metrics_after(page, 2, "bccskel_calls_total")
         method = 'method="/bccskel.v1.SkeletonizationService/Skeletonize"'
         for name, value in {
                 f'bccskel_calls_total{{code="OK",{method},reason=""}}': 1,
@@ -177,7 +177,7 @@ class MetricsTest(unittest.TestCase):
                     self.assertEqual(example.error_reason(raised.exception), "VOLUME_SIZE")
                 name = ('bccskel_jobs_total{code="INVALID_ARGUMENT",reason="VOLUME_SIZE",'
                         'tenant="default"}')
-                lines = server_process.metrics_after_jobs(page, 2)
+                lines = server_process.metrics_after(page, 2)
         self.assertEqual(lines.get(name), "2",
                          {name: value for name, value in lines.items() if "jobs_total" in name})
 
@@ -233,8 +233,7 @@ class LoadTest(unittest.TestCase):
             with contextlib.ExitStack() as idle:
                 for _ in range(2 * SPARE_FILES):
                     idle.enter_context(socket.create_connection((host, int(port))))
-                while "connections wait" not in server.log_text():
-                    time.sleep(0.05)
+                server.wait_for_event("connections wait")
             self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
             self.assertEqual(server.stop(), 0)
             self.assertIn("connections are taken again", server.log_text())

@@ -66,7 +66,7 @@ class SilentSenderTest(unittest.TestCase):
                 self.assertIn("sender-timeout-ms", details)
             done = durable.patiently(lambda: example.skeletonize(channel, example.torus()))
             self.assertEqual(done.summary.certificate.skeleton.loops, 1)
-            lines = server_process.metrics_after_jobs(page, 3)
+            lines = server_process.metrics_after(page, 3)
         self.assertEqual(lines['bccskel_jobs_total{code="ABORTED",reason="SENDER_TIMEOUT",'
                                'tenant="default"}'], "2")
 

@@ -54,6 +54,12 @@ class ServerProcess:
         self.log.seek(0)
         return self.log.read()
 
+    def wait_for_event(self, event):
+        """Until the log tells of it: its thread may write later than a call is answered. The
+        test's time limit ends it."""
+        while f'"event":"{event}"' not in self.log_text():
+            time.sleep(0.02)
+
     def forget_peak(self):
         """The peak is what it takes now."""
         pathlib.Path(f"/proc/{self.process.pid}/clear_refs").write_text("5")
@@ -72,12 +78,12 @@ def metrics(page):
     return dict(line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
 
 
-def metrics_after_jobs(page, number):
-    """The same, as soon as so many jobs have ended. The test's time limit ends it."""
+def metrics_after(page, number, counter="bccskel_jobs_total"):
+    """The same, as soon as the counter's series sum up to the number: callers may hear of an end
+    before it is counted. The test's time limit ends it."""
     while True:
         lines = metrics(page)
-        if sum(float(value) for name, value in lines.items()
-               if name.startswith("bccskel_jobs_total")) >= number:
+        if sum(float(value) for name, value in lines.items() if name.startswith(counter)) >= number:
             return lines
         time.sleep(0.01)
 

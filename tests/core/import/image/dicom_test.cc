@@ -148,7 +148,8 @@ TEST(Dicom, WhatIsNoStackOfSlicesIsRefused) {
        [&](int z, DcmDataset& slice) {
          at(slice, {7, 8, z < 3 ? 2.0 * z : 2.0 * z + 0.7});
        }},
-      {"not perpendicular",
+      {"each slice is moved by 0.5 mm against the one before, as by a gantry tilted by 14.0 "
+       "degrees",
        [&](int z, DcmDataset& slice) {
          at(slice, {7, 0.5 * z, 2.0 * z});
        }},
