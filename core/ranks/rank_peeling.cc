@@ -51,7 +51,7 @@ class Peeling {
     BCCSKEL_ASSIGN_OR_RETURN(
         const RankShells shells,
         MeasureShells(exchange_, bricks, distance_, options_.shell_width,
-                      IsSymmetric() ? Depths::kWanted : Depths::kNone, context_));
+                      DepthsOf(options_.method), context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
     Checkpoints checkpoints(exchange_, bricks, checkpoint_options_, distance_, options_);

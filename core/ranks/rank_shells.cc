@@ -80,7 +80,7 @@ class EuclideanRounds {
   // Errors: OUT_OF_RANGE where T is too small for the distances of the object.
   absl::Status Run(const LayerOwners& layers, const Volume& volume) {
     EuclideanParts<T> parts(volume.brick_count());
-    MeasureWithinLayers(volume, context_, parts);
+    MeasureWithinLayers(volume, SideRunsOf(volume, context_), context_, parts);
     const ColumnRounds columns(exchange_, layers, volume, kSquares * sizeof(T));
     for (size_t round = 0; round < columns.rounds(); ++round) {
       BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange_, context_));

@@ -29,21 +29,15 @@ class ShellStore {
   RankShells Finish() &&;
 
  private:
-  struct Planes {
-    explicit Planes(size_t bricks) : planes(bricks + 1), ranges(bricks) { planes.back() = {}; }
-
-    exec::UninitializedVector<ShellPlanes> planes;
-    std::vector<Shells::Range> ranges;
-  };
-  static Shells ShellsOf(Planes planes, int32_t last);
   void Keep(Unpacker& from);
 
   Exchange& exchange_;
   const RankBricks& bricks_;
   const double shell_width_;
   const Depths depths_;
-  Planes shells_;
-  Planes deep_;  // its ranges are not used
+  exec::UninitializedVector<ShellPlanes> planes_;
+  std::vector<Shells::Range> ranges_;
+  BrickDepths deep_;
 };
 
 }  // namespace bccskel::ranks

@@ -115,6 +115,12 @@ PlanesOfBricks PlanesFor(const Volume& object) {
   return planes;
 }
 
+BrickDepths DepthsFor(const Volume& object) {
+  BrickDepths depths(object.brick_count() + 1);
+  depths.back() = {};
+  return depths;
+}
+
 // Slices distances while they are at hand.
 class StreamSlicer : public DistanceSink {
  public:
@@ -149,20 +155,50 @@ class StreamSlicer : public DistanceSink {
 
 constexpr size_t kSliceWork = 16;  // in the unit of Context::WorkersFor()
 
-Shells SliceAll(const Volume& object, const DistanceField& distance, double width,
-                const exec::Context& context) {
-  const FieldSlicer slice(object, distance, width);
-  PlanesOfBricks planes = PlanesFor(object);
-  std::vector<Shells::Range> ranges(object.brick_count());
+template <typename Slice>
+void SliceAll(const Volume& object, const exec::Context& context, Slice slice) {
   exec::Portions portions(object.brick_count(), 64);
   context.Offer(context.WorkersFor(object.brick_count(), kSliceWork), [&](int) {
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       context.Rest();
-      for (size_t n = mine.begin; n < mine.end; ++n) ranges[n] = slice(n, planes[n]);
+      for (size_t n = mine.begin; n < mine.end; ++n) slice(n);
     }
   });
-  return Shells(std::move(planes), std::move(ranges));
 }
+
+// Slices Euclidean distances while they are at hand.
+class SquareSlicer : public SquareSink {
+ public:
+  SquareSlicer(const Volume& object, double width, Depths depths)
+      : shell_(width),
+        depth_(DepthWidth(AxisScaleOf(object.placement()))),
+        planes_(PlanesFor(object)),
+        ranges_(object.brick_count()) {
+    if (depths == Depths::kWanted) depths_ = DepthsFor(object);
+  }
+
+  void Take(BrickIndex brick, const uint16_t* squares) override { Slice(brick, squares); }
+  void Take(BrickIndex brick, const float* squares) override { Slice(brick, squares); }
+
+  EuclideanShells Finish(std::optional<DistanceField> distance) && {
+    return {Shells(std::move(planes_), std::move(ranges_)), std::move(depths_),
+            std::move(distance)};
+  }
+
+ private:
+  template <typename T>
+  void Slice(BrickIndex brick, const T* squares) {
+    const SquaredRange range = SliceBrick(shell_, squares, planes_[brick]);
+    ranges_[brick] = {shell_(range.smallest), shell_(range.largest)};
+    if (!depths_.empty()) SliceDepths(depth_, squares, depths_[brick]);
+  }
+
+  const EuclideanShellRule shell_;
+  const EuclideanShellRule depth_;
+  PlanesOfBricks planes_;
+  std::vector<Shells::Range> ranges_;
+  BrickDepths depths_;
+};
 
 }  // namespace
 
@@ -192,7 +228,11 @@ double DepthWidth(const AxisScale& scale) {
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context) {
   const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  return SliceAll(object, distance, width, context);
+  const FieldSlicer slice(object, distance, width);
+  PlanesOfBricks planes = PlanesFor(object);
+  std::vector<Shells::Range> ranges(object.brick_count());
+  SliceAll(object, context, [&](size_t n) { ranges[n] = slice(n, planes[n]); });
+  return Shells(std::move(planes), std::move(ranges));
 }
 
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
@@ -203,9 +243,26 @@ absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, dou
   return std::move(slicer).Finish();
 }
 
-Shells BuildDepths(const Volume& object, const DistanceField& distance,
-                   const exec::Context& context) {
-  return SliceAll(object, distance, DepthWidth(AxisScaleOf(object.placement())), context);
+BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
+                        const exec::Context& context) {
+  const FieldSlicer slice(object, distance, DepthWidth(AxisScaleOf(object.placement())));
+  BrickDepths depths = DepthsFor(object);
+  SliceAll(object, context, [&](size_t n) {
+    ShellPlanes planes;
+    slice(n, planes);
+    std::copy_n(planes.begin(), kDepthPlanes, depths[n].begin());
+  });
+  return depths;
+}
+
+absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,
+                                                      Depths depths, const exec::Context& context,
+                                                      size_t at_once) {
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  SquareSlicer slicer(object, width, depths);
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<DistanceField> distance,
+                           StreamEuclidean(object, context, &slicer, KeepField::kIfSmall, at_once));
+  return std::move(slicer).Finish(std::move(distance));
 }
 
 }  // namespace bccskel

@@ -100,14 +100,14 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 template <Sublattice kSublattice>
 HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
-  constexpr size_t kLast = 4;
+  constexpr size_t kLast = kDepthPlanes - 1;
   Plane borrow[14];
   for (int n = 0; n < 14; ++n) borrow[n] = Not(color.Than(n));
   const BrickNeighborhood& neighbors = view.object.neighbors[brick];
   for (size_t bit = 0; bit <= kLast; ++bit) {
     const Plane own = LoadPlane(view.depth[brick][bit]);
     Plane other[14];
-    AllPlanes<kSublattice>(&view.depth[0][bit], neighbors, own, other, kShellPlanes);
+    AllPlanes<kSublattice>(&view.depth[0][bit], neighbors, own, other, kDepthPlanes);
     for (int n = 0; n < 14; ++n) {
       if (bit < kLast) {
         borrow[n] = Borrow(own, other[n], borrow[n]);
