@@ -15,26 +15,34 @@
 namespace bccskel {
 namespace {
 
-// The bricks of an object in groups of whole columns: those of a bx lie in one group.
-std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object, size_t at_once) {
-  std::vector<size_t> bricks_at;  // by bx, then the group of that bx
+// The bricks of an object in groups of whole columns: those of a bx lie in one group, and groups
+// have so many bricks or more.
+std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object, size_t least) {
+  std::vector<size_t> group_at;  // by bx; first the number of bricks there
   for (const BrickKey key : object.keys()) {
     const auto bx = static_cast<size_t>(key.coordinates().bx);
-    if (bx >= bricks_at.size()) bricks_at.resize(bx + 1);
-    ++bricks_at[bx];
+    if (bx >= group_at.size()) group_at.resize(bx + 1);
+    ++group_at[bx];
   }
   size_t group = 0, bricks = 0;
-  for (size_t& at : bricks_at) {
+  for (size_t& at : group_at) {
     bricks += std::exchange(at, group);
-    if (bricks < at_once) continue;
+    if (bricks < least) continue;
     ++group;
     bricks = 0;
   }
   std::vector<std::vector<BrickIndex>> groups(bricks == 0 ? group : group + 1);
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    groups[bricks_at[static_cast<size_t>(object.keys()[n].coordinates().bx)]].push_back(n);
+    groups[group_at[static_cast<size_t>(object.keys()[n].coordinates().bx)]].push_back(n);
   }
   return groups;
+}
+
+// Many enough for several workers, few enough for caches.
+size_t BricksAtOnce(const Volume& object, size_t at_once) {
+  constexpr size_t kParts = 8;
+  const bool is_small = object.brick_count() * kBrickPoints <= at_once;
+  return is_small ? object.brick_count() : at_once / kBrickPoints / kParts;
 }
 
 uint16_t LargestIn(std::span<const uint16_t> squares) { return LargestOf(squares); }
@@ -60,29 +68,29 @@ struct Columns {
 class EuclideanStream {
  public:
   EuclideanStream(const Volume& object, const exec::Context& context, SquareSink* sink,
-                  KeepField keep)
+                  KeepField keep, size_t at_once)
       : object_(object),
         context_(context),
         sink_(sink),
         may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic),
+        groups_(ColumnsOf(object, BricksAtOnce(object, at_once))),
         keeps_floats_(keep == KeepField::kAlways ||
                       object.brick_count() * kBrickPoints <= kMostFloatsKept),
         has_field_(keeps_floats_ || (may_be_whole_ && !IsDeep(object))) {}
 
-  absl::StatusOr<std::optional<DistanceField>> Run(size_t at_once) && {
+  absl::StatusOr<std::optional<DistanceField>> Run() && {
     const SideRuns<uint32_t> runs = SideRunsOf(object_, context_);
-    const std::vector<std::vector<BrickIndex>> groups = ColumnsOf(object_, at_once);
-    for (const auto& bricks : groups) most_bricks_ = std::max(most_bricks_, bricks.size());
-    for (const std::vector<BrickIndex>& bricks : groups) {
+    for (const auto& bricks : groups_) most_bricks_ = std::max(most_bricks_, bricks.size());
+    for (const std::vector<BrickIndex>& bricks : groups_) {
       BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-      if (groups.size() == 1) {
+      if (groups_.size() == 1) {
         Measure({bricks, object_, runs});
       } else {
         MeasurePart(bricks, runs);
       }
     }
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-    if (groups.empty()) RoomFor<uint16_t>();
+    if (groups_.empty()) RoomFor<uint16_t>();
     return Field();
   }
 
@@ -119,7 +127,8 @@ class EuclideanStream {
     if (!room.has_value()) room.emplace(most_bricks_);
     EuclideanParts<T>& parts = *room;
     MeasureWithinLayers(part.volume, part.runs, context_, parts);
-    T* const field = RoomFor<T>();
+    const bool is_all = groups_.size() == 1;
+    T* const field = is_all ? nullptr : RoomFor<T>();
     std::atomic<float> largest = 0;
     MeasureAcrossLayers<T>(part.volume, context_, parts, [&](BrickStack stack) {
       float most = 0;
@@ -134,6 +143,7 @@ class EuclideanStream {
     });
     if (sizeof(T) == sizeof(uint16_t) && largest >= kFirstUnsureSquare) return false;
     largest_ = std::max(largest_, largest.load());
+    if (is_all) field_ = std::move(parts.own);
     return true;
   }
 
@@ -169,6 +179,7 @@ class EuclideanStream {
   const exec::Context& context_;
   SquareSink* const sink_;
   const bool may_be_whole_;
+  const std::vector<std::vector<BrickIndex>> groups_;
   const bool keeps_floats_;
   bool has_field_;
   DistanceField::Values field_;
@@ -184,7 +195,7 @@ absl::StatusOr<std::optional<DistanceField>> StreamEuclidean(const Volume& objec
                                                              const exec::Context& context,
                                                              SquareSink* sink, KeepField keep,
                                                              size_t at_once) {
-  return EuclideanStream(object, context, sink, keep).Run(at_once);
+  return EuclideanStream(object, context, sink, keep, at_once).Run();
 }
 
 }  // namespace bccskel

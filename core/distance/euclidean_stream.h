@@ -25,24 +25,24 @@ class SquareSink {
 // Which distances stay.
 enum class KeepField : uint8_t {
   kAlways,
-  // If they take 2 bytes a point, or all lie in kMostFloatsKept lattice points: then they pay where
-  // curves are long, and memory for planes of shells is as much.
+  // If they take 2 bytes a point, or are kMostFloatsKept at most: they pay where curves are long.
   kIfSmall,
 };
 inline constexpr size_t kMostFloatsKept = size_t{1} << 24;
 
-// Bricks that are measured together: many enough for several workers, few enough for caches.
-inline constexpr size_t kBricksMeasuredAtOnce = 4096;
+// More lattice points than this are measured in parts. A part costs a tenth more time per point than
+// the whole, and has the planes of the other parts' shells beside it, not their squares.
+inline constexpr size_t kMostSquaresAtOnce = size_t{1} << 21;
 
-// The distances of ComputeDistance() for kEuclidean, measured column of bricks by column: see
-// euclidean_scan.cc for how. `sink` may be null.
-// Cost:   besides what stays, half a byte per lattice point of the object's bricks and 4.4 for those
-//         of `at_once` bricks, 8.8 where columns are deeper than 16 bits or axes have different
-//         spacings.
+// The distances of ComputeDistance() for kEuclidean: see euclidean_scan.cc. Those of objects with
+// more than `at_once` lattice points are measured column of bricks by column. `sink` may be null.
+// Cost:   half a byte per lattice point of the object's bricks, and 4.3 for those that are measured
+//         together, 8.5 where they are deeper than 16 bits or axes have different spacings.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<std::optional<DistanceField>> StreamEuclidean(
-    const Volume& object, const exec::Context& context, SquareSink* sink, KeepField keep,
-    size_t at_once = kBricksMeasuredAtOnce);
+absl::StatusOr<std::optional<DistanceField>> StreamEuclidean(const Volume& object,
+                                                             const exec::Context& context,
+                                                             SquareSink* sink, KeepField keep,
+                                                             size_t at_once = kMostSquaresAtOnce);
 
 }  // namespace bccskel
 

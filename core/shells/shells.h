@@ -95,7 +95,7 @@ struct EuclideanShells {
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<EuclideanShells> StreamEuclideanShells(
     const Volume& object, double shell_width, Depths depths, const exec::Context& context,
-    size_t at_once = kBricksMeasuredAtOnce);
+    size_t at_once = kMostSquaresAtOnce);
 
 inline constexpr double kMinShellWidth = 0.75;
 inline constexpr double kMaxShellWidth = 64;
