@@ -94,7 +94,15 @@ class ShellSweep {
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
     BeginOpening(shells_, own_, worker);
     if (workers_.size() > 1) MarkBorder(state_, worker, unsettled_);
-    SplitParts(state_, worker);
+    Split(index, worker);
+  }
+
+  void Split(int index, Worker& worker) {
+    if (meets(index) || sleeps() || partners_ != nullptr) {
+      SplitParts(state_, worker);
+    } else {
+      SplitSlabs(state_, rule_.steps(), worker);
+    }
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
@@ -105,7 +113,7 @@ class ShellSweep {
     joined_ = true;
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
-    SplitParts(state_, first);
+    Split(0, first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -191,6 +199,7 @@ class ShellSweep {
       ++passes_;
     }
     TakeOverUnsettled(worker);
+    if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
       if (at.step > 0) Await(index);  // and what they did in the step before is done
       if (index == 0) context_.Rest();
@@ -203,6 +212,29 @@ class ShellSweep {
     if (partners_ != nullptr) TradeMarks(index, at.cycle, worker);
     BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
     return true;
+  }
+
+  // While a slab is at its first step, those behind it are each at a later one, so that all a pass
+  // touches stays near. A step of a slab reads what slabs beside it were left by the step before, and
+  // their object, which they lose after that.
+  bool PassInSlabs(Worker& worker, PassStep at) {
+    const auto steps = static_cast<size_t>(rule_.steps());
+    for (size_t n = 0; n < worker.slabs.size() + steps && !stopped_; ++n) {
+      context_.Rest();
+      for (size_t step = n < worker.slabs.size() ? 0 : n - worker.slabs.size() + 1;
+           step <= std::min(n, steps); ++step) {
+        const size_t slab = n - step;
+        Part& part = worker.slab_parts[slab % worker.slab_parts.size()];
+        part.bricks = worker.slabs[slab];
+        at.step = static_cast<int>(step);
+        if (step < steps) {
+          Mark(at, part);
+        } else {
+          Remove(at.cycle, part, worker);
+        }
+      }
+    }
+    return !stopped_;
   }
 
   // What ghosts lose their owners know.

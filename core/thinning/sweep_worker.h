@@ -32,6 +32,9 @@ struct alignas(128) SweepWorker {
   exec::Share bricks = {0, 0};
   // Its bricks near others' below and above, and those between.
   std::array<SweepPart, 3> parts;
+  // Where it is alone: see SweepShells(). Parts take turns at the slabs.
+  std::vector<exec::Share> slabs;
+  std::vector<SweepPart> slab_parts;
   ShellOpener opener;
   // Of partners' bricks below and above its own, whose points do not count here.
   std::array<ShellOpener, 2> ghost_openers;
@@ -49,6 +52,10 @@ struct alignas(128) SweepWorker {
 // Makes the parts of a worker's bricks. Whether a point goes depends on points three steps away, so
 // bricks with a layer of bricks between them and others' have nothing to do with those.
 void SplitParts(const ThinningState& state, SweepWorker& worker);
+
+// Makes slabs of all bricks, of which only those next to each other touch, and parts for passes of
+// so many steps.
+void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 
 // Marks the bricks that border on other workers'.
 void MarkBorder(const ThinningState& state, const SweepWorker& worker,
