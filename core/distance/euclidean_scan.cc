@@ -49,8 +49,7 @@ class EuclideanScan {
     });
   }
 
-  void RunAcrossLayers(const exec::Context& context,
-                       const std::function<void(BrickStack)>& done) {
+  void RunAcrossLayers(const exec::Context& context, const std::function<void(BrickStack)>& done) {
     const std::vector<BrickIndex> feet = StackFeet(kBelowZ);
     Share(context, feet.size(), 1, [&](size_t n) {
       const BrickIndex foot = feet[n];
@@ -174,7 +173,8 @@ bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks) {
   return std::ranges::any_of(bricks, [&](BrickIndex n) { return IsDeepInside(object, n); });
 }
 bool IsDeep(const Volume& object) {
-  const auto bricks = std::views::iota(BrickIndex{0}, static_cast<BrickIndex>(object.brick_count()));
+  const auto bricks =
+      std::views::iota(BrickIndex{0}, static_cast<BrickIndex>(object.brick_count()));
   return std::ranges::any_of(bricks, [&](BrickIndex n) { return IsDeepInside(object, n); });
 }
 

@@ -171,7 +171,8 @@ class EuclideanStream {
   std::optional<DistanceField> Field() {
     if (!has_field_) return std::nullopt;
     const bool is_whole = std::holds_alternative<exec::UninitializedVector<uint16_t>>(field_);
-    const uint32_t rank = is_whole ? static_cast<uint32_t>(largest_) : DistanceField::RankOf(largest_);
+    const uint32_t rank =
+        is_whole ? static_cast<uint32_t>(largest_) : DistanceField::RankOf(largest_);
     return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(field_), rank);
   }
 

@@ -30,8 +30,8 @@ enum class KeepField : uint8_t {
 };
 inline constexpr size_t kMostFloatsKept = size_t{1} << 24;
 
-// More lattice points than this are measured in parts. A part costs a tenth more time per point than
-// the whole, and has the planes of the other parts' shells beside it, not their squares.
+// More lattice points than this are measured in parts. A part costs a tenth more time per point
+// than the whole, and has the planes of the other parts' shells beside it, not their squares.
 inline constexpr size_t kMostSquaresAtOnce = size_t{1} << 21;
 
 // The distances of ComputeDistance() for kEuclidean: see euclidean_scan.cc. Those of objects with

@@ -273,9 +273,9 @@ class Pipeline {
   absl::Status ThinInShells(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(const EuclideanShells measured, MeasureShells(object, distance));
     result_.timings.distance = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                             ThinByShells(object, measured.shells, measured.depths, thinning_,
-                                          context_, on_points_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ThinningResult thinned,
+        ThinByShells(object, measured.shells, measured.depths, thinning_, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
@@ -287,9 +287,8 @@ class Pipeline {
                                                              thinning_.shell_width, context_));
       return measured;
     }
-    BCCSKEL_ASSIGN_OR_RETURN(measured,
-                             StreamEuclideanShells(object, thinning_.shell_width,
-                                                   DepthsOf(thinning_.method), context_));
+    BCCSKEL_ASSIGN_OR_RETURN(measured, StreamEuclideanShells(object, thinning_.shell_width,
+                                                             DepthsOf(thinning_.method), context_));
     distance = measured.distance.has_value() ? *std::exchange(measured.distance, {})
                                              : NoDistances(DistanceKind::kChamfer);
     return measured;

@@ -48,10 +48,9 @@ class Peeling {
 
   absl::StatusOr<ThinningResult> Run(const Volume& part) && {
     const RankBricks bricks = AddGhosts(exchange_, ShareEvenly(exchange_, part));
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const RankShells shells,
-        MeasureShells(exchange_, bricks, distance_, options_.shell_width,
-                      DepthsOf(options_.method), context_));
+    BCCSKEL_ASSIGN_OR_RETURN(const RankShells shells,
+                             MeasureShells(exchange_, bricks, distance_, options_.shell_width,
+                                           DepthsOf(options_.method), context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
     Checkpoints checkpoints(exchange_, bricks, checkpoint_options_, distance_, options_);

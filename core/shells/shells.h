@@ -71,9 +71,9 @@ absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, dou
                                     const exec::Context& context,
                                     size_t at_once = kMostPointsAtOnce);
 
-// Thinner shells, modulo 32, that tell which of two neighbors is deeper: those of neighbors differ by
-// less than 16.
-// Shapes: planes for each brick and the padding brick. Background points may have any bits.
+// Thinner shells, modulo 32, that tell which of two neighbors is deeper: those of neighbors differ
+// by less than 16. Shapes: planes for each brick and the padding brick. Background points may have
+// any bits.
 using BrickDepths = exec::UninitializedVector<DepthPlanes>;
 
 BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
@@ -93,9 +93,9 @@ struct EuclideanShells {
   std::optional<DistanceField> distance;  // where KeepField::kIfSmall keeps it
 };
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<EuclideanShells> StreamEuclideanShells(
-    const Volume& object, double shell_width, Depths depths, const exec::Context& context,
-    size_t at_once = kMostSquaresAtOnce);
+absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,
+                                                      Depths depths, const exec::Context& context,
+                                                      size_t at_once = kMostSquaresAtOnce);
 
 inline constexpr double kMinShellWidth = 0.75;
 inline constexpr double kMaxShellWidth = 64;

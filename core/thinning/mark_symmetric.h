@@ -8,7 +8,7 @@
 #include "core/shells/slice_bricks.h"
 #include "core/thinning/mark_removable.h"
 #include "core/thinning/thinning.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/work_list.h"
 #include "core/volume/brick.h"
 
 // Does:  finds the points that a symmetric pass may remove, a brick (512 points) at a time.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/thinning/stubble.h"
+
 namespace bccskel {
 namespace {
 
@@ -63,6 +65,26 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker,
       return other < state.brick_count() && (other < own.begin || other >= own.end);
     });
     if (border) unsettled[n] |= kBorderBrick;
+  }
+}
+
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+                 SweepPart& part) {
+  if (policy == StubblePolicy::kNone) return;
+  const ObjectView view = state.View();
+  for (Sublattice sublattice : kSublattices) {
+    part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
+                                             part.thin.Room(sublattice)));
+    const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
+    MarkedBrick* marked = part.marks.Room(thin.size());
+    const size_t count = MarkEndPoints(view, sublattice, thin, marked);
+    for (const MarkedBrick& m : std::span(marked, count)) {
+      unsettled[m.brick] |= kEndPointsUnsettled;
+      const BrickBits stubble = SelectStubble(state, m, policy);
+      if (stubble.Empty()) continue;
+      *part.marks.Room(1) = {stubble, m.brick};
+      part.marks.Add(1);
+    }
   }
 }
 

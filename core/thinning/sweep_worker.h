@@ -12,7 +12,7 @@
 #include "core/thinning/shell_opener.h"
 #include "core/thinning/sweep_partners.h"
 #include "core/thinning/thinning_state.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/work_list.h"
 
 namespace bccskel {
 
@@ -60,6 +60,12 @@ void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 // Marks the bricks that border on other workers'.
 void MarkBorder(const ThinningState& state, const SweepWorker& worker,
                 std::span<Unsettled> unsettled);
+
+// Condition 6 in the bricks that were listed for their end points or are thin. Whether an end point
+// is a stubble point depends on points up to three steps away, so a brick with end points stays
+// unsettled for them.
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+                 SweepPart& part);
 
 // Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
 void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
