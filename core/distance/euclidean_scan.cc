@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <limits>
-#include <ranges>
+#include <numeric>
 #include <vector>
 
 #include "core/distance/border_bricks.h"
@@ -173,9 +173,9 @@ bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks) {
   return std::ranges::any_of(bricks, [&](BrickIndex n) { return IsDeepInside(object, n); });
 }
 bool IsDeep(const Volume& object) {
-  const auto bricks =
-      std::views::iota(BrickIndex{0}, static_cast<BrickIndex>(object.brick_count()));
-  return std::ranges::any_of(bricks, [&](BrickIndex n) { return IsDeepInside(object, n); });
+  std::vector<BrickIndex> all(object.brick_count());
+  std::iota(all.begin(), all.end(), BrickIndex{0});
+  return IsDeep(object, all);
 }
 
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context) {

@@ -11,6 +11,7 @@
 #include "core/thinning/pass_rule.h"
 #include "core/thinning/shell_opener.h"
 #include "core/thinning/sweep_partners.h"
+#include "core/thinning/thinning.h"
 #include "core/thinning/thinning_state.h"
 #include "core/thinning/work_list.h"
 
