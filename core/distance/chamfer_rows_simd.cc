@@ -157,8 +157,8 @@ HWY_INLINE void SweepBrickBackward(const DistanceView<uint16_t>& view, BrickInde
 
 void SweepWithinLayersTarget(const DistanceView<uint16_t>& view, BrickIndex first,
                              BrickIndex last) {
-  const auto runs =
-      FindSideRuns<uint16_t>(view.object, view.neighbors, first, last, view.runs->longest_run);
+  SideRuns<uint16_t> runs(last - first);
+  FindSideRuns(view.object, view.neighbors, first, last, view.runs->longest_run, first, runs);
   for (BrickIndex brick = first; brick < last; ++brick) {
     SweepBrickForward(view, brick, runs.left[brick - first], runs.right[brick - first]);
   }

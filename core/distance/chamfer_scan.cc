@@ -10,7 +10,7 @@
 
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/chamfer_section.h"
-#include "core/distance/layer_team.h"
+#include "core/exec/meeting_team.h"
 #include "core/exec/status_macros.h"
 
 // Does:  chamfer distance to the background for every point of the stored bricks.
@@ -53,7 +53,7 @@ class SectionScan {
     const int sweepers = context_.WorkersFor(brick_count(), kSweepWork);
     const bool alone = sweepers == 1;
     if (!alone) SweepTogether(sweepers);
-    LayerTeam team(LayerWorkers(), context_);
+    exec::MeetingTeam team(LayerWorkers(), context_);
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
         // A slab is still in the cache when it is raised.
@@ -65,7 +65,7 @@ class SectionScan {
   }
 
   void Fall(const OnFinal& on_final) const {
-    LayerTeam team(LayerWorkers(), context_);
+    exec::MeetingTeam team(LayerWorkers(), context_);
     team.Run([&](int worker) {
       for (size_t s = slabs_.size(); s-- > 0;) {
         const BrickSlab& slab = slabs_[s];
@@ -103,14 +103,14 @@ class SectionScan {
     });
   }
 
-  void Raise(const BrickSlab& slab, int worker, LayerTeam& team) const {
+  void Raise(const BrickSlab& slab, int worker, exec::MeetingTeam& team) const {
     for (int k = 0; k < kBrickZ; ++k) {
       Join(slab, Sublattice::kEven, k, ScanDirection::kUpward, worker, team);
       Join(slab, Sublattice::kOdd, k, ScanDirection::kUpward, worker, team);
     }
   }
 
-  void Lower(const BrickSlab& slab, int worker, LayerTeam& team) const {
+  void Lower(const BrickSlab& slab, int worker, exec::MeetingTeam& team) const {
     for (int k = kBrickZ - 1; k >= 0; --k) {
       Join(slab, Sublattice::kOdd, k, ScanDirection::kDownward, worker, team);
       Join(slab, Sublattice::kEven, k, ScanDirection::kDownward, worker, team);
@@ -119,7 +119,7 @@ class SectionScan {
 
   // Layers follow each other, so the workers meet after each.
   void Join(const BrickSlab& slab, Sublattice sublattice, int k, ScanDirection direction,
-            int worker, LayerTeam& team) const {
+            int worker, exec::MeetingTeam& team) const {
     const std::span<const BrickIndex> bricks = slab.bricks[static_cast<size_t>(sublattice)];
     const exec::Share share = team.ShareOf(bricks.size(), worker);
     JoinLayers(view_, sublattice, bricks.subspan(share.begin, share.end - share.begin), k,

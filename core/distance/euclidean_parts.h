@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 
 #include "core/distance/distance_field.h"
 #include "core/distance/euclidean_rows.h"
+#include "core/distance/side_runs.h"
 #include "core/exec/context.h"
 #include "core/exec/uninitialized.h"
 #include "core/volume/volume.h"
 
-// The two halves of the Euclidean distance, for objects that are too large for one machine: the
-// first needs whole layers of bricks, the second whole columns, and between them the squares move.
+// The two halves of the Euclidean distance, for those who measure an object part by part. Along x
+// the first half needs side runs alone, so columns of bricks can be measured by themselves; where
+// layers of bricks are, each on its own machine, squares move between the halves.
 // T as in euclidean_rows.h.
 
 namespace bccskel {
@@ -27,19 +30,26 @@ struct EuclideanParts {
   exec::UninitializedVector<T> beside;
 };
 
-// Right for the bricks of a layer if that layer and those above and below it are whole.
+// How far the object goes on beside each row of its bricks.
+SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
+
+// Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
+// Right for the bricks of a layer if that layer and those above and below it are whole along y.
 template <typename T>
-void MeasureWithinLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts);
+void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
+                         const exec::Context& context, EuclideanParts<T>& parts);
+// Calls `done` with stacks of bricks whose squares are final, on several workers at once.
 // Needs: all bricks above and below each other are there, with both kinds of squares.
 template <typename T>
 void MeasureAcrossLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts);
+                         EuclideanParts<T>& parts,
+                         const std::function<void(BrickStack)>& done = nullptr);
 // Needs: MeasureAcrossLayers(). 16 bits are enough where largest() is below kFirstUnsureSquare.
 template <typename T>
 DistanceField EuclideanFieldOf(EuclideanParts<T> parts);
 
-// Whether 16 bits are not worth a try.
+// Whether 16 bits are not worth a try for these bricks of the object.
+bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks);
 bool IsDeep(const Volume& object);
 
 }  // namespace bccskel

@@ -54,13 +54,11 @@ using BrickStack = std::span<const BrickIndex>;
 
 // Distances within the layers of a stack along y: `own` of its bricks, `beside` of the bricks of
 // the other sublattice that lie at the same place.
-// Shapes: `runs` of the slab whose first brick is `first`.
+// Shapes: `runs` of all bricks.
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                BrickIndex first);
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs);
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                BrickIndex first);
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs);
 
 // From distances within layers to distances in space: `own` of a stack along z.
 // Needs: ScanLayers() for all stacks.

@@ -77,7 +77,7 @@ struct LayerRows {
 
 template <typename T>
 HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStack stack, size_t k,
-                          const SideRuns<uint32_t>& runs, BrickIndex first, Sublattice sublattice,
+                          const SideRuns<uint32_t>& runs, Sublattice sublattice,
                           LayerRows<T>& rows) {
   size_t at = kBorderRows * kBrickX;
   for (BrickIndex brick : stack) {
@@ -88,8 +88,8 @@ HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStac
         std::fill_n(rows.between.begin() + static_cast<ptrdiff_t>(at), kBrickX, unit_square);
         continue;
       }
-      const RowEnds ends = {bits ^ 0xffff, static_cast<int32_t>(runs.left[brick - first][row]),
-                            static_cast<int32_t>(runs.right[brick - first][row])};
+      const RowEnds ends = {bits ^ 0xffff, static_cast<int32_t>(runs.left[brick][row]),
+                            static_cast<int32_t>(runs.right[brick][row])};
       MeasureRow(ends, sublattice, unit_square, rows.own.data() + at, rows.between.data() + at);
     }
   }
@@ -236,13 +236,13 @@ class Column {
 template <typename T>
 HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
                              Sublattice sublattice, BrickStack stack,
-                             const SideRuns<uint32_t>& runs, BrickIndex first) {
+                             const SideRuns<uint32_t>& runs) {
   LayerRows<T> rows(stack.size(), lengths.x);
   // The place that belongs to a row lies after it for even points, before it for odd ones.
   const size_t back = sublattice == Sublattice::kEven ? 0 : 1;
   const size_t count = kBrickY * stack.size();
   for (size_t k = 0; k < kBrickZ; ++k) {
-    ReadLayer(view, lengths.x, stack, k, runs, first, sublattice, rows);
+    ReadLayer(view, lengths.x, stack, k, runs, sublattice, rows);
     Column<T> own(rows.own, 2, lengths.y), between(rows.between, 2, lengths.y);
     size_t at = kBorderRows * kBrickX;
     for (size_t n = 0; n < stack.size(); ++n, at += kLayerPoints) {
@@ -310,14 +310,12 @@ HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLe
 }
 
 void ScanLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                     BrickIndex first) {
-  ScanLayersOf(view, lengths, sublattice, stack, runs, first);
+                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
+  ScanLayersOf(view, lengths, sublattice, stack, runs);
 }
 void ScanLayersWhole(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                     BrickIndex first) {
-  ScanLayersOf(view, lengths, sublattice, stack, runs, first);
+                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
+  ScanLayersOf(view, lengths, sublattice, stack, runs);
 }
 void ScanAcrossLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                            Sublattice sublattice, BrickStack stack) {
@@ -341,14 +339,12 @@ HWY_EXPORT(ScanAcrossLayersFloat);
 HWY_EXPORT(ScanAcrossLayersWhole);
 
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                BrickIndex first) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, runs, first);
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, runs);
 }
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs,
-                BrickIndex first) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, runs, first);
+                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, runs);
 }
 void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                       Sublattice sublattice, BrickStack stack) {

@@ -1,14 +1,12 @@
-#include "core/distance/euclidean_scan.h"
-
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/distance/border_bricks.h"
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_parts.h"
 #include "core/distance/euclidean_rows.h"
-#include "core/exec/status_macros.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
 // Paper: goes beyond it; section 4 takes chamfer distances.
@@ -20,7 +18,7 @@
 //   Bricks that are not stored are background: beside them the nearest background of a layer is one
 //   step away along both axes. A scan ends at the first background point of its own column, where
 //   everything farther is farther.
-// Cost:  as much memory again as the result, and an eighth. One or two rows of 16 points look
+// Cost:  as much memory again as the squares, and an eighth. One or two rows of 16 points look
 //   outward together, until no point can find anything nearer: about a step per lattice unit of
 //   distance, each two or three cycles for all of them. Columns of floats, which objects deeper
 //   than 254 units have, are searched by halves where they are deep.
@@ -31,12 +29,6 @@ namespace {
 // Positions in a BrickNeighborhood.
 constexpr size_t kAboveX = 8, kBelowX = 9, kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
 
-// The bricks of one bz and their stacks along y.
-struct Slab {
-  BrickIndex first = 0;
-  BrickIndex last = 0;
-};
-
 template <typename T>
 class EuclideanScan {
  public:
@@ -45,26 +37,25 @@ class EuclideanScan {
         view_{object.padded_bricks().data(), object.neighbors().data(),
               static_cast<BrickIndex>(object.brick_count()), parts.own.data(),
               parts.beside.data()} {
-    const std::span<const BrickKey> keys = object.keys();
-    for (BrickIndex n = 0; n < keys.size(); ++n) {
-      if (n == 0 || keys[n].coordinates().bz != keys[n - 1].coordinates().bz) {
-        slabs_.push_back({n, n});
-      }
-      slabs_.back().last = n + 1;
-      if (view_.neighbors[n][kBelowZ] == view_.padding) stack_feet_.push_back(n);
-    }
     MeasureSteps();
   }
 
-  void RunWithinLayers(const exec::Context& context) {
+  void RunWithinLayers(const SideRuns<uint32_t>& runs, const exec::Context& context) {
     Share(context, object_.brick_count(), 256, [this](size_t n) { FillBeside(n); });
-    Share(context, slabs_.size(), 1, [&](size_t n) { ScanSlab(slabs_[n], context); });
+    const std::vector<BrickIndex> feet = StackFeet(kBelowY);
+    Share(context, feet.size(), 1, [&](size_t n) {
+      const BrickIndex foot = feet[n];
+      ScanLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveY), runs);
+    });
   }
 
-  void RunAcrossLayers(const exec::Context& context) {
-    Share(context, stack_feet_.size(), 8, [this](size_t n) {
-      const BrickIndex foot = stack_feet_[n];
-      ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveZ));
+  void RunAcrossLayers(const exec::Context& context, const std::function<void(BrickStack)>& done) {
+    const std::vector<BrickIndex> feet = StackFeet(kBelowZ);
+    Share(context, feet.size(), 1, [&](size_t n) {
+      const BrickIndex foot = feet[n];
+      const std::vector<BrickIndex> stack = StackFrom(foot, kAboveZ);
+      ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), stack);
+      if (done) done(stack);
     });
   }
 
@@ -96,11 +87,19 @@ class EuclideanScan {
 
   Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
 
+  // The bricks that stacks begin with.
+  std::vector<BrickIndex> StackFeet(size_t back) const {
+    std::vector<BrickIndex> feet;
+    for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
+      if (view_.neighbors[n][back] == view_.padding) feet.push_back(n);
+    }
+    return feet;
+  }
+
   size_t LongestStack(size_t back, size_t onward) const {
     size_t longest = 0;
-    for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
-      if (view_.neighbors[n][back] != view_.padding) continue;
-      longest = std::max(longest, StackFrom(n, onward).size());
+    for (const BrickIndex foot : StackFeet(back)) {
+      longest = std::max(longest, StackFrom(foot, onward).size());
     }
     return longest;
   }
@@ -137,21 +136,8 @@ class EuclideanScan {
     }
   }
 
-  // Asks on its way whether to stop: a slab of a large object takes long.
-  void ScanSlab(const Slab& slab, const exec::Context& context) const {
-    const SideRuns<uint32_t> runs = FindSideRuns<uint32_t>(view_.object, view_.neighbors,
-                                                           slab.first, slab.last, kMaxExtentCells);
-    for (BrickIndex n = slab.first; n < slab.last; ++n) {
-      if (view_.neighbors[n][kBelowY] != view_.padding) continue;
-      if (context.ShouldStop()) return;
-      ScanLayers(view_, lengths_, SublatticeOf(n), StackFrom(n, kAboveY), runs, slab.first);
-    }
-  }
-
   const Volume& object_;
   const EuclideanView<T> view_;
-  std::vector<Slab> slabs_;
-  std::vector<BrickIndex> stack_feet_;  // the lowest brick of every stack along z
   SquaredLengths<T> lengths_;
 };
 
@@ -181,34 +167,44 @@ bool IsDeepInside(const Volume& object, BrickIndex brick) {
   return true;
 }
 
-template <typename T>
-absl::StatusOr<DistanceField> Measure(const Volume& object, const exec::Context& context) {
-  EuclideanParts<T> parts(object.brick_count());
-  EuclideanScan<T> scan(object, parts);
-  scan.RunWithinLayers(context);
-  scan.RunAcrossLayers(context);
-  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
-  return EuclideanFieldOf(std::move(parts));
-}
-
 }  // namespace
 
+bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks) {
+  return std::ranges::any_of(bricks, [&](BrickIndex n) { return IsDeepInside(object, n); });
+}
 bool IsDeep(const Volume& object) {
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    if (IsDeepInside(object, n)) return true;
+  std::vector<BrickIndex> all(object.brick_count());
+  std::iota(all.begin(), all.end(), BrickIndex{0});
+  return IsDeep(object, all);
+}
+
+SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context) {
+  SideRuns<uint32_t> runs(object.brick_count());
+  std::vector<BrickIndex> slabs;  // where those of one bz begin
+  const std::span<const BrickKey> keys = object.keys();
+  for (BrickIndex n = 0; n < keys.size(); ++n) {
+    if (n == 0 || keys[n].coordinates().bz != keys[n - 1].coordinates().bz) slabs.push_back(n);
   }
-  return false;
+  slabs.push_back(static_cast<BrickIndex>(keys.size()));
+  exec::Portions portions(slabs.size() - 1, 1);
+  context.Offer(context.WorkersFor(keys.size()), [&](int) {
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      FindSideRuns<uint32_t>(object.padded_bricks().data(), object.neighbors().data(),
+                             slabs[mine.begin], slabs[mine.end], kMaxExtentCells, 0, runs);
+    }
+  });
+  return runs;
 }
 
 template <typename T>
-void MeasureWithinLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts) {
-  EuclideanScan<T>(object, parts).RunWithinLayers(context);
+void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
+                         const exec::Context& context, EuclideanParts<T>& parts) {
+  EuclideanScan<T>(object, parts).RunWithinLayers(runs, context);
 }
 template <typename T>
 void MeasureAcrossLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts) {
-  EuclideanScan<T>(object, parts).RunAcrossLayers(context);
+                         EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done) {
+  EuclideanScan<T>(object, parts).RunAcrossLayers(context, done);
 }
 template <typename T>
 DistanceField EuclideanFieldOf(EuclideanParts<T> parts) {
@@ -216,19 +212,15 @@ DistanceField EuclideanFieldOf(EuclideanParts<T> parts) {
   return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(parts.own), largest);
 }
 
-template void MeasureWithinLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&);
-template void MeasureWithinLayers(const Volume&, const exec::Context&, EuclideanParts<float>&);
-template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&);
-template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&);
+template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
+                                  EuclideanParts<uint16_t>&);
+template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
+                                  EuclideanParts<float>&);
+template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&,
+                                  const std::function<void(BrickStack)>&);
+template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&,
+                                  const std::function<void(BrickStack)>&);
 template DistanceField EuclideanFieldOf(EuclideanParts<uint16_t>);
 template DistanceField EuclideanFieldOf(EuclideanParts<float>);
-
-absl::StatusOr<DistanceField> ComputeEuclidean(const Volume& object, const exec::Context& context) {
-  if (AxisScaleOf(object.placement()) == kIsotropic && !IsDeep(object)) {
-    absl::StatusOr<DistanceField> whole = Measure<uint16_t>(object, context);
-    if (!whole.ok() || whole->largest() < kFirstUnsureSquare) return whole;
-  }
-  return Measure<float>(object, context);
-}
 
 }  // namespace bccskel

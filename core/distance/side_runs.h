@@ -22,6 +22,8 @@ template <typename T>
 struct SideRuns {
   std::vector<RowRuns<T>> left;   // at the brick's left side
   std::vector<RowRuns<T>> right;  // at its right side
+
+  explicit SideRuns(size_t bricks) : left(bricks), right(bricks) {}
 };
 
 inline uint16_t RowBits(const BrickBits& brick, size_t row) {
@@ -43,24 +45,23 @@ void ContinueRuns(const BrickBits& brick, uint32_t longest, const RowRuns<T>& ne
 }
 
 // The runs beside the bricks [first, last), none longer than `longest`.
+// Shapes: runs[0] is of brick `origin`; all are 0.
 // Needs: the bricks are whole layers of bricks (all of one bz), in the order of a Volume.
 template <typename T>
-SideRuns<T> FindSideRuns(const BrickBits* object, const BrickNeighborhood* neighbors,
-                         BrickIndex first, BrickIndex last, uint32_t longest) {
-  SideRuns<T> runs{std::vector<RowRuns<T>>(last - first), std::vector<RowRuns<T>>(last - first)};
+void FindSideRuns(const BrickBits* object, const BrickNeighborhood* neighbors, BrickIndex first,
+                  BrickIndex last, uint32_t longest, BrickIndex origin, SideRuns<T>& runs) {
   for (BrickIndex brick = first; brick < last; ++brick) {
     const BrickIndex left = neighbors[brick][9];
     if (left < first || left >= brick) continue;
-    ContinueRuns(object[left], longest, runs.left[left - first], runs.left[brick - first],
+    ContinueRuns(object[left], longest, runs.left[left - origin], runs.left[brick - origin],
                  [](uint16_t bits) { return std::countl_one(bits); });
   }
   for (BrickIndex brick = last; brick-- > first;) {
     const BrickIndex right = neighbors[brick][8];
     if (right <= brick || right >= last) continue;
-    ContinueRuns(object[right], longest, runs.right[right - first], runs.right[brick - first],
+    ContinueRuns(object[right], longest, runs.right[right - origin], runs.right[brick - origin],
                  [](uint16_t bits) { return std::countr_one(bits); });
   }
-  return runs;
 }
 
 }  // namespace bccskel

@@ -76,10 +76,9 @@ class Peeling {
   // What is left of the object, on rank 0.
   absl::StatusOr<Remains> PeelOwn(const RankBricks& bricks) {
     exchange_.Enter(Stage::kDistances);
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const RankShells shells,
-        MeasureShells(exchange_, bricks, distance_, options_.shell_width,
-                      IsSymmetric() ? Depths::kWanted : Depths::kNone, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(const RankShells shells,
+                             MeasureShells(exchange_, bricks, distance_, options_.shell_width,
+                                           DepthsOf(options_.method), context_));
     result_.times.shells = clock_.Lap();
     result_.last_shell = shells.shells.last();
     exchange_.Enter(Stage::kThinning);

@@ -85,7 +85,7 @@ class EuclideanRounds {
   std::vector<Bytes> MeasureLayers(const LayerOwners& layers, const ColumnRounds& columns,
                                    const Volume& volume) {
     EuclideanParts<T> parts(volume.brick_count());
-    MeasureWithinLayers(volume, context_, parts);
+    MeasureWithinLayers(volume, SideRunsOf(volume, context_), context_, parts);
     const exec::Share own =
         BricksOfLayers(volume, layers.FirstOf(exchange_.rank()), layers.EndOf(exchange_.rank()));
     std::vector<size_t> counts(columns.letters());
@@ -186,8 +186,9 @@ absl::Status MeasureChamfer(Exchange& exchange, const RankBricks& bricks, const 
   const HeldLayers held = {layers.FirstOf(exchange.rank()), layers.EndOf(exchange.rank())};
   store.Expect(volume, BricksOfLayers(volume, held.first, held.end));
   const ShellPlaces shells = [&](BrickIndex n) { return store.ShellsOf(n); };
-  ShellPlaces deep;
-  if (depths == Depths::kWanted) deep = [&](BrickIndex n) { return store.DepthsOf(n); };
+  DepthPlaces deep;
+  if (depths == Depths::kWanted)
+    deep = [&](BrickIndex n) -> DepthPlanes& { return store.DepthsOf(n); };
   (void)StreamShellsOfLayers(volume, held, kind, shell_width, context, relay, shells, deep);
   BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange, context));
   store.SendAway(volume);

@@ -11,13 +11,10 @@
 
 namespace bccskel::ranks {
 
-// Whether the method compares depths, which the symmetric one does.
-enum class Depths : uint8_t { kNone, kWanted };
-
 // Of all bricks of RankBricks::local, ghosts too.
 struct RankShells {
-  Shells shells;  // last() is the object's
-  Shells depths;  // as from BuildDepths(); empty where they are not wanted
+  Shells shells;       // last() is the object's
+  BrickDepths depths;  // empty where they are not wanted
 };
 
 // Does:  BuildShells() and BuildDepths() of an object that is spread over ranks; the same bits.
@@ -26,12 +23,11 @@ struct RankShells {
 //        and nothing else (euclidean_scan.cc): so squares go on to ranks that own whole columns.
 //        Chamfer scans go up and down, and of what is below or above a layer they need the next
 //        layer (chamfer_scan.cc): so ranks scan one after the other. Shells go to the owners.
-// Cost:  what one machine takes for ComputeEuclidean() of the layers of a rank and of the two
-// beside
-//        them; as columns go, some at a time, the result takes their place. On the wire 72 to 216
-//        bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or 784
-//        bytes back. Chamfer scans take as long as on one machine, and the memory of StreamShells()
-//        for a rank's layers.
+// Cost:  what one machine takes for Euclidean distances of the layers of a rank and of the two
+//        beside them; as columns go, some at a time, the result takes their place. On the wire 72
+//        to 216 bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or
+//        720 bytes back. Chamfer scans take as long as on one machine, and the memory of
+//        StreamShells() for a rank's layers.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.
 absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& bricks,
                                          DistanceKind kind, double shell_width, Depths depths,

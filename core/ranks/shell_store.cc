@@ -1,7 +1,5 @@
 #include "core/ranks/shell_store.h"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace bccskel::ranks {
@@ -12,13 +10,17 @@ ShellStore::ShellStore(Exchange& exchange, const RankBricks& bricks, double shel
       bricks_(bricks),
       shell_width_(shell_width),
       depths_(depths),
-      shells_(bricks.local.brick_count()),
-      deep_(depths == Depths::kWanted ? bricks.local.brick_count() : 0) {}
+      planes_(bricks.local.brick_count() + 1),
+      ranges_(bricks.local.brick_count()),
+      deep_(depths == Depths::kWanted ? bricks.local.brick_count() + 1 : 0) {
+  planes_.back() = {};
+  if (!deep_.empty()) deep_.back() = {};
+}
 
 void ShellStore::Trade(const Volume& volume, exec::Share measured, const DistanceField& field,
                        const exec::Context& context) {
   const Shells shells = BuildShells(volume, field, shell_width_, context);
-  std::optional<Shells> deep;
+  BrickDepths deep;
   if (depths_ == Depths::kWanted) deep = BuildDepths(volume, field, context);
   std::vector<Bytes> out(static_cast<size_t>(exchange_.size()));
   for (auto n = static_cast<BrickIndex>(measured.begin); n < measured.end; ++n) {
@@ -27,7 +29,7 @@ void ShellStore::Trade(const Volume& volume, exec::Share measured, const Distanc
     Pack(key, to);
     Pack(shells.planes()[n], to);
     Pack(shells.RangeOf(n), to);
-    if (deep.has_value()) Pack(deep->planes()[n], to);
+    if (!deep.empty()) Pack(deep[n], to);
   }
   KeepAll(TradeWithAll(exchange_, std::move(out)));
 }
@@ -40,9 +42,9 @@ void ShellStore::KeepAll(const std::vector<Bytes>& letters) {
 
 void ShellStore::Keep(Unpacker& from) {
   const BrickIndex n = *bricks_.local.Find(from.Take<BrickKey>());
-  shells_.planes[n] = from.Take<ShellPlanes>();
-  shells_.ranges[n] = from.Take<Shells::Range>();
-  if (depths_ == Depths::kWanted) deep_.planes[n] = from.Take<ShellPlanes>();
+  planes_[n] = from.Take<ShellPlanes>();
+  ranges_[n] = from.Take<Shells::Range>();
+  if (depths_ == Depths::kWanted) deep_[n] = from.Take<DepthPlanes>();
 }
 
 void ShellStore::Expect(const Volume& volume, exec::Share measured) {
@@ -53,20 +55,20 @@ void ShellStore::Expect(const Volume& volume, exec::Share measured) {
     places_.push_back({is_own, is_own ? *own : static_cast<BrickIndex>(away_.size())});
     if (!is_own) away_.push_back(n);
   }
-  away_shells_ = Planes(away_.size());
-  away_deep_ = Planes(depths_ == Depths::kWanted ? away_.size() : 0);
+  away_planes_.resize(away_.size());
+  away_ranges_.resize(away_.size());
+  if (depths_ == Depths::kWanted) away_deep_.resize(away_.size());
 }
 
 ShellPlace ShellStore::ShellsOf(BrickIndex brick) {
-  const Place& place = places_[brick - first_measured_];
-  Planes& planes = place.is_own ? shells_ : away_shells_;
-  return {&planes.planes[place.n], &planes.ranges[place.n]};
+  const auto [is_own, n] = places_[brick - first_measured_];
+  if (is_own) return {&planes_[n], &ranges_[n]};
+  return {&away_planes_[n], &away_ranges_[n]};
 }
 
-ShellPlace ShellStore::DepthsOf(BrickIndex brick) {
-  const Place& place = places_[brick - first_measured_];
-  Planes& planes = place.is_own ? deep_ : away_deep_;
-  return {&planes.planes[place.n], &planes.ranges[place.n]};
+DepthPlanes& ShellStore::DepthsOf(BrickIndex brick) {
+  const auto [is_own, n] = places_[brick - first_measured_];
+  return is_own ? deep_[n] : away_deep_[n];
 }
 
 void ShellStore::SendAway(const Volume& volume) {
@@ -75,30 +77,24 @@ void ShellStore::SendAway(const Volume& volume) {
     const BrickKey key = volume.keys()[away_[n]];
     Bytes& to = out[static_cast<size_t>(bricks_.owners.OwnerOf(key))];
     Pack(key, to);
-    Pack(away_shells_.planes[n], to);
-    Pack(away_shells_.ranges[n], to);
-    if (depths_ == Depths::kWanted) Pack(away_deep_.planes[n], to);
+    Pack(away_planes_[n], to);
+    Pack(away_ranges_[n], to);
+    if (!away_deep_.empty()) Pack(away_deep_[n], to);
   }
-  away_shells_ = away_deep_ = Planes(0);
+  away_planes_ = {};
+  away_deep_ = {};
   KeepAll(TradeWithAll(exchange_, std::move(out)));
 }
 
 RankShells ShellStore::Finish() && {
-  ShareWithGhosts(exchange_, bricks_, std::span(shells_.planes));
-  ShareWithGhosts(exchange_, bricks_, std::span(shells_.ranges));
-  if (depths_ == Depths::kWanted) ShareWithGhosts(exchange_, bricks_, std::span(deep_.planes));
-  uint64_t last = 0;
-  for (const Shells::Range& range : shells_.ranges) {
-    last = std::max(last, static_cast<uint64_t>(range.last));
-  }
+  ShareWithGhosts(exchange_, bricks_, std::span(planes_));
+  ShareWithGhosts(exchange_, bricks_, std::span(ranges_));
+  if (depths_ == Depths::kWanted) ShareWithGhosts(exchange_, bricks_, std::span(deep_));
+  Shells shells(std::move(planes_), std::move(ranges_));
+  auto last = static_cast<uint64_t>(shells.last());
   exchange_.Max({&last, 1});
-  return {Joined(std::move(shells_), static_cast<int32_t>(last)), Joined(std::move(deep_), 0)};
-}
-
-Shells ShellStore::Joined(Planes planes, int32_t last) {
-  Shells shells(std::move(planes.planes), std::move(planes.ranges));
-  shells.SetLast(last);
-  return shells;
+  shells.SetLast(static_cast<int32_t>(last));
+  return {std::move(shells), std::move(deep_)};
 }
 
 }  // namespace bccskel::ranks

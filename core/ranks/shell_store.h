@@ -30,7 +30,7 @@ class ShellStore {
   void Expect(const Volume& volume, exec::Share measured);
   // Needs: `brick` of that volume, measured here.
   ShellPlace ShellsOf(BrickIndex brick);
-  ShellPlace DepthsOf(BrickIndex brick);
+  DepthPlanes& DepthsOf(BrickIndex brick);
   // All ranks together.
   void SendAway(const Volume& volume);
 
@@ -38,13 +38,6 @@ class ShellStore {
   RankShells Finish() &&;
 
  private:
-  struct Planes {
-    explicit Planes(size_t bricks) : planes(bricks + 1), ranges(bricks) { planes.back() = {}; }
-
-    exec::UninitializedVector<ShellPlanes> planes;
-    std::vector<Shells::Range> ranges;
-  };
-  static Shells Joined(Planes planes, int32_t last);
   void KeepAll(const std::vector<Bytes>& letters);
   void Keep(Unpacker& from);
 
@@ -52,8 +45,9 @@ class ShellStore {
   const RankBricks& bricks_;
   const double shell_width_;
   const Depths depths_;
-  Planes shells_;
-  Planes deep_;  // its ranges are not used
+  exec::UninitializedVector<ShellPlanes> planes_;
+  std::vector<Shells::Range> ranges_;
+  BrickDepths deep_;
 
   struct Place {
     bool is_own;
@@ -62,8 +56,9 @@ class ShellStore {
   size_t first_measured_ = 0;
   std::vector<Place> places_;     // of the measured bricks
   std::vector<BrickIndex> away_;  // measured bricks of others
-  Planes away_shells_ = Planes(0);
-  Planes away_deep_ = Planes(0);
+  exec::UninitializedVector<ShellPlanes> away_planes_;
+  std::vector<Shells::Range> away_ranges_;
+  BrickDepths away_deep_;
 };
 
 }  // namespace bccskel::ranks

@@ -115,15 +115,26 @@ PlanesOfBricks PlanesFor(const Volume& object) {
   return planes;
 }
 
-// Slices distances while they are at hand.
+BrickDepths DepthsFor(const Volume& object) {
+  BrickDepths depths(object.brick_count() + 1);
+  depths.back() = {};
+  return depths;
+}
+
+void KeepDepths(const ShellPlanes& planes, DepthPlanes& depths) {
+  std::copy_n(planes.begin(), kDepthPlanes, depths.begin());
+}
+
+// Slices chamfer distances while they are at hand.
 class StreamSlicer : public DistanceSink {
  public:
-  explicit StreamSlicer(const Volume& object) : object_(object) {}
-
-  void Add(double width, ShellPlaces places) { cuts_.push_back({width, std::move(places), {}}); }
+  // Needs: `object` outlives this; `depths` may be null.
+  StreamSlicer(const Volume& object, double width, ShellPlaces shells, DepthPlaces depths)
+      : object_(object), width_(width), shells_(std::move(shells)), depths_(std::move(depths)) {}
 
   void Begin(const ChamferWeights& weights, uint32_t limit) override {
-    for (Cut& cut : cuts_) cut.slice.emplace(weights, cut.width, limit - 1);
+    shell_.emplace(weights, width_, limit - 1);
+    if (depths_) depth_.emplace(weights, DepthWidth(AxisScaleOf(object_.placement())), limit - 1);
   }
   uint32_t Take(BrickIndex brick, const uint16_t* distances) override {
     return Slice(brick, distances);
@@ -133,45 +144,74 @@ class StreamSlicer : public DistanceSink {
   }
 
  private:
-  struct Cut {
-    double width;
-    ShellPlaces places;
-    std::optional<ChamferSlicer> slice;
-  };
-
   template <typename T>
   uint32_t Slice(BrickIndex brick, const T* distances) {
-    uint32_t largest = 0;
-    for (const Cut& cut : cuts_) {
-      const ShellPlace place = cut.places(brick);
-      const DistanceExtremes found =
-          (*cut.slice)(object_.bricks()[brick], distances, *place.planes);
-      *place.range = cut.slice->ShellsOf(found);
-      largest = found.largest;
+    const BrickBits& bits = object_.bricks()[brick];
+    const ShellPlace place = shells_(brick);
+    const DistanceExtremes found = (*shell_)(bits, distances, *place.planes);
+    *place.range = shell_->ShellsOf(found);
+    if (depths_) {
+      ShellPlanes planes;
+      (*depth_)(bits, distances, planes);
+      KeepDepths(planes, depths_(brick));
     }
-    return largest;
+    return found.largest;
   }
 
   const Volume& object_;
-  std::vector<Cut> cuts_;
+  const double width_;
+  const ShellPlaces shells_;
+  const DepthPlaces depths_;
+  std::optional<ChamferSlicer> shell_;
+  std::optional<ChamferSlicer> depth_;
 };
 
 constexpr size_t kSliceWork = 16;  // in the unit of Context::WorkersFor()
 
-Shells SliceAll(const Volume& object, const DistanceField& distance, double width,
-                const exec::Context& context) {
-  const FieldSlicer slice(object, distance, width);
-  PlanesOfBricks planes = PlanesFor(object);
-  std::vector<Shells::Range> ranges(object.brick_count());
+template <typename Slice>
+void SliceAll(const Volume& object, const exec::Context& context, Slice slice) {
   exec::Portions portions(object.brick_count(), 64);
   context.Offer(context.WorkersFor(object.brick_count(), kSliceWork), [&](int) {
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       context.Rest();
-      for (size_t n = mine.begin; n < mine.end; ++n) ranges[n] = slice(n, planes[n]);
+      for (size_t n = mine.begin; n < mine.end; ++n) slice(n);
     }
   });
-  return Shells(std::move(planes), std::move(ranges));
 }
+
+// Slices Euclidean distances while they are at hand.
+class SquareSlicer : public SquareSink {
+ public:
+  SquareSlicer(const Volume& object, double width, Depths depths)
+      : shell_(width),
+        depth_(DepthWidth(AxisScaleOf(object.placement()))),
+        planes_(PlanesFor(object)),
+        ranges_(object.brick_count()) {
+    if (depths == Depths::kWanted) depths_ = DepthsFor(object);
+  }
+
+  void Take(BrickIndex brick, const uint16_t* squares) override { Slice(brick, squares); }
+  void Take(BrickIndex brick, const float* squares) override { Slice(brick, squares); }
+
+  EuclideanShells Finish(std::optional<DistanceField> distance) && {
+    return {Shells(std::move(planes_), std::move(ranges_)), std::move(depths_),
+            std::move(distance)};
+  }
+
+ private:
+  template <typename T>
+  void Slice(BrickIndex brick, const T* squares) {
+    const SquaredRange range = SliceBrick(shell_, squares, planes_[brick]);
+    ranges_[brick] = {shell_(range.smallest), shell_(range.largest)};
+    if (!depths_.empty()) SliceDepths(depth_, squares, depths_[brick]);
+  }
+
+  const EuclideanShellRule shell_;
+  const EuclideanShellRule depth_;
+  PlanesOfBricks planes_;
+  std::vector<Shells::Range> ranges_;
+  BrickDepths depths_;
+};
 
 }  // namespace
 
@@ -201,17 +241,20 @@ double DepthWidth(const AxisScale& scale) {
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context) {
   const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  return SliceAll(object, distance, width, context);
+  const FieldSlicer slice(object, distance, width);
+  PlanesOfBricks planes = PlanesFor(object);
+  std::vector<Shells::Range> ranges(object.brick_count());
+  SliceAll(object, context, [&](size_t n) { ranges[n] = slice(n, planes[n]); });
+  return Shells(std::move(planes), std::move(ranges));
 }
 
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
                                     const exec::Context& context, size_t at_once) {
   PlanesOfBricks planes = PlanesFor(object);
   std::vector<Shells::Range> ranges(object.brick_count());
-  StreamSlicer slicer(object);
-  slicer.Add(EffectiveShellWidth(shell_width, AxisScaleOf(object.placement())), [&](BrickIndex n) {
-    return ShellPlace{&planes[n], &ranges[n]};
-  });
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  const ShellPlaces places = [&](BrickIndex n) { return ShellPlace{&planes[n], &ranges[n]}; };
+  StreamSlicer slicer(object, width, places, nullptr);
   BCCSKEL_RETURN_IF_ERROR(StreamChamfer(object, kind, context, slicer, at_once));
   return Shells(std::move(planes), std::move(ranges));
 }
@@ -219,17 +262,32 @@ absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, dou
 absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
                                   double shell_width, const exec::Context& context,
                                   LayerRelay& relay, const ShellPlaces& shells,
-                                  const ShellPlaces& depths) {
-  const AxisScale scale = AxisScaleOf(object.placement());
-  StreamSlicer slicer(object);
-  slicer.Add(EffectiveShellWidth(shell_width, scale), shells);
-  if (depths) slicer.Add(DepthWidth(scale), depths);
+                                  const DepthPlaces& depths) {
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  StreamSlicer slicer(object, width, shells, depths);
   return StreamChamferOfLayers(object, held, kind, context, slicer, relay);
 }
 
-Shells BuildDepths(const Volume& object, const DistanceField& distance,
-                   const exec::Context& context) {
-  return SliceAll(object, distance, DepthWidth(AxisScaleOf(object.placement())), context);
+BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
+                        const exec::Context& context) {
+  const FieldSlicer slice(object, distance, DepthWidth(AxisScaleOf(object.placement())));
+  BrickDepths depths = DepthsFor(object);
+  SliceAll(object, context, [&](size_t n) {
+    ShellPlanes planes;
+    slice(n, planes);
+    KeepDepths(planes, depths[n]);
+  });
+  return depths;
+}
+
+absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,
+                                                      Depths depths, const exec::Context& context,
+                                                      size_t at_once) {
+  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
+  SquareSlicer slicer(object, width, depths);
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<DistanceField> distance,
+                           StreamEuclidean(object, context, &slicer, KeepField::kIfSmall, at_once));
+  return std::move(slicer).Finish(std::move(distance));
 }
 
 }  // namespace bccskel

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/distance/chamfer_scan.h"
 #include "core/distance/distance_field.h"
+#include "core/distance/euclidean_stream.h"
 #include "core/exec/context.h"
 #include "core/exec/uninitialized.h"
 #include "core/shells/slice_bricks.h"
@@ -70,12 +72,21 @@ absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, dou
                                     const exec::Context& context,
                                     size_t at_once = kMostPointsAtOnce);
 
-// Where a brick's shells are to be written.
+// Thinner shells, modulo 32, that tell which of two neighbors is deeper: those of neighbors differ
+// by less than 16. Shapes: planes for each brick and the padding brick. Background points may have
+// any bits.
+using BrickDepths = exec::UninitializedVector<DepthPlanes>;
+
+BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
+                        const exec::Context& context);
+
+// Where a brick's shells and depths are to be written.
 struct ShellPlace {
   ShellPlanes* planes;
   Shells::Range* range;
 };
 using ShellPlaces = std::function<ShellPlace(BrickIndex)>;
+using DepthPlaces = std::function<DepthPlanes&(BrickIndex)>;
 
 // StreamShells() of one holder's layers, as StreamChamferOfLayers(); `depths`, which may be null,
 // are as from BuildDepths().
@@ -83,16 +94,25 @@ using ShellPlaces = std::function<ShellPlace(BrickIndex)>;
 absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
                                   double shell_width, const exec::Context& context,
                                   LayerRelay& relay, const ShellPlaces& shells,
-                                  const ShellPlaces& depths);
-
-// Thinner shells that tell which of two neighbors is deeper, but no longer the shells of a whole
-// brick apart: those of neighbors differ by less than 16, so planes 0 to 4 are enough.
-Shells BuildDepths(const Volume& object, const DistanceField& distance,
-                   const exec::Context& context);
+                                  const DepthPlaces& depths);
 
 // The thickness of such a shell: a quarter of a lattice unit, or more where the spacing differs so
 // much between the axes that neighbors could be 16 quarters apart.
 double DepthWidth(const AxisScale& scale);
+
+// Whether the method compares depths, which the symmetric one does.
+enum class Depths : uint8_t { kNone, kWanted };
+
+// Shells and, if wanted, depths from Euclidean distances, sliced while those are measured.
+struct EuclideanShells {
+  Shells shells;
+  BrickDepths depths;
+  std::optional<DistanceField> distance;  // where KeepField::kIfSmall keeps it
+};
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,
+                                                      Depths depths, const exec::Context& context,
+                                                      size_t at_once = kMostSquaresAtOnce);
 
 inline constexpr double kMinShellWidth = 0.75;
 inline constexpr double kMaxShellWidth = 64;

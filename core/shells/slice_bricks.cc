@@ -31,10 +31,11 @@ HWY_INLINE void WriteShellBytes(const FloatShellRule& rule, const uint16_t* dist
   }
 }
 
-HWY_INLINE void WritePlanes(const uint8_t* shells, ShellPlanes& planes) {
+template <size_t kCount>
+HWY_INLINE void WritePlanes(const uint8_t* shells, std::array<BrickBits, kCount>& planes) {
   const hn::CappedTag<uint8_t, 64> u8;
   const size_t lanes = hn::Lanes(u8);
-  for (size_t b = 0; b < kShellPlanes; ++b) {
+  for (size_t b = 0; b < kCount; ++b) {
     const auto bit = hn::Set(u8, static_cast<uint8_t>(1u << b));
     auto* bytes = reinterpret_cast<uint8_t*>(planes[b].words.data());
     if (lanes < 8) {  // no vectors at all: collect single bits
@@ -137,6 +138,13 @@ HWY_INLINE SquaredRange SliceSquares(const EuclideanShellRule& rule, const T* sq
   WritePlanes(shells, planes);
   return RangeOfSquares(squared);
 }
+template <typename T>
+HWY_INLINE void SliceDepthsOf(const EuclideanShellRule& rule, const T* squared,
+                              DepthPlanes& planes) {
+  alignas(64) uint8_t depths[kBrickPoints];
+  WriteShellBytes(rule, squared, depths);
+  WritePlanes(depths, planes);
+}
 SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squared,
                                 ShellPlanes& planes) {
   return SliceSquares(rule, squared, planes);
@@ -144,6 +152,13 @@ SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squ
 SquaredRange SliceWholeSquaredTarget(const EuclideanShellRule& rule, const uint16_t* squared,
                                      ShellPlanes& planes) {
   return SliceSquares(rule, squared, planes);
+}
+void SliceDepthsTarget(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes) {
+  SliceDepthsOf(rule, squared, planes);
+}
+void SliceWholeDepthsTarget(const EuclideanShellRule& rule, const uint16_t* squared,
+                            DepthPlanes& planes) {
+  SliceDepthsOf(rule, squared, planes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -165,6 +180,8 @@ int32_t Apply(const FloatShellRule& rule, uint32_t distance) {
 HWY_EXPORT(SliceBrickTarget);
 HWY_EXPORT(SliceSquaredTarget);
 HWY_EXPORT(SliceWholeSquaredTarget);
+HWY_EXPORT(SliceDepthsTarget);
+HWY_EXPORT(SliceWholeDepthsTarget);
 
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes) {
@@ -178,6 +195,14 @@ SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, Sh
 SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
                         ShellPlanes& planes) {
   return HWY_DYNAMIC_DISPATCH(SliceWholeSquaredTarget)(rule, squared, planes);
+}
+
+void SliceDepths(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes) {
+  HWY_DYNAMIC_DISPATCH(SliceDepthsTarget)(rule, squared, planes);
+}
+
+void SliceDepths(const EuclideanShellRule& rule, const uint16_t* squared, DepthPlanes& planes) {
+  HWY_DYNAMIC_DISPATCH(SliceWholeDepthsTarget)(rule, squared, planes);
 }
 
 CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest) {

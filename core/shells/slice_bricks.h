@@ -12,6 +12,9 @@ namespace bccskel {
 
 inline constexpr int kShellPlanes = 6;
 using ShellPlanes = std::array<BrickBits, kShellPlanes>;
+// Of depths: see BrickDepths.
+inline constexpr int kDepthPlanes = 5;
+using DepthPlanes = std::array<BrickBits, kDepthPlanes>;
 
 // Which shell a distance is in, exactly: the shell grows by one at every multiple of the width less
 // a half. Lengths are scaled by 128 so that half widths are whole.
@@ -79,6 +82,9 @@ struct SquaredRange {
 SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes);
 SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
                         ShellPlanes& planes);
+// Depths by the same rule modulo 32.
+void SliceDepths(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes);
+void SliceDepths(const EuclideanShellRule& rule, const uint16_t* squared, DepthPlanes& planes);
 
 }  // namespace bccskel
 

@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_SKELETON_CENTER_CURVES_H_
 #define BCCSKEL_CORE_SKELETON_CENTER_CURVES_H_
 
+#include <cstdint>
+
 #include "absl/status/status.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
@@ -8,6 +10,9 @@
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// Of one point, its radius included.
+inline constexpr uint64_t kMostDistancesOfPoint = 30;
 
 // Does:  finds the middle below the lattice: sets SkeletonPoint::shift of the points of all edges
 //        to the way from the smooth curve to the center of the disc across it, as wide as the

@@ -1,5 +1,7 @@
 #include "core/thinning/mark_symmetric.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/thinning/mark_symmetric.cc"
 // Compiles the rest of this file once per instruction set, so it comes before other Highway
@@ -23,11 +25,32 @@ HWY_INLINE Plane CandidatesOf(const ObjectView& view, BrickIndex brick) {
   return And(LoadPlane(view.object[brick]), LoadPlane(view.candidates[brick]));
 }
 
+// As in mark_removable.cc: asks for what comes next while this is at work, where the object is too
+// large for the caches near a processor. Of the bricks around one, those below and beside it have
+// just been read for others.
+template <Sublattice kSublattice>
+HWY_INLINE void PrefetchAhead(const ObjectView& view, std::span<const BrickIndex> bricks, size_t at,
+                              const BrickBits* simple) {
+  constexpr size_t kNeighborsAhead = 12, kBricksAhead = 6;
+  constexpr size_t kAbove = 12, kDiagonal = kSublattice == Sublattice::kOdd ? 4 : 0;
+  const size_t last = bricks.size() - 1;
+  __builtin_prefetch(&view.neighbors[bricks[std::min(at + kNeighborsAhead, last)]]);
+  const BrickIndex brick = bricks[std::min(at + kBricksAhead, last)];
+  const BrickNeighborhood& near = view.neighbors[brick];
+  __builtin_prefetch(&view.candidates[brick]);
+  for (const size_t position : {kAbove, kDiagonal}) {
+    __builtin_prefetch(&view.object[near[position]]);
+    __builtin_prefetch(&simple[near[position]]);
+  }
+}
+
 template <Sublattice kSublattice>
 size_t FindSimpleIn(const ObjectView& view, EndPoints end_points, std::span<BrickIndex> bricks,
                     BrickBits* simple) {
   size_t count = 0;
-  for (const BrickIndex brick : bricks) {
+  for (size_t at = 0; at < bricks.size(); ++at) {
+    if (view.is_far) PrefetchAhead<kSublattice>(view, bricks, at, simple);
+    const BrickIndex brick = bricks[at];
     Plane link[14];
     LinkOf<kSublattice>(view, brick, link);
     Plane found = And(CandidatesOf(view, brick), Simple(link));
@@ -100,14 +123,14 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 template <Sublattice kSublattice>
 HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
-  constexpr size_t kLast = 4;
+  constexpr size_t kLast = kDepthPlanes - 1;
   Plane borrow[14];
   for (int n = 0; n < 14; ++n) borrow[n] = Not(color.Than(n));
   const BrickNeighborhood& neighbors = view.object.neighbors[brick];
   for (size_t bit = 0; bit <= kLast; ++bit) {
     const Plane own = LoadPlane(view.depth[brick][bit]);
     Plane other[14];
-    AllPlanes<kSublattice>(&view.depth[0][bit], neighbors, own, other, kShellPlanes);
+    AllPlanes<kSublattice>(&view.depth[0][bit], neighbors, own, other, kDepthPlanes);
     for (int n = 0; n < 14; ++n) {
       if (bit < kLast) {
         borrow[n] = Borrow(own, other[n], borrow[n]);
@@ -154,7 +177,9 @@ template <Sublattice kSublattice>
 size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   const HigherColor color(kSublattice, view.pass);
   size_t count = 0;
-  for (const BrickIndex brick : bricks) {
+  for (size_t at = 0; at < bricks.size(); ++at) {
+    if (view.object.is_far) PrefetchAhead<kSublattice>(view.object, bricks, at, view.simple);
+    const BrickIndex brick = bricks[at];
     const Plane own = LoadPlane(view.simple[brick]);
     Plane link[14], among[14], critical[14];
     LinkOf<kSublattice>(view.object, brick, link);

@@ -8,7 +8,7 @@
 #include "core/shells/slice_bricks.h"
 #include "core/thinning/mark_removable.h"
 #include "core/thinning/thinning.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/work_list.h"
 #include "core/volume/brick.h"
 
 // Does:  finds the points that a symmetric pass may remove, a brick (512 points) at a time.
@@ -53,7 +53,7 @@ struct RuleBView {
   BrickBits* simple = nullptr;
   BrickBits* after_pairs = nullptr;
   BrickBits* after_triples = nullptr;
-  const ShellPlanes* depth = nullptr;  // planes 0 to 4: quarters of a lattice unit modulo 32
+  const DepthPlanes* depth = nullptr;  // quarters of a lattice unit modulo 32
   // Whether points of a brick may be in larger critical cliques than pairs; few bricks have any.
   uint8_t* larger_cliques = nullptr;
   Unsettled* unsettled = nullptr;  // bricks to visit again, since points came back

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/thinning/mark_removable.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/work_list.h"
 
 namespace bccskel {
 

@@ -8,7 +8,7 @@
 #include "core/exec/uninitialized.h"
 #include "core/exec/worker_team.h"
 #include "core/shells/shells.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/open_shell.h"
 #include "core/volume/brick.h"
 
 namespace bccskel {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/thinning/stubble.h"
+#include "core/exec/meeting_team.h"
+#include "core/thinning/removal.h"
 #include "core/thinning/sweep_worker.h"
-#include "core/thinning/unsettled.h"
 #include "core/volume/count_points.h"
 
 namespace bccskel {
@@ -36,11 +36,10 @@ class ShellSweep {
         busy_groups_(groups()),
         enabled_(unsettled_.size()),
         changed_(unsettled_.size(), -1),
-        workers_(static_cast<size_t>(context.MeetingWorkersFor(state.brick_count(), rule.work()))),
-        barrier_(static_cast<int>(workers_.size())),
+        team_(context.MeetingWorkersFor(state.brick_count(), rule.work()), context),
+        workers_(static_cast<size_t>(team_.size())),
         points_at_start_(
-            CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))),
-        patience_(context.patience) {
+            CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))) {
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
       if (!sleeps()) unsettled_[n] |= kBesideSleeper;
@@ -49,9 +48,7 @@ class ShellSweep {
 
   absl::StatusOr<SweepTotals> Run() {
     if (partners_ != nullptr) partners_->Sum({&points_at_start_, 1});
-    context_.Run(static_cast<int>(workers_.size()),
-                 [this](int index) { barrier_.Guard([&] { Work(index); }); });
-    if (workers_.size() > 1) patience_.Tell(context_.team->confidence());
+    team_.Run([this](int index) { Work(index); });
     if (stopped_) return WhyStopped();
     return SweepTotals{TotalRemoved(), passes_};
   }
@@ -68,7 +65,7 @@ class ShellSweep {
     int32_t cycle = done_;  // each of those shells had one
     for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
     for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
-      if (alone_ && !JoinedInOne(index, worker)) return;
+      if (team_.parting() && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
       do {
@@ -76,10 +73,8 @@ class ShellSweep {
         for (int pass = 0; pass < rule_.passes_per_cycle(); ++pass) {
           if (!Pass(index, worker, {.shell = shell, .cycle = cycle, .pass = pass})) return;
         }
-        if (index == 0 && meets(0)) {
-          alone_ = patience_.Lost() || context_.usable_threads() == 1;
-        }
-        Meet(index);  // the new object is complete, and so are the sums
+        team_.ConsiderParting(index);
+        team_.Meet(index);  // the new object is complete, and so are the sums
         if (partners_ != nullptr && !Agree(index, shell)) return;
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
@@ -94,18 +89,26 @@ class ShellSweep {
                      std::min(share.end * kUnsettledGroup, state_.brick_count())};
     BeginOpening(shells_, own_, worker);
     if (workers_.size() > 1) MarkBorder(state_, worker, unsettled_);
-    SplitParts(state_, worker);
+    Split(index, worker);
+  }
+
+  void Split(int index, Worker& worker) {
+    if (team_.meets(index) || sleeps() || partners_ != nullptr) {
+      SplitParts(state_, worker);
+    } else {
+      SplitSlabs(state_, rule_.steps(), worker);
+    }
   }
 
   // Returns whether this worker goes on; worker 0 takes over from the others, once.
   bool JoinedInOne(int index, Worker& first) {
-    Meet(index);  // the others have left their bricks
+    team_.Meet(index);  // the others have left their bricks
     if (index != 0) return false;
-    if (joined_) return true;
-    joined_ = true;
+    if (!team_.meets(0)) return true;
+    team_.GoOnAlone();
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
-    SplitParts(state_, first);
+    Split(0, first);
     for (Unsettled& brick : unsettled_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -185,18 +188,19 @@ class ShellSweep {
 
   // One pass. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, PassStep at) {
-    Await(index);  // what others removed near here is gone
+    team_.Await(index);  // what others removed near here is gone
     if (index == 0) {
       if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
     TakeOverUnsettled(worker);
+    if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
-      if (at.step > 0) Await(index);  // and what they did in the step before is done
+      if (at.step > 0) team_.Await(index);  // and what they did in the step before is done
       if (index == 0) context_.Rest();
       BorderFirst(index, worker, [&](Part& part) { Mark(at, part); });
     }
-    Await(index);  // nobody reads any more what is removed near others
+    team_.Await(index);  // nobody reads any more what is removed near others
     if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(worker);
     worker.seen_elsewhere.clear();
@@ -205,17 +209,40 @@ class ShellSweep {
     return true;
   }
 
+  // While a slab is at its first step, those behind it are each at a later one, so that all a pass
+  // touches stays near. A step of a slab reads what slabs beside it were left by the step before,
+  // and their object, which they lose after that.
+  bool PassInSlabs(Worker& worker, PassStep at) {
+    const auto steps = static_cast<size_t>(rule_.steps());
+    for (size_t n = 0; n < worker.slabs.size() + steps && !stopped_; ++n) {
+      context_.Rest();
+      for (size_t step = n < worker.slabs.size() ? 0 : n - worker.slabs.size() + 1;
+           step <= std::min(n, steps); ++step) {
+        const size_t slab = n - step;
+        Part& part = worker.slab_parts[slab % worker.slab_parts.size()];
+        part.bricks = worker.slabs[slab];
+        at.step = static_cast<int>(step);
+        if (step < steps) {
+          Mark(at, part);
+        } else {
+          Remove(at.cycle, part, worker);
+        }
+      }
+    }
+    return !stopped_;
+  }
+
   // What ghosts lose their owners know.
   void TradeMarks(int index, int32_t cycle, Worker& worker) {
     for (Part& part : worker.parts) {
       part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrUnsettle(m.brick); });
     }
-    Meet(index);
+    team_.Meet(index);
     if (index == 0) {
       TellMarks(workers_, *partners_);
       lost_by_ghosts_ = partners_->Hear();
     }
-    Meet(index);
+    team_.Meet(index);
     worker.ghost_marks.clear();
     for (const MarkedBrick& m : lost_by_ghosts_) {
       if (Owns(worker, m.brick)) worker.ghost_marks.push_back(m);
@@ -240,7 +267,7 @@ class ShellSweep {
       all_shell_points_ = sums[1];
       stopped_ = sums[2] != 0;
     }
-    Meet(index);
+    team_.Meet(index);
     return !stopped_;
   }
 
@@ -251,7 +278,7 @@ class ShellSweep {
     for (Part& part : std::span(worker.parts).first(2)) {
       if (!part.empty()) work(part);
     }
-    if (meets(index)) barrier_.Arrive(index);
+    team_.Arrive(index);
     if (!worker.parts[2].empty()) work(worker.parts[2]);
   }
 
@@ -263,18 +290,7 @@ class ShellSweep {
                     part.to_do, part.end_points_to_do);
     }
     rule_.Mark(at, part.to_do, unsettled_.data(), part.marks, part.thin);
-    if (at.step + 1 == rule_.steps()) MarkStubble(part);
-  }
-
-  bool meets(int index) const { return workers_.size() > 1 && !(index == 0 && joined_); }
-  void Await(int index) {
-    if (!meets(index)) return;
-    const exec::Barrier::Duration blocked = barrier_.Await(index);
-    if (index == 0) patience_.Blocked(blocked);
-  }
-  void Meet(int index) {
-    if (meets(index)) barrier_.Arrive(index);
-    Await(index);
+    if (at.step + 1 == rule_.steps()) MarkStubble(state_, stubble_, unsettled_, part);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.
@@ -282,27 +298,6 @@ class ShellSweep {
     for (const Worker& other : workers_) {
       for (BrickIndex n : other.seen_elsewhere) {
         if (Owns(worker, n)) UnsettledView().Add(n, enabled_[n]);
-      }
-    }
-  }
-
-  // Whether an end point is a stubble point depends on points up to three steps away, so a brick
-  // with end points stays unsettled for them.
-  void MarkStubble(Part& part) {
-    if (stubble_ == StubblePolicy::kNone) return;
-    const ObjectView view = state_.View();
-    for (Sublattice sublattice : kSublattices) {
-      part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
-                                               part.thin.Room(sublattice)));
-      const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
-      MarkedBrick* marked = part.marks.Room(thin.size());
-      const size_t count = MarkEndPoints(view, sublattice, thin, marked);
-      for (const MarkedBrick& m : std::span(marked, count)) {
-        unsettled_[m.brick] |= kEndPointsUnsettled;
-        const BrickBits stubble = SelectStubble(state_, m, stubble_);
-        if (stubble.Empty()) continue;
-        *part.marks.Room(1) = {stubble, m.brick};
-        part.marks.Add(1);
       }
     }
   }
@@ -373,21 +368,16 @@ class ShellSweep {
   std::vector<uint8_t> busy_groups_;  // as in UnsettledBricks
   std::vector<Unsettled> enabled_;    // watched_ once the brick has candidates, before that 0
   std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
+  exec::MeetingTeam team_;
   std::vector<Worker> workers_;
-  exec::Barrier barrier_;
   uint64_t points_at_start_;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass
-  bool alone_ = false;    // written by worker 0 between the meetings of a pass
 
   // Of all partners; written by worker 0 between the meetings of Agree() and TradeMarks().
   uint64_t all_removed_ = 0;
   uint64_t all_shell_points_ = 0;
   std::span<const MarkedBrick> lost_by_ghosts_;
-
-  // Worker 0's own.
-  exec::Patience patience_;
-  bool joined_ = false;  // it has taken over from the others
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/thinning/stubble.h"
+
 namespace bccskel {
 namespace {
 
@@ -15,6 +17,12 @@ size_t FirstFromLayer(const ThinningState& state, int32_t layer) {
   const auto first = std::ranges::lower_bound(state.keys, layer, {},
                                               [](BrickKey key) { return key.coordinates().bz; });
   return static_cast<size_t>(first - state.keys.begin());
+}
+
+void Reserve(size_t bricks, SweepPart& part) {
+  part.to_do.Reserve(bricks);
+  part.end_points_to_do.Reserve(bricks);
+  part.thin.Reserve(bricks);
 }
 
 }  // namespace
@@ -31,12 +39,22 @@ void SplitParts(const ThinningState& state, SweepWorker& worker) {
   worker.parts[0].bricks = {begin, low};
   worker.parts[1].bricks = {high, end};
   worker.parts[2].bricks = {low, high};
-  for (SweepPart& part : worker.parts) {
-    const size_t bricks = part.bricks.end - part.bricks.begin;
-    part.to_do.Reserve(bricks);
-    part.end_points_to_do.Reserve(bricks);
-    part.thin.Reserve(bricks);
+  for (SweepPart& part : worker.parts) Reserve(part.bricks.end - part.bricks.begin, part);
+}
+
+void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
+  const size_t end = state.brick_count();
+  size_t most = 0;
+  worker.slabs.clear();
+  for (size_t begin = 0; begin < end;) {
+    const int32_t touched = begin == 0 ? LayerOf(state, 0) - 1 : LayerOf(state, begin - 1);
+    const size_t next = std::min(RoundUp(FirstFromLayer(state, touched + 2)), end);
+    worker.slabs.push_back({begin, next});
+    most = std::max(most, next - begin);
+    begin = next;
   }
+  worker.slab_parts.resize(static_cast<size_t>(steps) + 1);
+  for (SweepPart& part : worker.slab_parts) Reserve(most, part);
 }
 
 void MarkBorder(const ThinningState& state, const SweepWorker& worker,
@@ -47,6 +65,26 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker,
       return other < state.brick_count() && (other < own.begin || other >= own.end);
     });
     if (border) unsettled[n] |= kBorderBrick;
+  }
+}
+
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+                 SweepPart& part) {
+  if (policy == StubblePolicy::kNone) return;
+  const ObjectView view = state.View();
+  for (Sublattice sublattice : kSublattices) {
+    part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
+                                             part.thin.Room(sublattice)));
+    const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
+    MarkedBrick* marked = part.marks.Room(thin.size());
+    const size_t count = MarkEndPoints(view, sublattice, thin, marked);
+    for (const MarkedBrick& m : std::span(marked, count)) {
+      unsettled[m.brick] |= kEndPointsUnsettled;
+      const BrickBits stubble = SelectStubble(state, m, policy);
+      if (stubble.Empty()) continue;
+      *part.marks.Room(1) = {stubble, m.brick};
+      part.marks.Add(1);
+    }
   }
 }
 

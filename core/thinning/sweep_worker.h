@@ -11,8 +11,9 @@
 #include "core/thinning/pass_rule.h"
 #include "core/thinning/shell_opener.h"
 #include "core/thinning/sweep_partners.h"
+#include "core/thinning/thinning.h"
 #include "core/thinning/thinning_state.h"
-#include "core/thinning/unsettled.h"
+#include "core/thinning/work_list.h"
 
 namespace bccskel {
 
@@ -32,6 +33,9 @@ struct alignas(128) SweepWorker {
   exec::Share bricks = {0, 0};
   // Its bricks near others' below and above, and those between.
   std::array<SweepPart, 3> parts;
+  // Where it is alone: see SweepShells(). Parts take turns at the slabs.
+  std::vector<exec::Share> slabs;
+  std::vector<SweepPart> slab_parts;
   ShellOpener opener;
   // Of partners' bricks below and above its own, whose points do not count here.
   std::array<ShellOpener, 2> ghost_openers;
@@ -50,9 +54,19 @@ struct alignas(128) SweepWorker {
 // bricks with a layer of bricks between them and others' have nothing to do with those.
 void SplitParts(const ThinningState& state, SweepWorker& worker);
 
+// Makes slabs of all bricks, of which only those next to each other touch, and parts for passes of
+// so many steps.
+void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
+
 // Marks the bricks that border on other workers'.
 void MarkBorder(const ThinningState& state, const SweepWorker& worker,
                 std::span<Unsettled> unsettled);
+
+// Condition 6 in the bricks that were listed for their end points or are thin. Whether an end point
+// is a stubble point depends on points up to three steps away, so a brick with end points stays
+// unsettled for them.
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+                 SweepPart& part);
 
 // Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
 void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);

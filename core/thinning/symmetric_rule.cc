@@ -3,7 +3,7 @@
 #include <algorithm>
 
 namespace bccskel {
-SymmetricRule::SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningState& state)
+SymmetricRule::SymmetricRule(const BrickDepths& depth, SkeletonKind kind, ThinningState& state)
     : depth_(depth), kind_(kind), state_(state), larger_cliques_(state.object.size()) {
   for (std::vector<BrickBits>& simple : simple_) simple.resize(state.object.size());
 }
@@ -35,7 +35,7 @@ RuleBView SymmetricRule::ViewOf(const PassStep& at, Unsettled* unsettled) {
           .simple = simple_[0].data(),
           .after_pairs = simple_[1].data(),
           .after_triples = simple_[2].data(),
-          .depth = depth_.planes().data(),
+          .depth = depth_.data(),
           .larger_cliques = larger_cliques_.data(),
           .unsettled = unsettled,
           .pass = at.cycle};

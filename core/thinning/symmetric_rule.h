@@ -31,7 +31,7 @@ constexpr EndPoints EndPointsOf(SkeletonKind kind) {
 class SymmetricRule : public PassRule {
  public:
   // `depth` as from BuildDepths(). It and `state` must outlive the rule.
-  SymmetricRule(const Shells& depth, SkeletonKind kind, ThinningState& state);
+  SymmetricRule(const BrickDepths& depth, SkeletonKind kind, ThinningState& state);
 
   int passes_per_cycle() const override { return 1; }
   int steps() const override { return 4; }
@@ -56,7 +56,7 @@ class SymmetricRule : public PassRule {
   void FindSimpleIn(BrickLists& bricks);
   RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
 
-  const Shells& depth_;
+  const BrickDepths& depth_;
   const SkeletonKind kind_;
   ThinningState& state_;
   // What each step leaves; padded, and empty between passes.

@@ -54,32 +54,29 @@ class Thinning {
         on_points_(on_points),
         state_(object, options.keep) {}
 
-  absl::StatusOr<ThinningResult> Run(const DistanceField& distance) && {
-    const Shells shells = BuildShells(object_, distance, options_.shell_width, context_);
-    if (options_.method != ThinningMethod::kSymmetric) return std::move(*this).Run(shells);
+  absl::StatusOr<ThinningResult> Run(const Shells& shells, const BrickDepths& depths) && {
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    result_.times.shells = clock_.Lap();
     // A symmetric pass removes something as long as anything is simple: nothing to clean up.
-    BCCSKEL_RETURN_IF_ERROR(SweepSymmetrically(shells, distance));
-    return std::move(*this).Finish();
+    if (options_.method == ThinningMethod::kSymmetric) {
+      BCCSKEL_RETURN_IF_ERROR(SweepSymmetrically(shells, depths));
+    } else {
+      BCCSKEL_RETURN_IF_ERROR(SweepByDirections(shells));
+      BCCSKEL_RETURN_IF_ERROR(CleanUp(shells));
+    }
+    result_.thin = std::move(state_).ToVolume(object_);
+    result_.times.passes += clock_.Lap();
+    return std::move(result_);
   }
 
-  // Needs: a directional method.
-  absl::StatusOr<ThinningResult> Run(const Shells& shells) && {
-    BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
-    BCCSKEL_RETURN_IF_ERROR(SweepByDirections(shells));
+ private:
+  absl::Status CleanUp(const Shells& shells) {
     if (options_.cleanup == ThinnessCleanup::kOn) {
       BCCSKEL_ASSIGN_OR_RETURN(result_.removed_by_cleanup, CleanUpThinness(context_, state_));
       if (peeled_.has_value()) on_points_(shells.last() + 1, peeled_->Take(state_.object));
     }
     result_.times.cleanup = clock_.Lap();
-    return std::move(*this).Finish();
-  }
-
- private:
-  ThinningResult Finish() && {
-    result_.thin = std::move(state_).ToVolume(object_);
-    result_.times.passes += clock_.Lap();
-    return std::move(result_);
+    return absl::OkStatus();
   }
 
   absl::Status SweepByDirections(const Shells& shells) {
@@ -88,16 +85,14 @@ class Thinning {
     return Sweep(shells, rule);
   }
 
-  absl::Status SweepSymmetrically(const Shells& shells, const DistanceField& distance) {
-    const Shells depth = BuildDepths(object_, distance, context_);
-    SymmetricRule rule(depth, options_.kind, state_);
+  absl::Status SweepSymmetrically(const Shells& shells, const BrickDepths& depths) {
+    SymmetricRule rule(depths, options_.kind, state_);
     BCCSKEL_RETURN_IF_ERROR(Sweep(shells, rule));
     result_.isthmuses = rule.Isthmuses();
     return absl::OkStatus();
   }
 
   absl::Status Sweep(const Shells& shells, PassRule& rule) {
-    result_.times.shells = clock_.Lap();
     result_.last_shell = shells.last();
     SweepPlan plan = {shells, LastShellOf(options_, shells), StubbleOf(options_)};
     if (on_points_) {
@@ -128,18 +123,27 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceF
                                            const exec::Context& context,
                                            const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  return Thinning(object, options, context, on_points).Run(distance);
+  exec::StageClock clock;
+  const Shells shells = BuildShells(object, distance, options.shell_width, context);
+  BrickDepths depths;
+  if (DepthsOf(options.method) == Depths::kWanted) depths = BuildDepths(object, distance, context);
+  const auto shells_time = clock.Lap();
+  BCCSKEL_ASSIGN_OR_RETURN(ThinningResult result,
+                           ThinByShells(object, shells, depths, options, context, on_points));
+  result.times.shells += shells_time;
+  return result;
 }
 
-absl::StatusOr<ThinningResult> ThinByDirections(const Volume& object, const Shells& shells,
-                                                const ThinningOptions& options,
-                                                const exec::Context& context,
-                                                const OnShellPoints& on_points) {
+absl::StatusOr<ThinningResult> ThinByShells(const Volume& object, const Shells& shells,
+                                            const BrickDepths& depths,
+                                            const ThinningOptions& options,
+                                            const exec::Context& context,
+                                            const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
-  if (options.method == ThinningMethod::kSymmetric) {
-    return absl::InvalidArgumentError("the symmetric method needs distances besides shells");
+  if (DepthsOf(options.method) == Depths::kWanted && depths.size() <= object.brick_count()) {
+    return absl::InvalidArgumentError("the symmetric method needs depths besides shells");
   }
-  return Thinning(object, options, context, on_points).Run(shells);
+  return Thinning(object, options, context, on_points).Run(shells, depths);
 }
 
 }  // namespace bccskel

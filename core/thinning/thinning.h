@@ -43,6 +43,10 @@ enum class ThinningMethod : uint8_t {
   kSymmetric,
 };
 
+constexpr Depths DepthsOf(ThinningMethod method) {
+  return method == ThinningMethod::kSymmetric ? Depths::kWanted : Depths::kNone;
+}
+
 // What is kept besides the topology, and so what a thin result is. All but kCurve need kSymmetric.
 enum class SkeletonKind : uint8_t {
   // End points (Condition 2). Thin: no simple point is left but end points.
@@ -116,12 +120,13 @@ absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceF
                                            const exec::Context& context,
                                            const OnShellPoints& on_points = nullptr);
 
-// The directional methods need no more than the shells of options.shell_width, so the distances
-// can be gone. Otherwise as ThinToCurve().
-absl::StatusOr<ThinningResult> ThinByDirections(const Volume& object, const Shells& shells,
-                                                const ThinningOptions& options,
-                                                const exec::Context& context,
-                                                const OnShellPoints& on_points = nullptr);
+// The same where the distances can be gone: shells of options.shell_width, and depths for the
+// symmetric method.
+absl::StatusOr<ThinningResult> ThinByShells(const Volume& object, const Shells& shells,
+                                            const BrickDepths& depths,
+                                            const ThinningOptions& options,
+                                            const exec::Context& context,
+                                            const OnShellPoints& on_points = nullptr);
 
 }  // namespace bccskel
 

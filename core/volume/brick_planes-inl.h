@@ -86,6 +86,13 @@ HWY_INLINE uint64_t CountBits(const Plane& plane) {
 #endif
 }
 
+// Adds the number of set bits, lane by lane: lanes are added up once, not for every brick.
+HWY_INLINE BrickLane PlusBits(BrickLane sum, const Plane& plane) {
+  for (size_t n = 0; n < kVectors; ++n) sum = hn::Add(sum, hn::PopulationCount(plane.v[n]));
+  return sum;
+}
+HWY_INLINE uint64_t TotalOf(BrickLane sum) { return hn::GetLane(hn::SumOfLanes(BrickTag(), sum)); }
+
 // Which way the cells of the neighbor plane lie: kDown takes the cell with the smaller index.
 enum class Step : uint8_t { kDown, kUp };
 

@@ -30,8 +30,8 @@ inline constexpr uint64_t kSmallJobBricks = 2048;
 
 // Memory of the pipeline per occupied brick. Peak resident memory of the server grew by 2.1 KiB a
 // brick for a ball of 17 M points (70 k bricks, 16-bit distances); 32-bit distances, which objects
-// wider than about 600 lattice units have, add 1 KiB; Euclidean ones take 4.3 KiB while they
-// are made.
+// wider than about 600 lattice units have, add 1 KiB; Euclidean ones take 3.3 KiB with the shells
+// that are made of them, and 2 KiB more in objects of up to 4096 bricks with different spacings.
 inline constexpr uint64_t kPipelineBytesPerBrick = 5120;
 // Of a job: stacks, tables, chunks in flight and the allocator's slack.
 inline constexpr uint64_t kFixedJobBytes = uint64_t{4} << 20;

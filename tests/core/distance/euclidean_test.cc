@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/distance/distance_field.h"
+#include "core/distance/euclidean_stream.h"
 #include "core/exec/instruction_sets.h"
 #include "core/import/shapes/shapes.h"
 #include "core/lattice/directions.h"
@@ -131,6 +132,30 @@ TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {
     const uint32_t rank = field->At(*slab.Find(BrickKey(middle.brick)), middle.bit);
     EXPECT_EQ(field->ToLatticeUnits(rank), height);
     EXPECT_EQ(field->largest(), rank);
+    // In a column that is not deep, measured before the type of all squares was known.
+    const BrickAddress side = AddressOf({8, height, 256});
+    EXPECT_EQ(field->SquareAt(*slab.Find(BrickKey(side.brick)), side.bit), 83);
+  }
+}
+
+TEST(Euclidean, IsKeptWhereItTakesTwoBytesAPointOrIsSmall) {
+  const auto is_kept = [](const Volume& object) {
+    return StreamEuclidean(object, exec::Context(), nullptr, KeepField::kIfSmall)->has_value();
+  };
+  EXPECT_TRUE(is_kept(Slab(200)));
+  EXPECT_FALSE(is_kept(Slab(256)));
+  EXPECT_TRUE(is_kept(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7})));
+}
+
+// Whatever is measured together, squares are the same.
+TEST(Euclidean, IsTheSameInColumns) {
+  for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{1.0, 0.9, 0.8}}) {
+    const Volume object = Placed(test::RandomBlob(5, {90, 40, 40}, 9, 30), spacing);
+    const auto expected = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+    const auto field = StreamEuclidean(object, exec::Context(), nullptr, KeepField::kAlways, 1);
+    ASSERT_TRUE(field.ok()) << field.status();
+    EXPECT_EQ((*field)->values(), expected->values());
+    EXPECT_EQ((*field)->largest(), expected->largest());
   }
 }
 

@@ -178,6 +178,43 @@ TEST(StreamedShells, AreExactWhereDistancesNeedMoreThan16Bits) {
   ExpectSameShells(box, *shells, BuildShells(box, *distance, 1, exec::Context()));
 }
 
+void ExpectStreamedEuclideanShells(const Volume& object, size_t at_once, int threads) {
+  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+  const BrickDepths depths = BuildDepths(object, *distance, exec::Context());
+  exec::WorkerTeam team(threads);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  const auto streamed = StreamEuclideanShells(object, 1, Depths::kWanted, context, at_once);
+  ASSERT_TRUE(streamed.ok()) << streamed.status();
+  ExpectSameShells(object, streamed->shells, BuildShells(object, *distance, 1, exec::Context()));
+  ASSERT_EQ(streamed->depths.size(), depths.size());
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    object.bricks()[n].ForEachSetBit([&](int bit) {
+      ASSERT_EQ(streamed->distance->At(n, bit), distance->At(n, bit));
+      for (size_t b = 0; b < kDepthPlanes; ++b) {
+        ASSERT_EQ(streamed->depths[n][b].Test(bit), depths[n][b].Test(bit));
+      }
+    });
+  }
+  EXPECT_EQ(streamed->distance->largest(), distance->largest());
+}
+
+TEST(StreamedShells, AreThoseOfEuclideanDistancesHoweverColumnsAreCut) {
+  constexpr size_t kColumnByColumn = 1;
+  const std::vector<LatticePoint> points = test::RandomBlob(5, {70, 50, 50}, 3, 45);
+  for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 5.0}}) {
+    VolumeBuilder builder({70, 50, 50}, {.spacing = spacing});
+    for (LatticePoint p : points) builder.Add(p);
+    const Volume object = *std::move(builder).Build();
+    for (const size_t at_once : {kMostSquaresAtOnce, size_t{40'000}, kColumnByColumn}) {
+      ExpectStreamedEuclideanShells(object, at_once, 1);
+      ExpectStreamedEuclideanShells(object, at_once, 3);
+    }
+  }
+  ExpectStreamedEuclideanShells(Volume(), kColumnByColumn, 1);
+}
+
 TEST(StreamedShells, StopWhenAsked) {
   std::stop_source source;
   exec::Context context;

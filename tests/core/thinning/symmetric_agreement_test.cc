@@ -284,5 +284,20 @@ TEST(SymmetricThinning, OtherMethodsRefuseOtherKinds) {
   }
 }
 
+// One worker goes through an object slab by slab, and each of its passes is at several slabs at
+// once.
+TEST(SymmetricSlabs, GiveWhatStepsOfTheWholeObjectGive) {
+  for (uint64_t seed = 0; seed < 3; ++seed) {
+    const Volume tall = VolumeOfPoints(test::RandomBlob(seed, {40, 40, 150}, 5, 60));
+    for (const SkeletonKind kind : kKinds) {
+      const ThinningResult expected = Thin(tall, Symmetric(kind), 3);
+      const ThinningResult result = Thin(tall, Symmetric(kind), 1);
+      EXPECT_EQ(result.thin, expected.thin);
+      EXPECT_EQ(result.isthmuses, expected.isthmuses);
+      EXPECT_EQ(result.passes, expected.passes);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bccskel

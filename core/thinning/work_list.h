@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_THINNING_UNSETTLED_H_
-#define BCCSKEL_CORE_THINNING_UNSETTLED_H_
+#ifndef BCCSKEL_CORE_THINNING_WORK_LIST_H_
+#define BCCSKEL_CORE_THINNING_WORK_LIST_H_
 
 #include <array>
 #include <cstddef>
@@ -7,13 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "core/lattice/directions.h"
-#include "core/shells/slice_bricks.h"
-#include "core/thinning/mark_removable.h"
 #include "core/volume/brick.h"
-#include "core/volume/brick_neighbors.h"
 
-// Which bricks a pass has to visit again, and the brick operations around the marking of a pass.
+// Which bricks a pass has to visit again.
 
 namespace bccskel {
 
@@ -88,52 +84,6 @@ class BrickLists {
 void TakeUnsettled(const UnsettledBricks& unsettled, size_t first, size_t last,
                    Unsettled looked_for, BrickLists& found, BrickLists& end_points);
 
-// What a removal changes.
-struct RemovalView {
-  BrickBits* object = nullptr;
-  const BrickBits* candidates = nullptr;
-  const BrickNeighborhood* neighbors = nullptr;
-  UnsettledBricks unsettled;
-  Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
-  int32_t* changed = nullptr;    // the cycle in which points were last removed
-  int32_t cycle = 0;
-  BrickIndex first = 0;  // own bricks
-  BrickIndex last = 0;
-  BrickIndex none = 0;  // the padding brick
-};
-
-// Removes the marked points, unsettles the sleeping bricks that see them, and appends to
-// `elsewhere` those outside [first, last). Returns: the number of points removed.
-uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
-                      std::vector<BrickIndex>& elsewhere);
-
-// Shells that are cut out of the planes together: planes lie far away, six to a brick, and would
-// otherwise be read for every shell. Whole groups of them share all but two planes.
-inline constexpr int32_t kShellsAtOnce = 4;
-
-// The points of the shells from `first` on, modulo 64.
-// Shapes: `points` has room for kShellsAtOnce times the bricks; those of shell first + k in the
-//         bricks begin at k times the number of bricks.
-// Needs:  first is a multiple of kShellsAtOnce.
-void CutShells(std::span<const ShellPlanes> planes, int32_t first,
-               std::span<const BrickIndex> bricks, BrickBits* points);
-
-// What opening a shell reads and changes.
-struct OpeningView {
-  const BrickBits* object = nullptr;
-  const BrickBits* kept = nullptr;  // points that never go; null if there are none
-  BrickBits* candidates = nullptr;
-  UnsettledBricks unsettled;
-  Unsettled* enabled = nullptr;
-  Unsettled watched = 0;  // the bits of a brick with candidates
-  Unsettled woken = 0;    // the bits of a brick with new candidates
-};
-
-// Condition 5: makes the points of one shell in the given bricks candidates.
-// Shapes: `points` are those of the shell, as many as bricks. Returns: how many points.
-uint64_t OpenShell(const OpeningView& view, std::span<const BrickIndex> bricks,
-                   const BrickBits* points);
-
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_THINNING_UNSETTLED_H_
+#endif  // BCCSKEL_CORE_THINNING_WORK_LIST_H_

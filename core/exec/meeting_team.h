@@ -1,0 +1,83 @@
+#ifndef BCCSKEL_CORE_EXEC_MEETING_TEAM_H_
+#define BCCSKEL_CORE_EXEC_MEETING_TEAM_H_
+
+#include "core/exec/context.h"
+#include "core/exec/worker_team.h"
+
+namespace bccskel::exec {
+
+// Workers that go from step to step together and wait for each other between them. Where that is
+// slower than one worker, the others leave and worker 0 goes on.
+class MeetingTeam {
+ public:
+  // `size` as from Context::MeetingWorkersFor(). Needs: `context` outlives this.
+  MeetingTeam(int size, const Context& context)
+      : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
+
+  int size() const { return size_; }
+  // Whether a worker has others to meet.
+  bool meets(int worker) const { return size_ > 1 && !(worker == 0 && alone_); }
+
+  // Runs `part(worker)` on each.
+  template <typename Part>
+  void Run(Part part) {
+    context_.Run(size_, [&](int worker) { barrier_.Guard([&] { part(worker); }); });
+    if (size_ > 1) patience_.Tell(context_.team->confidence());
+  }
+
+  // What a worker does of work that all share.
+  Share ShareOf(size_t count, int worker) const {
+    return exec::ShareOf(count, worker, alone_ ? 1 : size_);
+  }
+
+  // A meeting, or its two halves as in Barrier; without others nothing.
+  void Meet(int worker) {
+    Arrive(worker);
+    Await(worker);
+  }
+  void Arrive(int worker) {
+    if (meets(worker)) barrier_.Arrive(worker);
+  }
+  void Await(int worker) {
+    if (!meets(worker)) return;
+    const Barrier::Duration blocked = barrier_.Await(worker);
+    if (worker == 0) patience_.Blocked(blocked);
+  }
+
+  // Whether this worker goes on: a meeting at which the others may leave. All decide the same, or
+  // some would wait for others for ever. False once the job is to stop.
+  bool GoOn(int worker) {
+    if (!meets(worker)) return !context_.ShouldStop();
+    if (worker == 0) stopped_ = context_.ShouldStop();
+    ConsiderParting(worker);
+    Meet(worker);
+    if (stopped_ || (parting_ && worker != 0)) return false;
+    if (parting_) GoOnAlone();
+    return true;
+  }
+
+  // Where there is something to take over. Called by all before a meeting; by that meeting
+  // parting() is what worker 0 has found.
+  void ConsiderParting(int worker) {
+    if (worker != 0 || !meets(0)) return;
+    parting_ = patience_.Lost() || context_.usable_threads() == 1;
+  }
+  // Whether the others are to leave.
+  bool parting() const { return parting_; }
+  // On worker 0, once the others have left what it takes over.
+  void GoOnAlone() { alone_ = true; }
+
+ private:
+  const int size_;
+  const Context& context_;
+  Barrier barrier_;
+  Patience patience_;  // worker 0's
+  // Written by worker 0 before a meeting that all others reach after they have read the last value.
+  bool stopped_ = false;
+  bool parting_ = false;
+  bool alone_ = false;  // read by worker 0 only once the others leave
+};
+
+}  // namespace bccskel::exec
+
+#endif  // BCCSKEL_CORE_EXEC_MEETING_TEAM_H_

@@ -1,0 +1,45 @@
+#ifndef BCCSKEL_CORE_THINNING_OPEN_SHELL_H_
+#define BCCSKEL_CORE_THINNING_OPEN_SHELL_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/shells/slice_bricks.h"
+#include "core/thinning/work_list.h"
+#include "core/volume/brick.h"
+
+// Condition 5: the points of a shell become candidates.
+
+namespace bccskel {
+
+// Shells that are cut out of the planes together: planes lie far away, six to a brick, and would
+// otherwise be read for every shell. Whole groups of them share all but two planes.
+inline constexpr int32_t kShellsAtOnce = 4;
+
+// The points of the shells from `first` on, modulo 64.
+// Shapes: `points` has room for kShellsAtOnce times the bricks; those of shell first + k in the
+//         bricks begin at k times the number of bricks.
+// Needs:  first is a multiple of kShellsAtOnce.
+void CutShells(std::span<const ShellPlanes> planes, int32_t first,
+               std::span<const BrickIndex> bricks, BrickBits* points);
+
+// What opening a shell reads and changes.
+struct OpeningView {
+  const BrickBits* object = nullptr;
+  const BrickBits* kept = nullptr;  // points that never go; null if there are none
+  BrickBits* candidates = nullptr;
+  UnsettledBricks unsettled;
+  Unsettled* enabled = nullptr;
+  Unsettled watched = 0;  // the bits of a brick with candidates
+  Unsettled woken = 0;    // the bits of a brick with new candidates
+};
+
+// Condition 5: makes the points of one shell in the given bricks candidates.
+// Shapes: `points` are those of the shell, as many as bricks. Returns: how many points.
+uint64_t OpenShell(const OpeningView& view, std::span<const BrickIndex> bricks,
+                   const BrickBits* points);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_OPEN_SHELL_H_

@@ -1,0 +1,36 @@
+#ifndef BCCSKEL_CORE_THINNING_REMOVAL_H_
+#define BCCSKEL_CORE_THINNING_REMOVAL_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/thinning/mark_removable.h"
+#include "core/thinning/work_list.h"
+#include "core/volume/brick_neighbors.h"
+
+namespace bccskel {
+
+// What a removal changes.
+struct RemovalView {
+  BrickBits* object = nullptr;
+  const BrickBits* candidates = nullptr;
+  const BrickNeighborhood* neighbors = nullptr;
+  UnsettledBricks unsettled;
+  Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
+  int32_t* changed = nullptr;    // the cycle in which points were last removed
+  int32_t cycle = 0;
+  BrickIndex first = 0;  // own bricks
+  BrickIndex last = 0;
+  BrickIndex none = 0;  // the padding brick
+};
+
+// Removes the marked points, unsettles the sleeping bricks that see them, and appends to
+// `elsewhere` those outside [first, last). Returns: the number of points removed.
+uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
+                      std::vector<BrickIndex>& elsewhere);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_THINNING_REMOVAL_H_
