@@ -7,6 +7,7 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
+#include "core/pipeline/births.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/pruned_graphs.h"
@@ -48,26 +49,6 @@ absl::Status Certify(const Volume& object, const Volume& thin, const exec::Conte
   if (certificate.TopologyKept()) return absl::OkStatus();
   return absl::InternalError("thinning changed the topology: " +
                              DescribeChanges(certificate.input, certificate.skeleton));
-}
-
-// 0 if the point never was an isthmus.
-int32_t BirthOf(LatticePoint p, const std::vector<IsthmusBirth>& isthmuses) {
-  const auto found = std::ranges::lower_bound(isthmuses, p, {}, &IsthmusBirth::point);
-  return found != isthmuses.end() && found->point == p ? found->pass : 0;
-}
-
-void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph) {
-  if (isthmuses.empty()) return;
-  for (SkeletonNode& node : graph.nodes) node.at.birth = BirthOf(node.at.point, isthmuses);
-  for (SkeletonPoint& p : graph.points) p.birth = BirthOf(p.point, isthmuses);
-  for (SkeletonPoint& p : graph.sheets) p.birth = BirthOf(p.point, isthmuses);
-}
-
-// In the order of Volume::ForEachPoint(). Shapes: `isthmuses` in lattice order.
-std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses) {
-  std::vector<int32_t> births;
-  thin.ForEachPoint([&](LatticePoint p) { births.push_back(BirthOf(p, isthmuses)); });
-  return births;
 }
 
 Volume PointsOnlyIn(const Volume& more, const Volume& less) {
