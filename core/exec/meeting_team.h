@@ -46,6 +46,7 @@ class MeetingTeam {
 
   // Whether this worker goes on: a meeting at which the others may leave. All decide the same, or
   // some would wait for others for ever. False once the job is to stop.
+  // Needs: between two calls workers meet, so that all have read what the first one decided.
   bool GoOn(int worker) {
     if (!meets(worker)) return !context_.ShouldStop();
     if (worker == 0) stopped_ = context_.ShouldStop();

@@ -52,6 +52,7 @@ TEST(MeetingTeam, StopsTogether) {
   team.Run([&](int worker) {
     while (team.GoOn(worker)) {
       if (worker == 2) source.request_stop();
+      team.Meet(worker);
     }
     ++ended;
   });
