@@ -5,7 +5,6 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
-#include "core/pipeline/births.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/isthmus_births.h"
 #include "core/pipeline/method_in_words.h"
