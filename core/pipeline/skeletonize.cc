@@ -6,12 +6,11 @@
 #include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
-#include "core/pipeline/isthmus_births.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/pruned_graphs.h"
 #include "core/pipeline/skeletonize_within.h"
+#include "core/pipeline/thin_points.h"
 #include "core/prepare/beyond_border.h"
-#include "core/pruning/point_table.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
 #include "core/skeleton/trace_skeleton.h"
@@ -55,15 +54,6 @@ Volume PointsOnlyIn(const Volume& more, const Volume& less) {
     if (!less.Contains(p)) builder.Add(p);
   });
   return *std::move(builder).Build();
-}
-
-// Shapes: `radii` one per point of `thin`, which are those of the graph.
-void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph) {
-  PointTable<float> by_point;
-  by_point.Reserve(radii.size());
-  size_t n = 0;
-  thin.ForEachPoint([&](LatticePoint p) { by_point.Set(p, radii[n++]); });
-  for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
 }
 
 bool IsConverted(ObjectSource source) {

@@ -23,8 +23,8 @@ constexpr size_t kRoots = 7;     // of the places, the first: there the limb may
 constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
-constexpr double kFlatness = 1.5;  // half-width by radius: less is round
-constexpr double kFlatMargin = 3;  // so are limbs as thick as the steps of the surface
+constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
+constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
 constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
 constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
 constexpr size_t kCoverSamples = 16;
@@ -166,7 +166,7 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
     for (Section& section : sections) {
       TurnFinely(reach, section);
       section.inscribed = section.radius;
-      if (section.half_width < kFlatness * section.radius + kFlatMargin) continue;
+      if (section.half_width < kWallFlatness * section.radius + kWallMargin) continue;
       FollowWall(reach, section);
       FindInscribed(section);
     }

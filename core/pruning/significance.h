@@ -41,7 +41,7 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
 //        H is the half-width of the object across the branch, the median of the places from there
 //        on, each the widest of eight lines and, where S by these is 0.35 or more, of up to ten
 //        more beside the widest: lines that do not lie in a thin plate leave it soon. In a wall,
-//        where H > 1.5 D + 3, the widest line goes on where the wall bends, round or with an edge;
+//        where H > 2.5 D + 3, the widest line goes on where the wall bends, round or with an edge;
 //        so do 16 lines in the wall, of which the third shortest is W, the radius of the circle
 //        inscribed in the wall. Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the
 //        place of that in the elongation: in a wall W is what D is in space. `uncovered` is

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_PIPELINE_ISTHMUS_BIRTHS_H_
-#define BCCSKEL_CORE_PIPELINE_ISTHMUS_BIRTHS_H_
+#ifndef BCCSKEL_CORE_PIPELINE_THIN_POINTS_H_
+#define BCCSKEL_CORE_PIPELINE_THIN_POINTS_H_
 
 #include <cstdint>
 #include <vector>
@@ -18,6 +18,10 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
 // Shapes: `isthmuses` in lattice order.
 std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses);
 
+// Shapes: `radii` one per point of `thin`, in the order of Volume::ForEachPoint(). Needs: the points
+// of the graph are those of `thin`.
+void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph);
+
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_PIPELINE_ISTHMUS_BIRTHS_H_
+#endif  // BCCSKEL_CORE_PIPELINE_THIN_POINTS_H_

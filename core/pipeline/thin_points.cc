@@ -1,6 +1,8 @@
-#include "core/pipeline/isthmus_births.h"
+#include "core/pipeline/thin_points.h"
 
 #include <algorithm>
+
+#include "core/pruning/point_table.h"
 
 namespace bccskel {
 namespace {
@@ -24,6 +26,14 @@ std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth
   std::vector<int32_t> births;
   thin.ForEachPoint([&](LatticePoint p) { births.push_back(BirthOf(p, isthmuses)); });
   return births;
+}
+
+void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph) {
+  PointTable<float> by_point;
+  by_point.Reserve(radii.size());
+  size_t n = 0;
+  thin.ForEachPoint([&](LatticePoint p) { by_point.Set(p, radii[n++]); });
+  for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
 }
 
 }  // namespace bccskel
