@@ -18,8 +18,8 @@ void SetBirths(const std::vector<IsthmusBirth>& isthmuses, SkeletonGraph& graph)
 // Shapes: `isthmuses` in lattice order.
 std::vector<int32_t> BirthsOf(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses);
 
-// Shapes: `radii` one per point of `thin`, in the order of Volume::ForEachPoint(). Needs: the points
-// of the graph are those of `thin`.
+// Shapes: `radii` one per point of `thin`, in the order of Volume::ForEachPoint(). Needs: the
+// points of the graph are those of `thin`.
 void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph);
 
 }  // namespace bccskel

@@ -187,8 +187,7 @@ Sketch Teeth(Pen pen, const Values& v) {
   constexpr int kParts = 48;
   for (int n = 0; n < kParts; ++n) {
     const double angle = 2 * kPi * n / kParts;
-    sketch.pieces.push_back(
-        {InPlane(angle, ring), InPlane(angle + 2 * kPi / kParts, ring), s, s});
+    sketch.pieces.push_back({InPlane(angle, ring), InPlane(angle + 2 * kPi / kParts, ring), s, s});
   }
   for (int n = 0; n < v[0]; ++n) {
     const double angle = 2 * kPi * (n + turn) / v[0];
