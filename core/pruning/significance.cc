@@ -11,13 +11,13 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;          // a radius that falls by half the way belongs to a limb
-constexpr double kWallSteepness = 0.4;    // of what its inscribed circle shrinks by
-constexpr double kWidthShare = 2.2;       // of what the object is wider than thick
-constexpr double kNoiseMargin = 4.0 / 3;  // of the allowance, whose square is taken off
-constexpr double kSureRatio = 2;          // above, what lies beyond the end does not matter
-constexpr double kLeastRatio = 0.2;       // below, the width is not looked at: the branch is a bump
-constexpr double kLeastFine = 0.35;       // below, the width is looked at in few directions
+constexpr double kSteepness = 2;        // a radius that falls by half the way belongs to a limb
+constexpr double kWallSteepness = 0.4;  // of what its inscribed circle shrinks by
+constexpr double kWidthShare = 2.2;     // of what the object is wider than thick
+constexpr double kNoiseMargin = 2;      // lattice units more, as noise goes off the square
+constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
+constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
+constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
 constexpr size_t kMostSamples = 48;
 constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
 constexpr size_t kNearTip = 9;   // of the places
@@ -134,9 +134,10 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   return best;
 }
 
-// Shape and noise have nothing to do with each other, so their squares add.
+// Shape and noise have nothing to do with each other, so their squares add. The margin makes up for
+// the thinnest limbs, for which that is less than the noise itself.
 double Significance::BeyondNoise(double elongation) const {
-  const double noise = kNoiseMargin * noise_;
+  const double noise = noise_ + kNoiseMargin;
   if (elongation <= noise) return elongation - noise;
   return std::sqrt(elongation * elongation - noise * noise);
 }
