@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "server/durable/operations.h"
 #include "tests/server/durable/fake_runner.h"
@@ -56,17 +57,23 @@ class ActiveJobsTest : public testing::Test {
     const JobRow row = jobs.Find(number)->row;
     auto run = std::make_shared<server::Run>(observer_, row.tenant, operations_.Begin());
     EXPECT_TRUE(run->Start(runner_, {}).ok());
+    begun_.push_back(run);
     ActiveRun& active = jobs.AddRun(std::move(run), row, ActiveRun::Source::kFile);
     active.volume = volume;
     active.crashes = row.crashes;
     jobs.Attach(active, number);
     return active;
   }
-  void TearDown() override { jobs_.ForgetRuns(); }
+  // A run and its job hold each other until the job ends.
+  void TearDown() override {
+    jobs_.ForgetRuns();
+    for (const auto& run : begun_) run->Fail(absl::CancelledError("the test is over"));
+  }
 
   EndCounter observer_;
   Operations operations_;
   FakeRunner runner_;
+  std::vector<std::shared_ptr<server::Run>> begun_;
   TenantTable tenants_;
   ActiveJobs jobs_{/*shared=*/false, milliseconds(50)};
 };
