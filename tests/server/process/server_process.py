@@ -23,7 +23,7 @@ class ServerProcess:
     """Listens when constructed. The `with` block kills what is left of it."""
 
     def __init__(self, *flags, listen="127.0.0.1:0"):
-        self.log = tempfile.TemporaryFile("w+")
+        self.log = tempfile.TemporaryFile()
         self.process = subprocess.Popen([BINARY, "--listen", listen, *flags],
                                         stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.greeting = self.process.stdout.readline()
@@ -51,8 +51,9 @@ class ServerProcess:
         return self.process.wait(TIMEOUT_S)
 
     def log_text(self):
-        self.log.seek(0)
-        return self.log.read()
+        # The server writes where this file's offset is, so reading must not move it.
+        log = self.log.fileno()
+        return os.pread(log, os.fstat(log).st_size, 0).decode()
 
     def wait_for_event(self, event):
         """Until the log tells of it: its thread may write later than a call is answered. The
