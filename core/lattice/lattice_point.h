@@ -80,6 +80,14 @@ inline constexpr int32_t kMaxExtentCells = 1 << 22;
 
 using WorldPoint = std::array<double, 3>;
 
+constexpr double Dot(const WorldPoint& a, const WorldPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+constexpr WorldPoint Cross(const WorldPoint& a, const WorldPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 // Where the lattice lies in the world. `spacing` is the edge of the cubic cell along each axis;
 // `direction` is row-major, its columns are the axes.
 struct Placement {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
+#include "core/exec/disjoint_sets.h"
 #include "core/skeleton/curve_smoothing.h"
 
 namespace bccskel {
@@ -31,27 +31,6 @@ WorldPoint Within(double reach, const WorldPoint& from, const WorldPoint& place)
   }
   return nearer;
 }
-
-// Which component each node is in; nodes are joined edge by edge.
-class Components {
- public:
-  explicit Components(const SkeletonGraph& graph) : parents_(graph.nodes.size()) {
-    std::iota(parents_.begin(), parents_.end(), uint32_t{0});
-    for (const SkeletonEdge& edge : graph.edges) {
-      const uint32_t a = FirstOf(edge.source), b = FirstOf(edge.target);
-      parents_[std::max(a, b)] = std::min(a, b);
-    }
-  }
-
-  // The component's first node.
-  uint32_t FirstOf(uint32_t node) {
-    while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
-    return node;
-  }
-
- private:
-  std::vector<uint32_t> parents_;
-};
 
 void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigures& figures) {
   ++figures.nodes;
@@ -99,11 +78,12 @@ EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
 }
 
 GraphComponents ComponentsOf(const SkeletonGraph& graph) {
-  Components joined(graph);
+  DisjointSets joined(graph.nodes.size());  // by their first node
+  for (const SkeletonEdge& edge : graph.edges) joined.Join(edge.source, edge.target);
   GraphComponents components;
   components.of_node.resize(graph.nodes.size());
   for (uint32_t n = 0; n < graph.nodes.size(); ++n) {
-    const uint32_t first = joined.FirstOf(n);
+    const uint32_t first = joined.Find(n);
     if (first == n) {
       components.of_node[n] = static_cast<uint32_t>(components.figures.size());
       components.figures.emplace_back();

@@ -63,7 +63,7 @@ absl::Status AddVertex(std::string_view format, TextScanner& text, MeshAssembler
   for (double& coordinate : vertex) {
     const std::string_view token = text.Token();
     const std::optional<double> value = ParseDouble(token);
-    if (!value) return LineError(format, text, "a coordinate is due", token);
+    if (!value) return LineError(format, text, "expected a coordinate", token);
     coordinate = *value;
   }
   return mesh.AddVertex(vertex);

@@ -7,10 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "core/import/mesh/disjoint_sets.h"
+#include "core/exec/disjoint_sets.h"
 #include "core/import/mesh/shell_nesting.h"
 #include "core/import/mesh/surface_edges.h"
 #include "core/import/mesh/weld.h"
+#include "core/lattice/lattice_point.h"
 
 namespace bccskel {
 namespace {
@@ -43,11 +44,6 @@ bool NamesVertexTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] |
 Vertex Subtract(const Vertex& a, const Vertex& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-Vertex Cross(const Vertex& a, const Vertex& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double Dot(const Vertex& a, const Vertex& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 Box BoxOf(const TriangleMesh& mesh) {
   Box box;
   for (const Triangle& triangle : mesh.triangles) {

@@ -20,7 +20,7 @@ absl::Status ParseFace(TextScanner& text, std::vector<int64_t>& corners, MeshAss
   for (std::string_view token = text.Token(); !token.empty(); token = text.Token()) {
     const std::optional<int64_t> index = ParseInteger(token.substr(0, token.find('/')));
     if (!index || *index == 0) {
-      return LineError("OBJ", text, "a vertex index that is a 64-bit integer and not 0 is due",
+      return LineError("OBJ", text, "expected a vertex index that is a 64-bit integer and not 0",
                        token);
     }
     const int64_t vertices = static_cast<int64_t>(mesh.vertex_count());

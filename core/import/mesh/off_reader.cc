@@ -21,7 +21,7 @@ struct OffCounts {
 
 absl::StatusOr<uint64_t> ParseCount(const TextScanner& text, std::string_view token) {
   const std::optional<int64_t> count = ParseInteger(token);
-  if (!count || *count < 0) return LineError("OFF", text, "a count of 0 or more is due", token);
+  if (!count || *count < 0) return LineError("OFF", text, "expected a count of 0 or more", token);
   return static_cast<uint64_t>(*count);
 }
 
@@ -65,7 +65,7 @@ absl::Status ParseFace(TextScanner& text, uint64_t vertices, std::vector<int64_t
     const std::string_view token = text.Token();
     const std::optional<int64_t> corner = ParseInteger(token);
     if (!corner || *corner < 0 || static_cast<uint64_t>(*corner) >= vertices) {
-      return LineError("OFF", text, absl::StrFormat("a vertex index below %d is due", vertices),
+      return LineError("OFF", text, absl::StrFormat("expected a vertex index below %d", vertices),
                        token);
     }
     corners.push_back(*corner);

@@ -38,14 +38,14 @@ absl::StatusOr<PlyScalar> ParseType(std::string_view name) {
   for (const auto& [known, type] : kTypeNames) {
     if (known == name) return type;
   }
-  return HeaderError("a type of a property is due", name);
+  return HeaderError("expected a type of a property", name);
 }
 
 absl::StatusOr<PlyEncoding> ParseEncoding(std::string_view name) {
   if (name == "ascii") return PlyEncoding::kAscii;
   if (name == "binary_little_endian") return PlyEncoding::kLittleEndian;
   if (name == "binary_big_endian") return PlyEncoding::kBigEndian;
-  return HeaderError("the format ascii, binary_little_endian or binary_big_endian is due", name);
+  return HeaderError("expected the format ascii, binary_little_endian or binary_big_endian", name);
 }
 
 absl::StatusOr<PlyElement> ParseElement(TextScanner& line) {
@@ -53,7 +53,7 @@ absl::StatusOr<PlyElement> ParseElement(TextScanner& line) {
   element.name = std::string(line.Token());
   const std::string_view token = line.Token();
   const std::optional<int64_t> count = ParseInteger(token);
-  if (!count || *count < 0) return HeaderError("a count of 0 or more elements is due", token);
+  if (!count || *count < 0) return HeaderError("expected a count of 0 or more elements", token);
   element.count = static_cast<uint64_t>(*count);
   return element;
 }
@@ -64,7 +64,7 @@ absl::StatusOr<PlyProperty> ParseProperty(TextScanner& line) {
   if (type == "list") {
     BCCSKEL_ASSIGN_OR_RETURN(property.list_count, ParseType(line.Token()));
     if (*property.list_count >= PlyScalar::kFloat32) {
-      return HeaderError("an integer type for the length of a list is due", type);
+      return HeaderError("expected an integer type for the length of a list", type);
     }
     type = line.Token();
   }
@@ -92,7 +92,7 @@ absl::Status ParseLine(std::string_view text, PlyHeader& header) {
     header.elements.back().properties.push_back(std::move(property));
     return absl::OkStatus();
   }
-  return HeaderError("format, element, property, comment or end_header is due", keyword);
+  return HeaderError("expected format, element, property, comment or end_header", keyword);
 }
 
 absl::Status CheckCounts(const PlyHeader& header, uint64_t body_bytes) {

@@ -42,12 +42,12 @@ absl::Status AddTriangle(MeshAssembler& mesh, const std::array<TriangleMesh::Ver
 absl::StatusOr<TriangleMesh::Vertex> ParseVertex(TextScanner& text) {
   const std::string_view keyword = text.TokenAcrossLines();
   if (!EqualsIgnoringCase(keyword, "vertex"))
-    return LineError("STL", text, "'vertex' is due", keyword);
+    return LineError("STL", text, "expected 'vertex'", keyword);
   TriangleMesh::Vertex vertex;
   for (double& coordinate : vertex) {
     const std::string_view token = text.TokenAcrossLines();
     const std::optional<double> value = ParseDouble(token);
-    if (!value) return LineError("STL", text, "a coordinate is due", token);
+    if (!value) return LineError("STL", text, "expected a coordinate", token);
     coordinate = *value;
   }
   return vertex;
@@ -56,13 +56,13 @@ absl::StatusOr<TriangleMesh::Vertex> ParseVertex(TextScanner& text) {
 // From behind "outer" to "endloop".
 absl::Status ParseLoop(TextScanner& text, MeshAssembler& mesh) {
   const std::string_view loop = text.TokenAcrossLines();
-  if (!EqualsIgnoringCase(loop, "loop")) return LineError("STL", text, "'loop' is due", loop);
+  if (!EqualsIgnoringCase(loop, "loop")) return LineError("STL", text, "expected 'loop'", loop);
   std::array<TriangleMesh::Vertex, 3> corners;
   for (TriangleMesh::Vertex& corner : corners) {
     BCCSKEL_ASSIGN_OR_RETURN(corner, ParseVertex(text));
   }
   const std::string_view end = text.TokenAcrossLines();
-  if (!EqualsIgnoringCase(end, "endloop")) return LineError("STL", text, "'endloop' is due", end);
+  if (!EqualsIgnoringCase(end, "endloop")) return LineError("STL", text, "expected 'endloop'", end);
   return AddTriangle(mesh, corners);
 }
 
@@ -80,7 +80,7 @@ absl::StatusOr<TriangleMesh> ParseAsciiStl(std::string_view bytes, const MeshLim
     } else if (EqualsIgnoringCase(keyword, "outer")) {
       BCCSKEL_RETURN_IF_ERROR(ParseLoop(text, mesh));
     } else if (!EqualsIgnoringCase(keyword, "endfacet")) {
-      return LineError("STL", text, "a keyword of STL is due", keyword);
+      return LineError("STL", text, "expected a keyword of STL", keyword);
     }
   }
   if (!ended) {

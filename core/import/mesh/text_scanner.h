@@ -49,7 +49,7 @@ class TextScanner {
 std::optional<double> ParseDouble(std::string_view token);
 std::optional<int64_t> ParseInteger(std::string_view token);
 
-// INVALID_ARGUMENT: "OFF line 7: a coordinate is due, found 'x'".
+// INVALID_ARGUMENT: "OFF line 7: expected a coordinate, found 'x'".
 absl::Status LineError(std::string_view format, const TextScanner& text, std::string_view what,
                        std::string_view token);
 

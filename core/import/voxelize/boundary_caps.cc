@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "core/import/mesh/disjoint_sets.h"
+#include "core/exec/disjoint_sets.h"
 #include "core/import/mesh/surface_edges.h"
 
 namespace bccskel {

@@ -6,8 +6,12 @@ namespace bccskel {
 namespace {
 
 std::string DescribeDefects(const MeshReport& mesh) {
-  return absl::StrFormat("%d boundary edges, %d non-manifold edges, %d misoriented edges",
-                         mesh.boundary_edges, mesh.non_manifold_edges, mesh.misoriented_edges);
+  const auto counted = [](uint64_t edges, const char* kind) {
+    return absl::StrFormat("%d %s %s", edges, kind, edges == 1 ? "edge" : "edges");
+  };
+  return counted(mesh.boundary_edges, "boundary") + ", " +
+         counted(mesh.non_manifold_edges, "non-manifold") + ", " +
+         counted(mesh.misoriented_edges, "misoriented");
 }
 
 // Shells inside a shell of the same orientation: solid for one rule, cavities for the other.
@@ -58,18 +62,20 @@ std::vector<std::string> DefectWarnings(const MeshReport& mesh, FillRule rule) {
   }
   if (mesh.closure == SurfaceClosure::kOriented && CountAmbiguousShells(mesh) > 0) {
     warnings.push_back(absl::StrFormat(
-        "%d shells lie inside a shell of the same orientation: %s", CountAmbiguousShells(mesh),
+        "%d %s inside a shell of the same orientation: %s", CountAmbiguousShells(mesh),
+        CountAmbiguousShells(mesh) == 1 ? "shell lies" : "shells lie",
         rule == FillRule::kWinding ? "filled (parity would make them cavities)"
                                    : "taken as cavities (winding would fill them)"));
   }
   if (mesh.two_sided_triangles > 0) {
     warnings.push_back(
-        absl::StrFormat("all %d triangles were there from both sides: one of each was kept",
+        absl::StrFormat("the mesh has all %d triangles from both sides; one of each was kept",
                         mesh.two_sided_triangles));
   }
   if (mesh.dropped_triangles > 0) {
     warnings.push_back(
-        absl::StrFormat("%d degenerate triangles were dropped", mesh.dropped_triangles));
+        absl::StrFormat("%d degenerate %s dropped", mesh.dropped_triangles,
+                        mesh.dropped_triangles == 1 ? "triangle was" : "triangles were"));
   }
   return warnings;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/import/voxelize/grid_fit.h"
+#include "core/lattice/lattice_point.h"
 
 namespace bccskel {
 namespace {
@@ -23,12 +24,7 @@ Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 Vector operator*(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double Length(const Vector& a) { return std::sqrt(Dot(a, a)); }
-Vector Cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // Exact: 40 bits fit a double.
 Vector InLatticeUnits(const GridPoint& p) {
   constexpr double kTick = 1.0 / (1 << kTickBits);

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_IMPORT_VOXELIZE_ROW_CROSSINGS_H_
 #define BCCSKEL_CORE_IMPORT_VOXELIZE_ROW_CROSSINGS_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,12 +13,16 @@ namespace bccskel {
 // other: bz, by, then sublattice, k and j within the brick.
 class RowKey {
  public:
+  static constexpr size_t kRowsOfTube = 64;
+
   explicit RowKey(LatticeRow row)
       : value_(static_cast<uint64_t>(row.k >> 3) << 26 | static_cast<uint64_t>(row.j >> 2) << 6 |
                static_cast<uint64_t>(row.sublattice) << 5 | static_cast<uint64_t>(row.k & 7) << 2 |
                static_cast<uint64_t>(row.j & 3)) {}
 
-  uint64_t tube() const { return value_ >> 6; }
+  int32_t bz() const { return static_cast<int32_t>(value_ >> 26); }
+  int32_t by() const { return static_cast<int32_t>(value_ >> 6 & 0xFFFFF); }
+  size_t in_tube() const { return value_ & (kRowsOfTube - 1); }
   LatticeRow row() const {
     return {static_cast<Sublattice>(value_ >> 5 & 1),
             static_cast<int32_t>((value_ >> 6 & 0xFFFFF) << 2 | (value_ & 3)),

@@ -104,6 +104,29 @@ struct BrickList {
   std::vector<BrickBits> bricks;
 };
 
+// Crossings in the order of a few buckets, and where each of these begins.
+class Buckets {
+ public:
+  template <typename BucketOf>
+  void Sort(std::span<const RowCrossing> crossings, size_t buckets, BucketOf bucket_of) {
+    begin_.assign(buckets + 2, 0);
+    for (const RowCrossing& c : crossings) ++begin_[bucket_of(c.row) + 2];
+    for (size_t n = 2; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
+    sorted_.assign(crossings.begin(), crossings.end());
+    for (const RowCrossing& c : crossings) sorted_[begin_[bucket_of(c.row) + 1]++] = c;
+  }
+
+  size_t size() const { return begin_.size() - 2; }
+  std::span<RowCrossing> all() { return sorted_; }
+  std::span<RowCrossing> operator[](size_t n) {
+    return all().subspan(begin_[n], begin_[n + 1] - begin_[n]);
+  }
+
+ private:
+  std::vector<size_t> begin_;
+  std::vector<RowCrossing> sorted_;
+};
+
 // An inside span of one row of a tube.
 struct InsideSpan {
   LatticeRow row;
@@ -221,20 +244,23 @@ class SlabFiller {
     for (const SegmentRule::Region& region : rule_.extra_regions()) {
       AppendMarks(region, plan_.slab(n), crossings);
     }
-    std::ranges::sort(crossings, [](const RowCrossing& a, const RowCrossing& b) {
-      return a.row != b.row ? a.row < b.row : a.cell < b.cell;
-    });
-    FillTubes(crossings, lists_[n]);
+    FillTubes(crossings, plan_.slab(n), lists_[n]);
   }
 
-  void FillTubes(std::span<const RowCrossing> crossings, BrickList& list) {
-    for (size_t begin = 0; begin < crossings.size() && !MustStop();) {
-      size_t end = begin + 1;
-      const uint64_t tube = crossings[begin].row.tube();
-      while (end < crossings.size() && crossings[end].row.tube() == tube) ++end;
-      const std::vector<InsideSpan> spans =
-          InsideSpans(crossings.subspan(begin, end - begin), rule_);
-      begin = end;
+  // Crossings of one row are few, so a comparison sort of all would take most of the time.
+  void FillTubes(std::span<const RowCrossing> crossings, Slab slab, BrickList& list) {
+    const int32_t in_layer = (request_.extent.ny + kBrickY - 1) / kBrickY;
+    const auto tube_of = [&](RowKey row) {
+      return static_cast<size_t>((row.bz() - slab.begin_bz) * in_layer + row.by());
+    };
+    Buckets tubes, rows;
+    tubes.Sort(crossings, static_cast<size_t>((slab.end_bz - slab.begin_bz) * in_layer), tube_of);
+    for (size_t tube = 0; tube < tubes.size(); ++tube) {
+      if (tubes[tube].empty()) continue;
+      if (MustStop()) return;
+      rows.Sort(tubes[tube], RowKey::kRowsOfTube, [](RowKey row) { return row.in_tube(); });
+      for (size_t n = 0; n < rows.size(); ++n) std::ranges::sort(rows[n], {}, &RowCrossing::cell);
+      const std::vector<InsideSpan> spans = InsideSpans(rows.all(), rule_);
       if (spans.empty() || !CountPoints(spans)) continue;
       WriteTube(spans, list);
     }

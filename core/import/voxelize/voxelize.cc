@@ -7,11 +7,22 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/voxelize/crossings.h"
 #include "core/import/voxelize/grid_fit.h"
 #include "core/import/voxelize/solid_fill.h"
 
 namespace bccskel {
 namespace {
+
+std::string Counted(int64_t count, const char* one, const char* many) {
+  return absl::StrFormat("%d %s", count, count == 1 ? one : many);
+}
+
+std::string InWords(const SolidTopology& solid) {
+  return Counted(solid.components, "component", "components") + ", " +
+         Counted(solid.loops, "loop", "loops") + ", " +
+         Counted(solid.cavities, "cavity", "cavities");
+}
 
 absl::Status CheckOptions(const VoxelizeOptions& options) {
   if (options.points.has_value() == options.spacing.has_value()) {
@@ -90,7 +101,7 @@ class Voxelizer {
     BCCSKEL_ASSIGN_OR_RETURN(result.volume, FillAsAsked());
     if (options_.topology == TopologyCheck::kCompare) {
       BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
-      WarnAboutTopology(ExpectedTopology(surface_.report, result.fill), *result.topology);
+      BCCSKEL_RETURN_IF_ERROR(WarnAboutTopology(result.fill, *result.topology));
     }
     result.warnings = std::move(warnings_);
     result.mesh = std::move(surface_.report);
@@ -106,12 +117,27 @@ class Voxelizer {
     return volume;
   }
 
-  void WarnAboutTopology(const std::optional<SolidTopology>& mesh, const BettiNumbers& grid) {
-    if (!mesh || *mesh == SolidTopology{grid.components, grid.loops, grid.cavities}) return;
-    warnings_.push_back(absl::StrFormat(
-        "the grid has %d components, %d loops, %d cavities, the mesh %d, %d, %d: walls or gaps "
-        "thinner than a cell, or parts that touch or cross",
-        grid.components, grid.loops, grid.cavities, mesh->components, mesh->loops, mesh->cavities));
+  absl::Status WarnAboutTopology(FillRule fill, const BettiNumbers& grid) {
+    const SolidTopology found = {grid.components, grid.loops, grid.cavities};
+    if (surface_.report.closure == SurfaceClosure::kOpen) {
+      warnings_.push_back("the volume has " + InWords(found) +
+                          "; the topology of an open mesh is not known, so check them");
+      return absl::OkStatus();
+    }
+    const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, fill);
+    if (!mesh || *mesh == found) return absl::OkStatus();
+    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
+    const std::string difference =
+        "the volume has " + InWords(found) + ", but the mesh has " + InWords(*mesh) + ": ";
+    warnings_.push_back(
+        difference + (crossings == 0
+                          ? "walls or gaps are thinner than a cell, which more points or a smaller "
+                            "spacing resolve, or parts touch"
+                          : Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
+                                    "pairs of triangles cross") +
+                                "; repair the mesh, or try --denoise 1, which removes thin "
+                                "spots and small holes"));
+    return absl::OkStatus();
   }
 
   absl::StatusOr<Volume> Fill(double unit_spacing, GridShift shift) const {

@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"WrongStlKeyword", "a.stl", "solid a\nouter shell\n", "'shell'"},
         Refusal{"QuadInStl", "a.stl",
                 "solid a\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
-                "'endloop' is due"},
+                "expected 'endloop'"},
         Refusal{"PlyFloatListLength", "a.ply",
                 "ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_index\n"
                 "end_header\n",

@@ -115,7 +115,18 @@ TEST(FillRule, GenusOfTheMeshIsThatOfTheGridAndDifferencesAreSaid) {
   const TriangleMesh near = Merged(Box({0, 0, 0}, {4, 4, 4}), Box({4.05, 0, 0}, {8, 4, 4}));
   const VoxelizeResult coarse = WithSpacing(near, 0.5);
   EXPECT_EQ(coarse.topology, (BettiNumbers{1, 0, 0}));
-  EXPECT_THAT(coarse.warnings, ElementsAre(HasSubstr("walls or gaps thinner than a cell")));
+  EXPECT_THAT(coarse.warnings, ElementsAre(HasSubstr(
+                                   "the volume has 1 component, 0 loops, 0 cavities, but the mesh "
+                                   "has 2 components, 0 loops, 0 cavities: walls or gaps are "
+                                   "thinner than a cell, which more points or a smaller spacing")));
+}
+
+TEST(FillRule, PartsThatCrossAreCountedAndTheWarningSaysWhatHelps) {
+  const TriangleMesh crossed = Merged(Sphere({0, 0, 0}, 1), Sphere({1, 0.1, 0.2}, 1));
+  EXPECT_THAT(WithSpacing(crossed, 0.2).warnings,
+              ElementsAre(::testing::ContainsRegex("mesh has 2 components.* [0-9]+ pairs of "
+                                                   "triangles cross; repair the mesh, or try "
+                                                   "--denoise 1")));
 }
 
 TEST(FillRule, TopologyIsNotCountedWhenNotAskedFor) {
@@ -131,7 +142,10 @@ TEST(FillRule, OpenSurfacesAreRefusedUnlessWindingIsAskedFor) {
   EXPECT_THAT(Refusal(open, FillRule::kAuto).message(), HasSubstr("32 boundary edges"));
   EXPECT_EQ(Refusal(open, FillRule::kParity).code(), absl::StatusCode::kInvalidArgument);
   const VoxelizeResult result = WithSpacing(open, 0.1, FillRule::kWinding);
-  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("generalized winding number")));
+  EXPECT_THAT(result.warnings,
+              ElementsAre(HasSubstr("generalized winding number"),
+                          HasSubstr("the volume has 1 component, 0 loops, 0 cavities; the topology "
+                                    "of an open mesh is not known")));
   EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
 }
 

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_IMPORT_MESH_DISJOINT_SETS_H_
-#define BCCSKEL_CORE_IMPORT_MESH_DISJOINT_SETS_H_
+#ifndef BCCSKEL_CORE_EXEC_DISJOINT_SETS_H_
+#define BCCSKEL_CORE_EXEC_DISJOINT_SETS_H_
 
 #include <cstdint>
 #include <numeric>
@@ -38,4 +38,4 @@ class DisjointSets {
 
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_IMPORT_MESH_DISJOINT_SETS_H_
+#endif  // BCCSKEL_CORE_EXEC_DISJOINT_SETS_H_
