@@ -15,14 +15,6 @@ namespace {
 // Positions are written with a few digits: of the distance of slices, so much is rounding.
 constexpr double kRounding = 0.01;
 
-double Dot(const WorldPoint& a, const WorldPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-WorldPoint Cross(const WorldPoint& a, const WorldPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // a + t * b
 WorldPoint Sum(const WorldPoint& a, double t, const WorldPoint& b) {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};

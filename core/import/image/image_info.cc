@@ -36,10 +36,6 @@ const TypeEntry& EntryOf(VoxelType type) { return kTypes[static_cast<size_t>(typ
 // Rounded numbers in a header make axes lean by about 1e-6; a real shear is larger than this.
 constexpr double kMaxLean = 1e-3;
 
-double Dot(const WorldPoint& a, const WorldPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 bool IsFinite(const WorldPoint& p) {
   return std::ranges::all_of(p, [](double c) { return std::isfinite(c); });
 }

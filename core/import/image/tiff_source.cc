@@ -47,7 +47,21 @@ absl::StatusOr<VoxelType> TypeOf(int bits, int format) {
       bits, format));
 }
 
+// As Aperio (33003 to 33005) and Bio-Formats write it.
+bool IsJpeg2000(uint16_t compression) {
+  return (compression >= 33003 && compression <= 33005) || compression == 34712;
+}
+
+absl::Status CheckCompression(TIFF* tiff) {
+  const auto compression = TagOr<uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (TIFFIsCODECConfigured(compression) != 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "%s (%d) is not read; `bfconvert -compression LZW` of Bio-Formats writes a file that is",
+      IsJpeg2000(compression) ? "JPEG 2000 compression" : "its compression", compression));
+}
+
 absl::StatusOr<Page> PageOf(TIFF* tiff) {
+  BCCSKEL_RETURN_IF_ERROR(CheckCompression(tiff));
   Page page;
   page.width = TagOr<uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
   page.height = TagOr<uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);

@@ -73,6 +73,27 @@ TEST(Tiff, StacksPagesOfEveryCompression) {
   }
 }
 
+// libtiff cannot write the compressions that it does not know.
+std::string WithCompression(std::string bytes, int compression) {
+  const std::string tag("\3\1\3\0\1\0\0\0", 8);  // 259, one SHORT
+  for (size_t at = bytes.find(tag); at != bytes.npos; at = bytes.find(tag, at + 1)) {
+    bytes[at + 8] = static_cast<char>(compression & 0xff);
+    bytes[at + 9] = static_cast<char>(compression >> 8);
+  }
+  return bytes;
+}
+
+TEST(Tiff, SaysWhatToDoWithACompressionThatItDoesNotRead) {
+  const auto error = [](int compression) {
+    return std::string(ReadBytes(WithCompression(Tiff({}), compression)).status().message());
+  };
+  for (const int jpeg_2000 : {33003, 33004, 33005, 34712}) {
+    EXPECT_THAT(error(jpeg_2000), HasSubstr("JPEG 2000 compression (" + std::to_string(jpeg_2000) +
+                                            ") is not read; `bfconvert -compression LZW`"));
+  }
+  EXPECT_THAT(error(50013), HasSubstr("its compression (50013) is not read"));
+}
+
 TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
   // Rows of bytes 0, 1, 2, 3: the highest bit is the first pixel.
   const auto image = ReadBytes(Tiff({.count = 1, .width = 8, .bits = 1}));
