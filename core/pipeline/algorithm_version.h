@@ -5,12 +5,12 @@
 
 namespace bccskel {
 
-// Raised whenever the same volume and options may give another skeleton: stored results are found
-// again by it.
-inline constexpr char kAlgorithmVersion[] = "12";
+// Changes whenever the same volume and options may give another skeleton. Part of the key of stored
+// results.
+inline constexpr char kAlgorithmVersion[] = "13";
 
-// The same for masks, whose conversion counts, too.
-inline constexpr char kMaskAlgorithmVersion[] = "12.mask-3";
+// The same for masks; it also changes with their conversion.
+inline constexpr char kMaskAlgorithmVersion[] = "13.mask-3";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

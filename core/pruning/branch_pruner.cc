@@ -18,7 +18,7 @@ constexpr size_t kMostClusterPoints = 64;
 
 uint64_t BranchPruner::Run(const OnRemoved& on_removed) {
   uint64_t removed = 0;
-  for (LatticePoint end : set_.Ends()) Judge(end);
+  JudgeAll();
   while (!turns_.empty() && !context_.ShouldStop()) {
     const auto [worth, end] = turns_.top();
     turns_.pop();
@@ -36,16 +36,28 @@ uint64_t BranchPruner::Run(const OnRemoved& on_removed) {
   return removed;
 }
 
-void BranchPruner::Judge(LatticePoint end) {
-  const std::optional<double> worth = WorthIfSpurious(BranchFrom(set_, end));
-  if (worth.has_value()) turns_.emplace(*worth, end);
+void BranchPruner::JudgeAll() {
+  std::vector<FreeBranch> branches;
+  for (LatticePoint end : set_.Ends()) {
+    FreeBranch branch = BranchFrom(set_, end);
+    if (MayGo(branch)) branches.push_back(std::move(branch));
+  }
+  if (rule_ == PruningRule::kSignificance) significance_.LookAhead(set_, branches, context_);
+  for (const FreeBranch& branch : branches) Judge(branch);
+}
+
+void BranchPruner::Judge(const FreeBranch& branch) {
+  const std::optional<double> worth = WorthIfSpurious(branch);
+  if (worth.has_value()) turns_.emplace(*worth, branch.points[0]);
+}
+
+bool BranchPruner::MayGo(const FreeBranch& branch) const {
+  return branch.junction.has_value() &&
+         std::ranges::none_of(branch.points, [&](LatticePoint p) { return keep_.contains(p); });
 }
 
 std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) const {
-  if (!branch.junction.has_value()) return std::nullopt;
-  if (std::ranges::any_of(branch.points, [&](LatticePoint p) { return keep_.contains(p); })) {
-    return std::nullopt;
-  }
+  if (!MayGo(branch)) return std::nullopt;
   const double worth = WorthOf(branch, *branch.junction);
   return worth < threshold_ ? std::optional(worth) : std::nullopt;
 }
@@ -117,7 +129,7 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
     for (LatticePoint q : ClusterOf(p)) sources.insert(q);
   }
   for (LatticePoint p : sources) FindEndsBeyond(p, sources, ends);
-  for (LatticePoint end : ends) Judge(end);
+  for (LatticePoint end : ends) Judge(BranchFrom(set_, end));
 }
 
 // What lies beyond another source is found from there: long branches are followed once.

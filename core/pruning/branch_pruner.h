@@ -47,11 +47,13 @@ class BranchPruner {
 
  private:
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
-  void Judge(LatticePoint end);
+  void JudgeAll();
+  void Judge(const FreeBranch& branch);
   void JudgeAround(const std::set<LatticePoint>& places);
   void FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& sources,
                       std::set<LatticePoint>& ends) const;
 
+  bool MayGo(const FreeBranch& branch) const;
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
   double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
   double BallAt(LatticePoint junction) const;

@@ -63,13 +63,17 @@ absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& obj
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = curves.space != nullptr ? *curves.space : object;
-  const double noise = SurfaceNoise(space, curves.surface_step);
+  const SurfaceNoise noise = SurfaceNoiseOf(space, curves.surface_step);
+  const ExactRadius in_space = curves.space == nullptr ? radius : ExactRadius(space);
   std::optional<WayOn> way_on;
-  // A voxel's edge is longer than what thinning leaves out.
+  std::optional<FirmDepth> firm_depth;
+  // A voxel's edge is longer than what thinning leaves out, and its pit is deeper than a point's.
   if (curves.surface_step == 1) {
-    way_on.emplace(space, curves.space == nullptr ? radius : ExactRadius(space));
+    way_on.emplace(space, in_space);
+  } else if (noise.roughness > 0) {
+    firm_depth.emplace(space, in_space);
   }
-  Significance significance(space, noise, std::move(way_on));
+  Significance significance(space, noise, std::move(way_on), std::move(firm_depth));
   PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, thin.placement());

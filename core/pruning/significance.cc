@@ -72,7 +72,8 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 
 }  // namespace
 
-Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t first) {
+Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& noise,
+               size_t first) {
   const size_t last = path.points.size() - 1, stride = (last - first) / kMostSamples + 1;
   std::vector<std::pair<size_t, double>> samples;  // positions and radii
   for (size_t n = first; n < last; n += stride) samples.emplace_back(n, path.radii[n]);
@@ -87,28 +88,58 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, double noise, size_t 
       const double out = way - kSteepness * (depth - radius);
       if (out > run.elongation) run.to = to, run.elongation = out;
     }
-    run.ratio = (run.elongation - noise) / depth;
+    run.ratio = (run.elongation - noise.At(depth)) / depth;
     if (run.ratio > best.ratio) best = run;
   }
   return best;
 }
 
-Significance::Significance(const Volume& object, double noise, std::optional<WayOn> way_on)
+Significance::Significance(const Volume& object, const SurfaceNoise& noise,
+                           std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
       bricks_(object),
-      way_on_(std::move(way_on)) {}
+      way_on_(std::move(way_on)),
+      firm_depth_(std::move(firm_depth)) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
-  const LatticePoint end = branch.points[0];
-  const Verdict* last = verdicts_.Find(end);
-  if (last == nullptr || last->junction != *branch.junction ||
-      last->points != branch.points.size()) {
-    verdicts_.Set(end, Look(set, branch));
-    last = verdicts_.Find(end);
+  const Verdict* last = Known(branch);
+  if (last == nullptr) {
+    verdicts_.Set(branch.points[0], Look(set, branch));
+    last = verdicts_.Find(branch.points[0]);
   }
   if (last->value < kLeastRatio) return last->value;
   return last->value * UncoveredShare(set, branch, last->run);
+}
+
+// A look takes as long as a few hundred bricks of other stages.
+void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
+                             const exec::Context& context) {
+  constexpr size_t kLookWork = 256;
+  std::vector<const FreeBranch*> unknown;
+  for (const FreeBranch& branch : branches) {
+    if (Known(branch) == nullptr) unknown.push_back(&branch);
+  }
+  const int workers = context.WorkersFor(unknown.size(), kLookWork);
+  if (workers == 1) return;  // Of() looks as well
+  std::vector<Verdict> found(unknown.size());
+  exec::Portions portions(unknown.size(), 1);
+  context.Offer(workers, [&](int) {
+    Significance own = *this;
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      found[mine.begin] = own.Look(set, *unknown[mine.begin]);
+    }
+  });
+  if (context.ShouldStop()) return;
+  for (size_t n = 0; n < unknown.size(); ++n) verdicts_.Set(unknown[n]->points[0], found[n]);
+}
+
+const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {
+  const Verdict* last = verdicts_.Find(branch.points[0]);
+  const bool is_same =
+      last != nullptr && last->junction == *branch.junction && last->points == branch.points.size();
+  return is_same ? last : nullptr;
 }
 
 // The limb may begin late in the largest run, in something wide: so the run of the later half
@@ -136,8 +167,8 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
 
 // Shape and noise have nothing to do with each other, so their squares add. The margin makes up for
 // the thinnest limbs, for which that is less than the noise itself.
-double Significance::BeyondNoise(double elongation) const {
-  const double noise = noise_ + kNoiseMargin;
+double Significance::BeyondNoise(double elongation, double radius) const {
+  const double noise = noise_.At(radius) + kNoiseMargin;
   if (elongation <= noise) return elongation - noise;
   return std::sqrt(elongation * elongation - noise * noise);
 }
@@ -152,14 +183,14 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
       const size_t tip = PlaceIn(run, later);
       const double fallen = kSteepness * (depth - path.radii[tip]);
       const double way = set.Between(path.points[root], path.points[tip]);
-      most = std::max(most, BeyondNoise(way - fallen) / depth);
+      most = std::max(most, BeyondNoise(way - fallen, depth) / depth);
     }
   }
   return most;
 }
 
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {
-  const double out = BeyondNoise(run.elongation), radius = path.radii[run.from];
+  const double radius = path.radii[run.from], out = BeyondNoise(run.elongation, radius);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
@@ -177,16 +208,30 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
 }
 
 // What lies beyond the end is looked for where it may decide: it adds its length and the rise of
-// its radius at most.
+// its radius at most. Likewise pits: they only make the radius smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
   const Run run = LargestRun(set, path, noise_);
-  if (!way_on_.has_value() || run.ratio > kSureRatio ||
-      LargestRun(set, path, noise_ - kMost).ratio < kLeastRatio) {
-    return run;
+  if (run.ratio > kSureRatio) return run;
+  if (firm_depth_.has_value() && run.ratio >= kLeastRatio) {
+    LookPastPits(path);
+    return LargestRun(set, path, noise_);
   }
+  if (!way_on_.has_value()) return run;
+  SurfaceNoise less = noise_;
+  less.thin -= kMost;
+  less.thick -= kMost;
+  if (LargestRun(set, path, less).ratio < kLeastRatio) return run;
   way_on_->Append(path);
   return LargestRun(set, path, noise_);
+}
+
+// The rougher the surface, the more of the radii is that without pits.
+void Significance::LookPastPits(BranchPath& path) {
+  for (size_t n = 0; n < path.points.size(); ++n) {
+    const double deeper = firm_depth_->At(path.points[n]) - path.radii[n];
+    path.radii[n] += static_cast<float>(noise_.roughness * deeper);
+  }
 }
 
 // The limb begins at the root that makes the most of it.
@@ -210,7 +255,7 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
                                   : kWallSteepness * (from.inscribed - to.inscribed);
       const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
       const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
-      value = std::max(value, BeyondNoise(way - fallen) / width);
+      value = std::max(value, BeyondNoise(way - fallen, from.radius) / width);
     }
   }
   return value;

@@ -66,10 +66,11 @@ double Roughness(const Volume& object) {
                            : static_cast<double>(count.pits) / static_cast<double>(count.points);
 }
 
-double SurfaceNoise(const Volume& object, double step) {
-  const double share = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
+SurfaceNoise SurfaceNoiseOf(const Volume& object, double step) {
+  const double rough = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
   const double least = std::max(step, kLeastNoise);
-  return least + (kMostSteps * step - least) * share;
+  const double thin = least + (kMostSteps * step - least) * rough;
+  return {.step = step, .roughness = rough, .thin = thin, .thick = step > 1 ? least : thin};
 }
 
 }  // namespace bccskel

@@ -20,14 +20,15 @@ namespace {
 // How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
 // like a round cap, the end of a pointed limb by less until its tip.
 constexpr double kSlope = 0.75;
-constexpr double kRidgeSlope = 0.3;   // what falls by less is a ridge for sure
-constexpr double kLeastGain = 0.5;    // a tip farther out is better by this, or noise has made it
-constexpr double kAnchorRadii = 4;    // how far back the anchor lies, in radii
-constexpr double kAnchorMargin = 5;   // and in lattice units
-constexpr double kStraightRadii = 2;  // what is shorter gives no direction, bent or not
-constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight way by so many radii
-constexpr double kBendMargin = 2;     // and lattice units
-constexpr size_t kBendStride = 8;     // points between checks
+constexpr double kRidgeSlope = 0.3;    // what falls by less is a ridge for sure
+constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
+constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
+constexpr double kAnchorRadii = 4;     // how far back the anchor lies, in radii
+constexpr double kAnchorMargin = 5;    // and in lattice units
+constexpr double kStraightRadii = 2;   // what is shorter gives no direction, bent or not
+constexpr double kBendRadii = 0.35;    // a limb bends that leaves the straight way by so many radii
+constexpr double kBendMargin = 2;      // and lattice units
+constexpr size_t kBendStride = 8;      // points between checks
 constexpr size_t kBendSamples = 16;
 constexpr double kLeastAim = 4;     // from the anchor to what gives the limb its direction
 constexpr double kCutRadii = 1.75;  // a cut takes the way into a cap or a corner at most, in radii
@@ -51,7 +52,7 @@ double MedianOf(std::vector<float> radii) {
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, double noise)
+            const PointSet& keep, const SurfaceNoise& noise)
       : set_(set),
         bricks_(object),
         radius_(radius),
@@ -60,6 +61,7 @@ class TipPlacer {
         flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement())),
+        least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {}
 
   void Place(LatticePoint end) {
@@ -190,7 +192,7 @@ class TipPlacer {
 
   // Position in the path of the first point that is about as good as the best.
   size_t SafestFrom(size_t first) {
-    const double enough = Merit(path_[BestFrom(first)]) - kLeastGain;
+    const double enough = Merit(path_[BestFrom(first)]) - least_gain_;
     while (MeritAtMost(path_[first]) < enough || Merit(path_[first]) < enough) ++first;
     return first;
   }
@@ -342,7 +344,8 @@ class TipPlacer {
   FlatEnd flat_;
   const PointSet& keep_;
   BallIndex balls_;
-  const double noise_;
+  const double least_gain_;
+  const SurfaceNoise noise_;
   std::optional<LatticePoint> junction_;  // of the branch
   std::vector<LatticePoint> own_;         // its points
   LatticePoint root_;                     // where the limb begins; it may be cut off
@@ -356,7 +359,7 @@ class TipPlacer {
 }  // namespace
 
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, double noise,
+                       const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
                        const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();

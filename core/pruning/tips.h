@@ -4,6 +4,7 @@
 #include "absl/status/status.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
+#include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 #include "core/volume/volume.h"
 
@@ -17,10 +18,10 @@ namespace bccskel {
 // A tip is never cut back behind where its limb begins (LargestRun()), grows by the radius there
 // and 6 units at most, and not into the ball of another branch. Points of `keep` are not cut off.
 // Needs:  `radius` belongs to `object`; `space` is the object, or that with points beyond its
-//         border, which no tip grows into; `noise`, lattice units, as SurfaceNoise() has it.
+//         border, which no tip grows into; `noise` of its surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, double noise,
+                       const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
                        const exec::Context& context);
 
 }  // namespace bccskel

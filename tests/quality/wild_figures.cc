@@ -229,36 +229,6 @@ Sketch Cuts(Pen pen, const Values& v) {
   return sketch;
 }
 
-// A plate or a disk, or a lens: 0 to 2, width by thickness.
-Sketch Plate(Pen pen, const Values& v) {
-  const double s = pen.size;
-  Sketch sketch{.knows_ends = false};
-  Piece plate = {{-1.2 * s, 0, 0}, {1.2 * s, 0, 0}, s, s, v[1]};
-  if (v[0] == 0) {
-    plate.square = true;
-  } else if (v[0] == 1) {
-    plate = {{0, 0, -s / v[1]}, {0, 0, s / v[1]}, s, s};
-    plate = Reversed(CutAtEnd(Reversed(CutAtEnd(plate))));
-  } else {
-    plate = {kOrigin, kOrigin, s, s, v[1]};
-  }
-  sketch.pieces.push_back(plate);
-  return sketch;
-}
-
-// A block with bosses, cut flat, on one side: their count, their height.
-Sketch Casting(Pen pen, const Values& v) {
-  const double s = pen.size;
-  Sketch sketch{.knows_ends = false};
-  sketch.pieces.push_back({{-2 * s, 0, 0}, {2 * s, 0, 0}, s, s, 3, {0, 0, 1}, true});
-  for (int n = 0; n < v[0]; ++n) {
-    const double x = (-1.5 + 3.0 * n / (v[0] - 1)) * s, y = (n % 2 == 0 ? 0.4 : -0.4) * s;
-    const double radius = pen.Between(0.25, 0.35) * s;
-    sketch.pieces.push_back(CutAtEnd({{x, y, 0}, {x, y, (0.33 + v[1]) * s}, radius, 0.9 * radius}));
-  }
-  return sketch;
-}
-
 // A flat spiral of a tube: turns, space between them in radii, pieces it is broken into.
 Sketch Spiral(Pen pen, const Values& v) {
   const double r = pen.size, pitch = (2 + v[1]) * r;

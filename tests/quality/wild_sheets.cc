@@ -34,6 +34,34 @@ void AddArc(Sketch& sketch, double radius, double angle, double low, double high
 
 }  // namespace
 
+Sketch Plate(Pen pen, const Values& v) {
+  const double s = pen.size;
+  Sketch sketch{.knows_ends = false};
+  Piece plate = {{-1.2 * s, 0, 0}, {1.2 * s, 0, 0}, s, s, v[1]};
+  if (v[0] == 0) {
+    plate.square = true;
+  } else if (v[0] == 1) {
+    plate = {{0, 0, -s / v[1]}, {0, 0, s / v[1]}, s, s};
+    plate = Reversed(CutAtEnd(Reversed(CutAtEnd(plate))));
+  } else {
+    plate = {{0, 0, 0}, {0, 0, 0}, s, s, v[1]};
+  }
+  sketch.pieces.push_back(plate);
+  return sketch;
+}
+
+Sketch Casting(Pen pen, const Values& v) {
+  const double s = pen.size;
+  Sketch sketch{.knows_ends = false};
+  sketch.pieces.push_back({{-2 * s, 0, 0}, {2 * s, 0, 0}, s, s, 3, {0, 0, 1}, true});
+  for (int n = 0; n < v[0]; ++n) {
+    const double x = (-1.5 + 3.0 * n / (v[0] - 1)) * s, y = (n % 2 == 0 ? 0.4 : -0.4) * s;
+    const double radius = pen.Between(0.25, 0.35) * s;
+    sketch.pieces.push_back(CutAtEnd({{x, y, 0}, {x, y, (0.33 + v[1]) * s}, radius, 0.9 * radius}));
+  }
+  return sketch;
+}
+
 Sketch BentPlate(Pen pen, const Values& v) {
   Sketch sketch{.knows_ends = false};
   AddArc(sketch, pen.size, v[0], 0, v[1] * pen.size, v[2] * pen.size);

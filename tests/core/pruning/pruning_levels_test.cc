@@ -102,7 +102,7 @@ TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
   const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
   const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
   const PointSet keep(ends.begin(), ends.end());
-  Significance significance(raw.object, 1);
+  Significance significance(raw.object, {.thin = 1, .thick = 1});
   PruningLevelsOf(ThinSet({raw.thin, raw.radii}), significance, PruningRule::kSignificance, keep,
                   {})
       .ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });

@@ -16,7 +16,7 @@ struct RawCurves {
   RawCurves(Volume whole, SkeletonKind kind)
       : object(std::move(whole)), field(*ComputeDistance(object, DistanceKind::kEuclidean, {})) {
     const ThinningOptions options = {.method = ThinningMethod::kSymmetric, .kind = kind};
-    ThinningResult result = *ThinToCurve(object, field, options, {});
+    ThinningResult result = *ThinObject(object, field, options, {});
     thin = std::move(result.thin);
     radii = *ExactRadii(thin, ExactRadius(object, field), {});
     if (kind != SkeletonKind::kIsthmusCurve && kind != SkeletonKind::kSurface) return;

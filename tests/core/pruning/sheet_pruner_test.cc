@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/certificate/certificate.h"
 #include "core/import/shapes/figures.h"
 #include "core/pruning/simple_points.h"
+#include "core/skeleton/trace_skeleton.h"
 #include "core/topology/simple_point_table.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
@@ -79,6 +81,24 @@ TEST(PruneSheets, LeavesAPlateItsCornersAtMost) {
   const RawCurves raw = SheetsOf(TurnedBlock({10, 6, 1}), 0);
   EXPECT_GT(CountsOf(raw.thin).ends, 90u);
   EXPECT_LE(CountsOf(Pruned(raw).thin).ends, 8u);
+}
+
+// Where an edge of the object runs askew to the lattice, its bevel is a comb, and its teeth end in
+// small patches of sheet.
+TEST(PruneSheets, LeavesNoCombOfABevelInAnyPose) {
+  for (const Vector half_edges : {Vector{10, 7, 1}, Vector{18, 13, 7}, Vector{1, 1, 1}}) {
+    for (const Vector first : {Vector{1, 0.3, 0.2}, Vector{0.4, 1, -0.7}, Vector{-0.2, 0.6, 1}}) {
+      for (const uint64_t points : {60'000, 300'000}) {
+        const Vector turned = shapes::Unit(first), some = {-0.3, 1, 0.15};
+        const Block block = {half_edges, turned, shapes::Unit(some - Dot(turned, some) * turned)};
+        const PrunedSheets pruned = Pruned(SheetsOf(block, 0, points));
+        exec::UnlimitedMemory memory;
+        const SkeletonGraph graph = *TraceSkeleton(pruned.thin, pruned.radii, memory, {});
+        const auto ends = std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind);
+        EXPECT_LE(ends, 2) << half_edges.x << " " << first.x << " " << points;
+      }
+    }
+  }
 }
 
 // They are worth what is behind them.

@@ -52,16 +52,29 @@ TEST(Roughness, IsThatOfItsDefinition) {
   EXPECT_EQ(Roughness(Volume()), 0);
 }
 
-TEST(SurfaceNoise, IsOneStepButMoreThanAUnitWhereSmoothAndThreeStepsWhereRough) {
+TEST(SurfaceNoise, IsOneStepButMoreThanAUnitWhereSmooth) {
   for (const Shape shape : {Shape::kHorse, Shape::kTorus, Shape::kBox}) {
     for (const uint64_t points : {20'000u, 200'000u}) {
       SCOPED_TRACE(testing::Message() << ShapeName(shape) << ' ' << points);
       const Volume smooth = *GenerateShape(shape, {.points = points});
-      EXPECT_EQ(SurfaceNoise(smooth, 1), 1.5);
-      EXPECT_EQ(SurfaceNoise(smooth, 2.5), 2.5);
-      EXPECT_EQ(SurfaceNoise(test::WithSimpleNoise(smooth, 0.05, 7), 1), 3);
+      for (const double radius : {0.5, 3.0, 20.0}) {
+        EXPECT_EQ(SurfaceNoiseOf(smooth, 1).At(radius), 1.5);
+        EXPECT_EQ(SurfaceNoiseOf(smooth, 2.5).At(radius), 2.5);
+      }
     }
   }
+}
+
+TEST(SurfaceNoise, IsThreeStepsWhereRoughButOneForThickBranchesOfVoxels) {
+  const Volume smooth = *GenerateShape(Shape::kHorse, {.points = 50'000});
+  const Volume rough = test::WithSimpleNoise(smooth, 0.05, 7);
+  const SurfaceNoise points = SurfaceNoiseOf(rough, 1), voxels = SurfaceNoiseOf(rough, 2);
+  EXPECT_EQ(points.roughness, 1);
+  EXPECT_EQ(points.At(1.5), 3);
+  EXPECT_EQ(points.At(3), 3);
+  EXPECT_EQ(voxels.At(3), 6);
+  EXPECT_EQ(voxels.At(4.5), 4);
+  EXPECT_EQ(voxels.At(6), 2);
 }
 
 }  // namespace

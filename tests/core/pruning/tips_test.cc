@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
 
 namespace bccskel {
@@ -62,6 +63,35 @@ TEST(Tips, LieWhereTheAxisOfACapsuleEnds) {
     EXPECT_LT(std::min(Gap(first, a), Gap(second, a)), 1.5);
     EXPECT_LT(std::min(Gap(first, b), Gap(second, b)), 1.5);
   }
+}
+
+// The skeleton of the voxels whose centers lie within `radius` of the segment, of edge 1.
+SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double radius) {
+  constexpr int32_t kEdge = 48;
+  absl::StatusOr<MaskConverter> converter = MaskConverter::Create({kEdge, kEdge, kEdge}, {});
+  EXPECT_TRUE(converter.ok()) << converter.status();
+  const WorldPoint axis = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+  for (int32_t z = 0; z < kEdge; ++z) {
+    std::vector<uint64_t> words(kEdge);
+    for (int32_t y = 0; y < kEdge; ++y) {
+      for (int32_t x = 0; x < kEdge; ++x) {
+        const double along = (x - a[0]) * axis[0] + (y - a[1]) * axis[1] + (z - a[2]) * axis[2];
+        const double t = std::clamp(along / square, 0.0, 1.0);
+        const WorldPoint nearest = {a[0] + t * axis[0], a[1] + t * axis[1], a[2] + t * axis[2]};
+        if (Gap({1.0 * x, 1.0 * y, 1.0 * z}, nearest) > radius) continue;
+        words[static_cast<size_t>(y)] |= uint64_t{1} << x;
+      }
+    }
+    const absl::Status added = converter->AddSlice(words, {});
+    EXPECT_TRUE(added.ok()) << added;
+  }
+  absl::StatusOr<ConvertedMask> converted = std::move(*converter).Finish();
+  EXPECT_TRUE(converted.ok()) << converted.status();
+  absl::StatusOr<SkeletonizeResult> result =
+      Skeletonize(converted->volume, {.source = ObjectSource::kVoxels}, {});
+  EXPECT_TRUE(result.ok()) << result.status();
+  return std::move(result->graph);
 }
 
 // Near its tips the ridge of the distances falls, up to 1 per unit where it ends.
@@ -148,6 +178,30 @@ TEST(Tips, OfThinLimbsAreNotTakenForHair) {
       EXPECT_LT(gap, 1.5);
     }
   }
+}
+
+// The steps of a surface of voxels are twice as high as those of lattice points.
+TEST(Tips, OfLimbsOfVoxelsLieNoFartherOutForASteppedSurface) {
+  constexpr int kLimbs = 60;
+  double sum = 0, largest = 0;
+  for (int n = 0; n < kLimbs; ++n) {
+    const double height = 1 - (n + 0.5) / kLimbs, across = std::sqrt(1 - height * height);
+    const double angle = 2.399963 * n, radius = 1.5 + 1.5 * n / kLimbs;
+    const WorldPoint way = {across * std::cos(angle), across * std::sin(angle), height};
+    const WorldPoint a = {24 - 18 * way[0], 24 - 18 * way[1], 4.5};
+    const WorldPoint b = {24 + 18 * way[0], 24 + 18 * way[1], 4.5 + 36 * way[2]};
+    const SkeletonGraph graph = GraphOfVoxels(a, b, radius);
+    for (const WorldPoint& tip : {a, b}) {
+      double gap = 1000;
+      for (const SkeletonNode& node : graph.nodes) {
+        gap = std::min(gap, Gap(graph.PositionOf(node.at), tip));
+      }
+      sum += gap;
+      largest = std::max(largest, gap);
+    }
+  }
+  EXPECT_LT(sum / (2 * kLimbs), 0.6);  // voxels
+  EXPECT_LT(largest, 1.5);
 }
 
 // Along the branch of a leg the distance falls from that of the body to that of the leg.
