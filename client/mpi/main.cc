@@ -143,4 +143,11 @@ ExitCode Main(std::vector<char*> words) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return static_cast<int>(Main({argv, argv + argc})); }
+int main(int argc, char** argv) {
+  try {
+    return static_cast<int>(Main({argv, argv + argc}));
+  } catch (const std::exception& error) {  // mpirun then ends the other ranks
+    std::fprintf(stderr, "bccskel-mpi: error: %s\n", error.what());
+    return static_cast<int>(ExitCode::kTooLarge);
+  }
+}

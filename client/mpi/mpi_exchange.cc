@@ -19,7 +19,7 @@ constexpr size_t kPieceBytes = size_t{1} << 30;
 // Between two polls for messages.
 class Lookout {
  public:
-  void Rest() {
+  void Yield() {
     constexpr auto kSpinTime = std::chrono::microseconds(100);
     constexpr auto kSleepTime = std::chrono::microseconds(50);
     if (std::chrono::steady_clock::now() - start_ < kSpinTime) {
@@ -103,7 +103,7 @@ void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
   std::vector<size_t> awaited(peers.size());
   for (size_t n = 0; n < awaited.size(); ++n) awaited[n] = n;
   int all_sent = 0;
-  for (Lookout lookout; !awaited.empty() || all_sent == 0; lookout.Rest()) {
+  for (Lookout lookout; !awaited.empty() || all_sent == 0; lookout.Yield()) {
     std::erase_if(awaited, [&](size_t n) { return TakePiece(peers[n], communicator_, in[n]); });
     MPI_Testall(static_cast<int>(sent.size()), sent.data(), &all_sent, MPI_STATUSES_IGNORE);
     if (awaited.empty() && all_sent != 0) return;
@@ -120,7 +120,7 @@ void MpiExchange::Reduce(std::span<uint64_t> numbers, MPI_Op operation) {
   Lookout lookout;
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); done == 0;
        MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
-    lookout.Rest();
+    lookout.Yield();
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -147,7 +148,8 @@ absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
   return std::move(section).TakeValues();
 }
 
-// Of a section, where an object has several; a slab with more is one all the same.
+// Of a section, where an object has several, or more where less would not save memory; a slab with
+// more is one all the same.
 constexpr size_t kSectionPoints = size_t{1} << 22;
 
 // What a holder tells the next: the layer of bricks that the distances are of, and these.
@@ -197,7 +199,9 @@ class Stream {
     while (first < last && LayerOf(first) < held.first) ++first;
     while (last > first && LayerOf(last - 1) >= held.end) --last;
     for (size_t s = first; s < last; ++s) held_points += slabs_[s].size() * kBrickPoints;
-    const size_t most = held_points <= at_once ? at_once : std::min(at_once, kSectionPoints);
+    const size_t most = held_points <= at_once ? at_once
+                                               : std::max(std::min(at_once, kSectionPoints),
+                                                          LeastMemory(held_points, last - first));
     size_t points = 0;
     for (size_t s = first; s < last; ++s) {
       if (points == 0 || points + slabs_[s].size() * kBrickPoints > most) {
@@ -237,6 +241,13 @@ class Stream {
 
  private:
   using Layer = typename ChamferSection<T>::Layer;
+
+  // Points of a section with which it and the top layers of the others take least: k of s slabs
+  // take k slabs and s / k / kBrickZ.
+  static size_t LeastMemory(size_t points, size_t slabs) {
+    const double sections = std::sqrt(static_cast<double>(kBrickZ) * static_cast<double>(slabs));
+    return static_cast<size_t>(static_cast<double>(points) / sections);
+  }
 
   size_t sections() const { return starts_.size() - 1; }
   int32_t LayerOf(size_t slab) const { return object_.keys()[slabs_[slab].first].coordinates().bz; }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
-#include "core/distance/distance_field.h"
 #include "core/distance/euclidean_rows.h"
 #include "core/distance/side_runs.h"
 #include "core/exec/context.h"
@@ -38,15 +40,27 @@ SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context
 template <typename T>
 void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts);
-// Calls `done` with stacks of bricks whose squares are final, on several workers at once.
-// Needs: all bricks above and below each other are there, with both kinds of squares.
+// Calls `done` with stacks of bricks whose squares are final, on several workers at once. Returns
+// the largest square: 16 bits are enough where that is below kFirstUnsureSquare. Needs: all bricks
+// above and below each other are there, with both kinds of squares.
 template <typename T>
-void MeasureAcrossLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts,
-                         const std::function<void(BrickStack)>& done = nullptr);
-// Needs: MeasureAcrossLayers(). 16 bits are enough where largest() is below kFirstUnsureSquare.
-template <typename T>
-DistanceField EuclideanFieldOf(EuclideanParts<T> parts);
+float MeasureAcrossLayers(const Volume& object, const exec::Context& context,
+                          EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done);
+
+// How many bricks an object has at each bx.
+std::vector<uint64_t> BricksAtX(const Volume& object);
+// The bricks of an object in groups of whole columns: those of a bx lie in one group. A group ends
+// where the `counts` by bx of what it has add up to `least` or more, whatever the object has there.
+std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object,
+                                               std::span<const uint64_t> counts, size_t least);
+
+// Some bricks of an object, numbered anew, with the runs beside them.
+struct ObjectPart {
+  Volume volume;
+  SideRuns<uint32_t> runs;
+};
+ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
+                  std::span<const BrickIndex> bricks);
 
 // Whether 16 bits are not worth a try for these bricks of the object.
 bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks);

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/distance/border_bricks.h"
@@ -29,6 +33,19 @@ namespace {
 // Positions in a BrickNeighborhood.
 constexpr size_t kAboveX = 8, kBelowX = 9, kAboveY = 10, kBelowY = 11, kAboveZ = 12, kBelowZ = 13;
 
+uint16_t LargestIn(std::span<const uint16_t> squares) { return LargestOf(squares); }
+float LargestIn(std::span<const float> squares) {
+  uint32_t largest = 0;  // whole numbers, which compare many at a time
+  for (const float square : squares) largest = std::max(largest, std::bit_cast<uint32_t>(square));
+  return std::bit_cast<float>(largest);
+}
+
+void RaiseTo(float value, std::atomic<float>& largest) {
+  float seen = largest;
+  while (seen < value && !largest.compare_exchange_weak(seen, value)) {
+  }
+}
+
 template <typename T>
 class EuclideanScan {
  public:
@@ -49,14 +66,17 @@ class EuclideanScan {
     });
   }
 
-  void RunAcrossLayers(const exec::Context& context, const std::function<void(BrickStack)>& done) {
+  float RunAcrossLayers(const exec::Context& context, const std::function<void(BrickStack)>& done) {
+    std::atomic<float> largest = 0;
     const std::vector<BrickIndex> feet = StackFeet(kBelowZ);
     Share(context, feet.size(), 1, [&](size_t n) {
       const BrickIndex foot = feet[n];
       const std::vector<BrickIndex> stack = StackFrom(foot, kAboveZ);
       ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), stack);
-      if (done) done(stack);
+      RaiseTo(LargestOfStack(stack), largest);
+      done(stack);
     });
+    return largest;
   }
 
  private:
@@ -75,6 +95,15 @@ class EuclideanScan {
         for (size_t n = mine.begin; n < mine.end; ++n) work(n);
       }
     });
+  }
+
+  float LargestOfStack(BrickStack stack) const {
+    float most = 0;
+    for (const BrickIndex n : stack) {
+      const T* squares = view_.own + size_t{n} * kBrickPoints;
+      most = std::max(most, static_cast<float>(LargestIn(std::span(squares, kBrickPoints))));
+    }
+    return most;
   }
 
   std::vector<BrickIndex> StackFrom(BrickIndex foot, size_t onward) const {
@@ -141,13 +170,6 @@ class EuclideanScan {
   SquaredLengths<T> lengths_;
 };
 
-uint32_t LargestRank(std::span<const uint16_t> squares) { return LargestOf(squares); }
-uint32_t LargestRank(std::span<const float> squares) {
-  uint32_t largest = 0;  // whole numbers, which compare many at a time
-  for (const float square : squares) largest = std::max(largest, DistanceField::RankOf(square));
-  return largest;
-}
-
 // Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
 // tells what to try first.
 bool IsDeepInside(const Volume& object, BrickIndex brick) {
@@ -202,25 +224,61 @@ void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
   EuclideanScan<T>(object, parts).RunWithinLayers(runs, context);
 }
 template <typename T>
-void MeasureAcrossLayers(const Volume& object, const exec::Context& context,
-                         EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done) {
-  EuclideanScan<T>(object, parts).RunAcrossLayers(context, done);
+float MeasureAcrossLayers(const Volume& object, const exec::Context& context,
+                          EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done) {
+  return EuclideanScan<T>(object, parts).RunAcrossLayers(context, done);
 }
-template <typename T>
-DistanceField EuclideanFieldOf(EuclideanParts<T> parts) {
-  const uint32_t largest = LargestRank(parts.own);
-  return DistanceField(DistanceKind::kEuclidean, ChamferWeights(), std::move(parts.own), largest);
+
+std::vector<uint64_t> BricksAtX(const Volume& object) {
+  std::vector<uint64_t> counts(static_cast<size_t>((object.extent().nx + kBrickX - 1) / kBrickX));
+  for (const BrickKey key : object.keys()) ++counts[static_cast<size_t>(key.coordinates().bx)];
+  return counts;
+}
+
+std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object,
+                                               std::span<const uint64_t> counts, size_t least) {
+  std::vector<size_t> group_at;  // by bx
+  size_t group = 0;
+  uint64_t bricks = 0;
+  for (const uint64_t count : counts) {
+    group_at.push_back(group);
+    bricks += count;
+    if (bricks < least) continue;
+    ++group;
+    bricks = 0;
+  }
+  std::vector<std::vector<BrickIndex>> groups(bricks == 0 ? group : group + 1);
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    groups[group_at[static_cast<size_t>(object.keys()[n].coordinates().bx)]].push_back(n);
+  }
+  return groups;
+}
+
+ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
+                  std::span<const BrickIndex> bricks) {
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bits;
+  SideRuns<uint32_t> own_runs(bricks.size());
+  keys.reserve(bricks.size());
+  bits.reserve(bricks.size() + 1);  // Volume adds one
+  for (const BrickIndex n : bricks) {
+    own_runs.left[keys.size()] = runs.left[n];
+    own_runs.right[keys.size()] = runs.right[n];
+    keys.push_back(object.keys()[n]);
+    bits.push_back(object.bricks()[n]);
+  }
+  return {Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                   std::move(bits)),
+          std::move(own_runs)};
 }
 
 template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
                                   EuclideanParts<uint16_t>&);
 template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
                                   EuclideanParts<float>&);
-template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&,
-                                  const std::function<void(BrickStack)>&);
-template void MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&,
-                                  const std::function<void(BrickStack)>&);
-template DistanceField EuclideanFieldOf(EuclideanParts<uint16_t>);
-template DistanceField EuclideanFieldOf(EuclideanParts<float>);
+template float MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&,
+                                   const std::function<void(BrickStack)>&);
+template float MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&,
+                                   const std::function<void(BrickStack)>&);
 
 }  // namespace bccskel

@@ -1,61 +1,22 @@
 #include "core/distance/euclidean_stream.h"
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
 #include <span>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_parts.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel {
 namespace {
 
-// The bricks of an object in groups of whole columns: those of a bx lie in one group, and groups
-// have so many bricks or more.
-std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object, size_t least) {
-  std::vector<size_t> group_at;  // by bx; first the number of bricks there
-  for (const BrickKey key : object.keys()) {
-    const auto bx = static_cast<size_t>(key.coordinates().bx);
-    if (bx >= group_at.size()) group_at.resize(bx + 1);
-    ++group_at[bx];
-  }
-  size_t group = 0, bricks = 0;
-  for (size_t& at : group_at) {
-    bricks += std::exchange(at, group);
-    if (bricks < least) continue;
-    ++group;
-    bricks = 0;
-  }
-  std::vector<std::vector<BrickIndex>> groups(bricks == 0 ? group : group + 1);
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    groups[group_at[static_cast<size_t>(object.keys()[n].coordinates().bx)]].push_back(n);
-  }
-  return groups;
-}
-
 // Many enough for several workers, few enough for caches.
 size_t BricksAtOnce(const Volume& object, size_t at_once) {
   constexpr size_t kParts = 8;
   const bool is_small = object.brick_count() * kBrickPoints <= at_once;
   return is_small ? object.brick_count() : at_once / kBrickPoints / kParts;
-}
-
-uint16_t LargestIn(std::span<const uint16_t> squares) { return LargestOf(squares); }
-float LargestIn(std::span<const float> squares) {
-  uint32_t largest = 0;  // whole numbers, which compare many at a time
-  for (const float square : squares) largest = std::max(largest, std::bit_cast<uint32_t>(square));
-  return std::bit_cast<float>(largest);
-}
-
-void RaiseTo(float value, std::atomic<float>& largest) {
-  float seen = largest;
-  while (seen < value && !largest.compare_exchange_weak(seen, value)) {
-  }
 }
 
 // A part of an object, with its bricks numbered anew.
@@ -73,7 +34,7 @@ class EuclideanStream {
         context_(context),
         sink_(sink),
         may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic),
-        groups_(ColumnsOf(object, BricksAtOnce(object, at_once))),
+        groups_(ColumnsOf(object, BricksAtX(object), BricksAtOnce(object, at_once))),
         keeps_floats_(keep == KeepField::kAlways ||
                       object.brick_count() * kBrickPoints <= kMostFloatsKept),
         has_field_(keeps_floats_ || (may_be_whole_ && !IsDeep(object))) {}
@@ -86,7 +47,8 @@ class EuclideanStream {
       if (groups_.size() == 1) {
         Measure({bricks, object_, runs});
       } else {
-        MeasurePart(bricks, runs);
+        const ObjectPart part = PartOf(object_, runs, bricks);
+        Measure({bricks, part.volume, part.runs});
       }
     }
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
@@ -95,24 +57,6 @@ class EuclideanStream {
   }
 
  private:
-  void MeasurePart(const std::vector<BrickIndex>& bricks, const SideRuns<uint32_t>& runs) {
-    std::vector<BrickKey> keys;
-    std::vector<BrickBits> bits;
-    SideRuns<uint32_t> own_runs(bricks.size());
-    keys.reserve(bricks.size());
-    bits.reserve(bricks.size() + 1);
-    for (const BrickIndex n : bricks) {
-      own_runs.left[keys.size()] = runs.left[n];
-      own_runs.right[keys.size()] = runs.right[n];
-      keys.push_back(object_.keys()[n]);
-      bits.push_back(object_.bricks()[n]);
-    }
-    Measure({bricks,
-             Volume::FromSortedBricks(object_.extent(), object_.placement(), std::move(keys),
-                                      std::move(bits)),
-             own_runs});
-  }
-
   void Measure(const Columns& part) {
     const bool has_floats =
         has_field_ && std::holds_alternative<exec::UninitializedVector<float>>(field_);
@@ -129,20 +73,17 @@ class EuclideanStream {
     MeasureWithinLayers(part.volume, part.runs, context_, parts);
     const bool is_all = groups_.size() == 1;
     T* const field = is_all ? nullptr : RoomFor<T>();
-    std::atomic<float> largest = 0;
-    MeasureAcrossLayers<T>(part.volume, context_, parts, [&](BrickStack stack) {
-      float most = 0;
-      for (const BrickIndex n : stack) {
-        const std::span squares = std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints);
-        most = std::max(most, static_cast<float>(LargestIn(std::span<const T>(squares))));
-        const BrickIndex brick = part.bricks[n];
-        if (field != nullptr) std::ranges::copy(squares, field + size_t{brick} * kBrickPoints);
-        if (sink_ != nullptr) sink_->Take(brick, squares.data());
-      }
-      RaiseTo(most, largest);
-    });
+    const float largest =
+        MeasureAcrossLayers<T>(part.volume, context_, parts, [&](BrickStack stack) {
+          for (const BrickIndex n : stack) {
+            const std::span squares = std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints);
+            const BrickIndex brick = part.bricks[n];
+            if (field != nullptr) std::ranges::copy(squares, field + size_t{brick} * kBrickPoints);
+            if (sink_ != nullptr) sink_->Take(brick, squares.data());
+          }
+        });
     if (sizeof(T) == sizeof(uint16_t) && largest >= kFirstUnsureSquare) return false;
-    largest_ = std::max(largest_, largest.load());
+    largest_ = std::max(largest_, largest);
     if (is_all) field_ = std::move(parts.own);
     return true;
   }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "core/distance/chamfer_weights.h"
 #include "core/volume/volume.h"
@@ -14,14 +16,6 @@ namespace bccskel {
 // A place between lattice points, or a way from one to another: in lattice units along the axes of
 // the lattice, so stretched where spacings differ.
 using Coordinates = std::array<double, 3>;
-
-inline double Dot(const Coordinates& a, const Coordinates& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-inline Coordinates Cross(const Coordinates& a, const Coordinates& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // a + t * b.
 inline Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
@@ -72,13 +66,16 @@ inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) 
   return scale == kIsotropic ? near(kIsotropic) : near(scale);
 }
 
-// Finds bricks of points that lie close together.
+// Finds bricks of points that lie close together: remembers what it found, all of it where the
+// extent has few bricks.
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
-  explicit NearbyBricks(const Volume& object) : object_(object) {
-    found_.fill({BrickKey(), none()});
-  }
+  explicit NearbyBricks(const Volume& object)
+      : object_(object),
+        bits_(BitsFor(object.extent())),
+        found_(size_t{1} << bits_.All(), Found{BrickKey(), none()}) {}
+
   BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
   // The padding brick, none(), if it is not stored.
@@ -104,14 +101,37 @@ class NearbyBricks {
     BrickIndex brick = 0;
   };
 
-  // Bricks of a box of 128 x 64 x 64 lattice units have different places.
-  static size_t PlaceFor(const BrickCoordinates& brick) {
-    return static_cast<size_t>((brick.bx & 3) | (brick.by & 7) << 2 | (brick.bz & 3) << 5 |
-                               static_cast<int>(brick.sublattice) << 7);
+  // A brick's place are the low bits of its coordinates and its sublattice. The extent's bricks
+  // have different places, if the most bits are enough.
+  struct Bits {
+    int x = 1, y = 1, z = 1;
+
+    int All() const { return x + y + z + 1; }
+  };
+  static constexpr int kMostBits = 13;
+
+  static Bits BitsFor(const LatticeExtent& extent) {
+    const auto bits_for = [](int32_t cells, int32_t length) {
+      return static_cast<int>(
+          std::bit_width(static_cast<uint32_t>(std::max(cells - 1, 0) / length)));
+    };
+    Bits bits = {bits_for(extent.nx, kBrickX), bits_for(extent.ny, kBrickY),
+                 bits_for(extent.nz, kBrickZ)};
+    while (bits.All() > kMostBits)
+      --(bits.x >= std::max(bits.y, bits.z) ? bits.x : bits.y >= bits.z ? bits.y : bits.z);
+    return bits;
+  }
+
+  size_t PlaceFor(const BrickCoordinates& brick) const {
+    const auto low = [](int32_t v, int bits) { return v & ((1 << bits) - 1); };
+    const int zs = low(brick.bz, bits_.z) | static_cast<int>(brick.sublattice) << bits_.z;
+    const int yzs = low(brick.by, bits_.y) | zs << bits_.y;
+    return static_cast<size_t>(low(brick.bx, bits_.x) | yzs << bits_.x);
   }
 
   const Volume& object_;
-  std::array<Found, 256> found_;
+  const Bits bits_;
+  std::vector<Found> found_;
 };
 
 }  // namespace bccskel

@@ -9,7 +9,7 @@ namespace bccskel::ranks {
 
 // OK on all ranks, or on none: CANCELLED or DEADLINE_EXCEEDED where one of them has to stop.
 inline absl::Status AgreeToGoOn(Exchange& exchange, const exec::Context& context) {
-  const absl::Status own = context.StopStatus();
+  absl::Status own = context.StopStatus();
   uint64_t stopped = own.ok() ? 0 : 1;
   exchange.Max({&stopped, 1});
   if (!own.ok() || stopped == 0) return own;

@@ -11,7 +11,7 @@
 
 namespace bccskel::ranks {
 
-// Does:  ThinToCurve() by all ranks together, and CountBettiNumbers() of the object; the same bits
+// Does:  ThinObject() by all ranks together, and CountBettiNumbers() of the object; the same bits
 //        for any number of ranks, and of threads on each.
 // Needs: each brick of the object is in the part of one rank, in any order; all have the same
 //        options, extent and placement.

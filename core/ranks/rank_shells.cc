@@ -19,100 +19,100 @@
 namespace bccskel::ranks {
 namespace {
 
-// Squares of a round of columns that a rank gets.
+// Squares of a round of columns that a rank has, or more where the object is large across x.
 constexpr size_t kBytesPerRound = size_t{8} << 20;
 
-uint64_t ColumnHash(const BrickCoordinates& at) {
-  uint64_t hash = static_cast<uint64_t>(at.by) << 32 | static_cast<uint64_t>(at.bx);
+// Which rank measures a column: as many ranks take their turn as there are, and who begins is by
+// chance, so that neither solids nor patterns leave some with more.
+size_t MeasurerOf(BrickKey key, size_t ranks) {
+  const BrickCoordinates at = key.coordinates();
+  const auto by = static_cast<uint64_t>(at.by);
+  uint64_t hash = by / ranks << 32 | static_cast<uint64_t>(at.bx);
   hash = (hash ^ hash >> 31) * 0x9e3779b97f4a7c15;
   hash = (hash ^ hash >> 29) * 0xbf58476d1ce4e5b9;
-  return hash ^ hash >> 32;
+  return (by + (hash ^ hash >> 32)) % ranks;
 }
 
-// Which columns are measured together: in `count` rounds, one after the other, each rank measures
-// some columns.
-struct ColumnRounds {
-  ColumnRounds(Exchange& exchange, const Volume& volume, size_t bytes_per_brick)
-      : ranks(static_cast<size_t>(exchange.size())) {
-    uint64_t bricks = volume.brick_count();
-    exchange.Max({&bricks, 1});
-    count = bricks * bytes_per_brick / kBytesPerRound + 1;
-  }
-
-  size_t letters() const { return count * ranks; }
-  // Of all rounds' letters, the one for the rank that measures the brick's column.
-  size_t LetterOf(BrickKey key) const { return ColumnHash(key.coordinates()) % letters(); }
-
-  size_t ranks;
-  size_t count;
-};
-
-// The rounds of an object's columns.
-template <typename T>
+// Measures columns a round after the other, so that few squares are there at a time: those of a
+// round go from who has their layers to who has their columns.
 class EuclideanRounds {
  public:
-  EuclideanRounds(Exchange& exchange, const RankBricks& bricks, const exec::Context& context,
-                  ShellStore& store)
-      : exchange_(exchange), bricks_(bricks), context_(context), store_(store) {}
+  EuclideanRounds(Exchange& exchange, const RankBricks& bricks, const LayerOwners& layers,
+                  const exec::Context& context, ShellStore& store)
+      : exchange_(exchange),
+        bricks_(bricks),
+        layers_(layers),
+        context_(context),
+        store_(store),
+        ranks_(static_cast<size_t>(exchange.size())),
+        may_be_whole_(AxisScaleOf(bricks.local.placement()) == kIsotropic) {}
 
-  // Takes the bricks of this rank's layers and of those beside, and lets go of them on its way.
-  // Errors: OUT_OF_RANGE where T is too small for the distances of the object.
-  absl::Status Run(const LayerOwners& layers, Volume volume) {
-    const ColumnRounds columns(exchange_, volume, kBytes);
-    std::vector<Bytes> letters = MeasureLayers(layers, columns, volume);
-    volume = {};
-    for (size_t round = 0; round < columns.count; ++round) {
+  absl::Status Run() {
+    Volume volume = MoveToLayers(exchange_, layers_, bricks_.local, bricks_.own);
+    // Runs have a rank's most memory beside the shells, and so the table of neighbors goes.
+    const SideRuns<uint32_t> runs = SideRunsOf(volume, context_);
+    volume = WithoutTable(volume);
+    std::vector<uint64_t> counts = BricksAtX(volume);
+    exchange_.Max(counts);
+    for (const auto& group : ColumnsOf(volume, counts, kBytesPerRound / kBytes<uint16_t>)) {
       BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange_, context_));
-      const auto first = letters.begin() + static_cast<ptrdiff_t>(round * columns.ranks);
-      const auto last = first + static_cast<ptrdiff_t>(columns.ranks);
-      uint64_t largest = MeasureColumns(
-          TradeWithAll(exchange_, {std::make_move_iterator(first), std::make_move_iterator(last)}));
-      exchange_.Max({&largest, 1});
-      if (sizeof(T) == sizeof(uint16_t) && largest >= kFirstUnsureSquare) {
-        return absl::OutOfRangeError("deeper than 16 bits");
-      }
+      const ObjectPart part = PartOf(volume, runs, group);
+      // Columns beside deep ones are deep, too.
+      if (may_be_whole_ && largest_ < kFirstUnsureSquare && MeasureAs<uint16_t>(part)) continue;
+      MeasureAs<float>(part);
     }
     return absl::OkStatus();
   }
 
  private:
   static constexpr size_t kBeside = kLayersBeside * kLayerPoints;
-  static constexpr size_t kSquares = kBrickPoints + kBeside;
-  static constexpr size_t kBytes = sizeof(BrickKey) + sizeof(BrickBits) + kSquares * sizeof(T);
+  template <typename T>
+  static constexpr size_t kBytes = sizeof(BrickKey) + sizeof(BrickBits) +
+                                   (kBrickPoints + kBeside) * sizeof(T);
 
-  // Packs the squares of this rank's layers for those who measure columns. The memory of what is
-  // packed goes back, so that nearly all squares are there only once.
-  std::vector<Bytes> MeasureLayers(const LayerOwners& layers, const ColumnRounds& columns,
-                                   const Volume& volume) {
+  static Volume WithoutTable(const Volume& volume) {
+    return Volume::FromSortedBricks(volume.extent(), volume.placement(),
+                                    {volume.keys().begin(), volume.keys().end()},
+                                    {volume.bricks().begin(), volume.bricks().end()});
+  }
+
+  // Returns whether T was enough, on all ranks.
+  template <typename T>
+  bool MeasureAs(const ObjectPart& part) {
+    MeasureColumns<T>(TradeWithAll(exchange_, MeasureLayers<T>(part)));
+    exchange_.Max({&largest_, 1});
+    if (sizeof(T) == sizeof(uint16_t) && largest_ >= kFirstUnsureSquare) return false;
+    store_.SendAway(columns_);
+    return true;
+  }
+
+  // Packs the squares of this rank's layers for those who measure columns.
+  template <typename T>
+  std::vector<Bytes> MeasureLayers(const ObjectPart& part) const {
+    const Volume& volume = part.volume;
     EuclideanParts<T> parts(volume.brick_count());
-    MeasureWithinLayers(volume, SideRunsOf(volume, context_), context_, parts);
+    MeasureWithinLayers(volume, part.runs, context_, parts);
     const exec::Share own =
-        BricksOfLayers(volume, layers.FirstOf(exchange_.rank()), layers.EndOf(exchange_.rank()));
-    std::vector<size_t> counts(columns.letters());
-    for (size_t n = own.begin; n < own.end; ++n) ++counts[columns.LetterOf(volume.keys()[n])];
-    std::vector<Bytes> letters(columns.letters());
-    constexpr size_t kAtOnce = 8192;
+        BricksOfLayers(volume, layers_.FirstOf(exchange_.rank()), layers_.EndOf(exchange_.rank()));
+    std::vector<size_t> counts(ranks_);
+    for (size_t n = own.begin; n < own.end; ++n) ++counts[MeasurerOf(volume.keys()[n], ranks_)];
+    std::vector<Bytes> letters(ranks_);
+    for (size_t rank = 0; rank < ranks_; ++rank) letters[rank].reserve(counts[rank] * kBytes<T>);
     for (size_t n = own.begin; n < own.end; ++n) {
-      const size_t slot = columns.LetterOf(volume.keys()[n]);
-      Bytes& letter = letters[slot];
-      if (letter.empty()) letter.reserve(counts[slot] * kBytes);
+      Bytes& letter = letters[MeasurerOf(volume.keys()[n], ranks_)];
       PackBrick(volume.keys()[n], volume.bricks()[n], letter);
       Pack(std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints), letter);
       Pack(std::span(parts.beside).subspan(n * kBeside, kBeside), letter);
-      if ((n - own.begin) % kAtOnce != 0) continue;
-      exec::DropHugePages(parts.own.data(), n * kBrickPoints * sizeof(T));
-      exec::DropHugePages(parts.beside.data(), n * kBeside * sizeof(T));
     }
     return letters;
   }
 
-  uint64_t MeasureColumns(std::vector<Bytes> in) {
+  template <typename T>
+  void MeasureColumns(std::vector<Bytes> in) {
     std::vector<BrickKey> keys;
     std::vector<BrickBits> bits;
     size_t count = 0;
-    for (const Bytes& letter : in) {
-      count += letter.size() / kBytes;
-    }
+    for (const Bytes& letter : in) count += letter.size() / kBytes<T>;
     EuclideanParts<T> parts(count);
     for (Bytes& letter : in) {
       for (Unpacker from(letter); !from.done();) {
@@ -123,35 +123,28 @@ class EuclideanRounds {
       }
       letter = {};
     }
-    const Volume columns = Volume::FromSortedBricks(
-        bricks_.local.extent(), bricks_.local.placement(), std::move(keys), std::move(bits));
-    MeasureAcrossLayers(columns, context_, parts);
-    const DistanceField field = EuclideanFieldOf(std::move(parts));
-    store_.Trade(columns, {0, columns.brick_count()}, field, context_);
-    return field.largest();
+    columns_ = Volume::FromSortedBricks(bricks_.local.extent(), bricks_.local.placement(),
+                                        std::move(keys), std::move(bits));
+    store_.Expect(columns_, {0, columns_.brick_count()});
+    SquareSlicer slicer = store_.Slicer();
+    const float largest = MeasureAcrossLayers<T>(columns_, context_, parts, [&](BrickStack stack) {
+      for (const BrickIndex n : stack) {
+        slicer.Take(n, parts.own.data() + size_t{n} * kBrickPoints);
+      }
+    });
+    largest_ = static_cast<uint64_t>(largest);
   }
 
   Exchange& exchange_;
   const RankBricks& bricks_;
+  const LayerOwners& layers_;
   const exec::Context& context_;
   ShellStore& store_;
+  const size_t ranks_;
+  const bool may_be_whole_;
+  Volume columns_;        // of this round
+  uint64_t largest_ = 0;  // square of the last round
 };
-
-absl::Status MeasureEuclidean(Exchange& exchange, const RankBricks& bricks,
-                              const LayerOwners& layers, const exec::Context& context,
-                              ShellStore& store) {
-  const auto move = [&] { return MoveToLayers(exchange, layers, bricks.local, bricks.own); };
-  Volume volume = move();
-  uint64_t is_deep = IsDeep(volume) ? 1 : 0;
-  exchange.Max({&is_deep, 1});
-  if (AxisScaleOf(volume.placement()) == kIsotropic && is_deep == 0) {
-    EuclideanRounds<uint16_t> rounds(exchange, bricks, context, store);
-    const absl::Status done = rounds.Run(layers, std::move(volume));
-    if (!absl::IsOutOfRange(done)) return done;
-    volume = move();
-  }
-  return EuclideanRounds<float>(exchange, bricks, context, store).Run(layers, std::move(volume));
-}
 
 // Ranks are holders in their order.
 class RankRelay : public LayerRelay {
@@ -179,17 +172,13 @@ class RankRelay : public LayerRelay {
 };
 
 absl::Status MeasureChamfer(Exchange& exchange, const RankBricks& bricks, const LayerOwners& layers,
-                            DistanceKind kind, double shell_width, Depths depths,
-                            const exec::Context& context, ShellStore& store) {
+                            DistanceKind kind, double shell_width, const exec::Context& context,
+                            ShellStore& store) {
   const Volume volume = MoveToLayers(exchange, layers, bricks.local, bricks.own);
   RankRelay relay(exchange);
   const HeldLayers held = {layers.FirstOf(exchange.rank()), layers.EndOf(exchange.rank())};
   store.Expect(volume, BricksOfLayers(volume, held.first, held.end));
-  const ShellPlaces shells = [&](BrickIndex n) { return store.ShellsOf(n); };
-  DepthPlaces deep;
-  if (depths == Depths::kWanted)
-    deep = [&](BrickIndex n) -> DepthPlanes& { return store.DepthsOf(n); };
-  (void)StreamShellsOfLayers(volume, held, kind, shell_width, context, relay, shells, deep);
+  (void)StreamShellsOfLayers(volume, held, kind, shell_width, context, relay, store.Places());
   BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange, context));
   store.SendAway(volume);
   return absl::OkStatus();
@@ -205,8 +194,8 @@ absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& b
     const LayerOwners layers(exchange, bricks.local, bricks.own);
     BCCSKEL_RETURN_IF_ERROR(
         kind == DistanceKind::kEuclidean
-            ? MeasureEuclidean(exchange, bricks, layers, context, store)
-            : MeasureChamfer(exchange, bricks, layers, kind, shell_width, depths, context, store));
+            ? EuclideanRounds(exchange, bricks, layers, context, store).Run()
+            : MeasureChamfer(exchange, bricks, layers, kind, shell_width, context, store));
   }
   // A rank thins for long and measures once, so blocks of squares are not kept for another time.
   exec::ProcessLargeBlocks().ReleaseUnused();

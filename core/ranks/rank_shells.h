@@ -23,9 +23,10 @@ struct RankShells {
 //        and nothing else (euclidean_scan.cc): so squares go on to ranks that own whole columns.
 //        Chamfer scans go up and down, and of what is below or above a layer they need the next
 //        layer (chamfer_scan.cc): so ranks scan one after the other. Shells go to the owners.
-// Cost:  what one machine takes for Euclidean distances of the layers of a rank and of the two
-//        beside them; as columns go, some at a time, the result takes their place. On the wire 72
-//        to 216 bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or
+// Cost:  Euclidean distances are measured some columns at a time, so that beside the shells a rank
+//        has 332 bytes for each brick of its layers and the two beside, and the squares of a
+//        round. On the wire 72 to
+//        216 bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or
 //        720 bytes back. Chamfer scans take as long as on one machine, and the memory of
 //        StreamShells() for a rank's layers.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.

@@ -17,23 +17,6 @@ ShellStore::ShellStore(Exchange& exchange, const RankBricks& bricks, double shel
   if (!deep_.empty()) deep_.back() = {};
 }
 
-void ShellStore::Trade(const Volume& volume, exec::Share measured, const DistanceField& field,
-                       const exec::Context& context) {
-  const Shells shells = BuildShells(volume, field, shell_width_, context);
-  BrickDepths deep;
-  if (depths_ == Depths::kWanted) deep = BuildDepths(volume, field, context);
-  std::vector<Bytes> out(static_cast<size_t>(exchange_.size()));
-  for (auto n = static_cast<BrickIndex>(measured.begin); n < measured.end; ++n) {
-    const BrickKey key = volume.keys()[n];
-    Bytes& to = out[static_cast<size_t>(bricks_.owners.OwnerOf(key))];
-    Pack(key, to);
-    Pack(shells.planes()[n], to);
-    Pack(shells.RangeOf(n), to);
-    if (!deep.empty()) Pack(deep[n], to);
-  }
-  KeepAll(TradeWithAll(exchange_, std::move(out)));
-}
-
 void ShellStore::KeepAll(const std::vector<Bytes>& letters) {
   for (const Bytes& letter : letters) {
     for (Unpacker from(letter); !from.done();) Keep(from);
@@ -49,6 +32,8 @@ void ShellStore::Keep(Unpacker& from) {
 
 void ShellStore::Expect(const Volume& volume, exec::Share measured) {
   first_measured_ = measured.begin;
+  places_.clear();
+  away_.clear();
   for (auto n = static_cast<BrickIndex>(measured.begin); n < measured.end; ++n) {
     const std::optional<BrickIndex> own = bricks_.local.Find(volume.keys()[n]);
     const bool is_own = own.has_value() && *own >= bricks_.own.begin && *own < bricks_.own.end;
@@ -58,6 +43,17 @@ void ShellStore::Expect(const Volume& volume, exec::Share measured) {
   away_planes_.resize(away_.size());
   away_ranges_.resize(away_.size());
   if (depths_ == Depths::kWanted) away_deep_.resize(away_.size());
+}
+
+ShellPlaces ShellStore::Places() {
+  ShellPlaces places = {[this](BrickIndex brick) { return ShellsOf(brick); }};
+  if (depths_ == Depths::kWanted) {
+    places.depths = [this](BrickIndex brick) -> DepthPlanes& { return DepthsOf(brick); };
+  }
+  return places;
+}
+SquareSlicer ShellStore::Slicer() {
+  return {AxisScaleOf(bricks_.local.placement()), shell_width_, Places()};
 }
 
 ShellPlace ShellStore::ShellsOf(BrickIndex brick) {
@@ -72,10 +68,18 @@ DepthPlanes& ShellStore::DepthsOf(BrickIndex brick) {
 }
 
 void ShellStore::SendAway(const Volume& volume) {
-  std::vector<Bytes> out(static_cast<size_t>(exchange_.size()));
+  constexpr size_t kBytes =
+      sizeof(BrickKey) + sizeof(ShellPlanes) + sizeof(Shells::Range) + sizeof(DepthPlanes);
+  const auto owner_of = [&](BrickIndex n) {
+    return static_cast<size_t>(bricks_.owners.OwnerOf(volume.keys()[n]));
+  };
+  std::vector<size_t> counts(static_cast<size_t>(exchange_.size()));
+  for (const BrickIndex n : away_) ++counts[owner_of(n)];
+  std::vector<Bytes> out(counts.size());
   for (size_t n = 0; n < away_.size(); ++n) {
     const BrickKey key = volume.keys()[away_[n]];
-    Bytes& to = out[static_cast<size_t>(bricks_.owners.OwnerOf(key))];
+    Bytes& to = out[owner_of(away_[n])];
+    if (to.empty()) to.reserve(counts[owner_of(away_[n])] * kBytes);
     Pack(key, to);
     Pack(away_planes_[n], to);
     Pack(away_ranges_[n], to);

@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "core/distance/distance_field.h"
-#include "core/exec/context.h"
 #include "core/exec/uninitialized.h"
 #include "core/exec/worker_team.h"
 #include "core/ranks/exchange.h"
@@ -20,17 +18,13 @@ class ShellStore {
   // Needs: `bricks` and `exchange` outlive this.
   ShellStore(Exchange& exchange, const RankBricks& bricks, double shell_width, Depths depths);
 
-  // All ranks together: each has measured some bricks of a volume and sends their shells to the
-  // owners.
-  void Trade(const Volume& volume, exec::Share measured, const DistanceField& field,
-             const exec::Context& context);
-
-  // The same where distances are measured and sliced in one go: the shells of bricks that are this
-  // rank's own go to their places, those of others to ones from where they are sent.
+  // What is measured next: shells of bricks that are this rank's own go to their places, those of
+  // others to ones from where they are sent.
   void Expect(const Volume& volume, exec::Share measured);
-  // Needs: `brick` of that volume, measured here.
-  ShellPlace ShellsOf(BrickIndex brick);
-  DepthPlanes& DepthsOf(BrickIndex brick);
+  // The places of the bricks of that volume that are measured here. Needs: outlived by this.
+  ShellPlaces Places();
+  // Slices squared distances to these places.
+  SquareSlicer Slicer();
   // All ranks together.
   void SendAway(const Volume& volume);
 
@@ -38,6 +32,8 @@ class ShellStore {
   RankShells Finish() &&;
 
  private:
+  ShellPlace ShellsOf(BrickIndex brick);
+  DepthPlanes& DepthsOf(BrickIndex brick);
   void KeepAll(const std::vector<Bytes>& letters);
   void Keep(Unpacker& from);
 

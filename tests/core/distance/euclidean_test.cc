@@ -215,7 +215,7 @@ TEST(Euclidean, AsksAgainAndAgainWhetherToStop) {
   const Volume ball = *GenerateShape(Shape::kBall, {.points = 300'000});
   int asked = 0;
   exec::Context context;
-  context.interlude = [&asked] { ++asked; };
+  context.yield = [&asked] { ++asked; };
   ASSERT_TRUE(ComputeDistance(ball, DistanceKind::kEuclidean, context).ok());
   const auto bricks = static_cast<double>(ball.brick_count());
   EXPECT_GT(asked, static_cast<int>(std::pow(bricks, 2.0 / 3)));

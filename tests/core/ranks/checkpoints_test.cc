@@ -10,7 +10,7 @@
 
 #include "core/ranks/rank_skeletonize.h"
 #include "core/ranks/thread_exchange.h"
-#include "tests/support/object_parts.h"
+#include "core/volume/layer_part.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -62,7 +62,7 @@ absl::StatusOr<SkeletonizeResult> RunJob(const Job& job, const Volume& object,
   ranks::RunAsThreads(job.ranks, [&](ranks::Exchange& exchange) {
     exec::Context context;
     std::stop_source source;
-    Volume part = test::OnlyLayers(object, {exchange.rank(), exchange.size()});
+    Volume part = OnlyLayers(object, {exchange.rank(), exchange.size()});
     if (exchange.rank() != 0) {
       (void)ranks::FollowLead(exchange, context, std::move(part), checkpoints);
       return;

@@ -51,7 +51,7 @@ TEST(ShareEvenly, GivesEachRankTheNextRunOfBricksWhoeverHadThem) {
       const Volume nothing = Volume::FromSortedBricks(object.extent(), object.placement(), {}, {});
       ExpectEvenRuns(Shared(ranks,
                             [&](int rank) {
-                              return test::OnlyLayers(object, {rank, ranks});
+                              return OnlyLayers(object, {rank, ranks});
                             }),
                      object);
       ExpectEvenRuns(Shared(ranks, [&](int rank) { return rank == ranks - 1 ? object : nothing; }),

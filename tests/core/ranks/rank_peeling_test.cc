@@ -7,7 +7,7 @@
 
 #include "core/distance/distance_field.h"
 #include "core/ranks/thread_exchange.h"
-#include "tests/support/object_parts.h"
+#include "core/volume/layer_part.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -57,7 +57,7 @@ std::vector<Named> ObjectsOf(uint64_t seed) {
 ThinningResult OnOneMachine(const Volume& object, const ThinningOptions& options,
                             DistanceKind kind = DistanceKind::kEuclidean) {
   const auto distance = ComputeDistance(object, kind, {});
-  auto result = ThinToCurve(object, *distance, options, {});
+  auto result = ThinObject(object, *distance, options, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
@@ -71,7 +71,7 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
     context.team = &team;
     context.min_bricks_per_worker = 1;
     context.patience = 1e9;
-    Volume part = test::OnlyLayers(object, {exchange.rank(), exchange.size()});
+    Volume part = OnlyLayers(object, {exchange.rank(), exchange.size()});
     auto peeled = ranks::PeelOverRanks(exchange, part, kind, options, {}, context);
     ASSERT_TRUE(peeled.ok()) << peeled.status();
     if (exchange.rank() != 0) return;
@@ -150,6 +150,14 @@ TEST(PeelOverRanks, ThreadsOfRanksDoNotMatter) {
     const ThinningResult wanted = OnOneMachine(object, options);
     for (const int ranks : {1, 2, 3}) ExpectSame(OnRanks(object, options, ranks, 3), wanted);
   }
+}
+
+// Euclidean distances are measured a few thousand bricks at a time.
+TEST(PeelOverRanks, SeveralRoundsOfColumnsMakeNoDifference) {
+  const Volume object = VolumeOfPoints(test::RandomCloud(1, {600, 120, 80}, 0.004));
+  ASSERT_GT(object.brick_count(), 15'000u);
+  const ThinningResult wanted = OnOneMachine(object, {});
+  for (const int ranks : {1, 2, 3}) ExpectSame(OnRanks(object, {}, ranks), wanted);
 }
 
 TEST(PeelOverRanks, AnEmptyObjectStaysEmpty) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/ranks/thread_exchange.h"
-#include "tests/support/object_parts.h"
+#include "core/volume/layer_part.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -24,7 +24,7 @@ absl::StatusOr<SkeletonizeResult> OnRanks(const Volume& object, const Skeletoniz
     exec::Context context;
     if (exchange.rank() == ranks - 1) context.stop = stop_of_last;
     const LayerPart part = {exchange.rank(), exchange.size()};
-    Volume own = test::OnlyLayers(object, part);
+    Volume own = OnlyLayers(object, part);
     if (exchange.rank() != 0) {
       (void)ranks::FollowLead(exchange, context, std::move(own));
       return;

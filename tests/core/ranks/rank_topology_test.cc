@@ -6,7 +6,7 @@
 
 #include "core/import/shapes/shapes.h"
 #include "core/ranks/thread_exchange.h"
-#include "tests/support/object_parts.h"
+#include "core/volume/layer_part.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -15,7 +15,7 @@ namespace {
 BettiNumbers OnRanks(const Volume& object, int ranks) {
   BettiNumbers betti;
   ranks::RunAsThreads(ranks, [&](ranks::Exchange& exchange) {
-    const Volume part = test::OnlyLayers(object, {exchange.rank(), ranks});
+    const Volume part = OnlyLayers(object, {exchange.rank(), ranks});
     const auto bricks = ranks::AddGhosts(exchange, *ranks::ShareEvenly(exchange, part));
     const auto counted = ranks::CountBettiNumbersOverRanks(exchange, bricks, {});
     ASSERT_TRUE(counted.ok()) << counted.status();
