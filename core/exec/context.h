@@ -13,7 +13,7 @@
 
 namespace bccskel::exec {
 
-// What a running job says about itself after each shell of the object.
+// The progress of a running job after each shell of the object.
 struct ShellProgress {
   int32_t shell = 0;       // the shell just thinned, 1..last_shell
   int32_t last_shell = 0;  // the deepest shell of the object
@@ -22,8 +22,8 @@ struct ShellProgress {
   uint64_t remaining = 0;  // points of the object still there
 };
 
-// Handed down the line from stage to stage: the threads a job may use, when it must stop, and where
-// its progress goes. The default context is one thread, never stops and tells nobody.
+// Passed from stage to stage: the threads that a job may use, when it must stop, and who receives
+// its progress. The default context has one thread, never stops and reports nothing.
 // Threads: ShouldStop() and StopStatus() from any worker; Report() from worker 0 only.
 class Context {
  public:
@@ -33,24 +33,22 @@ class Context {
   std::stop_token stop;
   Clock::time_point deadline = Clock::time_point::max();
   std::function<void(const ShellProgress&)> on_shell;
-  // Called by Rest(), and whenever the job asks whether it must stop, on whichever worker asks:
-  // there it can lend its thread to something more urgent. Comes back, does not throw; results do
-  // not depend on it.
-  std::function<void()> interlude = nullptr;
+  // Called by Yield() and ShouldStop(), on the worker that calls them: it may use the thread for
+  // more urgent work. It must return and not throw. Results do not depend on it.
+  std::function<void()> yield = nullptr;
 
-  // How many of its threads the job should use now, at least 1; null means all. Asked where a stage
-  // shares its work out, and by teams that go from step to step: down to 1, they go on as worker 0.
+  // How many of its threads the job should use now, at least 1; null means all. Called where a
+  // stage distributes its work, and by teams that work in lockstep: at 1, worker 0 continues alone.
   // Results do not depend on it.
   std::function<int()> share = nullptr;
 
-  // A directional pass gives a worker at least this many bricks: on smaller shares the workers
-  // would spend more time waiting for each other, and for bricks in each other's caches, than
-  // thinning. Found by measuring: from 1,000 bricks on two threads were not slower where nothing
-  // else kept the processors busy.
+  // A directional pass gives each worker at least this many bricks: with fewer, workers would spend
+  // more time waiting for each other, and for bricks in each other's caches, than thinning.
+  // Measured: from 1,000 bricks on, two threads were not slower on an idle machine.
   size_t min_bricks_per_worker = 512;
 
-  // A team that goes from step to step together shrinks to worker 0 when that one was blocked for
-  // more than this share of the time.
+  // A team that works in lockstep shrinks to worker 0 if that worker was blocked for more than this
+  // share of the time.
   double patience = 0.2;
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
@@ -63,7 +61,7 @@ class Context {
     return static_cast<int>(shares < 1 ? 1 : (shares < most ? shares : most));
   }
 
-  // The same for workers that meet on their way, and so may have to wait for each other.
+  // The same for workers that meet at barriers and so may have to wait for each other.
   int MeetingWorkersFor(size_t bricks, size_t work = 1) const {
     const int workers = WorkersFor(bricks, work);
     return workers == 1 || !team->confidence().Holds() ? 1 : workers;
@@ -77,8 +75,8 @@ class Context {
     });
   }
 
-  // Work of which any worker can do all, such as taking Portions: whoever of the first `workers`
-  // comes in time takes part.
+  // For work that any worker can do alone, such as taking Portions: those of the first `workers`
+  // that start in time take part.
   void Offer(const std::function<void(int)>& work) const { Offer(usable_threads(), work); }
   void Offer(int workers, const std::function<void(int)>& work) const {
     if (workers == 1) return work(0);
@@ -87,16 +85,16 @@ class Context {
     });
   }
 
-  // Lends this thread where somebody wants it. Called where ShouldStop() is not asked for more than
+  // Offers this thread to more urgent work. Called where ShouldStop() is not called for more than
   // about a millisecond.
-  void Rest() const {
-    if (interlude) interlude();
+  void Yield() const {
+    if (yield) yield();
   }
 
   // True when the job was cancelled or its deadline has passed. Asked once per direction pass and
   // at least every 20 ms of work in every stage, never per point.
   bool ShouldStop() const {
-    Rest();
+    Yield();
     return stop.stop_requested() ||
            (deadline != Clock::time_point::max() && Clock::now() >= deadline);
   }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-// The kernels are compiled for several instruction sets and the best is picked when a process first
-// runs one. Results have the same bits on all; tests and benchmarks pick by hand.
+// The kernels are compiled for several instruction sets. A process selects the best one at its
+// first call. All give the same bits; tests and benchmarks select one explicitly.
 
 namespace bccskel::exec {
 

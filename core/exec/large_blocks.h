@@ -7,26 +7,26 @@
 
 namespace bccskel::exec {
 
-// Large blocks of memory that jobs hand on to the next job. The system maps such blocks anew each
-// time, and then a first touch of their pages costs more than thinning the points there.
+// Large blocks of memory that successive jobs reuse. The system would map them anew for each job,
+// and the first touch of their pages costs more than thinning the points there.
 // Threads: safe.
 class LargeBlocks {
  public:
   static constexpr size_t kSmallest = size_t{1} << 20;
 
-  // Keeps up to `most_idle` bytes that nobody uses.
+  // Keeps at most `most_idle` unused bytes.
   explicit LargeBlocks(size_t most_idle);
   ~LargeBlocks();
   LargeBlocks(const LargeBlocks&) = delete;
   LargeBlocks& operator=(const LargeBlocks&) = delete;
 
-  // What is in the block is left from its last use. Throws std::bad_alloc.
+  // The block's contents are those of its last use. Throws std::bad_alloc.
   void* Take(size_t bytes);
-  // `bytes` as it was taken.
+  // Returns a block to the pool. `bytes` as given to Take().
   void Give(void* block, size_t bytes) noexcept;
 
-  // Gives back to the system what nobody has used since the last call. For a program that runs on
-  // when there is nothing to do: called now and then, it keeps no memory then.
+  // Frees the blocks that have not been used since the last call. A program that calls it from time
+  // to time holds no memory while it is idle.
   void ReleaseUnused() noexcept;
 
   size_t idle_bytes() const;
@@ -38,8 +38,8 @@ class LargeBlocks {
     bool seen;  // by ReleaseUnused()
   };
 
-  // Null where there is none of this size: then as much as that is given back to the system, the
-  // longest idle first, so that a job's peak is about what it would be by itself.
+  // Null if no block has this size. Then frees as many bytes, the longest idle blocks first, so
+  // that a job's peak is about what it would be without the pool.
   void* TakeIdle(size_t size);
   void MakeRoom(size_t size);
 

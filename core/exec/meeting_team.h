@@ -6,8 +6,8 @@
 
 namespace bccskel::exec {
 
-// Workers that go from step to step together and wait for each other between them. Where that is
-// slower than one worker, the others leave and worker 0 goes on.
+// Workers in lockstep: they wait for each other at a barrier after each step. If that is slower
+// than one worker, the others leave and worker 0 continues alone.
 class MeetingTeam {
  public:
   // `size` as from Context::MeetingWorkersFor(). Needs: `context` outlives this.
@@ -15,7 +15,7 @@ class MeetingTeam {
       : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
 
   int size() const { return size_; }
-  // Whether a worker has others to meet.
+  // Whether the team has more than one worker.
   bool meets(int worker) const { return size_ > 1 && !(worker == 0 && alone_); }
 
   // Runs `part(worker)` on each.
@@ -25,12 +25,12 @@ class MeetingTeam {
     if (size_ > 1) patience_.Tell(context_.team->confidence());
   }
 
-  // What a worker does of work that all share.
+  // The part of shared work that a worker owns.
   Share ShareOf(size_t count, int worker) const {
     return exec::ShareOf(count, worker, alone_ ? 1 : size_);
   }
 
-  // A meeting, or its two halves as in Barrier; without others nothing.
+  // A barrier, or its two halves as in Barrier; does nothing for one worker.
   void Meet(int worker) {
     Arrive(worker);
     Await(worker);
@@ -44,8 +44,8 @@ class MeetingTeam {
     if (worker == 0) patience_.Blocked(blocked);
   }
 
-  // Whether this worker goes on: a meeting at which the others may leave. All decide the same, or
-  // some would wait for others for ever. False once the job is to stop.
+  // Whether this worker continues: a barrier at which the others may leave. All workers decide the
+  // same; otherwise some would wait forever. False once the job must stop.
   // Needs: between two calls workers meet, so that all have read what the first one decided.
   bool GoOn(int worker) {
     if (!meets(worker)) return !context_.ShouldStop();

@@ -10,14 +10,13 @@
 
 namespace bccskel::exec {
 
-// What a job may take of the memory of its process. Stages whose need follows what they find in an
-// object, and not its bricks, ask before they allocate, by a stated number of bytes for each item.
-// Threads: safe.
+// The memory that a job may use. Stages whose need does not follow from the number of bricks
+// reserve a stated number of bytes per item before they allocate. Threads: safe.
 class MemoryBudget {
  public:
   virtual ~MemoryBudget() = default;
   // `what_for` is for messages: "1234 skeleton points".
-  // Errors: RESOURCE_EXHAUSTED where it never can be had, UNAVAILABLE where others have it now.
+  // Errors: RESOURCE_EXHAUSTED if it exceeds the limit, UNAVAILABLE if other jobs hold it now.
   virtual absl::Status Take(uint64_t bytes, const std::string& what_for) = 0;
   virtual void GiveBack(uint64_t bytes) = 0;
 
@@ -28,15 +27,15 @@ class MemoryBudget {
   }
 };
 
-// Refuses nothing.
+// Without a limit.
 class UnlimitedMemory final : public MemoryBudget {
  public:
   absl::Status Take(uint64_t, const std::string&) override { return absl::OkStatus(); }
   void GiveBack(uint64_t) override {}
 };
 
-// A part of a budget. Gives everything back at its end, unless told to keep it. Needs: `whole`
-// outlives it.
+// A part of a budget. Its destructor returns everything, unless it was told to keep it. Needs:
+// `whole` outlives it.
 class MemoryShare final : public MemoryBudget {
  public:
   explicit MemoryShare(MemoryBudget& whole) : whole_(whole) {}
@@ -53,7 +52,7 @@ class MemoryShare final : public MemoryBudget {
     taken_ -= bytes;
     whole_.GiveBack(bytes);
   }
-  // What was taken is the whole's from now on.
+  // Transfers what was taken to `whole`.
   void Keep() { taken_ = 0; }
 
  private:

@@ -5,7 +5,7 @@
 
 namespace bccskel::exec {
 
-// Measures one stage after the other, in wall time.
+// Measures the wall time of consecutive stages.
 class StageClock {
  public:
   using Duration = std::chrono::nanoseconds;

@@ -7,14 +7,14 @@
 
 namespace bccskel {
 
-// Asks a context now and then whether to stop: once in 1024 calls, which is well within 20 ms of
-// steps over single points. Once true, always true.
+// Asks a context once in 1024 calls whether to stop: for loops over single points, well within
+// 20 ms. Stays true once it is true.
 class StopPoll {
  public:
   explicit StopPoll(const exec::Context& context) : context_(context) {}
 
   bool Stopped() { return ++calls_ % 1024 == 0 ? StoppedNow() : stopped_; }
-  // Asks at once: for steps of many points.
+  // Asks in each call: for steps over many points.
   bool StoppedNow() {
     stopped_ = stopped_ || context_.ShouldStop();
     return stopped_;

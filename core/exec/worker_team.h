@@ -15,18 +15,17 @@
 
 namespace bccskel::exec {
 
-// Whether it pays to let the workers of a team meet. Once the others have kept worker 0 waiting,
-// since the machine had other work for their processors, it goes on alone for twelve times as long,
-// and for twice as long as before when trying again does no good: on a machine that stays busy
-// hardly any time is lost.
+// Whether lockstep pays. After worker 0 has been blocked because the machine ran other work on the
+// processors of the others, it works alone for twelve times as long, and for twice as long as
+// before if the next try fails, too: on a busy machine hardly any time is lost.
 class Confidence {
  public:
   using Duration = std::chrono::steady_clock::duration;
 
   bool Holds() const { return Clock::now() >= alone_until_; }
   void Lose(Duration waited);
-  // Workers met during this time, and it was no loss. What was before is forgotten once they have
-  // been together for as long as the last pause.
+  // Lockstep ran for this time without loss. Resets the pause once that is as long as the last
+  // pause.
   void Gain(Duration together);
 
  private:
@@ -37,9 +36,9 @@ class Confidence {
 };
 
 // A fixed team of threads that run one function together. The caller is worker 0, so a team of one
-// owns no thread and serial is simply a size of one. Between runs threads look out for the next one
-// for some microseconds, since the stages of a job follow each other; then they block.
-// Threads: Run() is not reentrant; one job owns one team at a time.
+// owns no thread and serial is a size of one. Between runs threads spin for some microseconds,
+// since the stages of a job follow each other; then they block. Threads: Run() is not reentrant;
+// one job owns one team at a time.
 class WorkerTeam {
  public:
   explicit WorkerTeam(int size = 1);  // Needs: size >= 1.
@@ -49,18 +48,18 @@ class WorkerTeam {
 
   int size() const { return size_; }
 
-  // Worker 0's, from stage to stage.
+  // Used by worker 0 only; kept across stages.
   Confidence& confidence() { return confidence_; }
 
-  // Calls `work(worker)` for worker = 0..size()-1 at the same time and returns when all are done.
-  // What one of them throws, such as std::bad_alloc, is thrown again here once all are done; work
-  // that meets at a Barrier must see to it that the others come to an end (Barrier::Guard()).
+  // Calls `work(worker)` for worker = 0..size()-1 concurrently and returns when all are done.
+  // Rethrows what one of them throws, such as std::bad_alloc, once all are done; work that waits at
+  // a Barrier must make sure that the others end (Barrier::Guard()).
   void Run(const std::function<void(int worker)>& work);
 
   // The same for work that any worker can do alone, shared by the workers that join before worker 0
-  // has finished: no worker that has not started is waited for, because waking is slow or the
-  // processors are busy. Without confidence worker 0 works alone; waiting for a worker that was
-  // preempted removes confidence.
+  // has finished: Offer() does not wait for workers that have not started, because waking is slow
+  // or the processors are busy. Without confidence worker 0 works alone; waiting for a worker that
+  // was preempted removes confidence.
   void Offer(const std::function<void(int worker)>& work);
 
  private:
@@ -85,22 +84,22 @@ class WorkerTeam {
   std::vector<std::jthread> threads_;    // last: joined before the rest is destroyed
 };
 
-// A reusable meeting point of `size` workers. Spins for some microseconds, then blocks, so that a
+// A reusable barrier of `size` workers. Spins for some microseconds, then blocks, so that a
 // machine with fewer free processors than workers stays responsive.
-// Each worker counts its meetings where only it writes and looks at the others' counts: the last to
-// come is seen after one transfer between processors, where a common counter takes three, of 100 to
-// 300 ns each; a pass over half of 850,000 points takes 2,000 ns and has two meetings.
+// Each worker has its own count and reads those of the others: the last arrival is visible after
+// one cache-line transfer of 100 to 300 ns, where a common counter takes three; a pass over half of
+// 850,000 points takes 2,000 ns and has two barriers.
 class Barrier {
  public:
   using Duration = std::chrono::steady_clock::duration;
 
   explicit Barrier(int size) : meetings_(static_cast<size_t>(size)) {}
-  // Both are called by each worker, 0..size-1, with its number. What a worker wrote before it
-  // arrived others can read after they awaited it; between the two it can do what nobody needs.
-  // Both throw what broke the barrier: a worker that will never come.
+  // Each worker, 0..size-1, calls both with its number. What a worker wrote before Arrive() is
+  // visible to the others after Await(); in between it may do work that the others do not need.
+  // Both throw what broke the barrier: a worker that will never arrive.
   void Arrive(int worker);
   // Until all have arrived as often as the caller. Any number of times.
-  // Returns: for how long the caller was blocked; zero when the others came while it was spinning.
+  // Returns: how long the caller was blocked; zero if the others arrived while it was spinning.
   Duration Await(int worker);
 
   Duration Wait(int worker) {
@@ -108,8 +107,8 @@ class Barrier {
     return Await(worker);
   }
 
-  // Runs a worker's part. Whatever it throws ends the others' parts at their next meeting, too, so
-  // that nobody waits for ever; the barrier is of no further use.
+  // Runs a worker's part. What it throws also ends the others at their next barrier, so that none
+  // waits forever; the barrier cannot be used afterwards.
   template <typename Part>
   void Guard(Part part) {
     try {
@@ -137,15 +136,15 @@ class Barrier {
   std::exception_ptr cause_;  // written before broken_ is set, once
 };
 
-// Tells when a team is slower than one worker: where the machine does not let its members run at
-// the same time, each meeting may cost a time slice of milliseconds for microseconds of work. Kept
-// by worker 0, which then goes on alone.
+// Detects when a team is slower than one worker: if workers are not co-scheduled, each barrier may
+// cost a time slice of milliseconds for microseconds of work. Used by worker 0, which then
+// continues alone.
 class Patience {
  public:
   explicit Patience(double share) : share_(share) {}
 
   void Blocked(Barrier::Duration time) { blocked_ += time; }
-  // More than its share of the time, and not just a hiccup, went into waiting, now or before.
+  // Whether waiting has taken more than its share of the time, other than in single outliers.
   bool Lost() {
     constexpr auto kHiccup = std::chrono::microseconds(300);
     lost_ = lost_ || blocked_ - kHiccup > share_ * Elapsed();
@@ -180,14 +179,13 @@ constexpr Share ShareOf(size_t count, int worker, int workers) {
   return {count * w / n, count * (w + 1) / n};
 }
 
-// Items that are handed out in order, some at a time, to whoever has nothing to do: where some take
-// longer than others and it does not matter who takes which.
-// Threads: safe.
+// Hands out items in order, some at a time, to workers that are free: for items of unequal cost
+// that any worker may take. Threads: safe.
 class Portions {
  public:
   Portions(size_t count, size_t at_once) : count_(count), at_once_(at_once) {}
 
-  // The next ones; an empty share when there are no more.
+  // The next items; an empty share at the end.
   Share Take() {
     const size_t begin = std::min(next_.fetch_add(at_once_, std::memory_order_relaxed), count_);
     return {begin, std::min(begin + at_once_, count_)};

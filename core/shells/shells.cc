@@ -69,7 +69,7 @@ class ChamferSlicer {
 class FieldSlicer {
  public:
   FieldSlicer(const Volume& object, const DistanceField& distance, double width)
-      : object_(object), distance_(distance), euclidean_(width) {
+      : object_(object), distance_(distance), euclidean_{width, width} {
     if (distance.kind() == DistanceKind::kEuclidean) return;
     chamfer_.emplace(distance.weights(), width, distance.largest());
   }
@@ -85,8 +85,8 @@ class FieldSlicer {
  private:
   template <typename T>
   Shells::Range SliceSquares(const T* squares, ShellPlanes& planes) const {
-    const SquaredRange range = SliceBrick(euclidean_, squares, planes);
-    return {euclidean_(range.smallest), euclidean_(range.largest)};
+    const SquaredRange range = SliceBrick(euclidean_, squares, planes, nullptr);
+    return {euclidean_.shell(range.smallest), euclidean_.shell(range.largest)};
   }
   Shells::Range Slice(const BrickBits&, const float* squares, ShellPlanes& planes) const {
     return SliceSquares(squares, planes);
@@ -103,7 +103,7 @@ class FieldSlicer {
 
   const Volume& object_;
   const DistanceField& distance_;
-  const EuclideanShellRule euclidean_;
+  const SquareRules euclidean_;
   std::optional<ChamferSlicer> chamfer_;
 };
 
@@ -128,13 +128,14 @@ void KeepDepths(const ShellPlanes& planes, DepthPlanes& depths) {
 // Slices chamfer distances while they are at hand.
 class StreamSlicer : public DistanceSink {
  public:
-  // Needs: `object` outlives this; `depths` may be null.
-  StreamSlicer(const Volume& object, double width, ShellPlaces shells, DepthPlaces depths)
-      : object_(object), width_(width), shells_(std::move(shells)), depths_(std::move(depths)) {}
+  // Needs: `object` outlives this.
+  StreamSlicer(const Volume& object, double width, ShellPlaces places)
+      : object_(object), width_(width), places_(std::move(places)) {}
 
   void Begin(const ChamferWeights& weights, uint32_t limit) override {
     shell_.emplace(weights, width_, limit - 1);
-    if (depths_) depth_.emplace(weights, DepthWidth(AxisScaleOf(object_.placement())), limit - 1);
+    if (places_.depths)
+      depth_.emplace(weights, DepthWidth(AxisScaleOf(object_.placement())), limit - 1);
   }
   uint32_t Take(BrickIndex brick, const uint16_t* distances) override {
     return Slice(brick, distances);
@@ -147,21 +148,20 @@ class StreamSlicer : public DistanceSink {
   template <typename T>
   uint32_t Slice(BrickIndex brick, const T* distances) {
     const BrickBits& bits = object_.bricks()[brick];
-    const ShellPlace place = shells_(brick);
+    const ShellPlace place = places_.shells(brick);
     const DistanceExtremes found = (*shell_)(bits, distances, *place.planes);
     *place.range = shell_->ShellsOf(found);
-    if (depths_) {
+    if (places_.depths) {
       ShellPlanes planes;
       (*depth_)(bits, distances, planes);
-      KeepDepths(planes, depths_(brick));
+      KeepDepths(planes, places_.depths(brick));
     }
     return found.largest;
   }
 
   const Volume& object_;
   const double width_;
-  const ShellPlaces shells_;
-  const DepthPlaces depths_;
+  const ShellPlaces places_;
   std::optional<ChamferSlicer> shell_;
   std::optional<ChamferSlicer> depth_;
 };
@@ -173,45 +173,11 @@ void SliceAll(const Volume& object, const exec::Context& context, Slice slice) {
   exec::Portions portions(object.brick_count(), 64);
   context.Offer(context.WorkersFor(object.brick_count(), kSliceWork), [&](int) {
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      context.Rest();
+      context.Yield();
       for (size_t n = mine.begin; n < mine.end; ++n) slice(n);
     }
   });
 }
-
-// Slices Euclidean distances while they are at hand.
-class SquareSlicer : public SquareSink {
- public:
-  SquareSlicer(const Volume& object, double width, Depths depths)
-      : shell_(width),
-        depth_(DepthWidth(AxisScaleOf(object.placement()))),
-        planes_(PlanesFor(object)),
-        ranges_(object.brick_count()) {
-    if (depths == Depths::kWanted) depths_ = DepthsFor(object);
-  }
-
-  void Take(BrickIndex brick, const uint16_t* squares) override { Slice(brick, squares); }
-  void Take(BrickIndex brick, const float* squares) override { Slice(brick, squares); }
-
-  EuclideanShells Finish(std::optional<DistanceField> distance) && {
-    return {Shells(std::move(planes_), std::move(ranges_)), std::move(depths_),
-            std::move(distance)};
-  }
-
- private:
-  template <typename T>
-  void Slice(BrickIndex brick, const T* squares) {
-    const SquaredRange range = SliceBrick(shell_, squares, planes_[brick]);
-    ranges_[brick] = {shell_(range.smallest), shell_(range.largest)};
-    if (!depths_.empty()) SliceDepths(depth_, squares, depths_[brick]);
-  }
-
-  const EuclideanShellRule shell_;
-  const EuclideanShellRule depth_;
-  PlanesOfBricks planes_;
-  std::vector<Shells::Range> ranges_;
-  BrickDepths depths_;
-};
 
 }  // namespace
 
@@ -253,18 +219,17 @@ absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, dou
   PlanesOfBricks planes = PlanesFor(object);
   std::vector<Shells::Range> ranges(object.brick_count());
   const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  const ShellPlaces places = [&](BrickIndex n) { return ShellPlace{&planes[n], &ranges[n]}; };
-  StreamSlicer slicer(object, width, places, nullptr);
+  const ShellPlaces places = {[&](BrickIndex n) { return ShellPlace{&planes[n], &ranges[n]}; }};
+  StreamSlicer slicer(object, width, places);
   BCCSKEL_RETURN_IF_ERROR(StreamChamfer(object, kind, context, slicer, at_once));
   return Shells(std::move(planes), std::move(ranges));
 }
 
 absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
                                   double shell_width, const exec::Context& context,
-                                  LayerRelay& relay, const ShellPlaces& shells,
-                                  const DepthPlaces& depths) {
+                                  LayerRelay& relay, const ShellPlaces& places) {
   const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  StreamSlicer slicer(object, width, shells, depths);
+  StreamSlicer slicer(object, width, places);
   return StreamChamferOfLayers(object, held, kind, context, slicer, relay);
 }
 
@@ -280,14 +245,38 @@ BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
   return depths;
 }
 
+SquareSlicer::SquareSlicer(const AxisScale& scale, double shell_width, ShellPlaces places)
+    : rules_(EffectiveShellWidth(shell_width, scale), DepthWidth(scale)),
+      places_(std::move(places)) {}
+
+template <typename T>
+void SquareSlicer::Slice(BrickIndex brick, const T* squares) {
+  const ShellPlace place = places_.shells(brick);
+  DepthPlanes* depths = places_.depths ? &places_.depths(brick) : nullptr;
+  const SquaredRange range = SliceBrick(rules_, squares, *place.planes, depths);
+  *place.range = {rules_.shell(range.smallest), rules_.shell(range.largest)};
+}
+template void SquareSlicer::Slice(BrickIndex, const uint16_t*);
+template void SquareSlicer::Slice(BrickIndex, const float*);
+
 absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,
                                                       Depths depths, const exec::Context& context,
                                                       size_t at_once) {
-  const double width = EffectiveShellWidth(shell_width, AxisScaleOf(object.placement()));
-  SquareSlicer slicer(object, width, depths);
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<DistanceField> distance,
+  PlanesOfBricks planes = PlanesFor(object);
+  std::vector<Shells::Range> ranges(object.brick_count());
+  ShellPlaces places = {[&](BrickIndex n) { return ShellPlace{&planes[n], &ranges[n]}; }};
+  BrickDepths deep;
+  if (depths == Depths::kWanted) {
+    deep = DepthsFor(object);
+    places.depths = [&](BrickIndex n) -> DepthPlanes& { return deep[n]; };
+  }
+  SquareSlicer slicer(AxisScaleOf(object.placement()), shell_width, std::move(places));
+  EuclideanShells measured;
+  BCCSKEL_ASSIGN_OR_RETURN(measured.distance,
                            StreamEuclidean(object, context, &slicer, KeepField::kIfSmall, at_once));
-  return std::move(slicer).Finish(std::move(distance));
+  measured.shells = Shells(std::move(planes), std::move(ranges));
+  measured.depths = std::move(deep);
+  return measured;
 }
 
 }  // namespace bccskel

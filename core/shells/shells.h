@@ -81,20 +81,38 @@ BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
                         const exec::Context& context);
 
 // Where a brick's shells and depths are to be written.
+// Threads: places are asked for on several workers at once.
 struct ShellPlace {
   ShellPlanes* planes;
   Shells::Range* range;
 };
-using ShellPlaces = std::function<ShellPlace(BrickIndex)>;
-using DepthPlaces = std::function<DepthPlanes&(BrickIndex)>;
+struct ShellPlaces {
+  std::function<ShellPlace(BrickIndex)> shells;
+  std::function<DepthPlanes&(BrickIndex)> depths =
+      nullptr;  // as from BuildDepths(); null: not wanted
+};
 
-// StreamShells() of one holder's layers, as StreamChamferOfLayers(); `depths`, which may be null,
-// are as from BuildDepths().
-// Threads: places are asked for on several workers at once.
+// StreamShells() of one holder's layers, as StreamChamferOfLayers().
 absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
                                   double shell_width, const exec::Context& context,
-                                  LayerRelay& relay, const ShellPlaces& shells,
-                                  const DepthPlaces& depths);
+                                  LayerRelay& relay, const ShellPlaces& places);
+
+// Slices squared distances to their places.
+class SquareSlicer : public SquareSink {
+ public:
+  // `shell_width` is the wanted thickness in lattice units; `scale` that of the object.
+  SquareSlicer(const AxisScale& scale, double shell_width, ShellPlaces places);
+
+  void Take(BrickIndex brick, const uint16_t* squares) override { Slice(brick, squares); }
+  void Take(BrickIndex brick, const float* squares) override { Slice(brick, squares); }
+
+ private:
+  template <typename T>
+  void Slice(BrickIndex brick, const T* squares);
+
+  const SquareRules rules_;
+  const ShellPlaces places_;
+};
 
 // The thickness of such a shell: a quarter of a lattice unit, or more where the spacing differs so
 // much between the axes that neighbors could be 16 quarters apart.

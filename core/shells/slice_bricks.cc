@@ -1,5 +1,6 @@
 #include "core/shells/slice_bricks.h"
 
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -90,20 +91,25 @@ HWY_INLINE hn::Vec<Floats> LoadSquares(const uint16_t* squared) {
   return hn::ConvertTo(Floats(), hn::PromoteTo(i32, hn::LoadU(u16, squared)));
 }
 
-// The same for squared distances.
-template <typename T>
-HWY_INLINE void WriteShellBytes(const EuclideanShellRule& rule, const T* squared, uint8_t* shells) {
-  const Floats f32;
-  const hn::RebindToSigned<decltype(f32)> i32;
-  const hn::Rebind<uint8_t, decltype(f32)> u8;
-  const auto width = hn::Set(f32, rule.width()), half = hn::Set(f32, 0.5f);
-  const auto one = hn::Set(i32, 1), modulo = hn::Set(i32, 63);
-  for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
-    const auto distance = hn::Sqrt(LoadSquares(squared + n));
-    const auto shell = hn::ConvertTo(i32, hn::Add(hn::Div(distance, width), half));
-    hn::Store(hn::DemoteTo(u8, hn::And(hn::Max(shell, one), modulo)), u8, shells + n);
+// A division by a power of two is a product, with the same bits.
+struct Slicer {
+  explicit Slicer(const EuclideanShellRule& rule)
+      : width(rule.width()), multiplies(std::bit_cast<uint32_t>(width) << 9 == 0) {}
+
+  // Shell modulo 64, of points at these distances.
+  HWY_INLINE hn::Vec<hn::Rebind<uint8_t, Floats>> operator()(hn::Vec<Floats> distance) const {
+    const Floats f32;
+    const hn::RebindToSigned<Floats> i32;
+    const hn::Rebind<uint8_t, Floats> u8;
+    const auto shells = multiplies ? hn::Mul(distance, hn::Set(f32, 1 / width))
+                                   : hn::Div(distance, hn::Set(f32, width));
+    const auto shell = hn::ConvertTo(i32, hn::Add(shells, hn::Set(f32, 0.5f)));
+    return hn::DemoteTo(u8, hn::And(hn::Max(shell, hn::Set(i32, 1)), hn::Set(i32, 63)));
   }
-}
+
+  float width;
+  bool multiplies;
+};
 
 HWY_INLINE SquaredRange RangeOfSquares(const float* squared) {
   const Floats f32;
@@ -131,34 +137,28 @@ HWY_INLINE SquaredRange RangeOfSquares(const uint16_t* squared) {
 }
 
 template <typename T>
-HWY_INLINE SquaredRange SliceSquares(const EuclideanShellRule& rule, const T* squared,
-                                     ShellPlanes& planes) {
-  alignas(64) uint8_t shells[kBrickPoints];
-  WriteShellBytes(rule, squared, shells);
+HWY_INLINE SquaredRange SliceSquares(const SquareRules& rules, const T* squared,
+                                     ShellPlanes& planes, DepthPlanes* depth_planes) {
+  const Floats f32;
+  const hn::Rebind<uint8_t, Floats> u8;
+  const Slicer shell(rules.shell), depth(rules.depth);
+  alignas(64) uint8_t shells[kBrickPoints], depths[kBrickPoints];
+  for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
+    const auto distance = hn::Sqrt(LoadSquares(squared + n));
+    hn::Store(shell(distance), u8, shells + n);
+    if (depth_planes != nullptr) hn::Store(depth(distance), u8, depths + n);
+  }
   WritePlanes(shells, planes);
+  if (depth_planes != nullptr) WritePlanes(depths, *depth_planes);
   return RangeOfSquares(squared);
 }
-template <typename T>
-HWY_INLINE void SliceDepthsOf(const EuclideanShellRule& rule, const T* squared,
-                              DepthPlanes& planes) {
-  alignas(64) uint8_t depths[kBrickPoints];
-  WriteShellBytes(rule, squared, depths);
-  WritePlanes(depths, planes);
+SquaredRange SliceSquaredTarget(const SquareRules& rules, const float* squared, ShellPlanes& planes,
+                                DepthPlanes* depths) {
+  return SliceSquares(rules, squared, planes, depths);
 }
-SquaredRange SliceSquaredTarget(const EuclideanShellRule& rule, const float* squared,
-                                ShellPlanes& planes) {
-  return SliceSquares(rule, squared, planes);
-}
-SquaredRange SliceWholeSquaredTarget(const EuclideanShellRule& rule, const uint16_t* squared,
-                                     ShellPlanes& planes) {
-  return SliceSquares(rule, squared, planes);
-}
-void SliceDepthsTarget(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes) {
-  SliceDepthsOf(rule, squared, planes);
-}
-void SliceWholeDepthsTarget(const EuclideanShellRule& rule, const uint16_t* squared,
-                            DepthPlanes& planes) {
-  SliceDepthsOf(rule, squared, planes);
+SquaredRange SliceWholeSquaredTarget(const SquareRules& rules, const uint16_t* squared,
+                                     ShellPlanes& planes, DepthPlanes* depths) {
+  return SliceSquares(rules, squared, planes, depths);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -180,29 +180,20 @@ int32_t Apply(const FloatShellRule& rule, uint32_t distance) {
 HWY_EXPORT(SliceBrickTarget);
 HWY_EXPORT(SliceSquaredTarget);
 HWY_EXPORT(SliceWholeSquaredTarget);
-HWY_EXPORT(SliceDepthsTarget);
-HWY_EXPORT(SliceWholeDepthsTarget);
 
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes) {
   return HWY_DYNAMIC_DISPATCH(SliceBrickTarget)(rule, distances, planes);
 }
 
-SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes) {
-  return HWY_DYNAMIC_DISPATCH(SliceSquaredTarget)(rule, squared, planes);
+SquaredRange SliceBrick(const SquareRules& rules, const float* squared, ShellPlanes& planes,
+                        DepthPlanes* depths) {
+  return HWY_DYNAMIC_DISPATCH(SliceSquaredTarget)(rules, squared, planes, depths);
 }
 
-SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
-                        ShellPlanes& planes) {
-  return HWY_DYNAMIC_DISPATCH(SliceWholeSquaredTarget)(rule, squared, planes);
-}
-
-void SliceDepths(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes) {
-  HWY_DYNAMIC_DISPATCH(SliceDepthsTarget)(rule, squared, planes);
-}
-
-void SliceDepths(const EuclideanShellRule& rule, const uint16_t* squared, DepthPlanes& planes) {
-  HWY_DYNAMIC_DISPATCH(SliceWholeDepthsTarget)(rule, squared, planes);
+SquaredRange SliceBrick(const SquareRules& rules, const uint16_t* squared, ShellPlanes& planes,
+                        DepthPlanes* depths) {
+  return HWY_DYNAMIC_DISPATCH(SliceWholeSquaredTarget)(rules, squared, planes, depths);
 }
 
 CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest) {

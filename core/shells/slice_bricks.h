@@ -79,12 +79,17 @@ struct SquaredRange {
   float smallest;
   float largest;
 };
-SquaredRange SliceBrick(const EuclideanShellRule& rule, const float* squared, ShellPlanes& planes);
-SquaredRange SliceBrick(const EuclideanShellRule& rule, const uint16_t* squared,
-                        ShellPlanes& planes);
-// Depths by the same rule modulo 32.
-void SliceDepths(const EuclideanShellRule& rule, const float* squared, DepthPlanes& planes);
-void SliceDepths(const EuclideanShellRule& rule, const uint16_t* squared, DepthPlanes& planes);
+struct SquareRules {
+  SquareRules(double shell_width, double depth_width) : shell(shell_width), depth(depth_width) {}
+
+  EuclideanShellRule shell;
+  EuclideanShellRule depth;
+};
+// `depths` may be null; else they are cut by their own rule, modulo 32.
+SquaredRange SliceBrick(const SquareRules& rules, const float* squared, ShellPlanes& planes,
+                        DepthPlanes* depths);
+SquaredRange SliceBrick(const SquareRules& rules, const uint16_t* squared, ShellPlanes& planes,
+                        DepthPlanes* depths);
 
 }  // namespace bccskel
 

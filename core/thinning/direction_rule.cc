@@ -7,11 +7,11 @@ DiagonalDirection DirectionRule::DirectionOf(const PassStep& at) const {
   return DiagonalDirection(reversed ? 7 - at.pass : at.pass);
 }
 
-Unsettled DirectionRule::LooksFor(const PassStep& at) const {
-  return static_cast<Unsettled>(1u << DirectionOf(at).bit());
+DirtyMask DirectionRule::BitsToVisit(const PassStep& at) const {
+  return static_cast<DirtyMask>(1u << DirectionOf(at).bit());
 }
 
-void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled*, MarkBuffer& marks,
+void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, DirtyMask*, MarkBuffer& marks,
                          BrickLists& thin) {
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);

@@ -23,8 +23,8 @@ class DirectionRule : public PassRule {
   int passes_per_cycle() const override { return 8; }
   int steps() const override { return 1; }
   size_t work() const override { return 1; }
-  Unsettled LooksFor(const PassStep& at) const override;
-  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
+  DirtyMask BitsToVisit(const PassStep& at) const override;
+  void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
             BrickLists& thin) override;
   void Finish(const BrickLists&) override {}
 

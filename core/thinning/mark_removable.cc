@@ -137,30 +137,12 @@ HWY_INLINE size_t MarkIf(std::span<const BrickIndex> bricks, MarkedBrick* marked
 using MarkFunction = FoundBricks (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*,
                                      BrickIndex*);
 
-// A processor waits for fewer lines at once than it can have under way. Of the bricks around one,
-// those below and beside it have just been read for others. Ball of 64 million points: 22 ns a look
-// instead of 30; of 8 million 12.6 instead of 14.6; of 100,000, where all is near, half a
-// nanosecond more.
-template <Sublattice kSublattice>
-HWY_INLINE void PrefetchAhead(const ObjectView& view, std::span<const BrickIndex> bricks,
-                              size_t at) {
-  constexpr size_t kNeighborsAhead = 12, kBricksAhead = 6;
-  constexpr size_t kAbove = 12, kDiagonal = kSublattice == Sublattice::kOdd ? 4 : 0;
-  const size_t last = bricks.size() - 1;
-  __builtin_prefetch(&view.neighbors[bricks[std::min(at + kNeighborsAhead, last)]]);
-  const BrickIndex brick = bricks[std::min(at + kBricksAhead, last)];
-  const BrickNeighborhood& near = view.neighbors[brick];
-  __builtin_prefetch(&view.candidates[brick]);
-  __builtin_prefetch(&view.object[near[kAbove]]);
-  __builtin_prefetch(&view.object[near[kDiagonal]]);
-}
-
 template <Sublattice kSublattice, int kDirection>
 FoundBricks MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
                           MarkedBrick* marked, BrickIndex* thin) {
   FoundBricks found;
   for (size_t at = 0; at < bricks.size(); ++at) {
-    if (view.is_far) PrefetchAhead<kSublattice>(view, bricks, at);
+    if (view.is_far) PrefetchAhead(view, kSublattice, bricks, at);
     const BrickIndex brick = bricks[at];
     const RemovableAndThin planes =
         Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_THINNING_MARK_REMOVABLE_H_
 #define BCCSKEL_CORE_THINNING_MARK_REMOVABLE_H_
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -33,6 +34,27 @@ struct ObjectView {
   const BrickNeighborhood* neighbors = nullptr;
   bool is_far = false;  // too large for the caches near a processor
 };
+
+// Asks for what comes next in a list while this brick is at work, where the object is too large for
+// the caches near a processor: that waits for fewer lines at once than it can have under way. Of
+// the bricks around one, those below and beside it have just been read for others. `also` is read
+// like the object. Ball of 64 million points: 22 ns a look of the directional method instead of 30;
+// of 8 million 12.6 instead of 14.6; of 100,000, where all is near, half a nanosecond more.
+inline void PrefetchAhead(const ObjectView& view, Sublattice sublattice,
+                          std::span<const BrickIndex> bricks, size_t at,
+                          const BrickBits* also = nullptr) {
+  constexpr size_t kNeighborsAhead = 12, kBricksAhead = 6;
+  const size_t above = 12, diagonal = sublattice == Sublattice::kOdd ? 4 : 0;
+  const size_t last = bricks.size() - 1;
+  __builtin_prefetch(&view.neighbors[bricks[std::min(at + kNeighborsAhead, last)]]);
+  const BrickIndex brick = bricks[std::min(at + kBricksAhead, last)];
+  const BrickNeighborhood& near = view.neighbors[brick];
+  __builtin_prefetch(&view.candidates[brick]);
+  for (const size_t position : {above, diagonal}) {
+    __builtin_prefetch(&view.object[near[position]]);
+    if (also != nullptr) __builtin_prefetch(&also[near[position]]);
+  }
+}
 
 struct MarkedBrick {
   BrickBits marks;  // never empty

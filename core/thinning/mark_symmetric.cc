@@ -25,31 +25,12 @@ HWY_INLINE Plane CandidatesOf(const ObjectView& view, BrickIndex brick) {
   return And(LoadPlane(view.object[brick]), LoadPlane(view.candidates[brick]));
 }
 
-// As in mark_removable.cc: asks for what comes next while this is at work, where the object is too
-// large for the caches near a processor. Of the bricks around one, those below and beside it have
-// just been read for others.
-template <Sublattice kSublattice>
-HWY_INLINE void PrefetchAhead(const ObjectView& view, std::span<const BrickIndex> bricks, size_t at,
-                              const BrickBits* simple) {
-  constexpr size_t kNeighborsAhead = 12, kBricksAhead = 6;
-  constexpr size_t kAbove = 12, kDiagonal = kSublattice == Sublattice::kOdd ? 4 : 0;
-  const size_t last = bricks.size() - 1;
-  __builtin_prefetch(&view.neighbors[bricks[std::min(at + kNeighborsAhead, last)]]);
-  const BrickIndex brick = bricks[std::min(at + kBricksAhead, last)];
-  const BrickNeighborhood& near = view.neighbors[brick];
-  __builtin_prefetch(&view.candidates[brick]);
-  for (const size_t position : {kAbove, kDiagonal}) {
-    __builtin_prefetch(&view.object[near[position]]);
-    __builtin_prefetch(&simple[near[position]]);
-  }
-}
-
 template <Sublattice kSublattice>
 size_t FindSimpleIn(const ObjectView& view, EndPoints end_points, std::span<BrickIndex> bricks,
                     BrickBits* simple) {
   size_t count = 0;
   for (size_t at = 0; at < bricks.size(); ++at) {
-    if (view.is_far) PrefetchAhead<kSublattice>(view, bricks, at, simple);
+    if (view.is_far) PrefetchAhead(view, kSublattice, bricks, at, simple);
     const BrickIndex brick = bricks[at];
     Plane link[14];
     LinkOf<kSublattice>(view, brick, link);
@@ -152,8 +133,8 @@ HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
 }
 
 // The next pass visits bricks that lost points again.
-HWY_INLINE void UnsettleIf(const Plane& sent_back, Unsettled& brick) {
-  brick = static_cast<Unsettled>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsUnsettled));
+HWY_INLINE void MarkDirtyIf(const Plane& sent_back, DirtyMask& brick) {
+  brick = static_cast<DirtyMask>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsDirty));
 }
 
 // Appends the points as marks if there are any.
@@ -178,7 +159,7 @@ size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, Marked
   const HigherColor color(kSublattice, view.pass);
   size_t count = 0;
   for (size_t at = 0; at < bricks.size(); ++at) {
-    if (view.object.is_far) PrefetchAhead<kSublattice>(view.object, bricks, at, view.simple);
+    if (view.object.is_far) PrefetchAhead(view.object, kSublattice, bricks, at, view.simple);
     const BrickIndex brick = bricks[at];
     const Plane own = LoadPlane(view.simple[brick]);
     Plane link[14], among[14], critical[14];
@@ -188,7 +169,7 @@ size_t PairsIn(const RuleBView& view, std::span<const BrickIndex> bricks, Marked
     Plane left = own;
     if (!IsEmpty(And(own, AnyOf(critical)))) {
       const Plane back = HighestInPairs<kSublattice>(view, brick, color, own, critical);
-      UnsettleIf(back, view.unsettled[brick]);
+      MarkDirtyIf(back, view.dirty[brick]);
       left = AndNot(back, own);
     }
     StorePlane(left, view.after_pairs[brick]);
@@ -228,7 +209,7 @@ void TriplesIn(const RuleBView& view, std::span<const BrickIndex> bricks) {
     const Plane back = HighestInLarger<kSublattice>(
         view, brick, color, view.after_pairs, own,
         [](const auto& link, const auto& among) HWY_ATTR { return InCriticalTriple(link, among); });
-    UnsettleIf(back, view.unsettled[brick]);
+    MarkDirtyIf(back, view.dirty[brick]);
     StorePlane(AndNot(back, own), view.after_triples[brick]);
   }
 }
@@ -244,7 +225,7 @@ size_t QuadruplesIn(const RuleBView& view, std::span<const BrickIndex> bricks,
     const Plane back = HighestInLarger<kSublattice>(view, brick, color, view.after_triples, own,
                                                     [](const auto&, const auto& among)
                                                         HWY_ATTR { return InTetrahedron(among); });
-    UnsettleIf(back, view.unsettled[brick]);
+    MarkDirtyIf(back, view.dirty[brick]);
     Append(AndNot(back, own), brick, marked, count);
   }
   return count;

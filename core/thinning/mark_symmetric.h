@@ -56,7 +56,7 @@ struct RuleBView {
   const DepthPlanes* depth = nullptr;  // quarters of a lattice unit modulo 32
   // Whether points of a brick may be in larger critical cliques than pairs; few bricks have any.
   uint8_t* larger_cliques = nullptr;
-  Unsettled* unsettled = nullptr;  // bricks to visit again, since points came back
+  DirtyMask* dirty = nullptr;  // bricks to visit again, since points came back
   int32_t pass = 0;
 };
 

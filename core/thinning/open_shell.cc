@@ -66,9 +66,9 @@ uint64_t OpenShellTarget(const OpeningView& view, std::span<const BrickIndex> br
     if (view.kept != nullptr) opened = AndNot(LoadPlane(view.kept[n]), opened);
     StorePlane(Or(opened, LoadPlane(view.candidates[n])), view.candidates[n]);
     count = PlusBits(count, opened);
-    const auto some = static_cast<Unsettled>(IsEmpty(opened) ? 0 : 0xffff);
-    view.enabled[n] |= static_cast<Unsettled>(view.watched & some);
-    view.unsettled.Add(n, view.woken & some);
+    const auto some = static_cast<DirtyMask>(IsEmpty(opened) ? 0 : 0xffff);
+    view.enabled[n] |= static_cast<DirtyMask>(view.watched & some);
+    view.dirty.Add(n, view.woken & some);
   }
   return TotalOf(count);
 }

@@ -29,10 +29,10 @@ struct OpeningView {
   const BrickBits* object = nullptr;
   const BrickBits* kept = nullptr;  // points that never go; null if there are none
   BrickBits* candidates = nullptr;
-  UnsettledBricks unsettled;
-  Unsettled* enabled = nullptr;
-  Unsettled watched = 0;  // the bits of a brick with candidates
-  Unsettled woken = 0;    // the bits of a brick with new candidates
+  DirtyBricks dirty;
+  DirtyMask* enabled = nullptr;
+  DirtyMask watched = 0;  // the bits of a brick with candidates
+  DirtyMask woken = 0;    // the bits of a brick with new candidates
 };
 
 // Condition 5: makes the points of one shell in the given bricks candidates.

@@ -57,13 +57,13 @@ class PassRule {
   virtual int steps() const = 0;
   // Of a pass, in the unit of Context::WorkersFor().
   virtual size_t work() const = 0;
-  // A pass visits bricks that are unsettled in one of these bits.
-  virtual Unsettled LooksFor(const PassStep& at) const = 0;
+  // A pass visits bricks that are dirty in one of these bits.
+  virtual DirtyMask BitsToVisit(const PassStep& at) const = 0;
 
   // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the
-  // pass gets, and unsettle listed bricks again. The first step lists the bricks that
+  // pass gets, and make listed bricks dirty again. The first step lists the bricks that
   // KeepThinBricks() keeps in `thin`.
-  virtual void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
+  virtual void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
                     BrickLists& thin) = 0;
   // After the last step, while workers remove.
   virtual void Finish(const BrickLists& bricks) = 0;

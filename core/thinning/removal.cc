@@ -26,20 +26,20 @@ constexpr bool LeadsTo(Sublattice sublattice, int position, int direction) {
   return (position & ~toward) == 0;
 }
 
-// What a removal can unsettle in the brick at each position. Removing r can make p removable along
-// d only if d.(r - p) < 0: either r is p - d, or it stood on the left of an implication.
-constexpr std::array<std::array<Unsettled, 14>, 2> kWakes = [] {
-  std::array<std::array<Unsettled, 14>, 2> wakes = {};
+// What a removal can make dirty in the brick at each position. Removing r can make p removable
+// along d only if d.(r - p) < 0: either r is p - d, or it stood on the left of an implication.
+constexpr std::array<std::array<DirtyMask, 14>, 2> kWakes = [] {
+  std::array<std::array<DirtyMask, 14>, 2> wakes = {};
   for (size_t sublattice = 0; sublattice < 2; ++sublattice) {
     for (int position = 0; position < 14; ++position) {
-      Unsettled& wake = wakes[sublattice][static_cast<size_t>(position)];
-      wake = kEndPointsUnsettled;
+      DirtyMask& wake = wakes[sublattice][static_cast<size_t>(position)];
+      wake = kEndPointsDirty;
       for (int n = 0; n < kNeighborCount; ++n) {
         if (!LeadsTo(static_cast<Sublattice>(sublattice), position, n)) continue;
         for (int d = 0; d < 8; ++d) {
           // p = r + offset, so r - p = -offset.
           if (Dot(Direction(d).offset(), Direction(n).offset()) > 0) {
-            wake = static_cast<Unsettled>(wake | 1u << d);
+            wake = static_cast<DirtyMask>(wake | 1u << d);
           }
         }
       }
@@ -63,9 +63,9 @@ constexpr bool Sees(Sublattice sublattice, Sides sides, int position) {
   return ((position % 2 == 0 ? high : low) >> axis & 1) != 0;
 }
 
-// What a removal unsettles around it, by sublattice and sides: a table because the loop over the
+// What a removal makes dirty around it, by sublattice and sides: a table because the loop over the
 // neighbors has no other branch that could be mispredicted.
-using WakeRow = std::array<Unsettled, 14>;
+using WakeRow = std::array<DirtyMask, 14>;
 using WakeRows = std::array<std::array<WakeRow, 64>, 2>;
 constexpr WakeRows kWakeRows = [] {
   WakeRows rows = {};
@@ -99,18 +99,18 @@ HWY_INLINE Sides SidesOf(const BrickBits& removed) {
          bit(any & 0x8000800080008000, 3) | bit(any >> 48, 4) | bit(removed.words[7], 5);
 }
 
-// Takes the points out of the brick and unsettles it. Most bricks run out of candidates before the
-// next shell opens; looking at them again would be two thirds of all pre-tests.
+// Takes the points out of the brick and makes it dirty. Most bricks run out of candidates before
+// the next shell opens; visiting them again would be two thirds of all pre-tests.
 HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
   const Plane left_over = AndNot(LoadPlane(m.marks), LoadPlane(view.object[m.brick]));
   StorePlane(left_over, view.object[m.brick]);
   const bool done = IsEmpty(And(left_over, LoadPlane(view.candidates[m.brick])));
-  constexpr Unsettled kKind = kOddBrick | kBorderBrick | kBesideSleeper;
-  const auto stays = static_cast<Unsettled>(done ? 0 : 0xffff);
-  const auto enabled = static_cast<Unsettled>(view.enabled[m.brick] & stays);
+  constexpr DirtyMask kKind = kOddBrick | kBorderBrick | kBesideSleeper;
+  const auto stays = static_cast<DirtyMask>(done ? 0 : 0xffff);
+  const auto enabled = static_cast<DirtyMask>(view.enabled[m.brick] & stays);
   view.enabled[m.brick] = enabled;
-  Unsettled& unsettled = view.unsettled.bricks[m.brick];
-  unsettled = static_cast<Unsettled>((unsettled & (kKind | stays)) | enabled);
+  DirtyMask& dirty = view.dirty.bricks[m.brick];
+  dirty = static_cast<DirtyMask>((dirty & (kKind | stays)) | enabled);
   view.changed[m.brick] = view.cycle;
 }
 
@@ -118,24 +118,24 @@ HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
 enum class Company : uint8_t { kAlone, kOthers };
 
 template <Company kCompany>
-HWY_INLINE void UnsettleAround(const RemovalView& view, BrickIndex brick, const WakeRow& wakes) {
+HWY_INLINE void MarkDirtyAround(const RemovalView& view, BrickIndex brick, const WakeRow& wakes) {
   const BrickNeighborhood& neighbors = view.neighbors[brick];
   for (size_t position = 0; position < wakes.size(); ++position) {
     BrickIndex n = neighbors[position];
     // The padding brick belongs to nobody, so several workers must not write to it.
     if (kCompany == Company::kOthers && n == view.none) n = brick;
-    view.unsettled.Add(n, view.enabled[n] & wakes[position]);
+    view.dirty.Add(n, view.enabled[n] & wakes[position]);
   }
 }
 
 // The same for a brick that borders on other workers' bricks.
-HWY_NOINLINE void UnsettleAcrossBorder(const RemovalView& view, BrickIndex brick,
-                                       const WakeRow& wakes, std::vector<BrickIndex>& elsewhere) {
+HWY_NOINLINE void MarkDirtyAcrossBorder(const RemovalView& view, BrickIndex brick,
+                                        const WakeRow& wakes, std::vector<BrickIndex>& elsewhere) {
   for (size_t position = 0; position < wakes.size(); ++position) {
     const BrickIndex n = view.neighbors[brick][position];
     if (wakes[position] == 0 || n == view.none) continue;
     if (n >= view.first && n < view.last) {
-      view.unsettled.Add(n, view.enabled[n] & wakes[position]);
+      view.dirty.Add(n, view.enabled[n] & wakes[position]);
     } else {
       elsewhere.push_back(n);
     }
@@ -148,14 +148,14 @@ uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
   BrickLane removed = hn::Zero(BrickTag());
   for (const MarkedBrick& m : marked) {
     removed = PlusBits(removed, LoadPlane(m.marks));
-    const Unsettled kind = view.unsettled.bricks[m.brick];
+    const DirtyMask kind = view.dirty.bricks[m.brick];
     RemoveFromBrick(view, m);
     if ((kind & kBesideSleeper) == 0) continue;
     const WakeRow& wakes = kWakeRows[kind >> 15][SidesOf(m.marks)];
     if ((kind & kBorderBrick) == 0) {
-      UnsettleAround<kCompany>(view, m.brick, wakes);
+      MarkDirtyAround<kCompany>(view, m.brick, wakes);
     } else {
-      UnsettleAcrossBorder(view, m.brick, wakes, elsewhere);
+      MarkDirtyAcrossBorder(view, m.brick, wakes, elsewhere);
     }
   }
   return TotalOf(removed);

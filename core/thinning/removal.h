@@ -17,8 +17,8 @@ struct RemovalView {
   BrickBits* object = nullptr;
   const BrickBits* candidates = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
-  UnsettledBricks unsettled;
-  Unsettled* enabled = nullptr;  // what may become unsettled; 0 while there are no candidates
+  DirtyBricks dirty;
+  DirtyMask* enabled = nullptr;  // what may become dirty; 0 while there are no candidates
   int32_t* changed = nullptr;    // the cycle in which points were last removed
   int32_t cycle = 0;
   BrickIndex first = 0;  // own bricks
@@ -26,7 +26,7 @@ struct RemovalView {
   BrickIndex none = 0;  // the padding brick
 };
 
-// Removes the marked points, unsettles the sleeping bricks that see them, and appends to
+// Removes the marked points, marks the sleeping bricks that see them dirty, and appends to
 // `elsewhere` those outside [first, last). Returns: the number of points removed.
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere);

@@ -30,19 +30,19 @@ class ShellSweep {
         rule_(rule),
         context_(context),
         state_(state),
-        watched_(plan.stubble == StubblePolicy::kNone ? kDirectionsUnsettled
-                                                      : kDirectionsUnsettled | kEndPointsUnsettled),
-        unsettled_(groups() * kUnsettledGroup),
+        watched_(plan.stubble == StubblePolicy::kNone ? kDirectionsDirty
+                                                      : kDirectionsDirty | kEndPointsDirty),
+        dirty_(groups() * kDirtyGroup),
         busy_groups_(groups()),
-        enabled_(unsettled_.size()),
-        changed_(unsettled_.size(), -1),
+        enabled_(dirty_.size()),
+        changed_(dirty_.size(), -1),
         team_(context.MeetingWorkersFor(state.brick_count(), rule.work()), context),
         workers_(static_cast<size_t>(team_.size())),
         points_at_start_(
             CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))) {
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
-      if (state.SublatticeOf(n) == Sublattice::kOdd) unsettled_[n] = kOddBrick;
-      if (!sleeps()) unsettled_[n] |= kBesideSleeper;
+      if (state.SublatticeOf(n) == Sublattice::kOdd) dirty_[n] = kOddBrick;
+      if (!sleeps()) dirty_[n] |= kBesideSleeper;
     }
   }
 
@@ -85,10 +85,10 @@ class ShellSweep {
 
   void Prepare(int index, Worker& worker) {
     const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
-    worker.bricks = {share.begin * kUnsettledGroup,
-                     std::min(share.end * kUnsettledGroup, state_.brick_count())};
+    worker.bricks = {share.begin * kDirtyGroup,
+                     std::min(share.end * kDirtyGroup, state_.brick_count())};
     BeginOpening(shells_, own_, worker);
-    if (workers_.size() > 1) MarkBorder(state_, worker, unsettled_);
+    if (workers_.size() > 1) MarkBorder(state_, worker, dirty_);
     Split(index, worker);
   }
 
@@ -109,15 +109,15 @@ class ShellSweep {
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
     first.bricks.end = state_.brick_count();
     Split(0, first);
-    for (Unsettled& brick : unsettled_) {
+    for (DirtyMask& brick : dirty_) {
       if ((brick & kBorderBrick) == 0) continue;
-      brick = static_cast<Unsettled>((brick & ~kBorderBrick) | kBesideSleeper);
+      brick = static_cast<DirtyMask>((brick & ~kBorderBrick) | kBesideSleeper);
     }
     return true;
   }
 
   void TakeOver(Worker& other, Worker& first) {
-    for (BrickIndex n : other.seen_elsewhere) UnsettledView().Add(n, enabled_[n]);
+    for (BrickIndex n : other.seen_elsewhere) DirtyView().Add(n, enabled_[n]);
     first.opener.TakeOver(other.opener);
     for (size_t n = 0; n < 2; ++n) first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
     Worker nothing_to_do;
@@ -131,10 +131,10 @@ class ShellSweep {
         .object = state_.object.data(),
         .kept = state_.kept.empty() ? nullptr : state_.kept.data(),
         .candidates = state_.candidates.data(),
-        .unsettled = UnsettledView(),
+        .dirty = DirtyView(),
         .enabled = enabled_.data(),
         .watched = watched_,
-        .woken = static_cast<Unsettled>(watched_ | (sleeps() ? kAwake : 0)),
+        .woken = static_cast<DirtyMask>(watched_ | (sleeps() ? kAwake : 0)),
     };
     worker.shell_points[static_cast<size_t>(shell & 1)] = worker.opener.Open(view, shell);
     if (partners_ == nullptr) return;
@@ -151,17 +151,17 @@ class ShellSweep {
     for (const Part& part : worker.parts) {
       for (Sublattice sublattice : kSublattices) {
         for (const BrickIndex n : part.to_do.Of(sublattice)) {
-          if ((unsettled_[n] & kAwake) != 0 && !ChangedAround(n, cycle)) PutToSleep(n, worker);
+          if ((dirty_[n] & kAwake) != 0 && !ChangedAround(n, cycle)) PutToSleep(n, worker);
         }
       }
     }
   }
 
   void PutToSleep(BrickIndex n, Worker& worker) {
-    unsettled_[n] &= static_cast<Unsettled>(~(kAwake | kDirectionsUnsettled));
+    dirty_[n] &= static_cast<DirtyMask>(~(kAwake | kDirectionsDirty));
     for (const BrickIndex near : state_.neighbors[n]) {
       if (Owns(worker, near)) {
-        unsettled_[near] |= kBesideSleeper;
+        dirty_[near] |= kBesideSleeper;
       } else if (near < state_.brick_count()) {
         worker.beside_sleepers_elsewhere.push_back(near);
       }
@@ -171,7 +171,7 @@ class ShellSweep {
   void HearOfSleepers(const Worker& worker) {
     for (const Worker& other : workers_) {
       for (const BrickIndex n : other.beside_sleepers_elsewhere) {
-        if (Owns(worker, n)) unsettled_[n] |= kBesideSleeper;
+        if (Owns(worker, n)) dirty_[n] |= kBesideSleeper;
       }
     }
   }
@@ -181,10 +181,10 @@ class ShellSweep {
     return changed(n) || std::ranges::any_of(state_.neighbors[n], changed);
   }
 
-  UnsettledBricks UnsettledView() { return {unsettled_.data(), busy_groups_.data()}; }
+  DirtyBricks DirtyView() { return {dirty_.data(), busy_groups_.data()}; }
 
   // One more than full groups, so that there is room for the padding brick.
-  size_t groups() const { return state_.brick_count() / kUnsettledGroup + 1; }
+  size_t groups() const { return state_.brick_count() / kDirtyGroup + 1; }
 
   // One pass. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, PassStep at) {
@@ -193,11 +193,11 @@ class ShellSweep {
       if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
-    TakeOverUnsettled(worker);
+    TakeOverDirty(worker);
     if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
       if (at.step > 0) team_.Await(index);  // and what they did in the step before is done
-      if (index == 0) context_.Rest();
+      if (index == 0) context_.Yield();
       BorderFirst(index, worker, [&](Part& part) { Mark(at, part); });
     }
     team_.Await(index);  // nobody reads any more what is removed near others
@@ -215,7 +215,7 @@ class ShellSweep {
   bool PassInSlabs(Worker& worker, PassStep at) {
     const auto steps = static_cast<size_t>(rule_.steps());
     for (size_t n = 0; n < worker.slabs.size() + steps && !stopped_; ++n) {
-      context_.Rest();
+      context_.Yield();
       for (size_t step = n < worker.slabs.size() ? 0 : n - worker.slabs.size() + 1;
            step <= std::min(n, steps); ++step) {
         const size_t slab = n - step;
@@ -235,7 +235,7 @@ class ShellSweep {
   // What ghosts lose their owners know.
   void TradeMarks(int index, int32_t cycle, Worker& worker) {
     for (Part& part : worker.parts) {
-      part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrUnsettle(m.brick); });
+      part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrMarkDirty(m.brick); });
     }
     team_.Meet(index);
     if (index == 0) {
@@ -251,9 +251,9 @@ class ShellSweep {
   }
 
   // A ghost whose marks are dropped has simple points still, so it must be visited again.
-  bool IsOwnOrUnsettle(BrickIndex n) {
+  bool IsOwnOrMarkDirty(BrickIndex n) {
     if (n >= own_.begin && n < own_.end) return true;
-    UnsettledView().Add(n, enabled_[n]);
+    DirtyView().Add(n, enabled_[n]);
     return false;
   }
 
@@ -286,18 +286,18 @@ class ShellSweep {
     if (at.step == 0) {
       part.marks.Clear();
       part.thin.SetCounts(0, 0);
-      TakeUnsettled(UnsettledView(), part.bricks.begin, part.bricks.end, rule_.LooksFor(at),
-                    part.to_do, part.end_points_to_do);
+      TakeDirty(DirtyView(), part.bricks.begin, part.bricks.end, rule_.BitsToVisit(at), part.to_do,
+                part.end_points_to_do);
     }
-    rule_.Mark(at, part.to_do, unsettled_.data(), part.marks, part.thin);
-    if (at.step + 1 == rule_.steps()) MarkStubble(state_, stubble_, unsettled_, part);
+    rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.thin);
+    if (at.step + 1 == rule_.steps()) MarkStubble(state_, stubble_, dirty_, part);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.
-  void TakeOverUnsettled(const Worker& worker) {
+  void TakeOverDirty(const Worker& worker) {
     for (const Worker& other : workers_) {
       for (BrickIndex n : other.seen_elsewhere) {
-        if (Owns(worker, n)) UnsettledView().Add(n, enabled_[n]);
+        if (Owns(worker, n)) DirtyView().Add(n, enabled_[n]);
       }
     }
   }
@@ -312,7 +312,7 @@ class ShellSweep {
     return {.object = state_.object.data(),
             .candidates = state_.candidates.data(),
             .neighbors = state_.neighbors.data(),
-            .unsettled = UnsettledView(),
+            .dirty = DirtyView(),
             .enabled = enabled_.data(),
             .changed = changed_.data(),
             .cycle = cycle,
@@ -363,10 +363,10 @@ class ShellSweep {
   PassRule& rule_;
   const exec::Context& context_;
   ThinningState& state_;
-  const Unsettled watched_;
-  std::vector<Unsettled> unsettled_;
-  std::vector<uint8_t> busy_groups_;  // as in UnsettledBricks
-  std::vector<Unsettled> enabled_;    // watched_ once the brick has candidates, before that 0
+  const DirtyMask watched_;
+  std::vector<DirtyMask> dirty_;
+  std::vector<uint8_t> busy_groups_;  // as in DirtyBricks
+  std::vector<DirtyMask> enabled_;    // watched_ once the brick has candidates, before that 0
   std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
   exec::MeetingTeam team_;
   std::vector<Worker> workers_;

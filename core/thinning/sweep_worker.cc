@@ -7,7 +7,7 @@
 namespace bccskel {
 namespace {
 
-size_t RoundUp(size_t n) { return (n + kUnsettledGroup - 1) / kUnsettledGroup * kUnsettledGroup; }
+size_t RoundUp(size_t n) { return (n + kDirtyGroup - 1) / kDirtyGroup * kDirtyGroup; }
 
 int32_t LayerOf(const ThinningState& state, size_t brick) {
   return state.keys[brick].coordinates().bz;
@@ -35,7 +35,7 @@ void SplitParts(const ThinningState& state, SweepWorker& worker) {
     high = FirstFromLayer(state, LayerOf(state, end) - 1);
   }
   low = std::clamp(RoundUp(low), begin, end);
-  high = std::clamp(high / kUnsettledGroup * kUnsettledGroup, low, end);
+  high = std::clamp(high / kDirtyGroup * kDirtyGroup, low, end);
   worker.parts[0].bricks = {begin, low};
   worker.parts[1].bricks = {high, end};
   worker.parts[2].bricks = {low, high};
@@ -57,18 +57,17 @@ void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
   for (SweepPart& part : worker.slab_parts) Reserve(most, part);
 }
 
-void MarkBorder(const ThinningState& state, const SweepWorker& worker,
-                std::span<Unsettled> unsettled) {
+void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty) {
   const exec::Share own = worker.bricks;
   for (size_t n = own.begin; n < own.end; ++n) {
     const bool border = std::ranges::any_of(state.neighbors[n], [&](BrickIndex other) {
       return other < state.brick_count() && (other < own.begin || other >= own.end);
     });
-    if (border) unsettled[n] |= kBorderBrick;
+    if (border) dirty[n] |= kBorderBrick;
   }
 }
 
-void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<DirtyMask> dirty,
                  SweepPart& part) {
   if (policy == StubblePolicy::kNone) return;
   const ObjectView view = state.View();
@@ -79,7 +78,7 @@ void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Uns
     MarkedBrick* marked = part.marks.Room(thin.size());
     const size_t count = MarkEndPoints(view, sublattice, thin, marked);
     for (const MarkedBrick& m : std::span(marked, count)) {
-      unsettled[m.brick] |= kEndPointsUnsettled;
+      dirty[m.brick] |= kEndPointsDirty;
       const BrickBits stubble = SelectStubble(state, m, policy);
       if (stubble.Empty()) continue;
       *part.marks.Room(1) = {stubble, m.brick};

@@ -59,13 +59,12 @@ void SplitParts(const ThinningState& state, SweepWorker& worker);
 void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 
 // Marks the bricks that border on other workers'.
-void MarkBorder(const ThinningState& state, const SweepWorker& worker,
-                std::span<Unsettled> unsettled);
+void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty);
 
 // Condition 6 in the bricks that were listed for their end points or are thin. Whether an end point
 // is a stubble point depends on points up to three steps away, so a brick with end points stays
-// unsettled for them.
-void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Unsettled> unsettled,
+// dirty for them.
+void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<DirtyMask> dirty,
                  SweepPart& part);
 
 // Needs: `shells` outlive the worker; bricks outside of `own` are partners'.

@@ -8,7 +8,7 @@ SymmetricRule::SymmetricRule(const BrickDepths& depth, SkeletonKind kind, Thinni
   for (std::vector<BrickBits>& simple : simple_) simple.resize(state.object.size());
 }
 
-void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled,
+void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty,
                          MarkBuffer& marks, BrickLists& thin) {
   if (at.step == 0) {
     if (EndPointsOf(kind_) == EndPoints::kStay) ListThin(bricks, thin);
@@ -17,7 +17,7 @@ void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unse
     }
     return FindSimpleIn(bricks);
   }
-  const RuleBView view = ViewOf(at, unsettled);
+  const RuleBView view = ViewOf(at, dirty);
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);
     if (at.step == 2) {
@@ -30,14 +30,14 @@ void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, Unsettled* unse
   }
 }
 
-RuleBView SymmetricRule::ViewOf(const PassStep& at, Unsettled* unsettled) {
+RuleBView SymmetricRule::ViewOf(const PassStep& at, DirtyMask* dirty) {
   return {.object = state_.View(),
           .simple = simple_[0].data(),
           .after_pairs = simple_[1].data(),
           .after_triples = simple_[2].data(),
           .depth = depth_.data(),
           .larger_cliques = larger_cliques_.data(),
-          .unsettled = unsettled,
+          .dirty = dirty,
           .pass = at.cycle};
 }
 

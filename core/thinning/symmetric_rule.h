@@ -36,8 +36,8 @@ class SymmetricRule : public PassRule {
   int passes_per_cycle() const override { return 1; }
   int steps() const override { return 4; }
   size_t work() const override { return 4; }
-  Unsettled LooksFor(const PassStep&) const override { return kDirectionsUnsettled; }
-  void Mark(const PassStep& at, BrickLists& bricks, Unsettled* unsettled, MarkBuffer& marks,
+  DirtyMask BitsToVisit(const PassStep&) const override { return kDirectionsDirty; }
+  void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
             BrickLists& thin) override;
   void Finish(const BrickLists& bricks) override;
 
@@ -54,7 +54,7 @@ class SymmetricRule : public PassRule {
   void Keep(int32_t pass, std::span<const MarkedBrick> points);
   void ListThin(const BrickLists& bricks, BrickLists& thin) const;
   void FindSimpleIn(BrickLists& bricks);
-  RuleBView ViewOf(const PassStep& at, Unsettled* unsettled);
+  RuleBView ViewOf(const PassStep& at, DirtyMask* dirty);
 
   const BrickDepths& depth_;
   const SkeletonKind kind_;

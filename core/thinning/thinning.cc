@@ -118,10 +118,10 @@ class Thinning {
 
 }  // namespace
 
-absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
-                                           const ThinningOptions& options,
-                                           const exec::Context& context,
-                                           const OnShellPoints& on_points) {
+absl::StatusOr<ThinningResult> ThinObject(const Volume& object, const DistanceField& distance,
+                                          const ThinningOptions& options,
+                                          const exec::Context& context,
+                                          const OnShellPoints& on_points) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options));
   exec::StageClock clock;
   const Shells shells = BuildShells(object, distance, options.shell_width, context);

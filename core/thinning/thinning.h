@@ -115,10 +115,10 @@ using OnShellPoints = std::function<void(int32_t shell, Volume points)>;
 // Cost:   with `on_points`, a copy of the object and a visit to all bricks after each shell.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
-absl::StatusOr<ThinningResult> ThinToCurve(const Volume& object, const DistanceField& distance,
-                                           const ThinningOptions& options,
-                                           const exec::Context& context,
-                                           const OnShellPoints& on_points = nullptr);
+absl::StatusOr<ThinningResult> ThinObject(const Volume& object, const DistanceField& distance,
+                                          const ThinningOptions& options,
+                                          const exec::Context& context,
+                                          const OnShellPoints& on_points = nullptr);
 
 // The same where the distances can be gone: shells of options.shell_width, and depths for the
 // symmetric method.

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-constexpr Unsettled kSomeToDo = kDirectionsUnsettled | kEndPointsUnsettled | kAwake;
+constexpr DirtyMask kSomeToDo = kDirectionsDirty | kEndPointsDirty | kAwake;
 
 // Bit n of each: what lane n of a group says.
 struct GroupBits {
@@ -27,24 +27,24 @@ struct GroupBits {
 };
 
 // Reads a group and settles it.
-HWY_INLINE GroupBits TakeGroup(Unsettled* group, Unsettled looked_for) {
+HWY_INLINE GroupBits TakeGroup(DirtyMask* group, DirtyMask to_visit) {
   GroupBits bits;
 #if HWY_TARGET == HWY_SCALAR
-  for (size_t n = 0; n < kUnsettledGroup; ++n) {
-    bits.found |= ((group[n] & (looked_for | kAwake)) != 0 ? 1u : 0u) << n;
-    bits.end_points |= ((group[n] & kEndPointsUnsettled) != 0 ? 1u : 0u) << n;
+  for (size_t n = 0; n < kDirtyGroup; ++n) {
+    bits.found |= ((group[n] & (to_visit | kAwake)) != 0 ? 1u : 0u) << n;
+    bits.end_points |= ((group[n] & kEndPointsDirty) != 0 ? 1u : 0u) << n;
     bits.odd |= (group[n] >> 15 & 1u) << n;
     bits.rest = bits.rest && (group[n] & kSomeToDo) == 0;
-    group[n] = static_cast<Unsettled>(group[n] & ~(looked_for | kEndPointsUnsettled));
+    group[n] = static_cast<DirtyMask>(group[n] & ~(to_visit | kEndPointsDirty));
   }
 #else
-  const hn::CappedTag<Unsettled, kUnsettledGroup> tag;
-  const auto any = hn::Set(tag, static_cast<Unsettled>(looked_for | kAwake));
-  const auto ends = hn::Set(tag, kEndPointsUnsettled), odd = hn::Set(tag, kOddBrick);
+  const hn::CappedTag<DirtyMask, kDirtyGroup> tag;
+  const auto any = hn::Set(tag, static_cast<DirtyMask>(to_visit | kAwake));
+  const auto ends = hn::Set(tag, kEndPointsDirty), odd = hn::Set(tag, kOddBrick);
   const auto some = hn::Set(tag, kSomeToDo);
-  const auto settled = hn::Set(tag, static_cast<Unsettled>(looked_for | kEndPointsUnsettled));
+  const auto settled = hn::Set(tag, static_cast<DirtyMask>(to_visit | kEndPointsDirty));
   const auto zero = hn::Zero(tag);
-  for (size_t n = 0; n < kUnsettledGroup; n += hn::Lanes(tag)) {
+  for (size_t n = 0; n < kDirtyGroup; n += hn::Lanes(tag)) {
     const auto lanes = hn::LoadU(tag, group + n);
     if (hn::AllTrue(tag, hn::Eq(hn::And(lanes, some), zero))) continue;
     bits.rest = false;
@@ -70,7 +70,7 @@ struct ListWriter {
   HWY_INLINE void Append(uint32_t bits, size_t first) {
 #if HWY_TARGET <= HWY_AVX3
     const hn::CappedTag<uint32_t, 16> tag;
-    for (size_t n = 0; n < kUnsettledGroup; n += 16, bits >>= 16) {
+    for (size_t n = 0; n < kDirtyGroup; n += 16, bits >>= 16) {
       const auto half = static_cast<uint16_t>(bits);
       const auto mask = hn::LoadMaskBits(tag, reinterpret_cast<const uint8_t*>(&half));
       const auto bricks = hn::Iota(tag, static_cast<uint32_t>(first + n));
@@ -85,15 +85,15 @@ struct ListWriter {
   }
 };
 
-void TakeUnsettledTarget(const UnsettledBricks& unsettled, size_t first, size_t last,
-                         Unsettled looked_for, BrickLists& lists, BrickLists& end_lists) {
+void TakeDirtyTarget(const DirtyBricks& dirty, size_t first, size_t last, DirtyMask to_visit,
+                     BrickLists& lists, BrickLists& end_lists) {
   ListWriter even = {lists.storage()[0]}, odd = {lists.storage()[1]};
   ListWriter even_ends = {end_lists.storage()[0]}, odd_ends = {end_lists.storage()[1]};
-  for (size_t at = first; at < last; at += kUnsettledGroup) {
-    uint8_t& some = unsettled.groups[at / kUnsettledGroup];
+  for (size_t at = first; at < last; at += kDirtyGroup) {
+    uint8_t& some = dirty.groups[at / kDirtyGroup];
     if (some == 0) continue;
-    GroupBits bits = TakeGroup(unsettled.bricks + at, looked_for);
-    // Bricks that are found may become unsettled again in this pass, so their group does not rest
+    GroupBits bits = TakeGroup(dirty.bricks + at, to_visit);
+    // Bricks that are found may become dirty again in this pass, so their group does not rest
     // before the next one.
     some = bits.rest ? 0 : 1;
     bits.end_points &= ~bits.found;
@@ -115,12 +115,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bccskel {
 
-HWY_EXPORT(TakeUnsettledTarget);
+HWY_EXPORT(TakeDirtyTarget);
 
-void TakeUnsettled(const UnsettledBricks& unsettled, size_t first, size_t last,
-                   Unsettled looked_for, BrickLists& found, BrickLists& end_points) {
-  HWY_DYNAMIC_DISPATCH(TakeUnsettledTarget)
-  (unsettled, first, last, looked_for, found, end_points);
+void TakeDirty(const DirtyBricks& dirty, size_t first, size_t last, DirtyMask to_visit,
+               BrickLists& found, BrickLists& end_points) {
+  HWY_DYNAMIC_DISPATCH(TakeDirtyTarget)
+  (dirty, first, last, to_visit, found, end_points);
 }
 
 }  // namespace bccskel

@@ -18,7 +18,7 @@ constexpr uint64_t kTimesSmaller = 2;
 constexpr int kNiceness = 5;
 
 // The calling thread, and those that it starts: on Linux threads have priorities of their own.
-void GiveWayToOtherThreads() {
+void YieldToOtherThreads() {
   const int niceness = getpriority(PRIO_PROCESS, 0);
   setpriority(PRIO_PROCESS, 0, niceness + kNiceness);
 }
@@ -71,7 +71,7 @@ ComputeQueue::Usage ComputeQueue::usage() const {
 }
 
 void ComputeQueue::Serve(std::stop_token stop) {
-  GiveWayToOtherThreads();
+  YieldToOtherThreads();
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return queue_.Has(); })) {
     if (stop.stop_requested()) return;
@@ -133,7 +133,7 @@ void ComputeQueue::FindLeastWaiting() {
   least_waiting_ = least;
 }
 
-void ComputeQueue::Turn::GiveWay() {
+void ComputeQueue::Turn::Yield() {
   if (queue_.least_waiting_ > bricks_ / kTimesSmaller) return;
   if (std::this_thread::get_id() != thread_) return;
   std::optional<Taken> next = queue_.TakeSmaller(*this);

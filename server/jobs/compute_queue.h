@@ -117,7 +117,7 @@ class ComputeQueue::Turn {
 
   // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
   // may be run in between. Costs next to nothing where none wait that are small enough.
-  void GiveWay();
+  void Yield();
 
  private:
   friend class ComputeQueue;

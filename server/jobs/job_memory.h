@@ -33,7 +33,7 @@ class JobMemory final : public exec::MemoryBudget {
   // Errors: a CallError, which says what for.
   absl::Status Take(uint64_t bytes, const std::string& what_for) override {
     const std::lock_guard lock(mutex_);
-    const absl::Status status = ticket_.ResizeTo(SaturatingAdd(base_ + taken_, bytes));
+    absl::Status status = ticket_.ResizeTo(SaturatingAdd(base_ + taken_, bytes));
     if (status.ok()) {
       taken_ += bytes;
       return status;

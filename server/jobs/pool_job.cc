@@ -164,7 +164,7 @@ absl::StatusOr<JobWork::Turn> PoolJob::RunTurn(ComputeQueue::Turn& turn) {
   exec::Context context = StopContext();
   context.team = &team;
   context.share = [&turn] { return turn.share(); };
-  context.interlude = [&turn] { turn.GiveWay(); };
+  context.yield = [&turn] { turn.Yield(); };
   return work_->Run(std::move(context), memory_, [job = weak_from_this()] {
     if (const auto self = job.lock()) self->Wake();
   });

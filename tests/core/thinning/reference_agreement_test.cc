@@ -47,7 +47,7 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   context.min_bricks_per_worker = 1;  // else small objects would be thinned by one worker
   const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();
-  auto result = ThinToCurve(object, *distance, options, context);
+  auto result = ThinObject(object, *distance, options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }

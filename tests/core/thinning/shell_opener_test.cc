@@ -18,18 +18,18 @@ struct Opening {
   Shells shells = BuildShells(
       object, *ComputeDistance(object, DistanceKind::kChamfer, exec::Context()), 0.75, {});
   ThinningState state{object, {}};
-  std::vector<Unsettled> unsettled = std::vector<Unsettled>(groups() * kUnsettledGroup);
+  std::vector<DirtyMask> dirty = std::vector<DirtyMask>(groups() * kDirtyGroup);
   std::vector<uint8_t> busy = std::vector<uint8_t>(groups());
-  std::vector<Unsettled> enabled = unsettled;
+  std::vector<DirtyMask> enabled = dirty;
 
-  size_t groups() const { return object.brick_count() / kUnsettledGroup + 1; }
+  size_t groups() const { return object.brick_count() / kDirtyGroup + 1; }
   OpeningView View() {
     return {.object = state.object.data(),
             .candidates = state.candidates.data(),
-            .unsettled = {unsettled.data(), busy.data()},
+            .dirty = {dirty.data(), busy.data()},
             .enabled = enabled.data(),
-            .watched = kDirectionsUnsettled,
-            .woken = kDirectionsUnsettled};
+            .watched = kDirectionsDirty,
+            .woken = kDirectionsDirty};
   }
   std::map<int32_t, uint64_t> PointsByShell() const {
     std::map<int32_t, uint64_t> points;
@@ -67,8 +67,8 @@ TEST(ShellOpener, MakesThePointsOfEachShellCandidatesAndWakesTheirBricks) {
   }
   EXPECT_EQ(opened, opening.object.PointCount());
   for (BrickIndex n = 0; n < opening.object.brick_count(); ++n) {
-    EXPECT_EQ(opening.enabled[n], kDirectionsUnsettled);
-    EXPECT_EQ(opening.unsettled[n], kDirectionsUnsettled);
+    EXPECT_EQ(opening.enabled[n], kDirectionsDirty);
+    EXPECT_EQ(opening.dirty[n], kDirectionsDirty);
   }
 }
 

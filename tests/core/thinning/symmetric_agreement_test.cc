@@ -49,8 +49,8 @@ ThinningResult Thin(const Volume& object, const ThinningOptions& options, int th
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto result = ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, context),
-                            options, context);
+  auto result = ThinObject(object, *ComputeDistance(object, DistanceKind::kChamfer, context),
+                           options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }

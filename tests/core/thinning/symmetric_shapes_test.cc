@@ -44,8 +44,8 @@ Volume Thin(const Volume& object, DistanceKind distance, SkeletonKind kind, int 
   exec::Context context;
   context.team = &team;
   context.min_bricks_per_worker = 1;
-  auto result = ThinToCurve(object, *ComputeDistance(object, distance, context),
-                            {.method = ThinningMethod::kSymmetric, .kind = kind}, context);
+  auto result = ThinObject(object, *ComputeDistance(object, distance, context),
+                           {.method = ThinningMethod::kSymmetric, .kind = kind}, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return std::move(result->thin);
 }

@@ -16,7 +16,7 @@ namespace {
 ThinningResult Thin(const Volume& object, const ThinningOptions& options,
                     const exec::Context& context = {}) {
   auto result =
-      ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), options, context);
+      ThinObject(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
@@ -46,13 +46,13 @@ TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
   const Volume object = VolumeOfPoints(test::RandomBlob(13, {60, 60, 280}, 8, 90));
   const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
   for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
-    const auto alone = ThinToCurve(object, *distance, {.method = method}, {});
+    const auto alone = ThinObject(object, *distance, {.method = method}, {});
     for (int threads : {2, 3, 4, 7, 16}) {
       exec::WorkerTeam team(threads);
       exec::Context context;
       context.team = &team;
       context.min_bricks_per_worker = 1;
-      const auto shared = ThinToCurve(object, *distance, {.method = method}, context);
+      const auto shared = ThinObject(object, *distance, {.method = method}, context);
       EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
       EXPECT_EQ(shared->removed, alone->removed) << threads << " threads";
       EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
@@ -158,7 +158,7 @@ TEST(Thinning, OpensEachPointWithItsShellWhereABrickHasNearlyAllThatPlanesTellAp
   context.on_shell = [&](const exec::ShellProgress& at) {
     EXPECT_EQ(at.points, expected[static_cast<size_t>(at.shell)]) << "shell " << at.shell;
   };
-  ASSERT_TRUE(ThinToCurve(object, *distance, {.shell_width = kMinShellWidth}, context).ok());
+  ASSERT_TRUE(ThinObject(object, *distance, {.shell_width = kMinShellWidth}, context).ok());
 }
 
 TEST(Thinning, KeepsExtentAndPlacement) {
@@ -182,11 +182,11 @@ TEST(Thinning, RefusesBadOptionsWithValueAndLimit) {
   const Volume object = Blob(1);
   const auto distance = ComputeDistance(object, DistanceKind::kChamfer, {});
   for (double width : {0.0, 0.5, 65.0, std::nan("")}) {
-    const auto status = ThinToCurve(object, *distance, {.shell_width = width}, {}).status();
+    const auto status = ThinObject(object, *distance, {.shell_width = width}, {}).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_NE(status.message().find("must be 0.75 to 64"), absl::string_view::npos) << status;
   }
-  const auto status = ThinToCurve(object, *distance, {.last_shell = -1}, {}).status();
+  const auto status = ThinObject(object, *distance, {.last_shell = -1}, {}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
 }
 
@@ -205,7 +205,7 @@ TEST(Thinning, StopsInTheMiddleWhenAskedWithAnyNumberOfThreads) {
       if (p.shell == 3) source.request_stop();
     };
     const auto result =
-        ThinToCurve(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), {}, context);
+        ThinObject(object, *ComputeDistance(object, DistanceKind::kChamfer, {}), {}, context);
     EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
     EXPECT_EQ(shells, 3);
   }

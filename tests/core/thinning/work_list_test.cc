@@ -11,22 +11,22 @@
 namespace bccskel {
 namespace {
 
-constexpr size_t kBricks = 3 * kUnsettledGroup;
+constexpr size_t kBricks = 3 * kDirtyGroup;
 
 struct Bricks {
-  std::vector<Unsettled> bits = std::vector<Unsettled>(kBricks);
-  std::vector<uint8_t> groups = std::vector<uint8_t>(kBricks / kUnsettledGroup);
+  std::vector<DirtyMask> bits = std::vector<DirtyMask>(kBricks);
+  std::vector<uint8_t> groups = std::vector<uint8_t>(kBricks / kDirtyGroup);
   BrickLists found, end_points;
 
   Bricks() {
     found.Reserve(kBricks);
     end_points.Reserve(kBricks);
   }
-  void Take(Unsettled looked_for) {
-    TakeUnsettled({bits.data(), groups.data()}, 0, kBricks, looked_for, found, end_points);
+  void Take(DirtyMask to_visit) {
+    TakeDirty({bits.data(), groups.data()}, 0, kBricks, to_visit, found, end_points);
   }
-  void Add(BrickIndex brick, Unsettled some) {
-    UnsettledBricks{bits.data(), groups.data()}.Add(brick, some);
+  void Add(BrickIndex brick, DirtyMask some) {
+    DirtyBricks{bits.data(), groups.data()}.Add(brick, some);
   }
 };
 
@@ -62,15 +62,15 @@ TEST(WorkList, HoldsBricksThatAreAwakeInEveryPass) {
   Bricks bricks;
   bricks.Add(33, kAwake);
   for (int pass = 0; pass < 3; ++pass) {
-    bricks.Take(static_cast<Unsettled>(1 << pass));
+    bricks.Take(static_cast<DirtyMask>(1 << pass));
     EXPECT_EQ(In(bricks.found, Sublattice::kEven), List({33}));
   }
 }
 
 TEST(WorkList, HoldsBricksForTheirEndPointsOnlyIfNothingElseIsToDo) {
   Bricks bricks;
-  bricks.Add(5, kEndPointsUnsettled);
-  bricks.Add(6, kEndPointsUnsettled | 1);
+  bricks.Add(5, kEndPointsDirty);
+  bricks.Add(6, kEndPointsDirty | 1);
   bricks.Take(1);
   EXPECT_EQ(In(bricks.found, Sublattice::kEven), List({6}));
   EXPECT_EQ(In(bricks.end_points, Sublattice::kEven), List({5}));

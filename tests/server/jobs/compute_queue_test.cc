@@ -218,7 +218,7 @@ TEST_F(GivingWay, ASmallJobRunsWhileALargeOneRests) {
   RunLarge([this](Turn& turn) {
     PostSmall("s");
     order_ += "(";
-    turn.GiveWay();
+    turn.Yield();
     order_ += ")";
   });
   EXPECT_EQ(order_, "(s)");
@@ -228,13 +228,13 @@ TEST_F(GivingWay, AfterwardsTheLargeOneHasAsMuchTime) {
   RunLarge([this](Turn& turn) {
     PostSmall("s");
     PostSmall("t");
-    turn.GiveWay();
-    turn.GiveWay();
+    turn.Yield();
+    turn.Yield();
     now_ms_ += kSmallMs - 1;
-    turn.GiveWay();
+    turn.Yield();
     order_ += "|";
     now_ms_ += 1;
-    turn.GiveWay();
+    turn.Yield();
     order_ += "|";
   });
   EXPECT_EQ(order_, "s|t|");
@@ -243,10 +243,10 @@ TEST_F(GivingWay, AfterwardsTheLargeOneHasAsMuchTime) {
 TEST_F(GivingWay, NoTenantWaitsForWhatAnotherHasTaken) {
   RunLarge([this](Turn& turn) {
     for (const char* name : {"a", "a"}) PostSmall(name, 1, 1, "greedy");
-    turn.GiveWay();
+    turn.Yield();
     for (const char* name : {"b", "b"}) PostSmall(name, 1, 1, "clinic");
-    turn.GiveWay();
-    turn.GiveWay();
+    turn.Yield();
+    turn.Yield();
     order_ += "|";
   });
   EXPECT_EQ(order_.substr(0, 3), "ab|");
@@ -256,7 +256,7 @@ TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
   RunLarge([this](Turn& turn) {
     PostSmall("a", kLargeBricks / 2 + 1);
     PostSmall("b", 1, 2);
-    turn.GiveWay();
+    turn.Yield();
     order_ += "|";
   });
   EXPECT_EQ(order_, "|ab");
@@ -265,14 +265,14 @@ TEST_F(GivingWay, OnlyToJobsThatAreMuchSmallerAndTakeOneThread) {
 TEST_F(GivingWay, ToSmallJobsThatComeAfterOthersWereTooLarge) {
   RunLarge([this](Turn& turn) {
     PostSmall("l", kLargeBricks);
-    turn.GiveWay();
+    turn.Yield();
     PostSmall("s");
-    turn.GiveWay();
+    turn.Yield();
     order_ += "|";
     now_ms_ += kSmallMs;
-    turn.GiveWay();  // nobody is left, which is noticed here
+    turn.Yield();  // nobody is left, which is noticed here
     PostSmall("t");
-    turn.GiveWay();
+    turn.Yield();
     order_ += "|";
   });
   EXPECT_EQ(order_, "s|t|l");
@@ -281,7 +281,7 @@ TEST_F(GivingWay, ToSmallJobsThatComeAfterOthersWereTooLarge) {
 TEST_F(GivingWay, OnlyOnTheThreadOfTheJob) {
   RunLarge([this](Turn& turn) {
     PostSmall("s");
-    std::jthread([&turn] { turn.GiveWay(); }).join();
+    std::jthread([&turn] { turn.Yield(); }).join();
     order_ += "|";
   });
   EXPECT_EQ(order_, "|s");
