@@ -139,16 +139,17 @@ class CommandLine {
   }
 
   void AddCommands() {
-    Add(app_, "voxelize", AddVoxelize, "Turn a mesh or an image into bcc lattice points");
-    Add(app_, "submit", AddSubmit, "Send a volume to a server for its skeleton");
-    Add(app_, "skeletonize", AddSkeletonize, "Make the skeleton of a mesh, a volume or an image");
-    Add(app_, "labels", AddLabels, "Make a skeleton of every label of an image");
+    Add(app_, "skeletonize", AddSkeletonize, "Skeletonize a mesh, a volume or an image");
+    Add(app_, "labels", AddLabels, "Skeletonize each label of an image");
     Add(app_, "info", AddInfo, "Describe a mesh, a volume or an image");
-    Add(app_, "view", AddView,
-        "Make an interactive page of a result for a browser, without a network");
-    Add(app_, "render", AddRender, "Draw a picture of a result");
-    Add(app_, "reconstruct", AddReconstruct, "Make a volume of a result's balls and compare it");
-    Add(app_, "convert", AddConvert, "Write a result in other formats");
+    Add(app_, "view", AddView, "Make an interactive HTML page of a result, which needs no network");
+    Add(app_, "render", AddRender, "Draw a PNG picture of a result");
+    Add(app_, "convert", AddConvert, "Write a JSON result in other formats");
+    Add(app_, "reconstruct", AddReconstruct,
+        "Rebuild the object from a result's balls and measure the overlap");
+    Add(app_, "voxelize", AddVoxelize,
+        "Fill a mesh or convert an image to a volume of bcc lattice points");
+    Add(app_, "submit", AddSubmit, "Skeletonize a volume on a server");
     Add(app_, "generate", AddGenerate, "Make a test object");
   }
 
@@ -157,16 +158,17 @@ class CommandLine {
         *app_.add_subcommand("bench", "Measure the speed of this machine or of a server");
     bench.require_subcommand(1);
     Add(bench, "core", AddBenchCore,
-        "Time and memory from a volume in memory to its skeleton in memory");
+        "Measure the time and memory from a volume to its skeleton, without reading and writing");
     Add(bench, "server", AddBenchServer,
-        "Latency and throughput of a server, for numbers of clients and sizes of volume");
+        "Measure latency and throughput of a server for several numbers of clients and volume "
+        "sizes");
     Add(app_, "probe", AddProbe, "Check whether a server accepts calls");
-    Add(app_, "top", AddTop, "Watch the queue and the throughput of a server");
-    Add(app_, "jobs", AddJobs, "List the jobs that a server keeps");
-    Add(app_, "watch", AddWatch, "Wait for a job's end");
-    Add(app_, "cancel", AddCancel, "End a job that waits or runs");
+    Add(app_, "top", AddTop, "Show the queue and the throughput of a server");
+    Add(app_, "jobs", AddJobs, "List the jobs of a server");
+    Add(app_, "watch", AddWatch, "Wait until a job ends");
+    Add(app_, "cancel", AddCancel, "Cancel a waiting or running job");
     Add(app_, "delete", AddDelete, "Erase a job and its result from the server");
-    Add(app_, "fetch", AddFetch, "Wait for a job's end and write its result");
+    Add(app_, "fetch", AddFetch, "Wait until a job ends and write its result");
   }
 
   CLI::App app_{"Curve skeletons by parallel thinning on the body-centered cubic grid", "bccskel"};
@@ -275,8 +277,8 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
   }
   if (line.app().get_subcommands().empty()) return Refuse(CommandRequired(line.app()));
   Arguments arguments = line.given();
-  const std::optional<std::string> complaint = ComplaintAbout(arguments);
-  if (complaint.has_value()) return Refuse(*complaint);
+  const absl::Status fit = Validate(arguments);
+  if (!fit.ok()) return Refuse(std::string(fit.message()));
   return arguments;
 }
 

@@ -64,23 +64,27 @@ enum class Waiting { kForResult, kDetach };
 // `submit` is the same with a volume as the only kind of input and a server as the only place.
 enum class AcceptedInput { kAll, kVolumeOnly };
 
-struct SkeletonizeArguments {
+// What skeletons are made of, how and where.
+struct ComputeArguments {
   CommonArguments common;
-  AcceptedInput accepted = AcceptedInput::kAll;
   std::string input;
   std::vector<std::string> outputs;
-  VoxelizeOptions grid;  // of a mesh
   ImageArguments image;
-  SkeletonImages images;
   SkeletonizeOptions skeletonize;
   std::optional<RootChoice> root;  // the trees are ordered from there
+  exporting::CurveSampling swc;    // of SWC files
   Place place = Place::kServer;
-  Waiting waiting = Waiting::kForResult;
-  client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
-  exporting::CurveSampling swc;                                // of SWC files
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   ProgressStyle progress = ProgressStyle::kAuto;
+};
+
+struct SkeletonizeArguments : ComputeArguments {
+  AcceptedInput accepted = AcceptedInput::kAll;
+  VoxelizeOptions grid;  // of a mesh
+  SkeletonImages images;
+  Waiting waiting = Waiting::kForResult;
+  client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
   LayerPart part;  // of the object, that this process reads
 };
 
@@ -91,20 +95,10 @@ inline constexpr const char* kLabelPlace = "{label}";
 // skeletons. Errors: INVALID_ARGUMENT.
 absl::Status CheckLabelOutput(const std::string& path);
 
-// The skeleton of every label of an image.
-struct LabelsArguments {
-  CommonArguments common;
-  std::string input;
-  std::vector<std::string> outputs;  // with kLabelPlace: a file per label
-  ImageArguments image;              // its labels are those wanted; none: all
+// The skeleton of every label of an image: of those that `image` names, or of all. An output with
+// kLabelPlace is a file per label.
+struct LabelsArguments : ComputeArguments {
   uint64_t min_voxels = 1;
-  SkeletonizeOptions skeletonize;
-  std::optional<RootChoice> root;  // the trees are ordered from there
-  exporting::CurveSampling swc;    // of SWC files
-  Place place = Place::kHere;
-  ServerArguments server;
-  ProgressStyle progress = ProgressStyle::kAuto;
-  std::chrono::milliseconds timeout = std::chrono::hours(1);
 };
 
 struct InfoArguments {
@@ -113,19 +107,17 @@ struct InfoArguments {
   ImageArguments image;
 };
 
-// A JSON result and the mesh, volume or image that it was made from.
+// A JSON result, the mesh, volume or image that it was made from, and what is made of both.
 struct ResultArguments {
+  CommonArguments common;
   std::string result;
   std::string object;
   VoxelizeOptions grid;  // of a mesh
   ImageArguments image;
-};
-
-struct ViewArguments {
-  CommonArguments common;
-  ResultArguments source;
   std::string output;
 };
+
+struct ViewArguments : ResultArguments {};
 
 struct ConvertArguments {
   CommonArguments common;
@@ -135,18 +127,11 @@ struct ConvertArguments {
   exporting::CurveSampling swc;
 };
 
-struct RenderArguments {
-  CommonArguments common;
-  ResultArguments source;
-  std::string output;
+struct RenderArguments : ResultArguments {
   view::PictureOptions picture;
 };
 
-struct ReconstructArguments {
-  CommonArguments common;
-  ResultArguments source;
-  std::string output;
-};
+struct ReconstructArguments : ResultArguments {};
 
 struct GenerateArguments {
   CommonArguments common;
@@ -306,8 +291,8 @@ absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
 // CheckWritable(), for the first that cannot.
 absl::Status CheckOutputs(const Arguments& arguments);
 
-// None: the arguments go together.
-std::optional<std::string> ComplaintAbout(const Arguments& arguments);
+// Checks how the arguments fit together. Errors: INVALID_ARGUMENT.
+absl::Status Validate(const Arguments& arguments);
 
 // Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
 // has been printed and the exit code is returned.

@@ -10,6 +10,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/bench_core.h"
 #include "client/cli/option_values.h"
+#include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 #include "core/import/shapes/shapes.h"
@@ -92,7 +93,7 @@ CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::millis
 CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
   command
       .add_option("--tls-ca", server.tls_ca,
-                  "Use TLS; certificate authorities to trust, PEM (those of this machine: "
+                  "Use TLS and trust these certificate authorities, PEM (those of this machine: "
                   "/etc/ssl/certs/ca-certificates.crt)")
       ->option_text("FILE");
   command.add_option("--tls-cert", server.tls_certificate, "Certificate to show the server, PEM")
@@ -101,7 +102,7 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
       ->option_text("FILE");
   command
       .add_option("--token-file", server.token_file,
-                  "File with the access token (default: the one that BCCSKEL_TOKEN_FILE names)")
+                  "File with the access token (default: the file that BCCSKEL_TOKEN_FILE names)")
       ->option_text("FILE");
   command.add_flag_callback(
       "--plaintext-token",
@@ -125,6 +126,15 @@ void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
           "--local", [&place] { place = Place::kLocal; },
           "Compute on this machine, without a server (default, unless a server is named)")
       ->excludes(address);
+}
+
+void AddComputing(CLI::App& command, ComputeArguments& arguments) {
+  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
+  AddThreads(command, arguments.common, kThreadsBoth);
+  AddProgress(command, arguments.progress);
+  AddSeconds(command, "--timeout", arguments.timeout,
+             "Give up after this many seconds (default 3600)");
+  AddJson(command, arguments.common);
 }
 
 absl::StatusOr<client::Endpoint> EndpointOf(const ServerArguments& server) {
@@ -160,11 +170,14 @@ void AddVolumeOutput(CLI::App& command, std::string& path) {
       ->option_text("FILE (required)");
 }
 
-CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs) {
+CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
+                        const std::string& what) {
   return command
-      .add_option("-o,--output", outputs,
-                  "Output file, format by ending: " + exporting::SkeletonFormatEndings() +
-                      "; may be given several times")
+      .add_option(
+          "-o,--output", outputs,
+          "Output file, " +
+              (what.empty() ? "format by ending: " + exporting::SkeletonFormatEndings() : what) +
+              "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE (required)");
@@ -174,12 +187,15 @@ void AddResult(CLI::App& command, std::string& path) {
   AddInput(command, "RESULT", path, "JSON file of skeletonize or submit");
 }
 
-void AddResultAndObject(CLI::App& command, ResultArguments& source, ObjectNeed need) {
-  AddResult(command, source.result);
-  CLI::Option* object = command.add_option("--object", source.object,
+void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need) {
+  AddResult(command, arguments.result);
+  CLI::Option* object = command.add_option("--object", arguments.object,
                                            "Mesh, volume or image that the result was made from");
   const bool required = need == ObjectNeed::kRequired;
   object->required(required)->option_text(required ? "FILE (required)" : "FILE");
+  AddGrid(command, arguments.grid);
+  AddImage(command, arguments.image);
+  AddCommonHere(command, arguments.common);
 }
 
 uint64_t ReadBenchPoints(const std::string& given) {

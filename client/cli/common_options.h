@@ -17,10 +17,10 @@
 
 namespace bccskel::cli {
 
-inline constexpr const char* kThreadsHere = "Threads to use; 0 means all of this machine (default)";
+inline constexpr const char* kThreadsHere = "Threads to use; 0 (default) means all of this machine";
 inline constexpr const char* kThreadsBoth =
-    "Threads to use, here and on the server; 0 means all of this machine and what the server "
-    "gives (default)";
+    "Threads to use, here and on the server; 0 (default) means all of this machine and as many as "
+    "the server grants";
 
 // --json
 void AddJson(CLI::App& command, CommonArguments& common);
@@ -39,6 +39,9 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
 // --server and its companions, and --local: where to compute. kHere unless one is given.
 void AddPlace(CLI::App& command, ServerArguments& server, Place& place);
 
+// The options of skeletons, --threads, --progress, --timeout and --json.
+void AddComputing(CLI::App& command, ComputeArguments& arguments);
+
 // Reads the files.
 // Errors: NOT_FOUND for a file that cannot be read; INVALID_ARGUMENT for a token file without a
 //         token.
@@ -51,13 +54,14 @@ void AddOutput(CLI::App& command, std::string& path, const char* what,
                const std::vector<std::string>& endings);
 // --output of a volume; its ending is checked later, with what else is wrong.
 void AddVolumeOutput(CLI::App& command, std::string& path);
-// --output of a skeleton, any number of them.
-CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs);
+// --output of skeletons, any number of them; `what` says which, by default all formats.
+CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
+                        const std::string& what = "");
 
 // RESULT, and the object that it was made from with the options that say how.
 void AddResult(CLI::App& command, std::string& path);
 enum class ObjectNeed { kRequired, kOptional };
-void AddResultAndObject(CLI::App& command, ResultArguments& source, ObjectNeed need);
+void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need);
 
 // What the benchmarks thin. ReadBenchPoints() throws CLI::ValidationError.
 uint64_t ReadBenchPoints(const std::string& given);

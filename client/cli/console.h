@@ -56,7 +56,7 @@ ExitCode FailWith(ExitCode code, const absl::Status& error);
 // For what went wrong between the user and a server, which it names. A hint of its own says what
 // else may be wrong with the connection.
 inline constexpr std::string_view kNoServerHint =
-    "start bccskel-server, name another with --server, or compute here with --local";
+    "start bccskel-server, name another server with --server, or compute here with --local";
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint = "");
 

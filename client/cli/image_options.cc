@@ -87,10 +87,11 @@ void AddForeground(CLI::App& command, ImageArguments& arguments) {
       AddLabelList(command, arguments, "Voxels of these labels, such as 3,7 or 1-85");
   CLI::Option* range =
       command
-          .add_option("--range", arguments.range, "Voxels from LOW to HIGH; either may be left out")
+          .add_option("--range", arguments.range,
+                      "Voxels from LOW to HIGH, both included; either may be omitted")
           ->option_text("LOW,HIGH");
   CLI::Option* threshold =
-      command.add_option("--threshold", arguments.threshold, "Voxels from this value on")
+      command.add_option("--threshold", arguments.threshold, "Voxels of at least this value")
           ->option_text("T");
   CLI::Option* below =
       command.add_option("--below", arguments.below, "Voxels below this value (level sets: 0)")
@@ -101,18 +102,18 @@ void AddForeground(CLI::App& command, ImageArguments& arguments) {
       if (rule != other) rule->excludes(other);
     }
   }
-  command.add_flag("--invert", arguments.invert, "Exchange object and background");
+  command.add_flag("--invert", arguments.invert, "Swap object and background");
 }
 
 void AddConversion(CLI::App& command, ImageArguments& arguments) {
   AddChoice<MaskAdjacency>(command, "--adjacency", arguments.mask.adjacency,
-                           "Which voxels touch: object, background (default 26,6)",
+                           "Adjacency of voxels in the object and in the background (default 26,6)",
                            {{"26,6", MaskAdjacency::k26}, {"6,26", MaskAdjacency::k6}});
-  CLI::Option* points =
-      AddChoice<VoxelPoints>(command, "--voxel-points", arguments.mask.points,
-                             "Lattice points that exact makes of a voxel of a solid object "
-                             "(default 2); 16 refine voxels first, for finer curves",
-                             {{"2", VoxelPoints::kTwo}, {"16", VoxelPoints::kSixteen}});
+  CLI::Option* points = AddChoice<VoxelPoints>(
+      command, "--voxel-points", arguments.mask.points,
+      "Lattice points per voxel of the exact conversion (default 2); 16 makes "
+      "finer curves",
+      {{"2", VoxelPoints::kTwo}, {"16", VoxelPoints::kSixteen}});
   using Weights = std::optional<MaskWeights>;  // none: exact
   CLI::Option* sampling = AddChoice<Weights>(
       command, "--sampling",
@@ -129,11 +130,11 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
           "--density",
           [&arguments](double points) {
             if (!arguments.mask.sampling.has_value()) {
-              throw CLI::ValidationError("--density is for samplings, not for exact");
+              throw CLI::ValidationError("--density needs --sampling nearest or trilinear");
             }
             arguments.mask.sampling->points_per_voxel = points;
           },
-          "Lattice points for each voxel of a sampling (default 2)")
+          "Lattice points per voxel of --sampling nearest or trilinear (default 2)")
       ->needs(sampling)
       ->option_text("X");
 }
@@ -145,7 +146,7 @@ RawLayout& RawOf(ImageArguments& arguments) {
 
 void AddRaw(CLI::App& command, ImageArguments& arguments) {
   CLI::Option* size = AddTriple<int64_t>(
-      command, "--raw-size", "Size of raw voxel data",
+      command, "--raw-size", "Read raw voxels, this many along each axis",
       [&arguments](const std::array<int64_t, 3>& n) { RawOf(arguments).size = n; });
   command
       .add_option_function<std::string>(
@@ -155,18 +156,18 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
             if (!type.ok()) throw CLI::ValidationError(std::string(type.status().message()));
             RawOf(arguments).type = *type;
           },
-          "Their type: u8 (default), i8, u16, i16, u32, i32, u64, i64, f32 or f64")
+          "Type of raw voxels: u8 (default), i8, u16, i16, u32, i32, u64, i64, f32 or f64")
       ->needs(size)
       ->option_text("TYPE");
   AddChoice<std::endian>(command, "--raw-order",
                          [&arguments](std::endian order) { RawOf(arguments).byte_order = order; },
-                         "Their byte order (default little)",
+                         "Byte order of raw voxels (default little)",
                          {{"little", std::endian::little}, {"big", std::endian::big}})
       ->needs(size);
   AddCount<uint64_t>(
       command, "--raw-header",
       [&arguments](uint64_t bytes) { RawOf(arguments).header_bytes = bytes; },
-      "Bytes before them (default 0)")
+      "Bytes before the raw voxels (default 0)")
       ->needs(size);
 }
 
@@ -200,7 +201,8 @@ absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
 }  // namespace
 
 void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
-  AddTriple<double>(command, "--voxel-size", "Spacing, instead of the one in the file",
+  AddTriple<double>(command, "--voxel-size",
+                    "Spacing of the voxels, instead of the one in the file",
                     [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
   const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
                                  const char* description) {
@@ -208,13 +210,14 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
         command, name, [&chosen](uint32_t number) { chosen = number; }, description);
   };
   choose("--channel", arguments.open.channel,
-         "Of a TIFF file or OME-Zarr folder with several, from 0");
-  choose("--time", arguments.open.time, "Point of time of one with several, from 0");
+         "Channel, from 0, of a TIFF file or OME-Zarr folder that has several");
+  choose("--time", arguments.open.time,
+         "Time point, from 0, of a TIFF file or OME-Zarr folder that has several");
   choose("--level", arguments.open.level,
-         "Of an OME-Zarr or precomputed pyramid; 0 (default) is the finest");
+         "Resolution of an OME-Zarr or precomputed folder; 0 (default) is the finest");
   command
       .add_option("--series", arguments.open.series,
-                  "Of a folder of DICOM with several: its number or unique identifier")
+                  "Number or unique identifier of a series, of a DICOM folder that has several")
       ->option_text("SERIES");
   AddRaw(command, arguments);
 }
@@ -244,11 +247,11 @@ void AddLabelImage(CLI::App& command, ImageArguments& arguments) {
 void AddSkeletonImages(CLI::App& command, SkeletonImages& images) {
   command
       .add_option("--branch-image", images.branches,
-                  "Of an image: write which branch is nearest to each voxel of the object (.nrrd)")
+                  "Write an image with the nearest branch of each voxel of the object (.nrrd)")
       ->option_text("FILE");
   command
       .add_option("--curve-image", images.curves,
-                  "Of an image: write the voxels that the curves run through (.nrrd)")
+                  "Write an image with the voxels that the curves run through (.nrrd)")
       ->option_text("FILE");
 }
 

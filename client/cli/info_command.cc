@@ -156,12 +156,12 @@ std::string ValuesText(const ImageValues& values) {
     text.Add(", ", Counted(values.not_numbers, "voxel is NaN", "voxels are NaN"));
   }
   if (!values.labels.has_value()) return std::move(text.Add('\n')).Take();
-  text.Add("\nlabels:      ", exporting::GroupedDigits(values.labels->size()));
+  text.Add("\nlabels:      ", values.labels->empty() ? "none" : "");
   size_t shown = 0;
   for (const auto& [label, voxels] : *values.labels) {
-    text.Add(shown == 0 ? ": " : ", ");
+    text.Add(shown == 0 ? "" : ", ");
     if (shown++ == kShown) {
-      text.Add("...");
+      text.Add("... (", exporting::GroupedDigits(values.labels->size()), " in all)");
       break;
     }
     text.Add(label, " (", Counted(voxels, "voxel", "voxels"), ')');

@@ -33,16 +33,17 @@ void AddWaiting(CLI::App& command, WaitingArguments& waiting) {
   AddProgress(command, waiting.progress);
   command.add_flag_callback(
       "--detach", [&waiting] { waiting.on_interrupt = OnInterrupt::kLeave; },
-      "Let the job go on when Ctrl-C ends this command");
+      "Let the job continue when Ctrl-C ends this command");
   AddSeconds(command, "--timeout", waiting.timeout,
-             "Stop waiting after this many seconds (default 3600); the job goes on");
+             "Stop waiting after this many seconds (default 3600); the job continues");
 }
 
 }  // namespace
 
 void AddJobs(CLI::App& command, JobsArguments& arguments) {
   AddServer(command, arguments.server);
-  command.add_option("--limit", arguments.limit, "Number of newest jobs to list (default 50)")
+  command
+      .add_option("--limit", arguments.limit, "Maximum number of jobs, newest first (default 50)")
       ->check(CLI::Range(1, 1'000'000))
       ->option_text("N");
   AddJson(command, arguments.common);

@@ -15,6 +15,7 @@
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
+#include "client/cli/file_writers.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
 #include "client/cli/summaries.h"
@@ -78,27 +79,19 @@ class LabelFiles {
     }
   }
 
-  // Writes the label's own files, and keeps what goes into the files of all labels.
-  // Errors: as WriteSkeletonFile().
+  // Keeps what goes into the files of all labels, and has the label's own files written.
+  // Errors: as WriteSkeletonFile(), also of an earlier label.
   absl::Status Add(LabelSkeleton&& skeleton) {
-    const std::string title = "label " + std::to_string(skeleton.label);
-    const exporting::Subject subject = {.result = skeleton.result,
-                                        .object = skeleton.result.thin,
-                                        .title = title,
-                                        .root = root_,
-                                        .world = world_,
-                                        .swc = swc_};
-    for (const std::string& path : paths_of_each_) {
-      BCCSKEL_RETURN_IF_ERROR(
-          exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
-    }
     ++labels_;
     if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
-    return absl::OkStatus();
+    if (paths_of_each_.empty()) return absl::OkStatus();
+    const auto kept = std::make_shared<const LabelSkeleton>(std::move(skeleton));
+    return writers_.Add([this, kept] { return WriteOwnFiles(*kept); });
   }
 
   // Writes the files of all labels. Errors: as above; CANCELLED.
   absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) && {
+    BCCSKEL_RETURN_IF_ERROR(writers_.Finish());
     std::vector<WrittenFile> files;
     for (const std::string& path : paths_of_each_) {
       files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
@@ -111,6 +104,21 @@ class LabelFiles {
   }
 
  private:
+  absl::Status WriteOwnFiles(const LabelSkeleton& skeleton) const {
+    const std::string title = "label " + std::to_string(skeleton.label);
+    const exporting::Subject subject = {.result = skeleton.result,
+                                        .object = skeleton.result.thin,
+                                        .title = title,
+                                        .root = root_,
+                                        .world = world_,
+                                        .swc = swc_};
+    for (const std::string& path : paths_of_each_) {
+      BCCSKEL_RETURN_IF_ERROR(
+          exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
+    }
+    return absl::OkStatus();
+  }
+
   std::vector<std::string> paths_of_each_;
   std::vector<std::string> paths_of_all_;
   const std::optional<RootChoice> root_;
@@ -118,6 +126,7 @@ class LabelFiles {
   const exporting::CurveSampling swc_;
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
+  FileWriters writers_;  // last: their tasks use all else
 };
 
 // What is said of one label.
@@ -229,9 +238,7 @@ std::string SummaryText(const LabelsSummary& summary) {
            Counted(totals.simple_points_left, "simple point", "simple points"), " left",
            sampled ? "; sampling may have changed the voxels'" : "", "\ntime:      ", seconds,
            " s\n");
-  for (const WrittenFile& file : summary.files) {
-    text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
-  }
+  text.Add(FilesText(summary.files));
   return std::move(text).Take();
 }
 
@@ -254,12 +261,7 @@ std::string SummaryJson(const LabelsSummary& summary) {
     if (n > 0) text.Add(',');
     AddLabelJson(text, summary.labels[n]);
   }
-  text.Add("],\"seconds\":", summary.seconds, ",\"outputs\":[");
-  for (size_t n = 0; n < summary.files.size(); ++n) {
-    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(summary.files[n].path),
-             ",\"note\":", JsonString(summary.files[n].note), '}');
-  }
-  text.Add("]}\n");
+  text.Add("],\"seconds\":", summary.seconds, ",\"outputs\":", FilesJson(summary.files), "}\n");
   return std::move(text).Take();
 }
 
@@ -328,37 +330,18 @@ absl::Status Compute(const LabelsArguments& arguments, const LabeledObjects& lab
       labels, {.mask = arguments.image.mask, .skeleton = arguments.skeletonize}, consume, context);
 }
 
-ExitCode FailComputing(const LabelsArguments& arguments, const absl::Status& error) {
-  if (arguments.place != Place::kServer) return Fail(WithPath(error, arguments.input));
-  return FailOnServer(arguments.server, error,
-                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
-}
-
 }  // namespace
 
 void AddLabels(CLI::App& command, LabelsArguments& arguments) {
-  command.add_option("IMAGE", arguments.input, "Image file of labels")
-      ->required()
-      ->option_text(" ");
-  command
-      .add_option("-o,--output", arguments.outputs,
-                  "Output file: with {label} in its path one file per label, in any format but "
-                  "pictures; else all labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or "
-                  ".precomputed; "
-                  "may be given several times")
-      ->required()
-      ->allow_extra_args(false)
-      ->option_text("FILE (required)");
+  AddInput(command, "IMAGE", arguments.input, "Image file of labels");
+  AddOutputs(command, arguments.outputs,
+             "with {label} in its path one file per label, in any format but pictures; else all "
+             "labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or .precomputed");
   AddSwcStep(command, arguments.swc);
   AddLabelImage(command, arguments.image);
   AddMinVoxels(command, arguments.min_voxels);
-  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   AddPlace(command, arguments.server, arguments.place);
-  AddThreads(command, arguments.common, kThreadsBoth);
-  AddProgress(command, arguments.progress);
-  AddSeconds(command, "--timeout", arguments.timeout,
-             "Give up after this many seconds (default 3600)");
-  AddJson(command, arguments.common);
+  AddComputing(command, arguments);
 }
 
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {

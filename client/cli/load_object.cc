@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/console.h"
@@ -159,19 +160,8 @@ absl::Status CheckConversion(const std::string& path, const ImageArguments& argu
   return absl::OkStatus();
 }
 
-namespace {
-
-std::string LowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
-
-}  // namespace
-
 absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
-  const std::string name = LowerCase(path);
+  const std::string name = absl::AsciiStrToLower(path);
   if (HasMeshFileName(name)) return InputKind::kMesh;
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
   if (IsImagePath(path)) return InputKind::kImage;
@@ -271,6 +261,12 @@ absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
 }
 
 }  // namespace
+
+ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error) {
+  if (arguments.place != Place::kServer) return Fail(WithPath(error, arguments.input));
+  return FailOnServer(arguments.server, error,
+                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
+}
 
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context) {

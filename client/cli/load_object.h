@@ -72,6 +72,9 @@ struct ResultAndObject {
   Volume object;
 };
 
+// Says why nothing was computed, and where that was. Returns the exit code.
+ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error);
+
 // Reads both, and makes of the object what the result says was thinned: a mesh is filled on a grid
 // of its spacing, unless the arguments ask for another, and all is prepared again. Warns when the
 // object then has not the number of points that the result speaks of. Errors: those of

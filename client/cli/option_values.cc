@@ -95,8 +95,8 @@ struct Reader {
     } catch (const CLI::ParseError& error) {
       return Wrong(error.what());
     }
-    const auto complaint = ComplaintAboutOptions(arguments.skeletonize);
-    return complaint.has_value() ? Wrong(*complaint) : absl::OkStatus();
+    const absl::Status fit = ValidateOptions(arguments.skeletonize);
+    return fit.ok() ? fit : Wrong(std::string(fit.message()));
   }
 };
 
@@ -178,8 +178,8 @@ absl::StatusOr<LabelsArguments> ReadLabelsOptions(const std::vector<NamedOption>
   LabelsReader reader;
   const absl::Status status = reader.Read(options);
   if (!status.ok()) return status;
-  const auto complaint = ComplaintAboutRootOfLabels(reader.arguments.root);
-  if (complaint.has_value()) return Wrong(*complaint);
+  const absl::Status fit = ValidateRootOfLabels(reader.arguments.root);
+  if (!fit.ok()) return Wrong(std::string(fit.message()));
   return std::move(reader.arguments);
 }
 

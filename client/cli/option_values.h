@@ -26,7 +26,7 @@ inline std::string OneOf(const std::vector<std::string>& words) {
   return text;
 }
 
-// An option with a few words as its values. CLI11's own complaint about another word shows the
+// An option with a few words as its values. CLI11's own message about another word shows the
 // numbers of the enumeration.
 template <typename Enum>
 CLI::Option* AddChoice(CLI::App& command, const std::string& name, std::function<void(Enum)> use,

@@ -21,10 +21,8 @@ std::string SummaryOf(const ReconstructArguments& arguments, uint64_t points,
                       const Overlap& overlap) {
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
-    text.Add("{\"result\":", JsonString(arguments.source.result),
-             ",\"object\":", JsonString(arguments.source.object),
-             ",\"output\":", JsonString(arguments.output), ",\"points\":", points,
-             ",\"common_points\":", overlap.common, ",\"jaccard\":", overlap.Jaccard(), "}\n");
+    text.Add(FilesJson(arguments), ",\"points\":", points, ",\"common_points\":", overlap.common,
+             ",\"jaccard\":", overlap.Jaccard(), "}\n");
   } else {
     text.Add("points:      ", exporting::GroupedDigits(points), ", of them in the object ",
              exporting::GroupedDigits(overlap.common),
@@ -37,17 +35,13 @@ std::string SummaryOf(const ReconstructArguments& arguments, uint64_t points,
 }  // namespace
 
 void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
-  AddResultAndObject(command, arguments.source, ObjectNeed::kRequired);
+  AddResultAndObject(command, arguments, ObjectNeed::kRequired);
   AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
-  AddGrid(command, arguments.source.grid);
-  AddImage(command, arguments.source.image);
-  AddCommonHere(command, arguments.common);
 }
 
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<ResultAndObject> loaded =
-      LoadResultAndObject(arguments.source, team.context());
+  const absl::StatusOr<ResultAndObject> loaded = LoadResultAndObject(arguments, team.context());
   if (!loaded.ok()) return Fail(loaded.status());
   const Volume& object = loaded->object;
   const absl::StatusOr<Volume> balls =

@@ -21,10 +21,8 @@ std::string SummaryOf(const RenderArguments& arguments, size_t triangles) {
   const view::PictureOptions& picture = arguments.picture;
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
-    text.Add("{\"result\":", JsonString(arguments.source.result),
-             ",\"object\":", JsonString(arguments.source.object),
-             ",\"output\":", JsonString(arguments.output), ",\"triangles\":", triangles,
-             ",\"width\":", picture.width, ",\"height\":", picture.height, "}\n");
+    text.Add(FilesJson(arguments), ",\"triangles\":", triangles, ",\"width\":", picture.width,
+             ",\"height\":", picture.height, "}\n");
   } else {
     text.Add("surface:     ", exporting::GroupedDigits(triangles),
              " triangles\nwritten:     ", arguments.output, ", ", picture.width, " x ",
@@ -50,37 +48,34 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
   command
       .add_option_function<std::string>(
           "--size", [&picture](const std::string& text) { ReadSize(text, picture); },
-          "Pixels of the picture (default 1200x900)")
+          "Size in pixels (default 1200x900)")
       ->option_text("WIDTHxHEIGHT");
   command
-      .add_option("--turn", picture.turn,
-                  "Walk around the object to the right, from its broadest side (default 30)")
+      .add_option(
+          "--turn", picture.turn,
+          "Rotate the view to the right, starting in front of the broadest side (default 30)")
       ->option_text("DEGREES");
-  command.add_option("--climb", picture.climb, "Look from above (default 15)")
+  command.add_option("--climb", picture.climb, "Raise the view above the object (default 15)")
       ->option_text("DEGREES");
 }
 
 }  // namespace
 
 void AddRender(CLI::App& command, RenderArguments& arguments) {
-  AddResultAndObject(command, arguments.source, ObjectNeed::kRequired);
+  AddResultAndObject(command, arguments, ObjectNeed::kRequired);
   AddOutput(command, arguments.output, "Picture", {".png"});
   AddPicture(command, arguments.picture);
-  AddGrid(command, arguments.source.grid);
-  AddImage(command, arguments.source.image);
-  AddCommonHere(command, arguments.common);
 }
 
 ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<ResultAndObject> loaded =
-      LoadResultAndObject(arguments.source, team.context());
+  const absl::StatusOr<ResultAndObject> loaded = LoadResultAndObject(arguments, team.context());
   if (!loaded.ok()) return Fail(loaded.status());
   const absl::StatusOr<view::DisplaySurface> surface =
       view::MakeDisplaySurface(loaded->object, kMostTriangles, team.context());
   if (!surface.ok()) return Fail(surface.status());
   view::PictureOptions options = arguments.picture;
-  options.title = FileName(arguments.source.object);
+  options.title = FileName(arguments.object);
   const absl::StatusOr<std::string> png =
       view::RenderPng(loaded->result, *surface, options, team.context());
   if (!png.ok()) return Fail(png.status());

@@ -71,33 +71,6 @@ void AddTimingsJson(Text& text, const StageTimings& timings) {
   text.Add("\"total_ms\":", 1e3 * Seconds(timings.total), '}');
 }
 
-void AddMeshJson(Text& text, const MeshStage& stage) {
-  text.Add(",\"mesh\":", MeshJson(stage.mesh), ",\"fill\":\"", FillRuleName(stage.fill),
-           "\",\"warnings\":[");
-  for (size_t n = 0; n < stage.warnings.size(); ++n) {
-    text.Add(n > 0 ? "," : "", JsonString(stage.warnings[n]));
-  }
-  text.Add(']');
-}
-
-std::string NotesJson(const std::vector<std::string>& notes) {
-  Text text;
-  for (const std::string& note : notes) {
-    text.Add(&note == notes.data() ? "[" : ",", JsonString(note));
-  }
-  text.Add(notes.empty() ? "[]" : "]");
-  return std::move(text).Take();
-}
-
-void AddFilesJson(Text& text, const std::vector<WrittenFile>& files) {
-  text.Add(",\"outputs\":[");
-  for (size_t n = 0; n < files.size(); ++n) {
-    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(files[n].path),
-             ",\"note\":", JsonString(files[n].note), '}');
-  }
-  text.Add(']');
-}
-
 }  // namespace
 
 std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
@@ -132,11 +105,7 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   text.Add("check:     ", CheckPhrase(certificate), '\n');
   AddTimes(text, summary);
   text.Add("sha256:    ", result.sha256, '\n');
-  for (const WrittenFile& file : summary.files) {
-    text.Add("written:   ", file.path);
-    if (!file.note.empty()) text.Add(" (", file.note, ')');
-    text.Add('\n');
-  }
+  text.Add(FilesText(summary.files));
   return std::move(text).Take();
 }
 
@@ -146,7 +115,7 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
   Text text;
   text.Add("{\"input\":", JsonString(summary.arguments.input),
            ",\"volume\":", VolumeJson(summary.object, std::nullopt));
-  if (summary.mesh.has_value()) AddMeshJson(text, *summary.mesh);
+  if (summary.mesh.has_value()) text.Add(',', MeshStageJson(*summary.mesh));
   if (summary.image.has_value()) text.Add(",\"image\":", ImageJson(*summary.image));
   text.Add(",\"method\":\"", WordFor(kMethodWords, result.options.thinning.method),
            "\",\"kind\":\"", WordFor(kKindWords, result.options.thinning.kind),
@@ -157,11 +126,9 @@ std::string SkeletonSummaryJson(const SkeletonSummary& summary) {
   text.Add(",\"certificate\":", exporting::CertificateJson(certificate),
            ",\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", result.sha256,
            "\",\"preparing\":", exporting::PreparingJson(result.preparing),
-           ",\"notes\":", NotesJson(NotesOn(result)), ",\"timings\":");
+           ",\"notes\":", JsonStrings(NotesOn(result)), ",\"timings\":");
   AddTimingsJson(text, result.timings);
-  text.Add(",\"seconds\":", summary.seconds);
-  AddFilesJson(text, summary.files);
-  text.Add("}\n");
+  text.Add(",\"seconds\":", summary.seconds, ",\"outputs\":", FilesJson(summary.files), "}\n");
   return std::move(text).Take();
 }
 

@@ -195,9 +195,12 @@ absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& o
   return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.Given());
 }
 
-// How many nodes there are is known only now.
+// Nodes are known only now.
 absl::Status CheckRoot(const SkeletonizeArguments& arguments, const SkeletonGraph& graph) {
-  return arguments.root.has_value() ? CheckRootChoice(*arguments.root, graph) : absl::OkStatus();
+  if (!arguments.root.has_value()) return absl::OkStatus();
+  const std::string outside = RootWarning(*arguments.root, graph);
+  if (!outside.empty()) Warn(arguments.input + ": " + outside);
+  return CheckRootChoice(*arguments.root, graph);
 }
 
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
@@ -245,12 +248,6 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
   return absl::OkStatus();
 }
 
-ExitCode FailComputing(const SkeletonizeArguments& arguments, const absl::Status& error) {
-  if (arguments.place != Place::kServer) return Fail(error);
-  return FailOnServer(arguments.server, error,
-                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
-}
-
 // The one invalid argument of writing is an object with coordinates that no format can hold.
 ExitCode FailWriting(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (!absl::IsInvalidArgument(error)) return FailWith(ExitCode::kOutput, error);
@@ -274,15 +271,6 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void AddRunOptions(CLI::App& command, SkeletonizeArguments& arguments) {
-  AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
-  AddThreads(command, arguments.common, kThreadsBoth);
-  AddProgress(command, arguments.progress);
-  AddSeconds(command, "--timeout", arguments.timeout,
-             "Give up after this many seconds (default 3600)");
-  AddJson(command, arguments.common);
-}
-
 }  // namespace
 
 void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
@@ -295,11 +283,11 @@ void AddSubmit(CLI::App& command, SkeletonizeArguments& arguments) {
   AddServer(command, arguments.server);
   command.add_flag_callback(
       "--detach", [&arguments] { arguments.waiting = Waiting::kDetach; },
-      "Print the job's name and end; the server keeps the job (see fetch)");
+      "Print the job's name and exit; the server keeps the job (see fetch)");
   command.add_flag_callback(
       "--thin-volume", [&arguments] { arguments.thin_volume = client::ThinVolume::kReturn; },
-      "With --detach: keep the thinned volume, too, which fetch can write then");
-  AddRunOptions(command, arguments);
+      "With --detach: also keep the thinned volume, so that fetch can write it");
+  AddComputing(command, arguments);
 }
 
 void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
@@ -310,7 +298,7 @@ void AddSkeletonize(CLI::App& command, SkeletonizeArguments& arguments) {
   AddImage(command, arguments.image);
   AddSkeletonImages(command, arguments.images);
   AddPlace(command, arguments.server, arguments.place);
-  AddRunOptions(command, arguments);
+  AddComputing(command, arguments);
 }
 
 absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,

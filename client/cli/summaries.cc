@@ -66,6 +66,7 @@ std::string JsonString(std::string_view text) {
 
 namespace {
 
+using exporting::Counted;
 using exporting::GroupedDigits;
 using exporting::Text;
 
@@ -85,8 +86,9 @@ void AddClosure(Text& text, const MeshReport& report) {
   if (report.watertight()) {
     text.Add("watertight");
   } else {
-    text.Add("not watertight (", GroupedDigits(report.boundary_edges), " boundary edges, ",
-             GroupedDigits(report.non_manifold_edges), " non-manifold edges)");
+    text.Add("not watertight (", Counted(report.boundary_edges, "boundary edge", "boundary edges"),
+             ", ", Counted(report.non_manifold_edges, "non-manifold edge", "non-manifold edges"),
+             ')');
   }
 }
 
@@ -177,6 +179,42 @@ std::string MeshJson(const MeshReport& report) {
   AddTriple(text, report.upper);
   text.Add("]}");
   return std::move(text).Take();
+}
+
+std::string JsonStrings(const std::vector<std::string>& texts) {
+  Text json;
+  json.Add('[');
+  for (size_t n = 0; n < texts.size(); ++n) json.Add(n > 0 ? "," : "", JsonString(texts[n]));
+  return std::move(json.Add(']')).Take();
+}
+
+std::string FilesText(const std::vector<WrittenFile>& files) {
+  Text text;
+  for (const WrittenFile& file : files) {
+    text.Add("written:   ", file.path, file.note.empty() ? "" : ", ", file.note, '\n');
+  }
+  return std::move(text).Take();
+}
+
+std::string FilesJson(const std::vector<WrittenFile>& files) {
+  Text text;
+  text.Add('[');
+  for (size_t n = 0; n < files.size(); ++n) {
+    text.Add(n > 0 ? "," : "", "{\"path\":", JsonString(files[n].path),
+             ",\"note\":", JsonString(files[n].note), '}');
+  }
+  return std::move(text.Add(']')).Take();
+}
+
+std::string FilesJson(const ResultArguments& arguments) {
+  return "{\"result\":" + JsonString(arguments.result) +
+         ",\"object\":" + JsonString(arguments.object) +
+         ",\"output\":" + JsonString(arguments.output);
+}
+
+std::string MeshStageJson(const MeshStage& stage) {
+  return "\"mesh\":" + MeshJson(stage.mesh) + ",\"fill\":\"" + FillRuleName(stage.fill) +
+         "\",\"warnings\":" + JsonStrings(stage.warnings);
 }
 
 std::string FillRuleName(FillRule rule) {

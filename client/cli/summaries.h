@@ -19,6 +19,7 @@ namespace bccskel::cli {
 // The text as a JSON string with its quotes. Bytes that are not UTF-8, as file names may hold,
 // become U+FFFD.
 std::string JsonString(std::string_view text);
+std::string JsonStrings(const std::vector<std::string>& texts);  // an array
 
 // "2,775 vertices, 5,558 triangles, watertight, genus 3".
 std::string MeshPhrase(const MeshReport& report);
@@ -51,12 +52,20 @@ struct WrittenFile {
   std::string note;  // what its format could not hold; may be empty
 };
 
-// What became of a mesh before thinning.
+// A line each; and the same as a JSON array.
+std::string FilesText(const std::vector<WrittenFile>& files);
+std::string FilesJson(const std::vector<WrittenFile>& files);
+
+// The beginning of a JSON object: the files of a result and what is made of it.
+std::string FilesJson(const ResultArguments& arguments);
+
+// What became of a mesh before thinning; and the same as members of a JSON object.
 struct MeshStage {
   MeshReport mesh;
   FillRule fill = FillRule::kParity;
   std::vector<std::string> warnings;
 };
+std::string MeshStageJson(const MeshStage& stage);
 
 // All that `skeletonize` and `submit` have to say at their end.
 struct SkeletonSummary {

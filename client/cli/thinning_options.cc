@@ -7,6 +7,7 @@
 #include <string>
 
 #include "client/cli/option_values.h"
+#include "core/exec/status_macros.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/presets.h"
@@ -37,22 +38,22 @@ void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
 void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command
       .add_option("--denoise", preparing.denoise_passes,
-                  "First set every point to the majority around it, so many times, up to 16; "
-                  "destroys what is one or two lattice units thick (default 0)")
+                  "Set each point to the majority of its neighborhood, N times, up to 16; removes "
+                  "limbs one or two lattice units thick (default 0)")
       ->option_text("N");
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
-      "Fill the cavities of the object, which leave closed surfaces in a skeleton");
+      "Fill the cavities of the object; each leaves a closed surface in the skeleton");
   command
       .add_option("--cut-loops", preparing.tunnel_width,
-                  "Fill tunnels that are narrower, in world units, each of which makes a loop "
+                  "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
                   "(default 0: none)")
       ->option_text("X");
   AddCount(command, "--min-component", preparing.min_component_points,
-           "Drop components of fewer points (default 0)");
+           "Drop components of fewer than N points (default 0)");
   command
       .add_option("--min-component-volume", preparing.min_component_volume,
-                  "Drop components of a smaller volume, in cubic world units (default 0)")
+                  "Drop components smaller than X cubic world units (default 0)")
       ->option_text("X");
   command.add_flag_callback(
       "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
@@ -61,7 +62,7 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
 
 void AddDistance(CLI::App& command, DistanceKind& distance) {
   AddChoice<DistanceKind>(command, "--distance", distance,
-                          "How the distances that make the shells are measured (default euclidean)",
+                          "Distance that defines the shells (default euclidean)",
                           Choices(kDistanceWords));
 }
 
@@ -70,31 +71,33 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
                          "Which branches with a free end to remove (default significance)",
                          Choices(kPruningWords));
   command
-      .add_option("--pruning-threshold", pruning.threshold,
-                  "How far a branch must stick out: half-widths of the object beside it for "
-                  "significance (default 0.45), world units for length, radii of the junction for "
-                  "relative-length (default 1), passes "
-                  "of thinning for persistence (default 6)")
+      .add_option(
+          "--pruning-threshold", pruning.threshold,
+          "Significance: how far a branch sticks out, in half-widths of the object beside it "
+          "(default 0.45); length: world units; relative-length: radii of the junction "
+          "(default 1); persistence: thinning passes (default 6)")
       ->option_text("X");
   AddChoice<TipPlacement>(
       command, "--tips", pruning.tips,
-      "Where branches end: where the ridge of the distances does (default), or as thinned",
+      "Where branches end: at the end of the distance ridge (default), or as thinned",
       Choices(kTipsWords));
 }
 
 void AddJunctions(CLI::App& command, double& reach) {
   command
-      .add_option("--merge-junctions", reach,
-                  "Make one node of junctions that lie within so many radii of the deepest of "
-                  "them or of thinner limbs, up to 4; 0 leaves all (default 1.25)")
+      .add_option(
+          "--merge-junctions", reach,
+          "Merge junctions within X radii of the deepest of them, or of thinner limbs, into "
+          "one node, up to 4; 0 merges none (default 1.25)")
       ->option_text("X");
 }
 
 void AddBorder(CLI::App& command, Border& border) {
-  AddChoice<Border>(command, "--border", border,
-                    "What lies beyond the border of an image or a volume: nothing (default), or "
-                    "more of what is cut off there, which then runs straight to the border",
-                    Choices(kBorderWords));
+  AddChoice<Border>(
+      command, "--border", border,
+      "What lies beyond the border of an image or a volume: background (ends, default), "
+      "or the rest of the limbs that the border cuts off (continues)",
+      Choices(kBorderWords));
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {
@@ -102,11 +105,12 @@ void AddThinning(CLI::App& command, ThinningOptions& thinning) {
                             "How points are chosen for removal (default symmetric)",
                             Choices(kMethodWords));
   AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
-                          "What to keep; all but curve (default) need the symmetric method",
+                          "What to keep; all kinds except curve (default) need --method symmetric",
                           Choices(kKindWords));
-  AddChoice<StubblePolicy>(command, "--stubble", thinning.stubble,
-                           "Which stubble points to remove (default keep-two)",
-                           Choices(kStubbleWords));
+  AddChoice<StubblePolicy>(
+      command, "--stubble", thinning.stubble,
+      "Which stubble, the one-point twigs of thinning, to remove (default keep-two)",
+      Choices(kStubbleWords));
   command
       .add_option("--shell-width", thinning.shell_width,
                   "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")
@@ -117,7 +121,7 @@ void AddThinning(CLI::App& command, ThinningOptions& thinning) {
       ->option_text("N");
   command.add_flag_callback(
       "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
-      "Leave the simple points that parallel thinning leaves");
+      "Keep the simple points that parallel thinning leaves");
 }
 
 }  // namespace
@@ -139,6 +143,10 @@ namespace {
 RootChoice ReadRoot(const std::string& text) {
   RootChoice choice;
   if (text == "thickest-end") return choice;
+  if (text == "thickest-node") {
+    choice.rule = RootChoice::Rule::kDeepestNode;
+    return choice;
+  }
   const auto all_read = [&](int end) { return text.size() == static_cast<size_t>(end); };
   int end = 0;
   if (text.starts_with("node:")) {
@@ -152,8 +160,10 @@ RootChoice ReadRoot(const std::string& text) {
       std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) {
     return choice;
   }
-  throw CLI::ValidationError("--root " + text +
-                             ": must be thickest-end, a point like 1.5,20,3 or a node like node:7");
+  throw CLI::ValidationError(
+      "--root " + text +
+      ": must be thickest-end, thickest-node, a point like 1.5,20,3 or a node "
+      "like node:7");
 }
 
 }  // namespace
@@ -162,65 +172,69 @@ void AddRoot(CLI::App& command, std::optional<RootChoice>& root) {
   command
       .add_option_function<std::string>(
           "--root", [&root](const std::string& text) { root = ReadRoot(text); },
-          "Order the skeleton as trees from here: generation, Strahler order and way to the root; "
-          "edges that close loops are left out")
-      ->option_text("thickest-end|X,Y,Z|node:N");
+          "Order the skeleton as trees from a root: generation, Strahler order, distance and path "
+          "to "
+          "the root. The root is the thickest end, the thickest node (such as a soma), the node "
+          "nearest to a point in world coordinates, or a node by its number. Edges that close "
+          "loops are left out")
+      ->option_text("thickest-end|thickest-node|X,Y,Z|node:N");
 }
 
 void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling) {
   command
-      .add_option("--swc-step", sampling.step,
-                  "Distance of SWC's points along the smooth curve, in the world's unit; 0: the "
-                  "lattice points, not smoothed (default twice the smallest spacing)")
+      .add_option(
+          "--swc-step", sampling.step,
+          "Distance between SWC points along the smooth curve, in world units; 0: the lattice "
+          "points, not smoothed (default: twice the smallest spacing)")
       ->check(CLI::Range(0.0, std::numeric_limits<double>::max()))
       ->option_text("LENGTH");
 }
 
 void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
-  AddCount(command, "--min-voxels", min_voxels, "Leave out labels with fewer voxels (default 1)");
+  AddCount(command, "--min-voxels", min_voxels, "Skip labels of fewer than N voxels (default 1)");
 }
 
 namespace {
 
-using Complaint = std::optional<std::string>;
-
 // Options of pruning that would do nothing.
-Complaint PruningComplaint(const SkeletonizeOptions& options) {
+absl::Status CheckPruning(const SkeletonizeOptions& options) {
   const PruningOptions& pruning = options.pruning;
   if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
-    return "--pruning-threshold is for a rule of pruning, not for --pruning none";
+    return absl::InvalidArgumentError(
+        "--pruning-threshold is for a rule of pruning, not for --pruning none");
   }
   const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
-  if (!asked || HasCurves(options.thinning)) return std::nullopt;
+  if (!asked || HasCurves(options.thinning)) return absl::OkStatus();
   if (HasSheets(options.thinning)) {
-    if (pruning.tips == TipPlacement::kRidge) return std::nullopt;
-    return "--tips is for curves, and --kind surface has none";
+    if (pruning.tips == TipPlacement::kRidge) return absl::OkStatus();
+    return absl::InvalidArgumentError("--tips is for curves, and --kind surface has none");
   }
   const std::string why =
       options.thinning.last_shell > 0
           ? "--last-shell stops before there are curves"
           : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
-  return "--pruning, --pruning-threshold and --tips are for curves, and " + why;
+  return absl::InvalidArgumentError(
+      "--pruning, --pruning-threshold and --tips are for curves, and " + why);
 }
 
-Complaint JunctionComplaint(const SkeletonizeOptions& options) {
+absl::Status CheckJunctions(const SkeletonizeOptions& options) {
   const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
-  if (!asked || HasGraphOfCurves(options.thinning)) return std::nullopt;
-  return "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell";
+  if (!asked || HasGraphOfCurves(options.thinning)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell");
 }
 
 }  // namespace
 
-std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options) {
-  const absl::Status sound = CheckSkeletonizeOptions(options);
-  if (!sound.ok()) return std::string(sound.message());
-  if (Complaint c = JunctionComplaint(options); c.has_value()) return c;
-  return PruningComplaint(options);
+absl::Status ValidateOptions(const SkeletonizeOptions& options) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
+  BCCSKEL_RETURN_IF_ERROR(CheckJunctions(options));
+  return CheckPruning(options);
 }
 
-std::optional<std::string> ComplaintAboutRootOfLabels(const std::optional<RootChoice>& root) {
-  if (!root.has_value() || root->rule != RootChoice::Rule::kNode) return std::nullopt;
-  return "--root node:N names a node of one skeleton; labels have many";
+absl::Status ValidateRootOfLabels(const std::optional<RootChoice>& root) {
+  if (!root.has_value() || root->rule != RootChoice::Rule::kNode) return absl::OkStatus();
+  return absl::InvalidArgumentError("--root node:N names a node of one skeleton; labels have many");
 }
 
 }  // namespace bccskel::cli

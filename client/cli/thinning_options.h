@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "absl/status/status.h"
 #include "client/cli/arguments.h"
 #include "client/export/point_forest.h"
 #include "core/pipeline/skeletonize.h"
@@ -29,11 +30,11 @@ void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling);
 // Adds --min-voxels.
 void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
 
-// What is wrong with options of a skeleton that are right one by one; nothing where they fit.
-std::optional<std::string> ComplaintAboutOptions(const SkeletonizeOptions& options);
+// Checks how options fit together. Errors: INVALID_ARGUMENT.
+absl::Status ValidateOptions(const SkeletonizeOptions& options);
 
-// The same for where the trees of many skeletons begin.
-std::optional<std::string> ComplaintAboutRootOfLabels(const std::optional<RootChoice>& root);
+// The same for the root of the skeletons of labels.
+absl::Status ValidateRootOfLabels(const std::optional<RootChoice>& root);
 
 }  // namespace bccskel::cli
 

@@ -20,9 +20,7 @@ std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeli
       peeling.layers.empty() ? 0 : peeling.layers.front().surface.triangles.size();
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
-    text.Add("{\"result\":", JsonString(arguments.source.result),
-             ",\"object\":", JsonString(arguments.source.object),
-             ",\"output\":", JsonString(arguments.output), ",\"triangles\":", triangles,
+    text.Add(FilesJson(arguments), ",\"triangles\":", triangles,
              ",\"layers\":", peeling.layers.size(), ",\"bytes\":", bytes, "}\n");
   } else {
     if (!peeling.layers.empty()) {
@@ -56,16 +54,13 @@ absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& c
 }  // namespace
 
 void AddView(CLI::App& command, ViewArguments& arguments) {
-  AddResultAndObject(command, arguments.source, ObjectNeed::kOptional);
+  AddResultAndObject(command, arguments, ObjectNeed::kOptional);
   AddOutput(command, arguments.output, "Page", {".html"});
-  AddGrid(command, arguments.source.grid);
-  AddImage(command, arguments.source.image);
-  AddCommonHere(command, arguments.common);
 }
 
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<Scene> scene = Load(arguments.source, team.context());
+  const absl::StatusOr<Scene> scene = Load(arguments, team.context());
   if (!scene.ok()) return Fail(scene.status());
   const auto& [title, result, peeling] = *scene;
   const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling});

@@ -25,17 +25,10 @@ struct Voxelized {
   Story source;
 };
 
-Story MeshStory(const VoxelizeResult& result) {
-  exporting::Text text, json;
-  text.Add("mesh:        ", MeshPhrase(result.mesh), "\nfilled by:   ", FillRuleName(result.fill),
-           '\n');
-  json.Add("\"mesh\":", MeshJson(result.mesh), ",\"fill\":\"", FillRuleName(result.fill),
-           "\",\"warnings\":[");
-  for (size_t n = 0; n < result.warnings.size(); ++n) {
-    json.Add(n > 0 ? "," : "", JsonString(result.warnings[n]));
-  }
-  json.Add(']');
-  return {std::move(text).Take(), std::move(json).Take()};
+Story MeshStory(const MeshStage& stage) {
+  return {"mesh:        " + MeshPhrase(stage.mesh) + "\nfilled by:   " + FillRuleName(stage.fill) +
+              '\n',
+          MeshStageJson(stage)};
 }
 
 Story ImageStory(const ImageStage& image) {
@@ -49,8 +42,8 @@ absl::StatusOr<Voxelized> FromMesh(const VoxelizeArguments& arguments,
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
                            VoxelizeFile(arguments.input, arguments.grid, context));
   for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
-  Story story = MeshStory(result);
-  return Voxelized{std::move(result.volume), std::move(story)};
+  return Voxelized{std::move(result.volume),
+                   MeshStory({std::move(result.mesh), result.fill, std::move(result.warnings)})};
 }
 
 absl::StatusOr<Voxelized> FromImage(const VoxelizeArguments& arguments,

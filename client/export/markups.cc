@@ -27,8 +27,8 @@ void AddPoints(Text& text, const std::vector<CurvePoint>& curve) {
   for (size_t n = 0; n < curve.size(); ++n) {
     const WorldPoint& p = curve[n].at;
     text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1,
-             "\",\"label\":\"\",\"description\":\"radius ", curve[n].radius, "\",\"position\":[",
-             p[0], ',', p[1], ',', p[2],
+             "\",\"label\":\"\",\"description\":\"radius ", static_cast<float>(curve[n].radius),
+             "\",\"position\":[", p[0], ',', p[1], ',', p[2],
              "],\"selected\":true,\"locked\":false,\"visibility\":true,"
              "\"positionStatus\":\"defined\"}");
   }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "client/export/atomic_file.h"
 #include "client/export/branch_table.h"
 #include "client/export/glb.h"
@@ -44,8 +45,6 @@ constexpr std::array<Ending, 13> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".svg", SkeletonFormat::kSvg},
                                               {".html", SkeletonFormat::kHtml},
                                               {".precomputed", SkeletonFormat::kPrecomputed}}};
-
-char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool IsFinite(const SkeletonGraph& graph, const SkeletonPoint& point) {
   const WorldPoint p = graph.PositionOf(point);
@@ -134,8 +133,7 @@ absl::StatusOr<std::string> WriteDocument(const std::string& path,
 }  // namespace
 
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
-  std::string lower;
-  std::ranges::transform(path, std::back_inserter(lower), LowerCase);
+  std::string lower = absl::AsciiStrToLower(path);
   if (lower.ends_with(".precomputed/")) lower.pop_back();
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;

@@ -63,7 +63,8 @@ std::string_view CurveWord(const CurveSampling& sampling) {
 
 void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
                const std::string& note) {
-  text.Add("# curve skeleton by bccskel, ", forest.trees, " tree(s)\n");
+  text.Add("# curve skeleton by bccskel, ", forest.trees,
+           forest.trees == 1 ? " tree\n" : " trees\n");
   if (!note.empty()) text.Add("# ", note, '\n');
   text.Add("# world: ", OrUnknown(options.world.axes), "\n# unit: ", OrUnknown(options.world.unit),
            "\n# curve: ", CurveWord(options.sampling), '\n');

@@ -146,7 +146,8 @@ absl::Status CheckEdges(const ResultDocument& document) {
 
 absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (json.is_discarded()) return absl::InvalidArgumentError("this is not JSON");
+  if (json.is_discarded())
+    return absl::InvalidArgumentError("not a JSON result of skeletonize or submit");
   ResultDocument document;
   Reader reader;
   reader.ReadMember(json, "", "nodes", document.nodes);

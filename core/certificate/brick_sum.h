@@ -15,7 +15,7 @@ namespace bccskel {
 inline constexpr size_t kBrickSumWork = 8;
 
 // The sum of term(worker, batch) over batches that make up 0..count-1, in increasing order for
-// each worker. When the context says stop, the rest is left out and the sum means nothing.
+// each worker. If the context stops, the sum is meaningless.
 template <typename Term>
 int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   // A noisy brick costs up to 20 us, so a batch ends well within 20 ms.

@@ -36,7 +36,7 @@ enum class SimplePoints : uint8_t { kAll, kNonEnd };
 uint64_t CountSimplePoints(const Volume& object, SimplePoints which, const Volume& spared,
                            const exec::Context& context);
 
-// The proof that comes with every result.
+// The topology before and after, part of every result.
 struct Certificate {
   // Of the cubic mask that the object was made from, counted on the cubic grid, where there is one.
   std::optional<BettiNumbers> mask = std::nullopt;
@@ -44,11 +44,10 @@ struct Certificate {
   std::optional<BettiNumbers> unprepared = std::nullopt;
   BettiNumbers input;  // of the object that was thinned
   BettiNumbers skeleton;
-  // Points that could still go: simple, and nothing that the kind of skeleton keeps. 0 where
-  // thinning went to its end.
+  // Simple points that the kind of skeleton would still remove. 0 if thinning ran to its end.
   uint64_t simple_points_left = 0;
-  // Whether the object is no exact conversion of the mask but a sampling, which may have changed
-  // the topology before all else.
+  // Whether the object is a sampling of the mask, which may have changed the topology, instead of
+  // an exact conversion.
   bool sampled = false;
 
   // Of the object as it was given.

@@ -73,7 +73,7 @@ absl::Status ExrContext::OpenForWriting(ByteSink& sink) {
 
 absl::Status ExrContext::Finish() {
   // exr_finish() gives no result of its own when the tables fail to be written: the sink knows.
-  const absl::Status finished = Check(exr_finish(&context_), "end of file");
+  absl::Status finished = Check(exr_finish(&context_), "end of file");
   BCCSKEL_RETURN_IF_ERROR(sink_status_);
   return finished;
 }

@@ -254,7 +254,7 @@ absl::StatusOr<ExrHeader> ScanExrHeader(std::span<const std::byte> front,
     return absl::InvalidArgumentError(
         "OpenEXR parts even and odd differ in extent, placement, compression or bricks");
   }
-  return ExrHeader{std::move(even), cursor.position()};
+  return ExrHeader{even, cursor.position()};
 }
 
 }  // namespace bccskel

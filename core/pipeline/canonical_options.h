@@ -5,7 +5,7 @@
 
 namespace bccskel {
 
-// Whether the result has curves, which are pruned and have tips. Where thinning stops at a shell it
+// Whether the result has curves, which are pruned and have tips. Thinning that stops at a shell
 // leaves none.
 bool HasCurves(const ThinningOptions& options);
 

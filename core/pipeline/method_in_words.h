@@ -9,7 +9,7 @@
 
 namespace bccskel {
 
-// What kind of skeleton is made, and how: one line for whoever reads a result.
+// The kind of skeleton and the method, in one line for the user of a result.
 std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance,
                           ObjectSource source = ObjectSource::kPoints);
 

@@ -10,7 +10,7 @@
 
 namespace bccskel {
 
-// The words for options: on the command line and in results the same.
+// The names of option values, the same on the command line and in results.
 template <typename Enum, size_t kCount>
 using Words = std::array<std::pair<const char*, Enum>, kCount>;
 
@@ -69,8 +69,8 @@ struct OptionFact {
   Type type = Type::kText;
 };
 
-// Everything that the result of these options depends on, beside the points to keep. Options
-// that the kind of skeleton does not use are there, too.
+// All options that the result depends on, except for the points to keep; also those that this kind
+// of skeleton does not use.
 std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options);
 
 }  // namespace bccskel

@@ -10,7 +10,7 @@
 
 namespace bccskel {
 
-// Options for a kind of data. What it does not name stays as it is.
+// Options for a kind of data. Options that it does not name stay unchanged.
 struct Preset {
   const char* name;
   const char* data;  // what it is for
@@ -20,10 +20,10 @@ struct Preset {
 
 std::span<const Preset> Presets();
 
-// Errors: INVALID_ARGUMENT for an unknown name, with those there are.
+// Errors: INVALID_ARGUMENT for an unknown name; the message lists the known ones.
 absl::Status ApplyPreset(std::string_view name, SkeletonizeOptions& options);
 
-// What it sets, in the words of the command line: "--fill-cavities --min-component 100".
+// The options that it sets, as on the command line: "--fill-cavities --min-component 100".
 std::string OptionsOf(const Preset& preset);
 
 }  // namespace bccskel

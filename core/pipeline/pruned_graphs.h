@@ -16,7 +16,7 @@ namespace bccskel {
 absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
                               SkeletonGraph& graph);
 
-// Receives the level and what pruning by a threshold just above it leaves.
+// Receives the level and the graph that pruning by a threshold just above it leaves.
 using OnPrunedGraph = std::function<void(double, const SkeletonGraph&)>;
 
 // Does:  prunes the graph of a result further, level by level of its edges, and calls `visit` for

@@ -251,7 +251,7 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
     result_.timings.distance = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                             ThinToCurve(object, distance, thinning_, context_, PointsTeller()));
+                             ThinObject(object, distance, thinning_, context_, PointsTeller()));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }

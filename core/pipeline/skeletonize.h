@@ -19,7 +19,7 @@
 
 namespace bccskel {
 
-// What the points of the object were made of.
+// The source of the object's points.
 enum class ObjectSource : uint8_t {
   kPoints,         // nothing else: the lattice of a solid
   kVoxels,         // a mask, converted exactly: two points a voxel
@@ -41,14 +41,14 @@ struct SkeletonizeOptions {
   PreparingOptions preparing = {};
   // The symmetric method puts curves closer to the center than the paper's directions do.
   ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
-  // That makes the shells. Straight distances center curves better than chamfer ones, and the exact
-  // radii come with them.
+  // Defines the shells. Euclidean distances center curves better than chamfer distances, and also
+  // give the exact radii.
   DistanceKind distance = DistanceKind::kEuclidean;
-  // Not done where thinning stops at a shell, which leaves no curves.
+  // Skipped if thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};
   ObjectSource source = ObjectSource::kPoints;
-  // Junctions this near to each other, in radii, are one node; 0 leaves all. Only where there is a
-  // graph of curves.
+  // Merges junctions within this many radii of each other; 0 merges none. Only for graphs of
+  // curves.
   double junction_reach = kDefaultJunctionReach;
   Border border = Border::kEnds;
 };
@@ -71,10 +71,9 @@ struct SkeletonizeResult {
   std::string sha256;             // SkeletonDigest(graph)
 };
 
-// The straight path of an object: preparing, distance, shells, thinning, pruning, certificate,
-// graph. An empty object gives an empty graph. `on_points`, where given, receives all points that
-// do not stay; those that pruning removes come after the shells. A tip that is moved outward may
-// take points back.
+// Runs all stages: preparing, distance, shells, thinning, pruning, certificate, graph. An empty
+// object gives an empty graph. `on_points`, if given, receives all points that are removed; those
+// that pruning removes come after the shells. A tip that moves outward may add points again.
 // Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an object),
 //         CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost,
 //         which would be a defect of this library.

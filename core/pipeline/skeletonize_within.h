@@ -14,9 +14,9 @@ namespace bccskel {
 // one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
 
-// Skeletonize() in a budget. The caller has taken what follows the bricks of the object; the
-// pipeline takes kBytesPerThinPoint before it prunes, and what TraceSkeleton() asks for. All that
-// was taken stays taken, also for the result.
+// Skeletonize() within a budget. The caller has reserved what follows from the object's bricks; the
+// pipeline reserves kBytesPerThinPoint before it prunes, and what TraceSkeleton() needs. All of it
+// stays reserved, also for the result.
 // Errors: as Skeletonize(); the budget's.
 absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const Volume& object,
@@ -24,23 +24,23 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const exec::Context& context,
                                                     const OnShellPoints& on_points = nullptr);
 
-// An object and what others made of it.
+// An object that a Peeler has thinned.
 struct PeeledObject {
-  ThinningResult thinned;  // as of ThinToCurve()
+  ThinningResult thinned;  // as of ThinObject()
   BettiNumbers topology;   // of the object
   uint64_t points = 0;
 };
 
-// Thins in place of ThinToCurve(), and counts the topology of the object in place of
+// Thins in place of ThinObject(), and counts the topology of the object in place of
 // CountBettiNumbers(). `object` may be a part of the object, and is the whole afterwards.
 using Peeler =
     std::function<absl::StatusOr<PeeledObject>(Volume& object, const ThinningOptions& options)>;
 
-// Skeletonize() where others peel the object, which they may have most of: the same result.
-// Pruning, the certificate of the result and the graph are made here, of the whole object.
-// Preparing needs a whole one from the beginning. Errors: as Skeletonize(); the peeler's;
-// INVALID_ARGUMENT for objects that continue beyond their
-//         border.
+// Skeletonize() with a peeler, which may hold most of the object: the same result. Pruning, the
+// certificate of the result and the graph are made here, of the whole object. Preparing needs the
+// whole object from the beginning.
+// Errors: as Skeletonize(); those of the peeler; INVALID_ARGUMENT for objects that continue beyond
+//         their border.
 absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context);

@@ -27,7 +27,7 @@ struct Stage {
   StageTimings::Duration StageTimings::*time;
 };
 
-// In the order in which they run. Everything that shows or sends times goes by this list.
+// In the order in which they run. All code that shows or sends times uses this list.
 inline constexpr std::array<Stage, 8> kStages = {{
     {"preparing", &StageTimings::preparing},
     {"distance", &StageTimings::distance},

@@ -23,7 +23,7 @@ struct Branches {
   std::vector<PointPath> closed;  // curves without junction; first and last point are the same
 };
 
-// Follows all curves of the volume. Order and direction of the result mean nothing.
+// All curves of the volume, in no particular order or direction.
 Branches FollowBranches(const ThinPoints& points, const Clusters& clusters, StopPoll& poll);
 
 }  // namespace bccskel

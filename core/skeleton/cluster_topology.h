@@ -18,7 +18,7 @@ struct ClusterTopology {
 
 // Loops and cavities of a connected set of points by itself.
 // Shapes: `cluster` holds the set; masks[p] says, for each of its points, which neighbors belong to
-//         the set; `seen` is scratch of the same size, zero where nobody has been.
+//         the set; `seen` is scratch of the same size, zero where unvisited.
 // Cost:   follows the points of the set.
 ClusterTopology MeasureCluster(const ThinPoints& points, std::span<const PointIndex> cluster,
                                std::span<const NeighborMask> masks, std::span<NeighborMask> seen,

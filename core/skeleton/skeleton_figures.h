@@ -10,13 +10,13 @@
 
 namespace bccskel {
 
-// What is measured of a branch, in world units.
+// Measurements of a branch, in world units.
 struct EdgeFigures {
   double length = 0;  // of the curve through its points, smoothed
   double mean_radius = 0;
   double min_radius = 0;
   double max_radius = 0;
-  // Length by the straight distance between the ends; none for a closed curve.
+  // Length / straight distance between the ends; none for a closed curve.
   std::optional<double> tortuosity;
 };
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
@@ -24,7 +24,7 @@ EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
                       std::span<const WorldPoint> curve);
 
-// The totals of a connected piece of the graph.
+// Totals of a connected component of the graph.
 struct ComponentFigures {
   uint64_t nodes = 0;
   uint64_t edges = 0;

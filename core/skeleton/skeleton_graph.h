@@ -70,9 +70,8 @@ struct SkeletonEdge {
   uint64_t first_point =
       0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
-  // The threshold of pruning above which the edge goes: with branches that end, one after the
-  // other. Edges on loops, and one path of a tree, never do. By significance, or by
-  // persistence: see PruningLevels.
+  // The threshold above which pruning removes the edge, by significance or persistence: see
+  // PruningLevels. Edges on loops, and one path of each tree, are never removed.
   double pruning_level = std::numeric_limits<double>::infinity();
 
   friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
@@ -90,9 +89,9 @@ struct SkeletonGraph {
   std::vector<SkeletonNode> nodes;
   std::vector<SkeletonEdge> edges;
   std::vector<SkeletonPoint> points;  // of all edges, one after the other
-  // What is on no edge and no node's point: the sheets of a surface skeleton, all but a point of a
-  // closed surface, and the thick spots of curves. With those of nodes and edges they are all
-  // points of the skeleton. In the order of their points.
+  // Points on neither nodes nor edges: the sheets of a surface skeleton, all but one point of a
+  // closed surface, and the thick spots of curves. Nodes, edges and these are all points of the
+  // skeleton. In lattice order.
   std::vector<SkeletonPoint> sheets;
 
   std::span<const SkeletonPoint> PointsOf(const SkeletonEdge& edge) const {
@@ -117,8 +116,8 @@ struct SkeletonGraph {
 absl::StatusOr<std::string> SkeletonDigest(const SkeletonGraph& graph,
                                            const exec::Context& context = {});
 
-// Reads the graph off a thin volume. The invariants hold for any volume; one that is not thin gives
-// few nodes for large clusters, and many points of sheets.
+// Extracts the graph of a thin volume. The invariants hold for any volume; one that is not thin
+// gives few nodes for large clusters, and many points of sheets.
 // Shapes: `radii` one per point of `thin`, in lattice units, in the order of
 //         Volume::ForEachPoint().
 // Cost:   follows the points of `thin`.

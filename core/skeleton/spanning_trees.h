@@ -14,8 +14,7 @@ namespace bccskel {
 using PointPath = std::vector<PointIndex>;
 
 // Trees of shortest paths, counted in steps, inside connected sets of points. Of two paths of the
-// same length the one found first is taken, neighbors being looked at in the order of
-// kDirections14.
+// same length the one found first is taken; neighbors are visited in the order of kDirections14.
 class SpanningTrees {
  public:
   // Shapes: masks[p] says which neighbors of p belong to p's set.

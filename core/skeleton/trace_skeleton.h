@@ -22,8 +22,8 @@ inline constexpr size_t kEdgePointsPerPoint = 4;
 // middle of large clusters have many.
 inline constexpr uint64_t kTraceBytesPerEdgePoint = 256;
 
-// TraceSkeleton() in a budget. Asks for what points on edges take beyond kTraceBytesPerPoint, which
-// the caller has taken.
+// TraceSkeleton() within a budget. Reserves what points on edges need beyond kTraceBytesPerPoint,
+// which the caller has reserved.
 // Errors: as TraceSkeleton(); the budget's.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
                                             exec::MemoryBudget& memory,

@@ -1,6 +1,7 @@
 #include "core/skeleton/tree_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <tuple>
@@ -151,6 +152,21 @@ absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& grap
   }
   return absl::InvalidArgumentError(absl::StrCat("root node ", choice.node, ": the skeleton has ",
                                                  graph.nodes.size(), " nodes, counted from 0"));
+}
+
+std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph) {
+  if (choice.rule != RootChoice::Rule::kNearestNode || graph.nodes.empty()) return "";
+  const auto distance = [&](const SkeletonPoint& p) {
+    return std::sqrt(SquaredDistance(graph.PositionOf(p), choice.point));
+  };
+  const auto reaches = [&](const SkeletonPoint& p) { return distance(p) <= 2 * graph.RadiusOf(p); };
+  if (std::ranges::any_of(graph.nodes, reaches, &SkeletonNode::at)) return "";
+  if (std::ranges::any_of(graph.points, reaches)) return "";
+  const auto nearest = std::ranges::min_element(
+      graph.nodes, {}, [&](const SkeletonNode& n) { return distance(n.at); });
+  return absl::StrCat("the root lies outside the object, ", distance(nearest->at),
+                      " from the nearest node, ", nearest - graph.nodes.begin(),
+                      "; its coordinates are those of the world, as results state them");
 }
 
 uint32_t TreeOrder::MostGenerations() const {

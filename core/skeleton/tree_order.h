@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -30,8 +31,12 @@ struct RootChoice {
   friend bool operator==(const RootChoice&, const RootChoice&) = default;
 };
 
-// Errors: INVALID_ARGUMENT for a node that the graph has not.
+// Errors: INVALID_ARGUMENT for a node that the graph does not have.
 absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& graph);
+
+// A warning if the chosen point lies outside the object: more than two radii away from the nearest
+// point of the skeleton. Otherwise empty.
+std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph);
 
 inline constexpr uint32_t kNoRow = std::numeric_limits<uint32_t>::max();
 
@@ -50,7 +55,7 @@ struct EdgeOrder {
   bool ClosesLoop() const { return proximal == kNoRow; }
 };
 
-// The graph as trees, seen from their roots.
+// The graph as trees that grow from their roots.
 struct TreeOrder {
   std::vector<uint32_t> roots;   // by component, in the order of ComponentsOf()
   std::vector<NodeOrder> nodes;  // by node
@@ -61,9 +66,9 @@ struct TreeOrder {
   uint32_t HighestStrahler() const;
 };
 
-// Does:  follows the shortest ways from the roots; edges on none of them close loops and are left
-//        out, so every component is a tree. Of ways of one length that with the smaller edge is
-//        taken.
+// Does:  follows the shortest paths from the roots; edges on none of them close loops and are left
+//        out, so every component is a tree. Among paths of equal length, the one with the smaller
+//        edge is taken.
 // Needs: CheckRootChoice() is OK.
 TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice);
 

@@ -79,7 +79,7 @@ class VoxelRadii {
   double NearSide(LatticePoint p, const Vector& way) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-      if (std::max(std::abs(way[u]), std::abs(way[v])) > voxel_ / 2) continue;
+      if (2 * std::max(std::abs(way[u]), std::abs(way[v])) > voxel_) continue;
       if (IsFlat(p, way, axis)) return FaceAlong(p, way, axis);
     }
     const double length = LengthOf(way), voxel = VoxelAlong(way);

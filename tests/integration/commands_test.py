@@ -104,6 +104,15 @@ class CommandsTest(harness.TestCase):
         self.fail_with(2, "root node 999: the skeleton has ", "skeletonize", volume, "--local",
                        "-o", self.path("s.swc"), "--root", "node:999")
 
+    def test_a_root_outside_the_object_is_warned_of(self):
+        volume, far = self.generate("ball", 5000), ("--root", "1e6,0,0")
+        outside = ": the root lies outside the object, "
+        done = harness.bccskel("skeletonize", volume, "--local", "-o", self.path("s.json"), *far)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(volume + outside, done.stderr)
+        done = harness.bccskel("convert", self.path("s.json"), "-o", self.path("s.swc"), *far)
+        self.assertIn(self.path("s.json") + outside, done.stderr)
+
     def test_submit_takes_what_skeletonize_takes_of_volumes(self):
         volume = self.generate("torus")
         with harness.Server(self.folder) as server:

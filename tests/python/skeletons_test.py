@@ -50,6 +50,9 @@ class SkeletonsTest(harness.TestCase):
         self.assertEqual((table["coord-src-0"] / 2).round().astype(int).tolist(),
                          table["image-coord-src-0"].tolist())
         self.assertTrue((table["branch-distance"] >= table["euclidean-distance"] - 1e-9).all())
+        numpy.testing.assert_allclose(table["tortuosity"],
+                                      table["branch-distance"] / table["euclidean-distance"].where(
+                                          table["branch-type"] != 3))
         self.assertIn("branch_type", self.skeleton.to_pandas(separator="_"))
         mesh = bccskel.skeletonize_mesh(*box_mesh(), points=2000).to_pandas()
         self.assertNotIn("image-coord-src-0", mesh)
@@ -73,6 +76,11 @@ class SkeletonsTest(harness.TestCase):
         self.assertEqual(ordered.order["root_distance"][0], 0)
         self.assertEqual(sorted(ordered.to_pandas()["generation"]), [0, 0, 1, 1])
         self.assertIn("root_distance", ordered.to_networkx().nodes[0])
+
+    def test_a_root_outside_the_object_is_warned_of(self):
+        with self.assertWarnsRegex(UserWarning, "the root lies outside the object, .* from the "
+                                                "nearest node"):
+            bccskel.skeletonize(self.mask, root=(1000, 0, 0))
 
     def test_surfaces_have_sheets(self):
         plate = numpy.zeros((9, 30, 30), bool)

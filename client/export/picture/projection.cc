@@ -8,10 +8,6 @@
 namespace bccskel::exporting {
 namespace {
 
-double Dot(const WorldPoint& a, const WorldPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 WorldPoint Combine(double s, const WorldPoint& a, double t, const WorldPoint& b) {
   return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }

@@ -56,7 +56,9 @@ class Skeleton:
 
     def __repr__(self) -> str:
         kept = "kept" if self.certificate["topology_kept"] else "changed"
-        return (f"<Skeleton of {self.title}: {len(self.nodes)} nodes, {len(self.edges)} edges, "
+        counts = [f"{len(rows)} {name if len(rows) == 1 else name + 's'}"
+                  for rows, name in ((self.nodes, "node"), (self.edges, "edge"))]
+        return (f"<Skeleton of {self.title}: {', '.join(counts)}, "
                 f"length {self.lengths.sum():.6g}, topology {kept}>")
 
     def __getstate__(self) -> dict:
@@ -263,7 +265,7 @@ class Skeleton:
                     table[f"{name}-{end}-{axis}"] = values[index, axis]
         table["euclidean-distance"] = np.linalg.norm(self.nodes[source] - self.nodes[target],
                                                      axis=1)
-        for name in ("mean_radius", "min_radius", "max_radius", "pruning_level"):
+        for name in ("tortuosity", "mean_radius", "min_radius", "max_radius", "pruning_level"):
             table[name.replace("_", "-")] = figures[name]
         if self.order is not None:
             table.update({name: self.order[name] for name in ("generation", "strahler")})

@@ -56,7 +56,11 @@ absl::StatusOr<Outcome> OutcomeOf(Volume object, const SkeletonizeOptions& optio
   Outcome outcome;
   BCCSKEL_ASSIGN_OR_RETURN(outcome.result, Compute(object, options, run, context));
   outcome.root = root;
-  if (root.has_value()) BCCSKEL_RETURN_IF_ERROR(CheckRootChoice(*root, outcome.result.graph));
+  if (root.has_value()) {
+    BCCSKEL_RETURN_IF_ERROR(CheckRootChoice(*root, outcome.result.graph));
+    std::string warning = RootWarning(*root, outcome.result.graph);
+    if (!warning.empty()) outcome.warnings.push_back(std::move(warning));
+  }
   outcome.object = std::make_shared<const Volume>(std::move(object));
   return outcome;
 }
@@ -125,7 +129,7 @@ absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
   BCCSKEL_ASSIGN_OR_RETURN(
       Outcome outcome, OutcomeOf(std::move(filled.volume), arguments.skeletonize, arguments.root,
                                  run, here.context()));
-  outcome.warnings = std::move(filled.warnings);
+  for (std::string& warning : filled.warnings) outcome.warnings.push_back(std::move(warning));
   return outcome;
 }
 

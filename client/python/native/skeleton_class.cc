@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,6 +71,9 @@ py::dict NodesOf(const SkeletonGraph& graph) {
 py::dict FiguresDict(const SkeletonGraph& graph, const std::vector<EdgeFigures>& figures) {
   py::dict dict;
   dict["length"] = ArrayOf(figures, [](const auto& f) { return f.length; });
+  dict["tortuosity"] = ArrayOf(figures, [](const auto& f) {
+    return f.tortuosity.value_or(std::numeric_limits<double>::quiet_NaN());
+  });
   dict["mean_radius"] = ArrayOf(figures, [](const auto& f) { return f.mean_radius; });
   dict["min_radius"] = ArrayOf(figures, [](const auto& f) { return f.min_radius; });
   dict["max_radius"] = ArrayOf(figures, [](const auto& f) { return f.max_radius; });

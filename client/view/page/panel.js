@@ -24,6 +24,7 @@ function prune() {
   tubes.show(shown.edges);
   for (const mesh of Object.values(nodes)) mesh.show();
   const { gone } = shown;
+  element("prune-note").hidden = gone === 0;
   element("level").textContent = gone === 0 ? "all branches"
     : `${digits(gone)} off, to level ${figure(shown.threshold)}`;
   forget();

@@ -42,18 +42,6 @@ double CubeRoot(double v) {
   return root;
 }
 
-Volume OnlyLayers(const Volume& volume, const LayerPart& part) {
-  std::vector<BrickKey> keys;
-  std::vector<BrickBits> bricks;
-  for (size_t n = 0; n < volume.brick_count(); ++n) {
-    if (!part.Has(volume.keys()[n].coordinates().bz)) continue;
-    keys.push_back(volume.keys()[n]);
-    bricks.push_back(volume.bricks()[n]);
-  }
-  return Volume::FromSortedBricks(volume.extent(), volume.placement(), std::move(keys),
-                                  std::move(bricks));
-}
-
 // Whether a point flips depends on its neighbors, which may lie in the layers beside its own.
 absl::StatusOr<Volume> GenerateAtScale(std::span<const shapes::Solid> figure, double scale,
                                        const ShapeOptions& options, const LayerPart& part) {

@@ -99,6 +99,7 @@ TEST(ArgumentsTest, TakesARoot) {
         .root;
   };
   EXPECT_EQ(root("thickest-end"), RootChoice());
+  EXPECT_EQ(root("thickest-node"), RootChoice{RootChoice::Rule::kDeepestNode});
   EXPECT_EQ(root("-1.5,2e1,3"),
             (RootChoice{.rule = RootChoice::Rule::kNearestNode, .point = {-1.5, 20, 3}}));
   EXPECT_EQ(root("node:12"), (RootChoice{.rule = RootChoice::Rule::kNode, .node = 12}));

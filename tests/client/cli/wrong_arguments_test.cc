@@ -33,9 +33,7 @@ TEST_P(WrongCommandLineTest, IsExplainedOnStandardErrorWithExitCode2) {
 INSTANTIATE_TEST_SUITE_P(
     Every, WrongCommandLineTest,
     testing::Values(
-        Wrong{"no_command",
-              {},
-              "a command is required: voxelize, submit, skeletonize, labels, info, view"},
+        Wrong{"no_command", {}, "a command is required: skeletonize, labels, info, view"},
         Wrong{"unknown_command", {"dance"}, "there is no command dance\n"},
         Wrong{"misspelled_command",
               {"skeletonise", "a.off"},

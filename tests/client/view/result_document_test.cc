@@ -88,7 +88,7 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
     std::string text;
     std::string message;
   } cases[] = {
-      {"", "not JSON"},
+      {"", "not a JSON result"},
       {"[]", "nodes is not there"},
       {"{}", "nodes is not there"},
       {SmallWith("[1,1,1.5],\"radius\"", "[1,1],\"radius\""), "nodes[1].position is not three"},

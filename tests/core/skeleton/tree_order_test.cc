@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "core/skeleton/skeleton_figures.h"
@@ -150,6 +151,22 @@ TEST(TreeOrder, RefusesANodeThatIsNotThere) {
   EXPECT_TRUE(CheckRootChoice(Node(5), Tree()).ok());
   EXPECT_EQ(CheckRootChoice(Node(6), Tree()).code(), absl::StatusCode::kInvalidArgument);
   EXPECT_TRUE(CheckRootChoice({}, SkeletonGraph()).ok());
+}
+
+TEST(TreeOrder, WarnsOfARootOutsideTheObject) {
+  const auto warning = [](double x, double z) {
+    const RootChoice near = {.rule = Rule::kNearestNode, .point = {x, 0, z}};
+    return RootWarning(near, GraphOf(2, {{0, 1, 8, 3}}));
+  };
+  EXPECT_EQ(warning(11, 0), "");  // two radii, in the world 1, from the node at x = 10
+  EXPECT_EQ(warning(0, 11), "");  // two radii, in the world 3, from the edge's end at z = 8
+  EXPECT_NE(warning(11.5, 0), "");
+  EXPECT_NE(warning(0, 11.5), "");
+  EXPECT_TRUE(warning(1010, 0).starts_with(
+      "the root lies outside the object, 1000 from the nearest node, 1;"))
+      << warning(1010, 0);
+  EXPECT_EQ(RootWarning(Node(1), Tree()), "");
+  EXPECT_EQ(RootWarning({.rule = Rule::kNearestNode}, SkeletonGraph()), "");
 }
 
 // On traced skeletons every edge of the trees leads from its proximal node on, and cuts are the

@@ -1,0 +1,195 @@
+#include <concepts>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/cli/arguments.h"
+#include "client/cli/load_object.h"
+#include "client/cli/thinning_options.h"
+#include "client/export/skeleton_file.h"
+#include "core/exec/status_macros.h"
+
+// What is wrong with arguments of which each alone is right.
+
+namespace bccskel::cli {
+namespace {
+
+absl::Status CheckVolumeOutput(const std::string& path) {
+  const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
+  if (format.ok() && *format == exporting::SkeletonFormat::kVolume) return absl::OkStatus();
+  return absl::InvalidArgumentError(path + ": a volume file ends in .exr or .bccb");
+}
+
+// Writing over the input would destroy what cannot be computed again.
+absl::Status CheckNotInput(const std::string& input, const std::string& output) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(input, output, none)) return absl::OkStatus();
+  return absl::InvalidArgumentError(output + ": is the input, too, and would be overwritten");
+}
+
+// Options that say how to make an object are for one kind of input each.
+absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
+                         const ImageArguments& image) {
+  BCCSKEL_RETURN_IF_ERROR(ForegroundOf(image).status());
+  const absl::StatusOr<InputKind> kind = InputKindOf(input, image);
+  if (!kind.ok()) return absl::OkStatus();
+  const std::string is = "; " + input + " is " + std::string(InputKindPhrase(*kind));
+  const bool grid_given =
+      grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto;
+  if (grid_given && *kind != InputKind::kMesh) {
+    return absl::InvalidArgumentError("--points, --spacing and --fill are for meshes" + is);
+  }
+  if (!image.given || *kind == InputKind::kImage) return absl::OkStatus();
+  return absl::InvalidArgumentError("--label, --range, --threshold and the like are for images" +
+                                    is);
+}
+
+absl::Status CheckImages(const SkeletonizeArguments& arguments) {
+  if (!arguments.images.wanted()) return absl::OkStatus();
+  for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
+    if (!path.empty() && !path.ends_with(".nrrd")) {
+      return absl::InvalidArgumentError(path + ": does not end in .nrrd");
+    }
+    BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, path));
+  }
+  if (arguments.skeletonize.preparing.Wanted()) {
+    return absl::InvalidArgumentError(
+        "--branch-image and --curve-image show the voxels as they are, so not with --denoise, "
+        "--fill-cavities, --cut-loops, --min-component, --min-component-volume or "
+        "--keep-largest");
+  }
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  if (!kind.ok() || *kind == InputKind::kImage) return absl::OkStatus();
+  return absl::InvalidArgumentError("--branch-image and --curve-image are for images; " +
+                                    arguments.input + " is " + std::string(InputKindPhrase(*kind)));
+}
+
+absl::Status Validate(const SkeletonizeArguments& arguments) {
+  const bool detached = arguments.waiting == Waiting::kDetach;
+  if (!detached && arguments.outputs.empty()) {
+    return absl::InvalidArgumentError("--output is required");
+  }
+  if (detached && !arguments.outputs.empty()) {
+    return absl::InvalidArgumentError(
+        "--detach writes no files; bccskel fetch does, when the job has ended");
+  }
+  if (!detached && arguments.thin_volume == client::ThinVolume::kReturn) {
+    return absl::InvalidArgumentError(
+        "--thin-volume is for --detach; without it -o FILE.exr or FILE.bccb asks for the volume");
+  }
+  for (const std::string& output : arguments.outputs) {
+    BCCSKEL_RETURN_IF_ERROR(exporting::SkeletonFormatOf(output).status());
+    BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, output));
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckObject(arguments.input, arguments.grid, arguments.image));
+  BCCSKEL_RETURN_IF_ERROR(CheckImages(arguments));
+  return ValidateOptions(arguments.skeletonize);
+}
+
+absl::Status Validate(const VoxelizeArguments& arguments) {
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  const bool sized = arguments.grid.points.has_value() || arguments.grid.spacing.has_value();
+  if (!sized && kind.ok() && *kind == InputKind::kMesh) {
+    return absl::InvalidArgumentError("voxelize needs --points or --spacing for a mesh");
+  }
+  BCCSKEL_RETURN_IF_ERROR(CheckVolumeOutput(arguments.output));
+  return CheckObject(arguments.input, arguments.grid, arguments.image);
+}
+
+absl::Status Validate(const GenerateArguments& arguments) {
+  return CheckVolumeOutput(arguments.output);
+}
+
+absl::Status Validate(const ResultArguments& arguments) {
+  for (const std::string& input : {arguments.result, arguments.object}) {
+    BCCSKEL_RETURN_IF_ERROR(CheckNotInput(input, arguments.output));
+  }
+  return CheckObject(arguments.object, arguments.grid, arguments.image);
+}
+
+absl::Status Validate(const LabelsArguments& arguments) {
+  const bool on_server = arguments.place == Place::kServer;
+  if (on_server && arguments.image.mask.sampling.has_value()) {
+    return absl::InvalidArgumentError(
+        "--sampling is for this machine; a server converts labels exactly");
+  }
+  for (const std::string& output : arguments.outputs) {
+    BCCSKEL_RETURN_IF_ERROR(CheckLabelOutput(output));
+    if (on_server &&
+        exporting::SkeletonFormatOf(output).value() == exporting::SkeletonFormat::kVolume) {
+      return absl::InvalidArgumentError(
+          output + ": a server returns no thinned volumes of labels; compute here with --local");
+    }
+    BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, output));
+  }
+  BCCSKEL_RETURN_IF_ERROR(ValidateRootOfLabels(arguments.root));
+  return ValidateOptions(arguments.skeletonize);
+}
+
+absl::Status CheckFetch(const std::string& object, const std::string& output) {
+  using exporting::SkeletonFormat;
+  const absl::StatusOr<SkeletonFormat> format = exporting::SkeletonFormatOf(output);
+  if (!format.ok()) return format.status();
+  const bool shows_object = *format == SkeletonFormat::kSvg || *format == SkeletonFormat::kHtml;
+  if (shows_object && object.empty()) {
+    return absl::InvalidArgumentError(
+        output + ": shows the object, too: name the volume that was submitted with --object");
+  }
+  return CheckNotInput(object, output);
+}
+
+absl::Status Validate(const FetchArguments& arguments) {
+  for (const std::string& output : arguments.outputs) {
+    BCCSKEL_RETURN_IF_ERROR(CheckFetch(arguments.object, output));
+  }
+  return arguments.object.empty() ? absl::OkStatus() : CheckVolumeOutput(arguments.object);
+}
+
+absl::Status Validate(const InfoArguments& arguments) {
+  return CheckObject(arguments.file, {}, arguments.image);
+}
+
+template <typename Other>
+absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArguments>) {
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status Validate(const Arguments& arguments) {
+  return std::visit([](const auto& chosen) { return Validate(chosen); }, arguments);
+}
+
+namespace {
+
+template <typename Chosen>
+std::vector<std::string> OutputsOf(const Chosen& arguments) {
+  std::vector<std::string> paths;
+  if constexpr (requires { arguments.outputs; }) paths = arguments.outputs;
+  if constexpr (requires { arguments.output; }) paths.push_back(arguments.output);
+  if constexpr (requires { arguments.images; }) {
+    for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
+      if (!path.empty()) paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
+}  // namespace
+
+absl::Status CheckOutputs(const Arguments& arguments) {
+  const std::vector<std::string> paths =
+      std::visit([](const auto& chosen) { return OutputsOf(chosen); }, arguments);
+  for (const std::string& path : paths) {
+    // Which folders a label's number names is not known yet.
+    if (path.rfind('/') != path.npos && path.find(kLabelPlace) < path.rfind('/')) continue;
+    BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel::cli
