@@ -25,15 +25,19 @@ std::vector<Setting> ListenerSettings(ServerConfig& config) {
       AddressesSetting("listen", config.listen,
                        "HOST:PORT (port 0: any free one) or unix:PATH; may be given several times"),
       AddressSetting("admin-listen", config.admin_listen,
-                     "For reflection, admin calls and health; without it where --listen says, if "
-                     "that is this machine"),
+                     "Address for reflection, admin calls and health (default: those of --listen "
+                     "on this machine)"),
       AddressSetting("metrics-listen", config.metrics_listen,
                      "HOST:PORT for Prometheus, HTTP at /metrics"),
-      PathSetting("tls-cert", config.tls.certificate, "Certificate chain, PEM; read again"),
-      PathSetting("tls-key", config.tls.key, "Its key, PEM; read again"),
-      PathSetting("tls-client-ca", config.tls.client_ca,
-                  "Clients must show a certificate signed by one of these, PEM; read again"),
-      PathSetting("tokens", config.tokens, "Callers need a token of this file; read again"),
+      PathSetting("tls-cert", config.tls.certificate,
+                  "Certificate chain, PEM; reloaded when it changes"),
+      PathSetting("tls-key", config.tls.key,
+                  "Key of the certificate, PEM; reloaded when it changes"),
+      PathSetting(
+          "tls-client-ca", config.tls.client_ca,
+          "Require client certificates signed by these authorities, PEM; reloaded when it changes"),
+      PathSetting("tokens", config.tokens,
+                  "Require a token from this file; reloaded when it changes"),
       ChoiceSetting("plaintext-tokens", config.plaintext_tokens, {"refuse", "allow"},
                     "Whether tokens may cross a network without TLS"),
   };
@@ -44,52 +48,56 @@ std::vector<Setting> LimitSettings(ServerConfig& config) {
   constexpr int kMaxThreads = 4096, kMaxQueue = 1'000'000;
   return {
       NumberSetting("threads", limits.threads, 1, kMaxThreads,
-                    "Threads that compute, all jobs together"),
-      NumberSetting("max-jobs", limits.max_jobs, 1, kMaxThreads, "Jobs that run at the same time"),
+                    "Compute threads of all jobs together"),
+      NumberSetting("max-jobs", limits.max_jobs, 1, kMaxThreads,
+                    "Maximum number of concurrent jobs"),
       NumberSetting("max-queue", limits.max_queue, 0, kMaxQueue,
-                    "Jobs that may upload or wait beside them"),
+                    "Maximum number of jobs that upload or wait"),
       SizeSetting("max-memory-bytes", limits.max_bytes, 0,
-                  "Working memory of all jobs together, such as 8GB"),
+                  "Limit of the working memory of all jobs together, such as 8GB"),
       SizeSetting("max-volume-bytes", limits.max_volume_bytes, 0,
-                  "Size of one encoded volume, such as 256MB"),
+                  "Limit of the size of one encoded volume, such as 256MB"),
       CountSetting("max-bricks", limits.volume.max_bricks,
-                   "Occupied bricks (512 points each) of one volume"),
+                   "Limit of the occupied bricks (512 points each) of one volume"),
       MillisecondsSetting("sender-timeout-ms", config.sender_timeout,
-                          "Time for a caller to send the next 1 MiB of its volume; 0: no limit"),
+                          "Time limit for a caller to send the next 1 MiB of its volume; 0: none"),
   };
 }
 
 std::vector<Setting> DurableSettings(DurableOptions& durable) {
   return {
       PathSetting("data-dir", durable.data_directory,
-                  "Folder for uploads, jobs and results that outlive this process; without it "
-                  "nothing does"),
-      TextSetting(
-          "job-store", "URL", durable.job_store,
-          "PostgreSQL database of all servers that share the folder, as postgresql://USER@HOST/"
-          "DB; without it the folder has a file of SQLite, and one server"),
+                  "Folder for uploads, jobs and results, which then survive restarts; without it "
+                  "they are kept in memory only"),
+      TextSetting("job-store", "URL", durable.job_store,
+                  "PostgreSQL database for several servers that share the data folder, as "
+                  "postgresql://USER@HOST/DB; without it one server uses SQLite in the folder"),
       SizeSetting("max-disk-bytes", durable.max_disk_bytes, 0,
-                  "Space in it for all tenants together, such as 100GB; 0: no limit"),
+                  "Disk quota of the data folder, such as 100GB; 0: no limit"),
       SizeSetting("max-tenant-disk-bytes", durable.max_tenant_disk_bytes, 0,
-                  "Space in it for one tenant; 0: no limit"),
+                  "Disk quota of each tenant; 0: no limit"),
       HoursSetting("keep-uploads", durable.keep_uploads,
-                   "Unfinished uploads go so long after their last byte"),
-      HoursSetting("keep-volumes", durable.keep_volumes, "Volumes go so long after their last use"),
+                   "Delete unfinished uploads this long after their last byte"),
+      HoursSetting("keep-volumes", durable.keep_volumes,
+                   "Delete volumes this long after their last use"),
       HoursSetting("keep-results", durable.keep_results,
-                   "Jobs and their results go so long after their end"),
+                   "Delete jobs and results this long after their end"),
       ChoiceSetting("unknown-data", durable.unknown_data, {"refuse", "adopt"},
-                    "Files in it that its jobs.db does not know: do not start, or go on without"),
+                    "Files in the data folder that jobs.db does not list: refuse to start, or "
+                    "start without them"),
   };
 }
 
 std::vector<Setting> OperationSettings(ServerConfig& config) {
   return {
-      MillisecondsSetting("lame-duck-ms", config.lame_duck,
-                          "On SIGTERM: time for a balancer's health checks to notice"),
-      MillisecondsSetting("drain-ms", config.drain, "On SIGTERM: time for running calls to finish"),
+      MillisecondsSetting(
+          "lame-duck-ms", config.lame_duck,
+          "On SIGTERM: how long to fail health checks before draining, for a load balancer"),
+      MillisecondsSetting("drain-ms", config.drain,
+                          "On SIGTERM: how long running calls may continue"),
       ChoiceSetting("log-level", config.log_level,
                     {"trace", "debug", "info", "warning", "error", "off"},
-                    "What goes to standard error, as JSON lines"),
+                    "Level of the log on standard error, in JSON lines"),
   };
 }
 
@@ -104,9 +112,10 @@ std::vector<Setting> SettingsOf(ServerConfig& config) {
 
 const std::vector<Action>& Actions() {
   static const std::vector<Action> actions = {
-      {"config", "FILE", "Settings as lines like max-jobs = 4; BCCSKEL_CONFIG names one, too"},
-      {"check-config", "", "Print the settings in force, with what is wrong about them, and end"},
-      {"new-token", "TENANT", "Print a new token and its line for the file of --tokens, and end"},
+      {"config", "FILE",
+       "Settings file of lines like max-jobs = 4 (default: the file that BCCSKEL_CONFIG names)"},
+      {"check-config", "", "Print the settings in force and the errors in them, and exit"},
+      {"new-token", "TENANT", "Print a new token and its line for the --tokens file, and exit"},
   };
   return actions;
 }
@@ -154,7 +163,7 @@ bool IsOpen(const std::string& address) { return !IsOfThisMachine(address); }
 // What only shows when settings are seen together, and in the files that they name.
 absl::Status CheckTokens(const ServerConfig& config) {
   if (config.tokens.empty()) return absl::OkStatus();
-  const absl::Status file = TokenTable::ReadFile(config.tokens).status();
+  absl::Status file = TokenTable::ReadFile(config.tokens).status();
   if (!file.ok() || config.tls.enabled() || config.plaintext_tokens == "allow") return file;
   std::vector<std::string> addresses = config.listen;
   if (!config.admin_listen.empty()) addresses.push_back(config.admin_listen);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <string>
 #include <thread>
 #include <variant>
@@ -116,15 +118,23 @@ int Serve(const ServerConfig& config) {
   return 0;
 }
 
-}  // namespace
-}  // namespace bccskel::server
-
-int main(int argc, char** argv) {
-  using namespace bccskel::server;
+int Main(int argc, char** argv) {
   if (const auto code = RunIfDecodingChild(argc, argv)) return *code;
   auto parsed = ParseServerConfig(argc, argv);
   if (const auto* exit = std::get_if<ExitRequest>(&parsed)) return Print(*exit);
   auto& config = std::get<ServerConfig>(parsed);
   config.limits.decode_in_children = DecodeInChildren::kOpenExr;
   return Serve(config);
+}
+
+}  // namespace
+}  // namespace bccskel::server
+
+int main(int argc, char** argv) {
+  try {
+    return bccskel::server::Main(argc, argv);
+  } catch (const std::exception& error) {  // such as no memory or no thread at the start
+    std::fprintf(stderr, "bccskel-server: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
 }

@@ -192,8 +192,9 @@ class DurableJobs final : public RunObserver {
     loop_.Post(
         [read = std::move(read), value](JobStore& store) -> absl::Status {
           absl::StatusOr<Value> found = read(store);
-          if (found.ok()) *value = *std::move(found);
-          return found.status();
+          if (!found.ok()) return std::move(found).status();
+          *value = *std::move(found);
+          return absl::OkStatus();
         },
         [value, done = Track(std::move(done))](absl::Status status) {
           if (!status.ok()) return done(std::move(status));

@@ -133,7 +133,7 @@ void DurableJobs::UploadStored(const std::shared_ptr<Opening>& opening, absl::St
 void DurableJobs::OpenFile(const std::shared_ptr<Opening>& opening) {
   auto file = blobs_.OpenUpload(opening->row.tenant, opening->row.name, opening->row.file);
   if (!file.ok()) {
-    const absl::Status error = file.status();
+    const absl::Status& error = file.status();
     return EndUpload(opening->row.tenant, opening->row.name, JobState::kFailed, error,
                      [opening, error](const absl::Status&) { opening->done(error); });
   }

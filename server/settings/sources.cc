@@ -14,15 +14,20 @@ namespace {
 
 constexpr int kUsageError = 2;
 
+std::string WithDefault(const Setting& setting) {
+  std::string shown = absl::StrReplaceAll(setting.show(), {{"[", ""}, {"]", ""}, {"\"", ""}});
+  return setting.description + (shown.empty() ? "" : " (default " + shown + ")");
+}
+
 void AddSetting(CLI::App& app, const Setting& setting, CommandLine& line) {
   app.add_option_function<std::vector<std::string>>(
          "--" + setting.name,
          [&line, name = setting.name](const std::vector<std::string>& values) {
            line.values[name] = values;
          },
-         setting.description)
+         WithDefault(setting))
       ->allow_extra_args(false)
-      ->option_text(absl::StrCat(setting.value, " [", setting.show(), "]"));
+      ->option_text(setting.value);
 }
 
 void AddAction(CLI::App& app, const Action& action, CommandLine& line) {

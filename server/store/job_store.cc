@@ -102,7 +102,7 @@ absl::Status JobStore::Health() const {
 }
 
 absl::Status JobStore::Begin() {
-  const absl::Status begun = database_->Begin(server_);
+  absl::Status begun = database_->Begin(server_);
   if (!absl::IsAborted(begun)) return begun;
   fenced_ = true;
   return absl::UnavailableError(begun.message());

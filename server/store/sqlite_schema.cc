@@ -139,7 +139,7 @@ absl::Status MigrateSqlite(SqlDatabase& database) {
     const std::string sql =
         absl::StrCat("BEGIN IMMEDIATE;", kMigrations[version], last ? kSealSchema : "",
                      "PRAGMA user_version = ", version + 1, "; COMMIT;");
-    const absl::Status migrated = database.Execute(sql);
+    absl::Status migrated = database.Execute(sql);
     if (migrated.ok()) continue;
     if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
     return migrated;
