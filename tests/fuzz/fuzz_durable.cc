@@ -1,8 +1,7 @@
 // Any bytes as what a caller of VolumeService and JobService sends: the first byte chooses the
-// call, length-delimited requests follow. They go through the checks of order and fields to a real
-// DurableJobs, whose jobs wait and compute nothing. "uploads/known", "volumes/known" and
-// "jobs/known" stand for names that the tenant has. Every answer is OK or the caller's error with
-// its details, never UNKNOWN or INTERNAL.
+// call, length-delimited requests follow. They go through the checks of order and fields to the
+// real DurableJobs of durable_fixture.h. Every answer is OK or the caller's error with its details,
+// never UNKNOWN or INTERNAL.
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/delimited_message_util.h>
@@ -10,9 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -30,97 +26,16 @@
 #include "server/calls/request_sequence.h"
 #include "server/calls/requests.h"
 #include "server/calls/status_mapping.h"
-#include "server/durable/durable_jobs.h"
+#include "tests/fuzz/durable_fixture.h"
 
 namespace bccskel::server {
 namespace {
-
-constexpr VolumeLimits kLimits = {
-    .max_extent_cells = 1024, .max_bricks = 1 << 14, .max_decoded_bytes = 16 << 20};
-const std::string kTenant = "tenant";
-
-void Insist(bool holds) {
-  if (!holds) std::abort();
-}
-
-// Never asked: DurableJobs' jobs wait.
-class NoRunner final : public JobRunner {
- public:
-  absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest, std::shared_ptr<JobListener>) override {
-    std::abort();
-  }
-  absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest,
-                                             std::shared_ptr<LabelsListener>) override {
-    std::abort();
-  }
-};
 
 class SilentWatcher final : public JobWatcher {
  public:
   void OnEvent(const JobEvent& event) override { ToMessage(event); }
   void OnWatchEnd(const absl::Status&) override {}
 };
-
-// What the callback is given, as the caller hears of it.
-template <typename Value, typename Call>
-absl::StatusOr<Value> Ask(Call call) {
-  std::promise<absl::StatusOr<Value>> promise;
-  call([&](absl::StatusOr<Value> value) { promise.set_value(std::move(value)); });
-  absl::StatusOr<Value> answer = promise.get_future().get();
-  if (!answer.ok()) return StorageError(answer.status());
-  return answer;
-}
-
-template <typename Call>
-absl::Status Tell(Call call) {
-  std::promise<absl::Status> promise;
-  call([&](absl::Status status) { promise.set_value(std::move(status)); });
-  return StorageError(promise.get_future().get());
-}
-
-// One for the process: each call leaves it as it found it, but for `known` ones.
-class KeptJobs {
- public:
-  KeptJobs() : folder_(std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX") {
-    Insist(mkdtemp(folder_.data()) != nullptr);
-    Sha256Of("");  // so that OpenSSL ends after this object
-    DurableOptions options;
-    options.data_directory = folder_;
-    options.max_runs = 0;
-    options.max_tenant_disk_bytes = uint64_t{64} << 20;
-    options.algorithm_version = "1";
-    durable_jobs_ = *DurableJobs::Open(options, runner_, codec_);
-  }
-  ~KeptJobs() {
-    durable_jobs_.reset();
-    std::filesystem::remove_all(folder_);
-  }
-  DurableJobs& operator*() { return *durable_jobs_; }
-  DurableJobs* operator->() { return durable_jobs_.get(); }
-
- private:
-  std::string folder_;
-  NoRunner runner_;
-  const MessageCodec codec_{kLimits};
-  std::unique_ptr<DurableJobs> durable_jobs_;
-};
-
-KeptJobs& TheJobs() {
-  static KeptJobs durable_jobs;
-  return durable_jobs;
-}
-
-absl::StatusOr<UploadInfo> Upload(const NewUpload& wanted) {
-  auto found = Ask<UploadInfo>(
-      [&](auto done) { TheJobs()->GetUpload(kTenant, wanted.name, std::move(done)); });
-  if (!absl::IsNotFound(found.status())) return found;
-  return Ask<UploadInfo>(
-      [&](auto done) { TheJobs()->CreateUpload(kTenant, wanted, std::move(done)); });
-}
-
-absl::Status DeleteUpload(const std::string& upload) {
-  return Tell([&](auto done) { TheJobs()->DeleteUpload(kTenant, upload, std::move(done)); });
-}
 
 std::optional<Sha256Digest> DigestIn(const v1::VolumeFinish& finish) {
   Sha256Digest digest;
@@ -135,7 +50,7 @@ class UploadCall {
   using Request = v1::UploadVolumeRequest;
   ~UploadCall() {
     if (name_.empty()) return;
-    TheJobs()->SenderGone(kTenant, name_);
+    TheJobs().SenderGone(kTenant, name_);
     DeleteUpload(name_).IgnoreError();
   }
 
@@ -164,96 +79,28 @@ class UploadCall {
     std::optional<uint32_t> crc32c;
     if (chunk.has_crc32c()) crc32c = chunk.crc32c();
     return Ask<uint64_t>([&](auto done) {
-             TheJobs()->Append(kTenant, name_, chunk.offset(), std::move(*chunk.mutable_data()),
-                               crc32c, std::move(done));
+             TheJobs().Append(kTenant, name_, chunk.offset(), std::move(*chunk.mutable_data()),
+                              crc32c, std::move(done));
            })
         .status();
   }
   absl::Status Finish(const v1::VolumeFinish& finish) {
     const auto volume = Ask<VolumeInfo>([&](auto done) {
-      TheJobs()->FinishUpload(kTenant, name_, finish.size_bytes(), DigestIn(finish),
-                              std::move(done));
+      TheJobs().FinishUpload(kTenant, name_, finish.size_bytes(), DigestIn(finish),
+                             std::move(done));
     });
     if (!volume.ok()) return volume.status();
-    return Tell(
-        [&](auto done) { TheJobs()->DeleteVolume(kTenant, volume->name, std::move(done)); });
+    return Tell([&](auto done) { TheJobs().DeleteVolume(kTenant, volume->name, std::move(done)); });
   }
 
   RequestSequence sequence_;
   std::string name_;
 };
 
-// Of a cell without points.
-constexpr uint64_t kCellBytes = 8;
-std::string CellDeclaration() {
-  v1::VolumeDeclaration declaration;
-  declaration.set_encoding(v1::VOLUME_ENCODING_RAW_PLANES);
-  declaration.mutable_extent()->set_nx(1);
-  declaration.mutable_extent()->set_ny(1);
-  declaration.mutable_extent()->set_nz(1);
-  declaration.set_size_bytes(kCellBytes);
-  return DeclarationBytes(declaration);
-}
-
-std::string BeginCell(const std::string& name) {
-  return Upload({.name = name, .declaration = CellDeclaration(), .then_job = {}})->name;
-}
-
-std::string MakeVolume() {
-  const std::string upload = BeginCell("uploads/volume");
-  Insist(Ask<uint64_t>([&](auto done) {
-           TheJobs()->Append(kTenant, upload, 0, std::string(kCellBytes, '\0'), {},
-                             std::move(done));
-         }).ok());
-  return Ask<VolumeInfo>([&](auto done) {
-           TheJobs()->FinishUpload(kTenant, upload, kCellBytes, {}, std::move(done));
-         })
-      ->name;
-}
-
-const std::string& KnownVolume() {
-  static const std::string name = MakeVolume();
-  return name;
-}
-
-absl::StatusOr<JobInfo> Create(NewJob job) {
-  if (job.volume == "volumes/known") job.volume = KnownVolume();
-  return Ask<JobInfo>([&](auto done) { TheJobs()->CreateJob(kTenant, job, std::move(done)); });
-}
-
-const std::string& KnownJob() {
-  static const std::string name = [] {
-    NewJob job;
-    job.volume = KnownVolume();
-    return Create(job)->name;
-  }();
-  return name;
-}
-
 // Of calls with one request each; here one follows the other.
 struct UnaryCall {
   static absl::Status HalfClose() { return absl::OkStatus(); }
 };
-
-// The name that a caller gives. One that he has must exist.
-const std::string& JobNamed(const std::string& name) {
-  return name == "jobs/known" ? KnownJob() : name;
-}
-
-// What may go: the known one is made anew. Its name.
-std::string SpareJob(const std::string& name) {
-  if (name != "jobs/known") return name;
-  NewJob job;
-  job.volume = KnownVolume();
-  return Create(job)->name;
-}
-std::string SpareUpload(const std::string& name) {
-  return name == "uploads/known" ? BeginCell("uploads/spare") : name;
-}
-
-absl::Status DeleteJob(const std::string& job) {
-  return Tell([&](auto done) { TheJobs()->DeleteJob(kTenant, job, std::move(done)); });
-}
 
 struct CreateJobCall : UnaryCall {
   using Request = v1::CreateJobRequest;
@@ -262,7 +109,7 @@ struct CreateJobCall : UnaryCall {
     BCCSKEL_ASSIGN_OR_RETURN(const JobInfo made, Create(job));
     const v1::Job message = ToMessage(made);
     Insist(message.request_id() == request.request_id());
-    if (request.validate_only() || made.name == KnownJob()) return absl::OkStatus();
+    if (request.validate_only() || made.name == JobNamed("jobs/known")) return absl::OkStatus();
     return DeleteJob(made.name);
   }
 };
@@ -272,7 +119,7 @@ struct ListJobsCall : UnaryCall {
   static absl::Status Take(const Request& request) {
     BCCSKEL_ASSIGN_OR_RETURN(const JobQuery query, QueryOf(request));
     BCCSKEL_ASSIGN_OR_RETURN(const JobPage page, Ask<JobPage>([&](auto done) {
-                               TheJobs()->ListJobs(kTenant, query, std::move(done));
+                               TheJobs().ListJobs(kTenant, query, std::move(done));
                              }));
     Insist(page.jobs.size() <= static_cast<size_t>(query.page_size));
     for (const JobInfo& job : page.jobs) ToMessage(job);
@@ -285,7 +132,7 @@ struct GetJobCall : UnaryCall {
   static absl::Status Take(const Request& request) {
     const std::string& job = JobNamed(request.job());
     BCCSKEL_ASSIGN_OR_RETURN(const JobInfo info, Ask<JobInfo>([&](auto done) {
-                               TheJobs()->GetJob(kTenant, job, std::move(done));
+                               TheJobs().GetJob(kTenant, job, std::move(done));
                              }));
     Insist(ToMessage(info).name() == job);
     return absl::OkStatus();
@@ -297,7 +144,7 @@ struct CancelJobCall : UnaryCall {
   static absl::Status Take(const Request& request) {
     const std::string job = SpareJob(request.job());
     BCCSKEL_ASSIGN_OR_RETURN(const JobInfo info, Ask<JobInfo>([&](auto done) {
-                               TheJobs()->CancelJob(kTenant, job, std::move(done));
+                               TheJobs().CancelJob(kTenant, job, std::move(done));
                              }));
     Insist(info.state == JobState::kCancelled);
     return DeleteJob(job);
@@ -313,9 +160,9 @@ struct WatchJobCall : UnaryCall {
   using Request = v1::WatchJobRequest;
   static absl::Status Take(const Request& request) {
     const std::string& job = JobNamed(request.job());
-    const auto watch = TheJobs()->WatchJob(kTenant, job, request.after_sequence(),
-                                           std::make_shared<SilentWatcher>());
-    return Ask<JobInfo>([&](auto done) { TheJobs()->GetJob(kTenant, job, std::move(done)); })
+    const auto watch = TheJobs().WatchJob(kTenant, job, request.after_sequence(),
+                                          std::make_shared<SilentWatcher>());
+    return Ask<JobInfo>([&](auto done) { TheJobs().GetJob(kTenant, job, std::move(done)); })
         .status();
   }
 };
@@ -324,8 +171,8 @@ struct ReadSkeletonCall : UnaryCall {
   using Request = v1::ReadSkeletonRequest;
   static absl::Status Take(const Request& request) {
     const auto reader = Ask<std::shared_ptr<ResultReader>>([&](auto done) {
-      TheJobs()->OpenResult(kTenant, JobNamed(request.job()), request.piece_index(),
-                            std::move(done));
+      TheJobs().OpenResult(kTenant, JobNamed(request.job()), request.piece_index(),
+                           std::move(done));
     });
     Insist(!reader.ok());  // no job has ended
     return reader.status();
@@ -337,7 +184,7 @@ struct GetUploadStatusCall : UnaryCall {
   static absl::Status Take(const Request& request) {
     const std::string upload = SpareUpload(request.upload());
     BCCSKEL_ASSIGN_OR_RETURN(const UploadInfo info, Ask<UploadInfo>([&](auto done) {
-                               TheJobs()->GetUpload(kTenant, upload, std::move(done));
+                               TheJobs().GetUpload(kTenant, upload, std::move(done));
                              }));
     Insist(ToMessage(info).name() == upload);
     return DeleteUpload(upload);
@@ -358,7 +205,7 @@ struct FindMissingVolumesCall : UnaryCall {
     std::vector<std::string> digests;
     for (const StoredKey& key : keys) digests.push_back(key.digest);
     return Ask<std::vector<VolumeInfo>>(
-               [&](auto done) { TheJobs()->FindVolumes(kTenant, digests, std::move(done)); })
+               [&](auto done) { TheJobs().FindVolumes(kTenant, digests, std::move(done)); })
         .status();
   }
 };
@@ -366,11 +213,10 @@ struct FindMissingVolumesCall : UnaryCall {
 struct DeleteVolumeCall : UnaryCall {
   using Request = v1::DeleteVolumeRequest;
   static absl::Status Take(const Request& request) {
-    KnownJob();  // so that the known volume is needed
-    const std::string& volume =
-        request.volume() == "volumes/known" ? KnownVolume() : request.volume();
+    JobNamed("jobs/known");  // so that the known volume is needed
+    const std::string& volume = VolumeNamed(request.volume());
     const absl::Status deleted =
-        Tell([&](auto done) { TheJobs()->DeleteVolume(kTenant, volume, std::move(done)); });
+        Tell([&](auto done) { TheJobs().DeleteVolume(kTenant, volume, std::move(done)); });
     Insist(!deleted.ok());
     return deleted;
   }
