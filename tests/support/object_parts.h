@@ -5,23 +5,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/volume/layer_part.h"
 #include "core/volume/volume.h"
 
 namespace bccskel::test {
-
-// The bricks of the part's layers.
-inline Volume OnlyLayers(const Volume& object, const LayerPart& part) {
-  std::vector<BrickKey> keys;
-  std::vector<BrickBits> bricks;
-  for (size_t n = 0; n < object.brick_count(); ++n) {
-    if (!part.Has(object.keys()[n].coordinates().bz)) continue;
-    keys.push_back(object.keys()[n]);
-    bricks.push_back(object.bricks()[n]);
-  }
-  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
-                                  std::move(bricks));
-}
 
 // What several parts make together; fails where two have the same brick.
 inline absl::StatusOr<Volume> Joined(const std::vector<Volume>& parts) {
