@@ -79,7 +79,7 @@ TEST_F(VolumeFile, PartsOfReadersAreTheWholeTogether) {
                            Kind{VolumeEncoding::kOpenExr, VolumeCompression::kZip}}) {
     const WriteVolumeOptions options = {.encoding = kind.encoding, .compression = kind.compression};
     ASSERT_TRUE(WriteVolumeFile(Path("v"), volume, options).ok());
-    for (const int32_t count : {1, 2, 3, 7, 1000}) {
+    for (const int32_t count : {1, 2, 3, 7, 50}) {
       std::vector<Volume> parts;
       for (int32_t index = 0; index < count; ++index) {
         auto part = ReadVolumePart(Path("v"), {index, count});
