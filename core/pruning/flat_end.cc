@@ -8,7 +8,8 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.5;        // of a tip's merit, along the limb
+constexpr double kSlope = 0.75;       // of a tip's merit, along the limb
+constexpr double kAside = 0.4;        // and across it: corners lie aside, points do not
 constexpr double kFlatness = 1.5;     // width by radius: less is round
 constexpr double kFlatMargin = 3;     // so are limbs as thick as the steps of the surface
 constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
@@ -67,8 +68,10 @@ std::optional<size_t> FlatEnd::In(std::span<const LatticePoint> path, const Thin
   Place best;
   double most = -std::numeric_limits<double>::infinity();
   for (const Place& p : places) {
-    const double merit =
-        p.width + kSlope * Dot(way, Sum(PlaceOf(path[p.position], scale_), -1, start));
+    const Coordinates out = Sum(PlaceOf(path[p.position], scale_), -1, start);
+    const double along = Dot(way, out);
+    const double aside = std::sqrt(std::max(Dot(out, out) - along * along, 0.0));
+    const double merit = p.width + kSlope * along - kAside * aside;
     if (merit > most) best = p, most = merit;
   }
   if (best.position + 1 >= path.size()) return std::nullopt;

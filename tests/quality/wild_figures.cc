@@ -215,6 +215,17 @@ Sketch Cone(Pen pen, const Values& v) {
   return sketch;
 }
 
+// Flat and pointed, with a round base and a stalk: half the angle of the point, width by thickness,
+// sharp radius.
+Sketch Leaf(Pen pen, const Values& v) {
+  const double s = pen.size, length = (1 - v[2]) * s / std::sin(v[0]);
+  Sketch sketch;
+  sketch.AddLimb({kOrigin, {length, 0, 0}, s, v[2] * s, v[1]}, length);
+  const double stalk = s / v[1];
+  sketch.AddLimb({kOrigin, {-3 * s, 0, 0}, stalk, 0.8 * stalk}, 2 * s);
+  return sketch;
+}
+
 // Cylinders from one place, cut at their ends: count, length, width by thickness, how far behind
 // the middle of the cap they are cut, in radii, 0: flat.
 Sketch Cuts(Pen pen, const Values& v) {
@@ -321,6 +332,9 @@ constexpr WildFigure kFigures[] = {
     {"cone", Cone, {3, 0.1, 0}, true},
     {"taper", Taper, {8, 5}},
     {"taper", Taper, {8, 3}, true},
+    {"leaf", Leaf, {0.4, 4, 0.1}},
+    {"leaf", Leaf, {0.65, 4, 0.1}},
+    {"leaf", Leaf, {0.55, 6, 0.15}, true},
     {"flat cut", Cuts, {2, 5, 1, 0}},
     {"flat cut", Cuts, {3, 4, 1, 0}},
     {"flat cut", Cuts, {2, 5, 2, 0}, true},

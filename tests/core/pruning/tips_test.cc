@@ -250,6 +250,29 @@ TEST(Tips, OfABentLimbLieAtItsEnd) {
   EXPECT_LT(gap, 8);  // a radius
 }
 
+// A leaf 9 units thick on a stalk.
+TEST(Tips, OfAPointedFlatLimbLieAtItsPoint) {
+  constexpr double kFirst = 40, kLength = 160, kWidth = 40;
+  VolumeBuilder builder({105, 50, 14});
+  for (int32_t z = 8; z < 17; ++z) {
+    for (int32_t y = z % 2; y < 100; y += 2) {
+      for (int32_t x = z % 2; x < 210; x += 2) {
+        const double part = std::clamp((x - kFirst) / kLength, 0.0, 1.0), across = std::abs(y - 50);
+        const double width = kWidth * std::pow(std::sin(3.14159265 * part), 0.8);
+        const bool in_stalk = x >= 8 && x < kFirst + 10 && across <= 5;
+        if (across < width - 0.5 || in_stalk) builder.Add({x, y, z});
+      }
+    }
+  }
+  const auto result = Skeletonize(*std::move(builder).Build(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  int32_t farthest = 0;
+  for (const SkeletonNode& node : result->graph.nodes) {
+    farthest = std::max(farthest, node.at.point.x);
+  }
+  EXPECT_GT(farthest, kFirst + kLength - 20);
+}
+
 // One cylinder, sampled alike along all axes and five times coarser along z.
 TEST(UnequalSpacing, GivesTheSameCenterLineAndRadius) {
   const std::array<double, 3> a = {14, 14, 20}, b = {30, 44, 100};
