@@ -36,9 +36,10 @@ struct EuclideanParts {
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
 
 // Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
-// Right for the bricks of a layer if that layer and those above and below it are whole along y.
+// Right for the `wanted` bricks, which are those of whole layers, if these and the layers above and
+// below them are whole along y; leaves the others undefined.
 template <typename T>
-void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
+void MeasureWithinLayers(const Volume& object, exec::Share wanted, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts);
 // Calls `done` with stacks of bricks whose squares are final, on several workers at once. Returns
 // the largest square: 16 bits are enough where that is below kFirstUnsureSquare. Needs: all bricks
