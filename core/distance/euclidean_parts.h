@@ -14,9 +14,9 @@
 #include "core/exec/uninitialized.h"
 #include "core/volume/volume.h"
 
-// The two halves of the Euclidean distance, for those who measure an object part by part. Along x
-// the first half needs side runs alone, so columns of bricks can be measured by themselves; where
-// layers of bricks are, each on its own machine, squares move between the halves.
+// The two halves of the Euclidean distance, for callers that measure an object part by part. Along
+// x the first half needs only side runs, so columns of bricks can be measured separately; if the
+// layers of bricks are on several machines, squares are sent between the halves.
 // T as in euclidean_rows.h.
 
 namespace bccskel {
@@ -32,7 +32,7 @@ struct EuclideanParts {
   exec::UninitializedVector<T> beside;
 };
 
-// How far the object goes on beside each row of its bricks.
+// How far the object extends beside each row of its bricks.
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
 
 // Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
