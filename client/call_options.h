@@ -15,7 +15,7 @@
 
 namespace bccskel::client {
 
-// Whether the thinned volume comes back beside the graph.
+// Whether the thinned volume is returned with the graph.
 enum class ThinVolume { kOmit, kReturn };
 
 // Where the time of a call went that is not in StageTimings.
@@ -36,7 +36,7 @@ struct CallOptions {
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   // Cancels the call and the job on the server.
   std::stop_token stop = {};
-  // Called between reads on the calling thread; after a retry the shells begin anew.
+  // Called between reads on the calling thread; after a retry the shells start again.
   std::function<void(const exec::ShellProgress&)> on_shell = {};
   // Where given, the server sends the points that go with each shell, as the core tells them: the
   // shells in order, a large one in several parts; then, as shell `last_shell + 1`, what cleaning
@@ -57,7 +57,7 @@ struct LabelsCallOptions {
   int threads = 0;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
   std::stop_token stop = {};
-  // Called between reads on the calling thread; after a retry it begins anew.
+  // Called between reads on the calling thread; after a retry it starts again from 0.
   std::function<void(uint64_t done, uint64_t total)> on_progress = {};
 };
 

@@ -16,9 +16,9 @@ namespace bccskel::client {
 // Errors: as CheckEndpoint().
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const Endpoint& endpoint);
 
-// After a failure gRPC connects anew by itself, but reads what the server says first only while
-// somebody waits for the channel: calls that came after a pause found that the connection had timed
-// out. Waits for it, 300 ms and until the deadline at most, where there is one to wait for.
+// After a failure gRPC reconnects by itself, but reads the server's first frame only while a caller
+// waits for the channel: calls after a pause found that the connection had timed out. If the
+// channel is reconnecting, waits for it, for 300 ms and until the deadline at most.
 void AwaitReconnection(grpc::Channel& channel, std::chrono::system_clock::time_point deadline);
 
 }  // namespace bccskel::client

@@ -51,8 +51,8 @@ class DurableStub {
                                     const std::stop_token& stop, Deadline deadline) = 0;
 };
 
-// Jobs that outlive their caller and the server's process. Each call tries again where that can
-// help, and goes on where the attempt before broke: an upload, a watch, a result.
+// Jobs that outlive their caller and the server's process. Each call retries where that can help,
+// and resumes where the last attempt broke off: an upload, a watch, a result.
 //
 //   DurableClient client(*MakeGrpcDurableStub({.address = "127.0.0.1:50051"}));
 //   volume = client.Upload(encoded, calls);  job = client.CreateJob({.volume = *volume}, calls);
@@ -60,7 +60,7 @@ class DurableStub {
 //
 // Errors of all calls: the server's, with its details as payloads; UNAVAILABLE when all attempts
 //                      failed; CANCELLED; DEADLINE_EXCEEDED; DATA_LOSS for a damaged reply.
-// Threads: safe; calls run beside each other.
+// Threads: safe; calls run concurrently.
 class DurableClient {
  public:
   // What every call has.

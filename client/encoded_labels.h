@@ -21,7 +21,7 @@ struct LabelVolume {
   std::span<const std::byte> voxels;  // not owned
 };
 
-// A volume of labels ready to be sent, and what the server is promised about it.
+// A volume of labels ready to be sent, and its declaration.
 struct EncodedLabels {
   MaskGrid grid;
   int label_bytes = 1;

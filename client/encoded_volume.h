@@ -25,7 +25,7 @@ struct EncodedVolume {
 // smaller before compression.
 VolumeEncoding BestEncodingOf(const Volume& volume);
 
-// Errors: INVALID_ARGUMENT, CANCELLED, and what the encoder's library says.
+// Errors: INVALID_ARGUMENT, CANCELLED, and those of the encoder's library.
 // Needs:  kBricks, kOpenExr or, which states no placement, kRawPlanes.
 absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncoding encoding,
                                                const std::stop_token& stop);

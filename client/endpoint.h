@@ -14,7 +14,7 @@ struct TlsMaterial {
   std::string key;
 };
 
-// Where a server is, and how to be let in.
+// The address of a server and the credentials for it.
 struct Endpoint {
   std::string address = "127.0.0.1:50051";  // HOST:PORT or unix:PATH
   TlsMaterial tls;

@@ -32,7 +32,7 @@ class LabelsCall final
 
   const LabelsCallOptions& options_;
   const LabelConsumer& consume_;
-  std::optional<uint64_t> label_;  // whose chunks came last
+  std::optional<uint64_t> label_;  // of the last chunk
   wire::SkeletonAssembler assembler_;
   uint64_t labels_ = 0;      // handed out
   uint64_t last_label_ = 0;  // the last of them

@@ -17,7 +17,7 @@ struct AcceptedCall {
   std::string job;
 };
 
-// Goes on with a call whose stream has broken: sends the rest of the volume, waits for the job,
+// Resumes a call after its stream has broken: sends the rest of the volume, waits for the job,
 // reads the result. Nothing is computed twice.
 // Errors: see DurableClient.
 absl::StatusOr<SkeletonizeResult> ResumeCall(DurableClient& client, const AcceptedCall& accepted,

@@ -15,7 +15,7 @@ namespace bccskel::client {
 //   bccskel::client::SkeletonizeClient client(bccskel::client::Connect("127.0.0.1:50051"));
 //   absl::StatusOr<bccskel::SkeletonizeResult> result = client.Skeletonize(volume, {});
 //
-// Threads: safe; calls run beside each other.
+// Threads: safe; calls run concurrently.
 class SkeletonizeClient {
  public:
   explicit SkeletonizeClient(std::shared_ptr<Connection> connection)

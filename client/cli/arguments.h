@@ -37,7 +37,7 @@ struct CommonArguments {
   int threads = 0;  // 0: all of the machine, or the server's choice
 };
 
-// Which server, and what lets the user in. Paths of files, as given.
+// The server and the credentials for it. Paths of files, as given.
 struct ServerArguments {
   std::string address = "127.0.0.1:50051";
   std::string tls_ca;
@@ -180,7 +180,7 @@ struct FetchArguments {
   WaitingArguments waiting;
   std::vector<std::string> outputs;
   exporting::CurveSampling swc;  // of SWC files
-  std::string object;            // the volume that was submitted; empty: not at hand
+  std::string object;            // the volume that was submitted; empty: not available
 };
 
 // Is the server ready for calls?
@@ -279,7 +279,7 @@ struct SharedWork {
                                                   const exec::Context& context)>
       compute;
 };
-// `skeletonize` as the process of several that writes and tells.
+// `skeletonize` as the one of several processes that writes and reports.
 ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments,
                    const std::stop_token& stop);
 // What another of them reads, or makes of the input: the part of the arguments, which for meshes

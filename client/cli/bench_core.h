@@ -67,7 +67,7 @@ class PeakGrowth {
  public:
   PeakGrowth();
 
-  // Nothing where the system does not let a process reset its high-water mark.
+  // Empty if the system does not let a process reset its high-water mark.
   std::optional<uint64_t> bytes() const;
 
  private:

@@ -44,7 +44,7 @@ absl::StatusOr<std::string> ReadToken(const std::string& path) {
     if (!absl::ascii_isgraph(static_cast<unsigned char>(c))) token.clear();
   }
   if (token.empty() && !path.empty()) {
-    return absl::InvalidArgumentError(path + ": its first line is no token");
+    return absl::InvalidArgumentError(path + ": its first line is not a token");
   }
   return token;
 }

@@ -54,11 +54,11 @@ void AddOutput(CLI::App& command, std::string& path, const char* what,
                const std::vector<std::string>& endings);
 // --output of a volume; its ending is checked later, with what else is wrong.
 void AddVolumeOutput(CLI::App& command, std::string& path);
-// --output of skeletons, any number of them; `what` says which, by default all formats.
+// --output of skeletons, any number of them; `what` describes them, by default all formats.
 CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
                         const std::string& what = "");
 
-// RESULT, and the object that it was made from with the options that say how.
+// RESULT, and its object with the options for reading it.
 void AddResult(CLI::App& command, std::string& path);
 enum class ObjectNeed { kRequired, kOptional };
 void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need);

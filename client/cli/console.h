@@ -53,7 +53,7 @@ void Note(std::string_view message);
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 
-// For what went wrong between the user and a server, which it names. A hint of its own says what
+// For failures between the user and a server, which the message names. A specific hint says what
 // else may be wrong with the connection.
 inline constexpr std::string_view kNoServerHint =
     "start bccskel-server, name another server with --server, or compute here with --local";
@@ -76,7 +76,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // What a job calls after each shell, or after some labels of so many; empty when nothing is to be
+  // What a job calls after each shell, or after some labels of so many; empty if nothing is to be
   // shown.
   std::function<void(const exec::ShellProgress&)> Callback();
   std::function<void(uint64_t done, uint64_t total)> LabelsCallback();

@@ -23,7 +23,7 @@ class App;
 
 namespace bccskel::cli {
 
-// Adds the options that say how a mesh is filled with lattice points.
+// Adds the options for filling a mesh with lattice points.
 void AddGrid(CLI::App& command, VoxelizeOptions& grid);
 
 // How an image becomes an object, as the command line says it.
@@ -46,7 +46,7 @@ struct SkeletonImages {
   bool wanted() const { return !branches.empty() || !curves.empty(); }
 };
 
-// Adds the options that say which voxels are the object and how they become lattice points.
+// Adds the options that select the voxels of the object and their conversion to lattice points.
 void AddMaskOptions(CLI::App& command, ImageArguments& arguments);
 // The same for images of labels.
 void AddLabelOptions(CLI::App& command, ImageArguments& arguments);

@@ -32,7 +32,7 @@ std::string JobJson(const client::DurableJob& job);
 // "jobs/... succeeded", or the JSON object.
 std::string JobSummary(const CommonArguments& common, const client::DurableJob& job);
 
-// Waits for the job's end. A stop cancels the job unless it is to be left.
+// Waits for the job's end. A stop cancels the job unless it is to continue.
 // Errors: those of DurableClient::Watch(); what made the job fail; CANCELLED.
 absl::Status AwaitJob(client::DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop);

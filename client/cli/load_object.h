@@ -33,7 +33,7 @@ exporting::World WorldOf(const ImageInfo& info);
 
 // OK where the object has the topology of the mask that it was made from. A sampling may change
 // it, which is only said on standard error; the exact conversion may not.
-// Errors: INTERNAL, says what changed.
+// Errors: INTERNAL, with what changed.
 absl::Status CheckConversion(const std::string& path, const ImageArguments& arguments,
                              const BettiNumbers& mask, const BettiNumbers& object);
 

@@ -12,7 +12,7 @@ namespace bccskel::exporting {
 
 // The JSON document of client/export/skeleton.schema.json: nodes, edges, components, certificate,
 // how it was made, timings, sha256. World coordinates and units.
-// With an order of trees, nodes and edges tell their places in it.
+// With an order of trees, nodes and edges state their places in it.
 std::string JsonText(const SkeletonizeResult& result,
                      const std::optional<TreeOrder>& order = std::nullopt, const World& world = {});
 

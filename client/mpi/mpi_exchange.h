@@ -20,9 +20,9 @@ struct ExchangeCounts {
   int64_t peak = 0;      // KiB of memory, most until the end of the stage; 0: never there
 };
 
-// The ranks of an MPI job. Waits without burning the processor: after some microseconds of looking
-// out it sleeps between looks. What goes wrong in MPI ends the job, by its default error handler.
-// Needs: MPI is initialized, and is finalized after this is gone; one thread at a time.
+// The ranks of an MPI job. Waits without occupying the processor: after 100 microseconds of polling
+// it sleeps between polls. Errors of MPI end the job, by its default error handler.
+// Needs: MPI is initialized before this and finalized after it; one thread at a time.
 class MpiExchange : public ranks::Exchange {
  public:
   explicit MpiExchange(MPI_Comm communicator);

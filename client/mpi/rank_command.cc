@@ -58,11 +58,11 @@ absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments) {
   auto* chosen = std::get_if<SkeletonizeArguments>(&arguments);
   if (chosen == nullptr || chosen->accepted != AcceptedInput::kAll) {
     return absl::InvalidArgumentError(
-        "ranks run `skeletonize` only; run other commands with `bccskel`, on one machine");
+        "bccskel-mpi runs `skeletonize` only; run other commands with `bccskel`");
   }
   if (chosen->place == Place::kServer) {
     return absl::InvalidArgumentError(
-        "--server: ranks compute themselves; leave it out, or run `bccskel skeletonize`");
+        "--server: ranks compute locally; omit it, or run `bccskel skeletonize`");
   }
   BCCSKEL_RETURN_IF_ERROR(ranks::CheckRankOptions(chosen->skeletonize));
   BCCSKEL_RETURN_IF_ERROR(CheckOutputFormats(*chosen));

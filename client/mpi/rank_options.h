@@ -25,19 +25,16 @@ struct RankOptions {
 };
 
 inline constexpr char kRankOptionsHelp[] =
-    "Options of bccskel-mpi besides:\n"
-    "  --checkpoint FOLDER         Write what is left of the object there between shells; all "
-    "ranks "
-    "must see the folder\n"
-    "  --checkpoint-every SECONDS  How often (default 600); 0: after each shell\n"
-    "  --resume                    Go on from the checkpoint in the folder, on any number of "
-    "ranks; "
-    "without one begin anew\n"
-    "  --generate SHAPE            Make a shape of `bccskel generate` instead of reading INPUT, "
-    "with "
-    "--points,\n"
-    "  --seed N, --noise X         as there\n"
-    "  --report-exchange           Tell on standard error what each rank sent, and its memory\n";
+    "Further options of bccskel-mpi:\n"
+    "  --checkpoint FOLDER         Write what remains of the object to this folder between "
+    "shells;\n"
+    "                              all ranks need access to it\n"
+    "  --checkpoint-every SECONDS  Interval (default 600); 0: after each shell\n"
+    "  --resume                    Continue from the checkpoint in the folder, on any number of\n"
+    "                              ranks; start from the beginning if there is none\n"
+    "  --generate SHAPE            Make a shape of `bccskel generate` instead of reading INPUT;\n"
+    "                              also --points N, --seed N, --noise X\n"
+    "  --report-exchange           Report on standard error what each rank sent, and its memory\n";
 
 // Takes those options out of the words of a command line.
 // Errors: INVALID_ARGUMENT.

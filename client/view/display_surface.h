@@ -21,8 +21,8 @@ struct DisplaySurface {
   std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
 };
 
-// Simplification keeps to the budget unless topology forbids it; then it comes close. Of an object
-// whose surface has far more triangles than the budget, cells of several points are shown: see
+// Simplification stays within the budget unless topology forbids it; then it comes close. If the
+// surface has far more triangles than the budget, it is built from cells of several points: see
 // ExtractCellSurface().
 // Errors: those of ExtractSurface().
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,

@@ -19,7 +19,7 @@ struct ResultGraph {
   SkeletonGraph graph;
   std::string method;
   std::string algorithm_version;
-  std::string world;  // "unknown" where the input did not tell
+  std::string world;  // "unknown" if the input did not state it
   std::string unit;
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<PreparingStep> preparing;

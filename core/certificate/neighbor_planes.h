@@ -21,7 +21,7 @@ struct BrickSurroundings {
   std::array<BrickBits, kNeighborCount> around;
 };
 
-// For each direction the 512 bits that say whether a point's neighbor that way is a point.
+// For each direction 512 bits: whether the neighbor of each point in that direction is a point.
 using NeighborPlanes = std::array<BrickBits, kNeighborCount>;
 
 NeighborPlanes FindNeighborPlanes(Sublattice sublattice, const BrickSurroundings& bricks);

@@ -14,7 +14,7 @@
 namespace bccskel {
 
 // The components of each stored brick of an object, or of the background within each stored brick:
-// the pieces that component labeling puts together. Nearly all bricks have one or none; only the
+// the pieces that component labeling joins. Nearly all bricks have one or none; only the
 // others keep labels.
 class PhaseComponents {
  public:

@@ -21,7 +21,7 @@ struct Sha256Digest {
   friend bool operator==(const Sha256Digest&, const Sha256Digest&) = default;
 };
 
-// SHA-256 (FIPS 180-4) of a message that comes in parts. Numbers are added little-endian, doubles
+// SHA-256 (FIPS 180-4) of a message in parts. Numbers are added little-endian, doubles
 // as their IEEE 754 bits, so that a digest is the same on every machine.
 // Threads: one at a time per object.
 class Sha256 {

@@ -56,9 +56,9 @@ enum class ScanDirection : uint8_t { kUpward, kDownward };
 void SweepWithinLayers(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last);
 void SweepWithinLayers(const DistanceView<uint32_t>& view, BrickIndex first, BrickIndex last);
 
-// Takes over distances from the adjacent layer of the other sublattice (four D8 steps) and the next
+// Propagates distances from the adjacent layer of the other sublattice (four D8 steps) and the next
 // layer of the own one (a D6 step along z), for layer k of the given bricks.
-// Needs: `bricks` are of `sublattice`; nobody writes the adjacent layers during the call.
+// Needs: `bricks` are of `sublattice`; no thread writes the adjacent layers during the call.
 void JoinLayers(const DistanceView<uint16_t>& view, Sublattice sublattice,
                 std::span<const BrickIndex> bricks, int k, ScanDirection direction);
 void JoinLayers(const DistanceView<uint32_t>& view, Sublattice sublattice,

@@ -16,7 +16,7 @@ namespace bccskel {
 absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind kind,
                                              const exec::Context& context);
 
-// Takes distances brick by brick, in any order, where nobody needs all of them at a time.
+// Receives distances brick by brick, in any order, so that they need not all be in memory.
 // Threads: Take() is called on several workers at once, for different bricks.
 class DistanceSink {
  public:

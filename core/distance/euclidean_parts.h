@@ -14,9 +14,9 @@
 #include "core/exec/uninitialized.h"
 #include "core/volume/volume.h"
 
-// The two halves of the Euclidean distance, for those who measure an object part by part. Along x
-// the first half needs side runs alone, so columns of bricks can be measured by themselves; where
-// layers of bricks are, each on its own machine, squares move between the halves.
+// The two halves of the Euclidean distance, for callers that measure an object part by part. Along
+// x the first half needs only side runs, so columns of bricks can be measured separately; if the
+// layers of bricks are on several machines, squares are sent between the halves.
 // T as in euclidean_rows.h.
 
 namespace bccskel {
@@ -32,13 +32,14 @@ struct EuclideanParts {
   exec::UninitializedVector<T> beside;
 };
 
-// How far the object goes on beside each row of its bricks.
+// How far the object extends beside each row of its bricks.
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
 
 // Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
-// Right for the bricks of a layer if that layer and those above and below it are whole along y.
+// Right for the `wanted` bricks, which are those of whole layers, if these and the layers above and
+// below them are whole along y; leaves the others undefined.
 template <typename T>
-void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
+void MeasureWithinLayers(const Volume& object, exec::Share wanted, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts);
 // Calls `done` with stacks of bricks whose squares are final, on several workers at once. Returns
 // the largest square: 16 bits are enough where that is below kFirstUnsureSquare. Needs: all bricks

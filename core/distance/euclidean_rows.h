@@ -52,13 +52,21 @@ struct SquaredLengths {
 // A stack of stored bricks of one sublattice, each the next one's neighbor along an axis.
 using BrickStack = std::span<const BrickIndex>;
 
+// Some of the kBrickZ layers of points that each brick of a stack along y has.
+struct LayersOfBrick {
+  size_t first = 0;
+  size_t end = kBrickZ;
+};
+
 // Distances within the layers of a stack along y: `own` of its bricks, `beside` of the bricks of
 // the other sublattice that lie at the same place.
 // Shapes: `runs` of all bricks.
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs);
+                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                const SideRuns<uint32_t>& runs);
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs);
+                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                const SideRuns<uint32_t>& runs);
 
 // From distances within layers to distances in space: `own` of a stack along z.
 // Needs: ScanLayers() for all stacks.

@@ -235,13 +235,13 @@ class Column {
 
 template <typename T>
 HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
-                             Sublattice sublattice, BrickStack stack,
+                             Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
                              const SideRuns<uint32_t>& runs) {
   LayerRows<T> rows(stack.size(), lengths.x);
   // The place that belongs to a row lies after it for even points, before it for odd ones.
   const size_t back = sublattice == Sublattice::kEven ? 0 : 1;
   const size_t count = kBrickY * stack.size();
-  for (size_t k = 0; k < kBrickZ; ++k) {
+  for (size_t k = layers.first; k < layers.end; ++k) {
     ReadLayer(view, lengths.x, stack, k, runs, sublattice, rows);
     Column<T> own(rows.own, 2, lengths.y), between(rows.between, 2, lengths.y);
     size_t at = kBorderRows * kBrickX;
@@ -310,12 +310,14 @@ HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLe
 }
 
 void ScanLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
-  ScanLayersOf(view, lengths, sublattice, stack, runs);
+                     Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                     const SideRuns<uint32_t>& runs) {
+  ScanLayersOf(view, lengths, sublattice, stack, layers, runs);
 }
 void ScanLayersWhole(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                     Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
-  ScanLayersOf(view, lengths, sublattice, stack, runs);
+                     Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                     const SideRuns<uint32_t>& runs) {
+  ScanLayersOf(view, lengths, sublattice, stack, layers, runs);
 }
 void ScanAcrossLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                            Sublattice sublattice, BrickStack stack) {
@@ -339,12 +341,14 @@ HWY_EXPORT(ScanAcrossLayersFloat);
 HWY_EXPORT(ScanAcrossLayersWhole);
 
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, runs);
+                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                const SideRuns<uint32_t>& runs) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, layers, runs);
 }
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, const SideRuns<uint32_t>& runs) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, runs);
+                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                const SideRuns<uint32_t>& runs) {
+  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, layers, runs);
 }
 void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                       Sublattice sublattice, BrickStack stack) {

@@ -57,12 +57,18 @@ class EuclideanScan {
     MeasureSteps();
   }
 
-  void RunWithinLayers(const SideRuns<uint32_t>& runs, const exec::Context& context) {
-    Share(context, object_.brick_count(), 256, [this](size_t n) { FillBeside(n); });
-    const std::vector<BrickIndex> feet = StackFeet(kBelowY);
+  void RunWithinLayers(exec::Share wanted, const SideRuns<uint32_t>& runs,
+                       const exec::Context& context) {
+    Share(context, wanted.end - wanted.begin, 256, [&](size_t n) { FillBeside(wanted.begin + n); });
+    std::vector<BrickIndex> feet = StackFeet(kBelowY);
+    std::erase_if(feet, [&](BrickIndex foot) {
+      const LayersOfBrick layers = LayersFor(wanted, foot);
+      return layers.first == layers.end;
+    });
     Share(context, feet.size(), 1, [&](size_t n) {
       const BrickIndex foot = feet[n];
-      ScanLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveY), runs);
+      ScanLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveY),
+                 LayersFor(wanted, foot), runs);
     });
   }
 
@@ -115,6 +121,16 @@ class EuclideanScan {
   }
 
   Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
+
+  // Which layers of a stack write squares of wanted bricks: of those below and above only the layer
+  // of the other sublattice that touches them.
+  LayersOfBrick LayersFor(exec::Share wanted, BrickIndex foot) const {
+    const bool is_odd = SublatticeOf(foot) == Sublattice::kOdd;
+    constexpr size_t kLayers = kBrickZ;
+    if (foot < wanted.begin) return {is_odd ? kLayers - 1 : kLayers, kLayers};
+    if (foot >= wanted.end) return {0, is_odd ? size_t{0} : size_t{1}};
+    return {};
+  }
 
   // The bricks that stacks begin with.
   std::vector<BrickIndex> StackFeet(size_t back) const {
@@ -219,9 +235,9 @@ SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context
 }
 
 template <typename T>
-void MeasureWithinLayers(const Volume& object, const SideRuns<uint32_t>& runs,
+void MeasureWithinLayers(const Volume& object, exec::Share wanted, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts) {
-  EuclideanScan<T>(object, parts).RunWithinLayers(runs, context);
+  EuclideanScan<T>(object, parts).RunWithinLayers(wanted, runs, context);
 }
 template <typename T>
 float MeasureAcrossLayers(const Volume& object, const exec::Context& context,
@@ -272,10 +288,10 @@ ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
           std::move(own_runs)};
 }
 
-template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
-                                  EuclideanParts<uint16_t>&);
-template void MeasureWithinLayers(const Volume&, const SideRuns<uint32_t>&, const exec::Context&,
-                                  EuclideanParts<float>&);
+template void MeasureWithinLayers(const Volume&, exec::Share, const SideRuns<uint32_t>&,
+                                  const exec::Context&, EuclideanParts<uint16_t>&);
+template void MeasureWithinLayers(const Volume&, exec::Share, const SideRuns<uint32_t>&,
+                                  const exec::Context&, EuclideanParts<float>&);
 template float MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<uint16_t>&,
                                    const std::function<void(BrickStack)>&);
 template float MeasureAcrossLayers(const Volume&, const exec::Context&, EuclideanParts<float>&,

@@ -70,7 +70,7 @@ class EuclideanStream {
   bool MeasureAs(const Columns& part, std::optional<EuclideanParts<T>>& room) {
     if (!room.has_value()) room.emplace(most_bricks_);
     EuclideanParts<T>& parts = *room;
-    MeasureWithinLayers(part.volume, part.runs, context_, parts);
+    MeasureWithinLayers(part.volume, {0, part.volume.brick_count()}, part.runs, context_, parts);
     const bool is_all = groups_.size() == 1;
     T* const field = is_all ? nullptr : RoomFor<T>();
     const float largest =

@@ -27,8 +27,8 @@ alignas(64) constexpr std::array<int32_t, kBrickX + 1> kBitsUpTo = {
     0x0000, 0x0001, 0x0003, 0x0007, 0x000f, 0x001f, 0x003f, 0x007f, 0x00ff,
     0x01ff, 0x03ff, 0x07ff, 0x0fff, 0x1fff, 0x3fff, 0x7fff, 0xffff};
 
-// The highest bit, or `none` where there is none: whole numbers of 16 bits are exact as floats,
-// whose exponent tells. Without branches, since rows at a boundary come in all kinds.
+// The highest bit, or `none` if no bit is set, from the exponent of a float: 16-bit integers are
+// exact as floats. Without branches, since rows at a boundary are unpredictable.
 HWY_INLINE Run HighestBit(Run bits, int32_t none) {
   const RunTag ints;
   const auto exponent =
@@ -37,7 +37,7 @@ HWY_INLINE Run HighestBit(Run bits, int32_t none) {
                         hn::Sub(exponent, hn::Set(ints, 127)));
 }
 
-// A row's background, and how far the object goes on beside it, in points.
+// A row's background, and how far the object extends beside it, in points.
 struct RowEnds {
   int32_t background;  // a bit per point
   int32_t left;

@@ -12,7 +12,7 @@ namespace bccskel::exec {
 // Names of the sets that this machine can run, best first.
 std::vector<std::string> SupportedInstructionSets();
 
-// Uses this one from now on, in the whole process; an empty name goes back to the best.
+// Selects the instruction set of the whole process; an empty name selects the best again.
 // Returns false, and changes nothing, when the machine cannot run it.
 // Threads: not while kernels run.
 bool ChooseInstructionSet(const std::string& name);

@@ -65,7 +65,7 @@ class MeetingTeam {
   }
   // Whether the others are to leave.
   bool parting() const { return parting_; }
-  // On worker 0, once the others have left what it takes over.
+  // On worker 0, after the others have stored what it merges.
   void GoOnAlone() { alone_ = true; }
 
  private:

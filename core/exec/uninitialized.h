@@ -12,8 +12,8 @@
 
 namespace bccskel::exec {
 
-// For large buffers whose every element is written before it is read: growing a vector leaves the
-// new elements as they are in memory, which a buffer before may have used.
+// For large buffers in which every element is written before it is read: growing a vector does not
+// initialize the new elements.
 template <typename T>
 class UninitializedAllocator : public std::allocator<T> {
  public:

@@ -33,7 +33,7 @@ class ExrContext {
 
   exr_context_t get() const { return context_; }
 
-  // OK for EXR_ERR_SUCCESS, otherwise an error that says what OpenEXR said: the sink's own error
+  // OK for EXR_ERR_SUCCESS, otherwise an error with the message of OpenEXR: the sink's own error
   // where there is one; INVALID_ARGUMENT while reading, since the bytes are the caller's;
   // RESOURCE_EXHAUSTED when the budget is spent; INTERNAL while writing.
   absl::Status Check(exr_result_t result, const char* what) const;

@@ -13,7 +13,7 @@ namespace bccskel {
 using ColumnBlock = std::array<uint32_t, 64>;
 using LayerBlock = std::array<uint64_t, 32>;
 
-// Cost: five stages of 16 word swaps, whatever the bits.
+// Cost: five stages of 16 word swaps, for any bits.
 LayerBlock LayersOfColumns(const ColumnBlock& columns) noexcept;
 ColumnBlock ColumnsOfLayers(const LayerBlock& layers) noexcept;
 

@@ -30,7 +30,7 @@ void StoreNumber(Number number, std::span<std::byte> bytes, size_t offset) {
   std::memcpy(bytes.data() + offset, &number, sizeof(Number));
 }
 
-// Walks over untrusted bytes; what is not there is nullopt, never read.
+// Reads untrusted bytes; a value beyond the end is nullopt.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -26,14 +26,14 @@ class MaskDecoder final : public VolumeDecoder {
   absl::Status AddVoxels(std::span<const std::byte> bytes);
   absl::Status FlushSlice();
   absl::Status CheckUnusedBits() const;
-  // Bytes that hold the bits of the slice that comes next.
+  // Bytes that hold the bits of the next slice.
   size_t SliceBytes() const;
 
   const VolumeHeader header_;
   const MaskGrid grid_;
   BodyReader body_;
   MaskConverter converter_;
-  // The bits of the slice that comes next, as far as they are here, from bit first_bit_ on. Slices
+  // The bits of the next slice, as far as they have arrived, from bit first_bit_ on. Slices
   // need not begin at a byte.
   std::vector<std::byte> packed_;
   size_t first_bit_ = 0;

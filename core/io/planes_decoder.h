@@ -31,7 +31,7 @@ class PlanesDecoder final : public VolumeDecoder {
   BodyReader body_;
   BrickCollector collector_;
   PlaneRowsPlace place_;
-  std::vector<uint32_t> words_;  // the rows at place_, as far as they have come
+  std::vector<uint32_t> words_;  // the rows at place_, as far as they have arrived
   size_t filled_bytes_ = 0;      // of words_
   uint64_t received_bytes_ = 0;  // of all planes
 };

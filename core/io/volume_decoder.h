@@ -17,7 +17,7 @@
 namespace bccskel {
 
 // Decodes a volume whose bytes come in order, in parts of any size. Planes and bricks are decoded
-// as they come; an OpenEXR file is kept and decoded by Finish(). Memory stays within
+// as they arrive; an OpenEXR file is kept and decoded by Finish(). Memory stays within
 // VolumeHeader::DecodingBytes(). After an error the decoder is of no further use.
 // Threads: one at a time.
 class VolumeDecoder {

@@ -13,8 +13,8 @@
 
 namespace bccskel {
 
-// Hands results that are made in any order to a consumer in order, from one thread at a time.
-// Threads: all members from any thread.
+// Delivers results that are computed in any order to a consumer in order, from one thread at a
+// time. Threads: all members from any thread.
 class OrderedDelivery {
  public:
   // At most `window` results wait for one that comes before them.

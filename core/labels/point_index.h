@@ -29,7 +29,7 @@ struct NearestCurvePoint {
 };
 
 // Finds the nearest of a set of points: a k-d tree whose node is the median of its range.
-// Cost: n log n to build; a query whose hint is near looks at a few leaves.
+// Cost: n log n to build; a query with a near hint visits a few leaves.
 class PointIndex {
  public:
   explicit PointIndex(std::vector<ValuePoint> points);

@@ -22,7 +22,7 @@ struct LabelsOptions {
 struct LabelSkeleton {
   uint64_t label = 0;
   uint64_t voxels = 0;
-  SkeletonizeResult result;  // its certificate tells the mask's topology, too
+  SkeletonizeResult result;  // its certificate includes the mask's topology
 };
 
 // Takes the skeletons by ascending label, one at a time, from any thread. An error ends the work.

@@ -34,12 +34,12 @@ double SurfaceStepOf(ObjectSource source);
 // What lies beyond the border of the lattice, or of the image that it was made of.
 enum class Border : uint8_t {
   kEnds,       // background: the object ends there
-  kContinues,  // nobody knows: a limb that is cut off there runs straight to the border
+  kContinues,  // is unknown: a limb that is cut off there runs straight to the border
 };
 
 struct SkeletonizeOptions {
   PreparingOptions preparing = {};
-  // The symmetric method puts curves closer to the center than the paper's directions do.
+  // The symmetric method centers curves better than the paper's directions do.
   ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
   // Defines the shells. Euclidean distances center curves better than chamfer distances, and also
   // give the exact radii.

@@ -10,7 +10,7 @@
 namespace bccskel {
 
 // Memory for each point that thinning leaves, from pruning to the graph; see kTraceBytesPerPoint.
-// It follows what the object looks like: a brick of dust leaves 256 points, one of a solid none or
+// How many depends on the object: a brick of dust leaves 256 points, a solid brick at most
 // one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
 

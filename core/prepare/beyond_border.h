@@ -18,10 +18,10 @@ struct ContinuedObject {
   DistanceField distance;  // Euclidean, of the object's points to background within the border
 };
 
-// Distances that know no background beyond the border: that of the lattice, or of the image that it
-// was made of, whose last corner points lie on its faces.
+// Distances without background beyond the border: that of the lattice, or of the image that it was
+// made from, whose last corner points lie on its faces.
 // Does:  adds the points beyond, farther and farther out, until no point of the object is deeper
-//        than that. An object without background is as deep as its lattice is long.
+//        than they reach. An object without background is as deep as its lattice is long.
 // Cost:  a distance field of object and points beyond, up to three for thick objects.
 // Errors: of the budget; CANCELLED, DEADLINE_EXCEEDED.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
@@ -29,7 +29,7 @@ absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, Borde
                                                      exec::MemoryBudget& memory,
                                                      const exec::Context& context);
 
-// The distances of `part`, whose points are points of `whole`, which `field` belongs to.
+// The distances of `part`, a subset of `whole`, from the `field` of `whole`.
 DistanceField FieldOfPart(const Volume& part, const Volume& whole, const DistanceField& field);
 
 }  // namespace bccskel

@@ -8,8 +8,8 @@
 namespace bccskel {
 
 // Does:  one pass for all points at once: an object point stays if 7 of its 14 neighbors are object
-//        points, a background point joins if 8 are; that is, every point takes the side of the
-//        majority among itself and its neighbors.
+//        points, a background point joins if 8 are; that is, every point is set to the
+//        majority of itself and its neighbors.
 // Why it is right: the sum of fifteen bits is at least eight when its bit of weight eight is set,
 //        so a tree of full adders counts for 512 points at once. A point that lies in a brick
 //        without points has at most three neighbors of its own sublattice that are not in that

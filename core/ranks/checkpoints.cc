@@ -60,8 +60,7 @@ absl::StatusOr<Bytes> Unsealed(const std::string& name, Bytes bytes) {
     bytes.resize(size);
     if (Crc32c(bytes) == sum) return bytes;
   }
-  return absl::DataLossError("checkpoint: " + name +
-                             " is damaged; begin anew in an empty folder, without --resume");
+  return absl::DataLossError("checkpoint: " + name + " is damaged; start again without --resume");
 }
 
 }  // namespace
@@ -92,8 +91,8 @@ absl::StatusOr<Checkpoints::Mark> Checkpoints::ReadMark() {
   const auto mark = from.Take<Mark>();
   if (version == kVersion && mark.job == job_) return mark;
   return absl::FailedPreconditionError(
-      "checkpoint: the one in the folder is of another object or of other options; name another "
-      "folder, or leave --resume out to replace it");
+      "checkpoint: the one in the folder belongs to another object or other options; name another "
+      "folder, or omit --resume to replace it");
 }
 
 // A share of the parts for each rank.

@@ -17,12 +17,12 @@
 
 namespace bccskel::ranks {
 
-// A folder that all ranks see. Threads: one thread of each rank.
+// A folder that all ranks can access. Threads: one thread of each rank.
 class CheckpointFolder {
  public:
   virtual ~CheckpointFolder() = default;
 
-  // As a whole or not at all, and there after a loss of power.
+  // Atomic and durable: the file survives a power failure.
   virtual absl::Status Write(const std::string& name, const Bytes& bytes) = 0;
   // Errors: NOT_FOUND.
   virtual absl::StatusOr<Bytes> Read(const std::string& name) = 0;
@@ -30,8 +30,8 @@ class CheckpointFolder {
 };
 
 enum class Resuming : uint8_t {
-  kNever,     // begins anew; the first checkpoint replaces one that is there
-  kWhereDone  // goes on from the checkpoint; begins anew where there is none
+  kNever,     // starts from the beginning; the first checkpoint replaces an old one
+  kWhereDone  // continues from the checkpoint, or from the beginning if there is none
 };
 
 struct CheckpointOptions {
@@ -40,28 +40,28 @@ struct CheckpointOptions {
   std::chrono::milliseconds interval = std::chrono::minutes(10);  // 0: after each shell
 };
 
-// What is left of an object after some shells.
+// What remains of an object after some shells.
 struct ShellsDone {
   int32_t shells = 0;
   std::vector<IsthmusBirth> isthmuses;  // of all ranks
 };
 
-// Writes what is left of the object between shells, each rank its own bricks, and reads it back on
-// any number of ranks. A checkpoint counts once rank 0 has written which one it is, which it does
-// after all ranks have written theirs; then the one before goes.
+// Writes what remains of the object between shells, each rank its own bricks, and reads it back on
+// any number of ranks. A checkpoint becomes valid when rank 0 writes the file that names it, after
+// all ranks have written their parts; then the previous checkpoint is deleted.
 class Checkpoints {
  public:
   // All ranks together. `bricks` and `exchange` outlive this.
   Checkpoints(Exchange& exchange, const RankBricks& bricks, const CheckpointOptions& options,
               DistanceKind distance, const ThinningOptions& thinning);
 
-  // Puts what the last checkpoint left of the object into `object`, in the order of bricks.local;
-  // 0 shells, and nothing there, where there is none or none is wanted.
-  // Errors: FAILED_PRECONDITION where it is one of another object or of other options, DATA_LOSS;
+  // Stores what the last checkpoint left of the object in `object`, in the order of bricks.local;
+  // returns 0 shells and leaves `object` empty if there is none or none is wanted.
+  // Errors: FAILED_PRECONDITION (checkpoint of another object or of other options), DATA_LOSS;
   //         on all ranks.
   absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);
 
-  // Writes one if it is time. All ranks together, after a shell.
+  // Writes one if the interval has passed. All ranks together, after a shell.
   // Errors: of the folder; on all ranks.
   absl::Status AfterShell(int32_t shell, const ThinningState& state,
                           const std::vector<IsthmusBirth>& isthmuses);

@@ -91,9 +91,9 @@ class EuclideanRounds {
   std::vector<Bytes> MeasureLayers(const ObjectPart& part) const {
     const Volume& volume = part.volume;
     EuclideanParts<T> parts(volume.brick_count());
-    MeasureWithinLayers(volume, part.runs, context_, parts);
     const exec::Share own =
         BricksOfLayers(volume, layers_.FirstOf(exchange_.rank()), layers_.EndOf(exchange_.rank()));
+    MeasureWithinLayers(volume, own, part.runs, context_, parts);
     std::vector<size_t> counts(ranks_);
     for (size_t n = own.begin; n < own.end; ++n) ++counts[MeasurerOf(volume.keys()[n], ranks_)];
     std::vector<Bytes> letters(ranks_);

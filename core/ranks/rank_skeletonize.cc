@@ -78,7 +78,8 @@ Order Receive(Exchange& exchange) {
 absl::StatusOr<Volume> FitPart(absl::StatusOr<Volume> part, const Volume& object) {
   if (!part.ok() || part->empty()) return part.ok() ? object : std::move(part);
   if (part->extent() == object.extent() && part->placement() == object.placement()) return part;
-  return absl::InvalidArgumentError("has read another object than rank 0");
+  return absl::InvalidArgumentError(
+      "differs from the object that rank 0 has read; all ranks must read the same file");
 }
 
 // All ranks together: the whole object on rank 0, nothing elsewhere.
@@ -93,8 +94,8 @@ absl::StatusOr<Volume> BringParts(Exchange& exchange, absl::StatusOr<Volume> par
 absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
   if (options.border == Border::kContinues) {
     return absl::InvalidArgumentError(
-        "an object that continues beyond the border: ranks take the border for an end; leave "
-        "--border out, or run `bccskel skeletonize --local` on one machine");
+        "--border continues: ranks treat the border as the end of the object; omit "
+        "it, or run `bccskel skeletonize --local` on one machine");
   }
   return absl::OkStatus();
 }

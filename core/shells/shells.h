@@ -64,17 +64,17 @@ class Shells {
 Shells BuildShells(const Volume& object, const DistanceField& distance, double shell_width,
                    const exec::Context& context);
 
-// The same from chamfer distances that nobody needs afterwards: measured and sliced in one go, in
-// less memory. `at_once` as for StreamChamfer().
+// The same from chamfer distances that are not needed afterwards: measured and sliced in one pass,
+// in less memory. `at_once` as for StreamChamfer().
 // Needs:  not kEuclidean.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
                                     const exec::Context& context,
                                     size_t at_once = kMostPointsAtOnce);
 
-// Thinner shells, modulo 32, that tell which of two neighbors is deeper: those of neighbors differ
-// by less than 16. Shapes: planes for each brick and the padding brick. Background points may have
-// any bits.
+// Thinner shells, modulo 32, that determine which of two neighbors is deeper: those of neighbors
+// differ by less than 16. Shapes: planes for each brick and the padding brick. Background points
+// may have any bits.
 using BrickDepths = exec::UninitializedVector<DepthPlanes>;
 
 BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,

@@ -16,7 +16,7 @@ struct ClusterTopology {
   friend bool operator==(const ClusterTopology&, const ClusterTopology&) = default;
 };
 
-// Loops and cavities of a connected set of points by itself.
+// Loops and cavities of a connected set of points, taken separately.
 // Shapes: `cluster` holds the set; masks[p] says, for each of its points, which neighbors belong to
 //         the set; `seen` is scratch of the same size, zero where unvisited.
 // Cost:   follows the points of the set.

@@ -21,7 +21,7 @@ struct Cluster {
   uint32_t branches = 0;  // pairs of neighbors, one in the cluster and one outside
 
   bool IsContractible() const { return topology == ClusterTopology{}; }
-  // A thick spot of one branch, which goes through it. It is no node of the graph.
+  // A thick spot inside one branch. It is not a node of the graph.
   bool IsBend() const { return IsContractible() && branches == 2; }
 };
 

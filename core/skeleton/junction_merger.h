@@ -15,18 +15,17 @@ inline constexpr double kMaxJunctionReach = 4;
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckJunctionReach(double reach);
 
-// Does:  makes one node of junctions that lie in one ball. The deepest junction first, each joins
-//        those that edges lead to whose points all lie within `reach` of its radii from it, and
-//        within `reach` of the radius of each limb that leaves it there (or within half its
-//        radius, whatever the limbs), the nearest along the paths first: those edges become part
-//        of the node. A junction that was taken in
-//        takes in none, so that a row of junctions along a limb does not become one. All other
-//        edges of what was taken in run on to the node, along the way that is now inside it. A
-//        ball with more than 17 junctions is left as it is: that is a sponge, and all its edges
-//        would run on to the middle.
-// Why it is right: only edges of a tree disappear, each with a node, so edges - nodes stays, and
-//        so do loops and components. A second edge between two that are joined becomes an edge
-//        from the node to itself.
+// Does:  merges junctions that lie in one ball into one node. Starting with the deepest, each
+//        junction absorbs those connected by edges whose points all lie within `reach` of its
+//        radii, and within `reach` of the radius of each limb that leaves it there (or within half
+//        its radius, regardless of the limbs), the nearest along the paths first: those edges
+//        become part of the node. An absorbed junction absorbs no others, so a row of junctions
+//        along a limb stays a row. All other edges of absorbed junctions are extended to the node
+//        along the path inside it. A ball with more than 17 junctions is not merged: it is a
+//        sponge, and all its edges would run to the middle.
+// Why it is right: only edges of a tree disappear, each with a node, so edges - nodes stays the
+//        same, and so do loops and components. A second edge between two merged junctions becomes
+//        an edge from the node to itself.
 // Needs: a graph in canonical order, which the result has, too; shifts not set yet.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status MergeJunctions(double reach, const exec::Context& context, SkeletonGraph& graph);

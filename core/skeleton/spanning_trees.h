@@ -17,7 +17,7 @@ using PointPath = std::vector<PointIndex>;
 // same length the one found first is taken; neighbors are visited in the order of kDirections14.
 class SpanningTrees {
  public:
-  // Shapes: masks[p] says which neighbors of p belong to p's set.
+  // Shapes: masks[p] has the neighbors of p that belong to p's set.
   SpanningTrees(const ThinPoints& points, std::span<const NeighborMask> masks)
       : points_(points), masks_(masks), parents_(points.size()), depths_(points.size()) {}
 
@@ -34,7 +34,7 @@ class SpanningTrees {
   const ThinPoints& points_;
   const std::span<const NeighborMask> masks_;
   std::vector<PointIndex> parents_;
-  std::vector<uint32_t> depths_;  // one more than the depth; 0 where no tree has come
+  std::vector<uint32_t> depths_;  // one more than the depth; 0: reached by no tree
 };
 
 }  // namespace bccskel

@@ -14,12 +14,12 @@ namespace bccskel {
 
 // Does:  measures points of a skeleton in the solid that a mask samples: half the chord through
 //        the point along the way to the nearest background.
-// Why:   the nearest background point is the center of a voxel that just is not in the solid, the
-//        best of many for round surfaces and half a voxel off for flat ones; and a lattice point
-//        lies up to half a voxel beside the middle. So half a voxel is taken off where the surface
-//        is flat, and the chord goes on to the face where it leaves the object on the other side.
-//        Where the other side is more than a voxel and a half farther, the point is near no middle
-//        and the near side alone counts.
+// Why:   the nearest background point is the center of a voxel just outside the solid, the nearest
+//        of many for round surfaces and half a voxel off for flat ones; and a lattice point lies
+//        up to half a voxel off the middle. So half a voxel is subtracted where the surface is
+//        flat, and the chord extends to the face where it leaves the object on the other side.
+//        If the other side is more than a voxel and a half farther away, the point is not near
+//        the middle, and only the near side counts.
 // Cost:  a search for background at a known distance (see ExactRadius) and a dozen look-ups per
 //        point.
 // Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2 or 4);

@@ -30,7 +30,7 @@ class LazyBrickNeighbors {
   // Needs: always the same keys.
   std::span<const BrickNeighborhood> Of(std::span<const BrickKey> keys) const;
 
-  // Says nothing about the points, so it never tells volumes apart.
+  // Independent of the points, so comparisons of volumes ignore it.
   friend bool operator==(const LazyBrickNeighbors&, const LazyBrickNeighbors&) { return true; }
 
  private:

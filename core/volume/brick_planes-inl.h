@@ -1,7 +1,7 @@
 // The neighbor planes of a brick in vector registers, for kernels that are compiled once per
 // instruction set. Include it inside a Highway foreach_target source.
 //
-// A plane is the 512 bits of a brick in which bit p says whether the neighbor of p in one direction
+// A plane is the 512 bits of a brick in which bit p is set if the neighbor of p in one direction
 // is an object point. In the numbering of bricks (core/volume/brick.h) the D8 neighbors of an even
 // cell (i, j, k) are the odd cells (i or i-1, j or j-1, k or k-1), those of an odd cell the even
 // cells (i or i+1, ...). So a D8 plane is the other sublattice's brick, moved one cell along a set

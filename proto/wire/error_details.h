@@ -10,8 +10,8 @@
 #include "bccskel/v1/rpc_details.pb.h"
 
 // Details of an error travel inside absl::Status as payloads: the key is the detail's type URL, the
-// value its serialized message. So code far from gRPC can say which field was wrong, and the server
-// and the client each need one generic translation.
+// value its serialized message. So code without access to gRPC can name the wrong field, and the
+// server and the client each need one generic translation.
 
 namespace bccskel::wire {
 

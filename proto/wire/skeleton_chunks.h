@@ -47,8 +47,8 @@ class SkeletonChunkPager {
   size_t sheet_point_ = 0;
 };
 
-// Puts a graph together from chunks and checks it: what a damaged or dishonest server sends is an
-// error, never a graph whose edges lead nowhere.
+// Assembles a graph from chunks and checks it: damaged or malicious chunks give an error, never a
+// graph with dangling edges.
 class SkeletonAssembler {
  public:
   // Errors: DATA_LOSS for a missing or repeated chunk, columns of different lengths, and kinds that

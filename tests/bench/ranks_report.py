@@ -1,4 +1,4 @@
-"""What bccskel-mpi says to itself, and what that means on networks: counts, delayed runs, a model.
+"""Communication of bccskel-mpi and its cost on networks: counts, delayed runs, a model.
 
   ranks_report.py counts BCCSKEL_MPI    runs shapes on 1, 2, 4 and 8 ranks and prints what they sent
   ranks_report.py delay BCCSKEL_MPI     two ranks in two network namespaces, with a delay of 0, 0.1 and
@@ -6,7 +6,7 @@
   ranks_report.py model                 the model's table for large lattices and many ranks
 
 The delay is a relay of packets between two TUN devices, since not every kernel has `tc netem`; the
-delay that packets really had is measured beside each run and told.
+actual delay of packets is measured and printed with each run.
 """
 
 import collections
@@ -61,7 +61,7 @@ def job_words(program, shape, points, options):
 # ---- counts
 
 def counts(program):
-    print("| object | method | ranks | s of processor time, most | MiB, most | shells | meetings a shell |"
+    print("| object | method | ranks | s of processor time, most | MiB, most | shells | synchronizations a shell |"
           " thinning: bytes sent a shell and rank | bytes sent a point: distances, thinning, rest |")
     print("|---|---|---|---|---|---|---|---|---|")
     for shape, points in (("ball", 8_000_000), ("ball", 64_000_000), ("tree", 8_000_000)):
@@ -180,7 +180,7 @@ class Link:
 
 def delay(program):
     print("| object | method | delay | round trip measured | thinning: trades + sums | time in them "
-          "| more than without delay | model |")
+          "| added time | model |")
     print("|---|---|---|---|---|---|---|---|")
     with Link() as link, tempfile.TemporaryDirectory() as folder:
         agent = pathlib.Path(folder) / "agent"
@@ -214,10 +214,10 @@ def delay(program):
 # each cell of the lattice's edge and each side of a rank.
 Method = collections.namedtuple("Method", "distances in_turn thinning trades bytes_a_point bytes_a_cell")
 METHODS = {"symmetric": Method(35, 0, 15, 1, 11.5, 40), "directional": Method(0, 24, 8, 8, 0.3, 55)}
-# Seconds until a small letter is there, bytes a second.
+# Latency of a small message in seconds, bytes a second.
 NETWORKS = {"25 Gbit": (25e-6, 0.9 * 25e9 / 8), "InfiniBand": (2e-6, 0.9 * 200e9 / 8)}
-LOOKOUT = 50e-6     # how much later a waiting rank looks (client/mpi/mpi_exchange.cc)
-THREADS = 16 * 0.8  # of a rank, and how well they share
+LOOKOUT = 50e-6     # the interval at which a waiting rank polls (client/mpi/mpi_exchange.cc)
+THREADS = 16 * 0.8  # of a rank, and their efficiency
 UNEVEN = 1.3        # what the busiest rank has of a shell, in shares
 # Edge in cells, part of the lattice that is object, shells, and ns a point that rank 0 takes alone for
 # cleaning up, pruning and the graph on one thread, by method.
@@ -240,9 +240,9 @@ def modeled(of, name, ranks, network):
     trades = latency + LOOKOUT + 2 * method.bytes_a_cell * cells / method.trades / bandwidth
     return {
         "computing": points * ns * beside * (method.distances / busy + method.thinning * UNEVEN / ranks),
-        "in turn": points * ns * method.in_turn,
-        "meetings": shells * (method.trades * trades + sums),
-        "wire": points * (method.bytes_a_point / busy + 72 / 512) / bandwidth,
+        "one after the other": points * ns * method.in_turn,
+        "synchronizing": shells * (method.trades * trades + sums),
+        "sending": points * (method.bytes_a_point / busy + 72 / 512) / bandwidth,
         "rank 0 alone": points * alone[name] * 1e-9,
     }
 

@@ -22,7 +22,7 @@ struct WorldBox {
   WorldPoint high;
 };
 
-// Spheres of one radius in the world: what a picture must have room for.
+// Spheres of one radius in the world: what a picture must contain.
 struct Spheres {
   std::span<const WorldPoint> centers;
   double radius;

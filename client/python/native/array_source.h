@@ -11,7 +11,7 @@
 
 namespace bccskel::python {
 
-// An array in the memory of somebody else.
+// An array in memory that another object owns.
 struct ArrayView {
   const std::byte* data = nullptr;
   VoxelType type = VoxelType::kUint8;

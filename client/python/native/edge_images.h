@@ -14,9 +14,9 @@ enum class EdgeImage {
 };
 
 // The image on the grid of the mask or the label.
-// Errors: INVALID_ARGUMENT for a mesh, a sampling or a prepared object, whose voxels are not those
-//         that were thinned; UNIMPLEMENTED for a label that a server has computed; those of the
-//         function.
+// Errors: INVALID_ARGUMENT for a mesh, a sampling or a prepared object, since their voxels differ
+//         from the thinned ones; UNIMPLEMENTED for a label that a server has computed; those of
+//         the function.
 absl::StatusOr<SparseImage> ImageOf(const Outcome& outcome, EdgeImage kind,
                                     const exec::Context& context);
 

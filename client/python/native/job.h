@@ -29,7 +29,7 @@ class Job {
   std::stop_token stop() const { return stop_.get_token(); }
   void RequestStop() { stop_.request_stop(); }
 
-  // On the job's thread. A report that nobody has taken gives way to the next.
+  // On the job's thread. A report that has not been delivered is replaced by the next.
   void Report(const Progress& progress);
   void Finish();
 
@@ -47,9 +47,9 @@ class Job {
   News news_;
 };
 
-// Runs `work` on a thread of its own without the interpreter's lock, while this thread calls
-// `progress(done, total)`, unless it is None, and takes signals. Where either raises, the job is
-// stopped, and what was raised goes on. Needs: the interpreter's lock.
+// Runs `work` on a separate thread without the interpreter's lock, while this thread calls
+// `progress(done, total)`, unless it is None, and handles signals. If either raises, the job is
+// stopped and the exception propagates. Needs: the interpreter's lock.
 // Throws: the error of the work as ThrowIfError() does.
 void RunJob(const pybind11::object& progress, const std::function<absl::Status(Job&)>& work);
 

@@ -32,7 +32,7 @@ class ByteStream {
   virtual ~ByteStream() = default;
 
   // How many bytes were read: fewer than asked for only at the end.
-  // Errors: INVALID_ARGUMENT for a damaged or cut stream, and what the system says.
+  // Errors: INVALID_ARGUMENT for a damaged or truncated stream; errors of the system.
   virtual absl::StatusOr<size_t> Read(std::span<std::byte> into) = 0;
 
   // Passes over bytes.

@@ -32,7 +32,7 @@ class ChunkStore {
   virtual ~ChunkStore() = default;
   // Nothing where the chunk is missing: then all its voxels have the fill value. What is returned
   // lives until the next call.
-  // Errors: INVALID_ARGUMENT for damaged chunks; what the system says. Messages name the chunk.
+  // Errors: INVALID_ARGUMENT for damaged chunks; errors of the system. Messages name the chunk.
   virtual absl::StatusOr<std::optional<ChunkVoxels>> Read(const ChunkIndex& chunk) = 0;
 };
 
@@ -45,7 +45,7 @@ struct ChunkedImage {
 };
 
 // Reads a slab of chunks at a time and gives its slices. A slab above
-// ImageLimits::max_chunk_slab_bytes is read in several goes.
+// ImageLimits::max_chunk_slab_bytes is read in several steps.
 // Needs:  info.size from SizeOfAxes(), info.placement from PlacementOf...(), positive chunk_size.
 // Errors: RESOURCE_EXHAUSTED for more chunks than ImageLimits::max_chunks.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenChunkedImage(ChunkedImage image,

@@ -115,7 +115,7 @@ absl::Status ExpandCompressedSegmentation(std::span<const std::byte> packed,
                                           std::span<std::byte> into) {
   const Words32 all(packed);
   if (all.count() == 0 || all[0] != 1) {
-    return absl::InvalidArgumentError("it is no compressed segmentation of one channel");
+    return absl::InvalidArgumentError("not a compressed segmentation of one channel");
   }
   const Words32 words(packed.subspan(kWordBytes));
   Expander expander(words, size, block, bytes, into);

@@ -138,14 +138,15 @@ absl::StatusOr<DicomKind> KindOf(DcmItem& data) {
   if (!Short(data, DCM_Rows).has_value()) return DicomKind::kOther;
   if (const uint16_t samples = Short(data, DCM_SamplesPerPixel).value_or(1); samples != 1) {
     return absl::UnimplementedError(
-        absl::StrFormat("%d samples a pixel: colors are not read", samples));
+        absl::StrFormat("%d samples a pixel: colors are not supported", samples));
   }
   if (Text(data, DCM_SOPClassUID) != kSegmentationClass) return DicomKind::kImage;
   if (const std::string type = Text(data, DCM_SegmentationType); type != "BINARY") {
-    return absl::UnimplementedError(absl::StrFormat(
-        "a segmentation of the type '%s' is not read, only BINARY; threshold it first, and store "
-        "it as a binary one, NIfTI or NRRD",
-        type.substr(0, 40)));
+    return absl::UnimplementedError(
+        absl::StrFormat("a segmentation of the type '%s' is not supported, only BINARY is; "
+                        "threshold it first, and store "
+                        "it as a binary one, NIfTI or NRRD",
+                        type.substr(0, 40)));
   }
   return DicomKind::kSegmentation;
 }

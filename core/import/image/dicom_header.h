@@ -26,7 +26,7 @@ struct DicomHeader {
   std::vector<DicomFrame> frames;
 };
 
-// Reads what is in front of the voxels.
+// Reads everything before the voxels.
 // Errors: INVALID_ARGUMENT for a damaged file and one without what images need (position,
 //         orientation and pixel spacing); UNIMPLEMENTED for colors and
 //         fractional segmentations. Messages name the file.

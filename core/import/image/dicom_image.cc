@@ -63,7 +63,7 @@ absl::StatusOr<VoxelType> TypeOf(DcmDataset& data) {
     case 32:
       return is_signed == 0 ? VoxelType::kUint32 : VoxelType::kInt32;
     default:
-      return absl::UnimplementedError(absl::StrFormat("voxels of %d bits are not read", bits));
+      return absl::UnimplementedError(absl::StrFormat("voxels of %d bits are not supported", bits));
   }
 }
 

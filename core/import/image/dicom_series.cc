@@ -91,7 +91,7 @@ absl::StatusOr<std::vector<DicomHeader>> DicomFilesOf(const std::string& path,
   }
   BCCSKEL_ASSIGN_OR_RETURN(DicomHeader header, ReadDicomHeader(path));
   if (header.kind == DicomKind::kOther) {
-    return absl::InvalidArgumentError("the DICOM file is no image");
+    return absl::InvalidArgumentError("the DICOM file is not an image");
   }
   return Headers{std::move(header)};
 }

@@ -29,7 +29,7 @@ struct DicomFrame {
 
 enum class DicomGaps {
   kRefused,  // each slice has one frame
-  kEmpty,    // any number: a segmentation leaves out what is empty
+  kEmpty,    // any number: a segmentation omits empty slices
 };
 
 struct DicomStack {

@@ -14,7 +14,7 @@ namespace bccskel {
 // Bytes that can be read at any place: those of a file, or some in memory.
 class ImageFile {
  public:
-  // Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT for what is not a regular file.
+  // Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT if it is not a regular file.
   static absl::StatusOr<std::shared_ptr<const ImageFile>> Open(const std::string& path);
   // `name` is used for its ending and in messages.
   static std::shared_ptr<const ImageFile> OfBytes(std::string name, std::string bytes);

@@ -14,7 +14,7 @@ struct ImageLimits {
   uint64_t max_slice_voxels = uint64_t{1} << 30;
   uint64_t max_voxels = uint64_t{1} << 36;  // bounds how long a small compressed file can take
   uint64_t max_header_bytes = uint64_t{1} << 20;
-  // Slices that lie scattered over a file are gathered this many bytes at a time, or one by one.
+  // Slices scattered over a file are gathered this many bytes at a time, or one by one.
   uint64_t max_slab_bytes = uint64_t{64} << 20;
   // Of images in chunks: of one expanded chunk, of the slices that are gathered at a time, and how
   // many chunks there may be.

@@ -21,9 +21,9 @@ struct RawLayout {
 };
 
 struct ImageOptions {
-  // Reads the file as raw voxels, whatever it says of itself.
+  // Reads the file as raw voxels and ignores its header.
   std::optional<RawLayout> raw;
-  // Replaces the spacing that the file tells, or does not tell.
+  // Overrides the spacing of the file, or supplies a missing one.
   std::optional<std::array<double, 3>> spacing;
   // Of a TIFF file or OME-Zarr folder with several, counted from 0; of a segmentation of DICOM a
   // segment, by its number.

@@ -24,8 +24,8 @@ struct ImageSlice {
   SliceValues values;
 };
 
-// An open image, read once from the first slice to the last. Memory goes with a slice, never with
-// the file; README.md names the one exception.
+// An open image, read once from the first slice to the last. Memory is proportional to a slice,
+// never to the file; README.md names the one exception.
 class ImageSource {
  public:
   virtual ~ImageSource() = default;
@@ -34,7 +34,7 @@ class ImageSource {
 
   // The slice z = 0, then 1, and so on; its values live until the next call.
   // Errors: INVALID_ARGUMENT (cut or damaged data), OUT_OF_RANGE after the last slice,
-  //         RESOURCE_EXHAUSTED (memory), and what the system says when it cannot read.
+  //         RESOURCE_EXHAUSTED (memory), and read errors of the system.
   virtual absl::StatusOr<ImageSlice> NextSlice() = 0;
 };
 

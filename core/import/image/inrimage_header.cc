@@ -44,7 +44,7 @@ absl::Status CheckSupported(const HeaderFields& fields) {
   const std::string_view scale = fields.Find({"SCALE"}).value_or("2**0");
   if (scale == "2**0") return absl::OkStatus();
   return absl::UnimplementedError(
-      absl::StrFormat("SCALE %s is not read, only 2**0", std::string(scale.substr(0, 80))));
+      absl::StrFormat("SCALE %s is not supported, only 2**0 is", std::string(scale.substr(0, 80))));
 }
 
 absl::StatusOr<ImageSize> SizeOf(const HeaderFields& fields, const ImageLimits& limits) {

@@ -16,8 +16,8 @@
 namespace bccskel {
 
 // Nothing where there is no such file. `path` may be compressed by gzip.
-// Errors: INVALID_ARGUMENT for what is no JSON object; RESOURCE_EXHAUSTED for a file above
-//         ImageLimits::max_header_bytes; what the system says.
+// Errors: INVALID_ARGUMENT if it is not a JSON object; RESOURCE_EXHAUSTED for a file above
+//         ImageLimits::max_header_bytes; errors of the system.
 absl::StatusOr<std::optional<nlohmann::json>> ReadJson(const std::string& path,
                                                        const ImageLimits& limits);
 

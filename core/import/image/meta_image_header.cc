@@ -46,7 +46,7 @@ bool IsTrue(const HeaderFields& fields, std::initializer_list<std::string_view> 
 
 absl::Status CheckSupported(const HeaderFields& fields) {
   if (fields.Find({"BinaryData"}).has_value() && !IsTrue(fields, {"BinaryData"})) {
-    return absl::UnimplementedError("voxels as text (BinaryData = False) are not read");
+    return absl::UnimplementedError("voxels as text (BinaryData = False) are not supported");
   }
   const std::string_view channels = fields.Find({"ElementNumberOfChannels"}).value_or("1");
   if (channels == "1") return absl::OkStatus();
@@ -110,7 +110,7 @@ absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, St
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view file, fields.Require({"ElementDataFile"}));
   if (LowerCase(file) == "local") return PlaceBehindHeader(front, header_bytes, inner, image);
   if (file.starts_with("LIST") || file.find('%') != file.npos) {
-    return absl::UnimplementedError("voxels spread over several data files are not read");
+    return absl::UnimplementedError("voxels spread over several data files are not supported");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const auto skip, SkipOf(fields));
   return PlaceInFile(front, file, skip, inner, image);

@@ -205,7 +205,7 @@ absl::Status PlaceVoxels(const ImageFront& front, const Fields& fields, StoredIm
     return PlaceInFile(front, PairName(front.file->name()), offset, front.compression, image);
   }
   return absl::InvalidArgumentError(
-      "the header has the length of NIfTI's but not its magic; Analyze files are not read");
+      "the header has the length of NIfTI's but not its magic; Analyze files are not supported");
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ struct Elements {
 };
 
 absl::Status BadElements(std::string_view descr) {
-  return absl::InvalidArgumentError(
-      absl::StrFormat("elements of type %s are not read, only plain integers, floats and bools",
-                      std::string(descr.substr(0, descr.find(',')).substr(0, 80))));
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "elements of type %s are not supported, only plain integers, floats and bools are",
+      std::string(descr.substr(0, descr.find(',')).substr(0, 80))));
 }
 
 absl::StatusOr<Elements> ElementsOf(std::string_view dictionary) {

@@ -70,7 +70,7 @@ absl::StatusOr<Compression> CompressionOf(const HeaderFields& fields) {
   for (const std::string_view known : {"ascii", "text", "txt", "hex", "bzip2", "bz2", "zrl"}) {
     if (name != known) continue;
     return absl::UnimplementedError(
-        absl::StrFormat("encoding '%s' is not read; there are raw and gzip", name));
+        absl::StrFormat("encoding '%s' is not supported; raw and gzip are", name));
   }
   return BadField("encoding", encoding, "is neither raw nor gzip");
 }
@@ -177,7 +177,7 @@ HeaderLine Classify(std::string_view line) {
 absl::Status PlaceDetached(const ImageFront& front, const HeaderFields& fields,
                            std::string_view name, Compression compression, StoredImage& image) {
   if (name.starts_with("LIST") || name.find('%') != name.npos) {
-    return absl::UnimplementedError("voxels spread over several data files are not read");
+    return absl::UnimplementedError("voxels spread over several data files are not supported");
   }
   const std::string_view text = fields.Find({"byte skip", "byteskip"}).value_or("0");
   BCCSKEL_ASSIGN_OR_RETURN(const int64_t skip, RequireNumber<int64_t>("byte skip", text));
@@ -189,7 +189,7 @@ absl::Status PlaceDetached(const ImageFront& front, const HeaderFields& fields,
 absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, StoredImage& image) {
   BCCSKEL_ASSIGN_OR_RETURN(const Compression compression, CompressionOf(fields));
   if (fields.Find({"line skip", "lineskip"}).value_or("0") != "0") {
-    return absl::UnimplementedError("the field 'line skip' is not read");
+    return absl::UnimplementedError("the field 'line skip' is not supported");
   }
   if (const auto name = fields.Find({"data file", "datafile"}); name.has_value()) {
     return PlaceDetached(front, fields, *name, compression, image);

@@ -16,7 +16,7 @@ namespace bccskel {
 bool IsImagePath(std::string_view path);
 
 // Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, MetaImage, Inrimage, npy, vol or, with
-// options.raw, any bytes; the content tells which. A folder is opened as OME-Zarr,
+// options.raw, any bytes; the content determines which. A folder is opened as OME-Zarr,
 // a Zarr array or a Neuroglancer precomputed volume.
 // Reads the header and compares it with the file's length and the limits before any memory is taken
 // for voxels.

@@ -73,7 +73,7 @@ absl::Status ReadEncoding(const Json& level, Scale& scale) {
   if (encoding == "raw") return absl::OkStatus();
   if (encoding != "compressed_segmentation") {
     return absl::UnimplementedError(
-        BadValue("encoding", encoding, "is not read; raw and compressed_segmentation are")
+        BadValue("encoding", encoding, "is not supported; raw and compressed_segmentation are")
             .message());
   }
   constexpr const char* kBlock = "compressed_segmentation_block_size";
@@ -83,7 +83,8 @@ absl::Status ReadEncoding(const Json& level, Scale& scale) {
 
 absl::StatusOr<Scale> ReadScale(const Json& level, uint64_t max_chunk_voxels) {
   if (!MemberOf(level, "sharding").is_null()) {
-    return absl::UnimplementedError("the level is sharded, which is not read; write it unsharded");
+    return absl::UnimplementedError(
+        "the level is sharded, which is not supported; write it unsharded");
   }
   Scale scale;
   BCCSKEL_ASSIGN_OR_RETURN(scale.key, TextOf("key", MemberOf(level, "key")));

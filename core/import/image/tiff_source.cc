@@ -56,7 +56,7 @@ absl::Status CheckCompression(TIFF* tiff) {
   const auto compression = TagOr<uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (TIFFIsCODECConfigured(compression) != 0) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(
-      "%s (%d) is not read; `bfconvert -compression LZW` of Bio-Formats writes a file that is",
+      "%s (%d) is not supported; `bfconvert -compression LZW` of Bio-Formats writes a file that is",
       IsJpeg2000(compression) ? "JPEG 2000 compression" : "its compression", compression));
 }
 

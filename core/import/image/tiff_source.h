@@ -15,7 +15,7 @@ bool IsTiff(std::string_view front);
 
 // A stack of pages of one size and type; strips and tiles, all compressions of libtiff, BigTIFF.
 // Which page is which slice, spacing and unit: TiffStackOf(). Values are those that are stored,
-// whatever the photometric interpretation says: bilevel pages give 0 and 1, palettes indices.
+// regardless of the photometric interpretation: bilevel pages give 0 and 1, palettes indices.
 // Errors: INVALID_ARGUMENT (damaged or cut, pages that differ, several samples per pixel, other
 //         widths of samples), RESOURCE_EXHAUSTED (over a limit), and those of TiffStackOf().
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenTiff(std::shared_ptr<const ImageFile> file,

@@ -67,7 +67,7 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
   }
   if (pages == 1 && images > 1) {
     return absl::UnimplementedError(absl::StrFormat(
-        "an ImageJ stack of %d images behind one page is not read: save it as BigTIFF or NRRD",
+        "an ImageJ stack of %d images behind one page is not supported: save it as BigTIFF or NRRD",
         images));
   }
   const bool plain = channels == 1 && frames == 1;
@@ -131,7 +131,7 @@ absl::StatusOr<TiffStack> OmeStack(std::string_view xml, int64_t pages,
   const auto pixels = TagOf(xml, "Pixels");
   if (!pixels.has_value()) {
     return absl::UnimplementedError(
-        "an OME-TIFF without a Pixels element, as of the parts of a larger set, is not read");
+        "an OME-TIFF without a Pixels element, as of the parts of a larger set, is not supported");
   }
   const std::string_view order = Attribute(*pixels, "DimensionOrder").value_or("");
   const bool known = order.size() == 5 && order.starts_with("XY") &&
@@ -150,7 +150,7 @@ absl::StatusOr<TiffStack> OmeStack(std::string_view xml, int64_t pages,
   if (planes > pages) {
     return absl::UnimplementedError(
         absl::StrFormat("the OME description declares more planes than the %d pages here; sets of "
-                        "several files are not read",
+                        "several files are not supported",
                         pages));
   }
   BCCSKEL_ASSIGN_OR_RETURN(TiffStack stack, Select(axes, pages, options));
@@ -214,7 +214,7 @@ absl::StatusOr<TiffStack> ShapedStack(std::string_view json, int64_t pages,
   }
   if (pages == 1 && !axes.empty()) {
     return absl::UnimplementedError(
-        "a stack behind one page, as tifffile writes with truncate=True, is not read");
+        "a stack behind one page, as tifffile writes with truncate=True, is not supported");
   }
   return Select({axes.rbegin(), axes.rend()}, pages, options);
 }

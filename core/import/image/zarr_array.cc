@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 // "<u2": byte order, kind, bytes.
 absl::Status ReadType(const Json& dtype, ZarrArray& array) {
   if (!dtype.is_string()) {
-    return absl::UnimplementedError("dtype is not one number: records are not read");
+    return absl::UnimplementedError("dtype is not one number: records are not supported");
   }
   const auto name = dtype.get<std::string>();
   const std::string_view kind = std::string_view(name).substr(std::min<size_t>(1, name.size()));
@@ -90,7 +90,8 @@ absl::StatusOr<ChunkCodec> CodecOf(const Json& compressor) {
   if (id == "gzip" || id == "zlib") return ChunkCodec::kDeflate;
   if (id == "lz4") return ChunkCodec::kLz4;
   return absl::UnimplementedError(
-      BadField("compressor", id, "is not read; blosc, zstd, gzip, zlib and lz4 are").message());
+      BadField("compressor", id, "is not supported; blosc, zstd, gzip, zlib and lz4 are")
+          .message());
 }
 
 absl::Status CheckShape(const ZarrArray& array) {
@@ -139,7 +140,7 @@ absl::StatusOr<ZarrArray> ParseZarrArray(const Json& metadata, const ImageLimits
   BCCSKEL_ASSIGN_OR_RETURN(array.codec, CodecOf(MemberOf(metadata, "compressor")));
   const Json& filters = MemberOf(metadata, "filters");
   if (!filters.is_null() && !(filters.is_array() && filters.empty())) {
-    return absl::UnimplementedError(BadValue("filters", filters, "are not read").message());
+    return absl::UnimplementedError(BadValue("filters", filters, "are not supported").message());
   }
   const Json& order = MemberOf(metadata, "order");
   if (order != "C" && order != "F") return BadValue("order", order, "is neither C nor F");

@@ -190,7 +190,8 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenZarr(const std::string& folder,
   BCCSKEL_ASSIGN_OR_RETURN(const auto attributes, ReadJson(folder + "/.zattrs", options.limits));
   if (!attributes.has_value() && Holds(folder, "zarr.json")) {
     return absl::UnimplementedError(
-        "the folder is Zarr version 3 (OME-Zarr 0.5), which is not read; write version 2 (OME-Zarr "
+        "the folder is Zarr version 3 (OME-Zarr 0.5), which is not supported; write version 2 "
+        "(OME-Zarr "
         "0.4)");
   }
   BCCSKEL_ASSIGN_OR_RETURN(ZarrLevel level, ParseMultiscales(attributes.value_or(Json()), options));

@@ -31,7 +31,7 @@ struct ZarrArray {
 };
 
 // Errors: INVALID_ARGUMENT (malformed, names the field), UNIMPLEMENTED (filters, codecs and types
-//         that are not read), RESOURCE_EXHAUSTED (chunks over the limit).
+//         that are not supported), RESOURCE_EXHAUSTED (chunks over the limit).
 absl::StatusOr<ZarrArray> ParseZarrArray(const nlohmann::json& metadata, const ImageLimits& limits);
 
 // One level of a pyramid.

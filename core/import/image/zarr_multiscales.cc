@@ -123,7 +123,7 @@ absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOp
   if (!version.is_null() && version != "0.1" && version != "0.2" && version != "0.3" &&
       version != "0.4") {
     return absl::UnimplementedError(
-        BadValue("OME-Zarr version", version, "is not read; 0.1 to 0.4 are").message());
+        BadValue("OME-Zarr version", version, "is not supported; 0.1 to 0.4 are").message());
   }
   const Json& datasets = MemberOf(image, "datasets");
   if (!datasets.is_array() || datasets.empty()) {

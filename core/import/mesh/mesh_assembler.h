@@ -13,7 +13,7 @@
 
 namespace bccskel {
 
-// Collects what the four readers find and makes the checks that all of them share.
+// Collects the elements that the four readers find and runs the checks that all of them share.
 class MeshAssembler {
  public:
   explicit MeshAssembler(const MeshLimits& limits) : limits_(limits) {}

@@ -18,7 +18,7 @@ bool HasMeshFileName(std::string_view path);
 // says nothing. Polygons become fans of triangles; normals, colors and textures are dropped.
 // Units:   coordinates as in the file, in double.
 // Errors:  NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, coordinates that are not
-//          finite, bad indices, no triangles, a format that is not read); RESOURCE_EXHAUSTED.
+//          finite, bad indices, no triangles, a format that is not supported); RESOURCE_EXHAUSTED.
 absl::StatusOr<TriangleMesh> ReadMeshFile(const std::string& path, const MeshLimits& limits = {});
 
 // The same for bytes in memory (not compressed); `name` is used for its ending and in messages.

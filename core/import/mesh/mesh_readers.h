@@ -19,7 +19,7 @@
 namespace bccskel {
 
 // Shapes: `bytes` is the whole file, expanded.
-// Cost:   linear in the bytes; memory in proportion to what the bytes hold, whatever they declare.
+// Cost:   linear in the bytes; memory in proportion to the contents, whatever the file declares.
 // Errors: INVALID_ARGUMENT (names the line, the value, the shortfall), RESOURCE_EXHAUSTED.
 absl::StatusOr<TriangleMesh> ParseOff(std::string_view bytes, const MeshLimits& limits);
 absl::StatusOr<TriangleMesh> ParseObj(std::string_view bytes, const MeshLimits& limits);

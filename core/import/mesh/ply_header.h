@@ -38,7 +38,7 @@ struct PlyHeader {
 };
 
 // Errors: INVALID_ARGUMENT for an unknown line, type or encoding, a bad count, or elements that
-//         need more bytes than there are. (Counts are checked one element at a time; the sum is
+//         need more bytes than the file has. (Counts are checked one element at a time; the sum is
 //         found out by reading.)
 absl::StatusOr<PlyHeader> ParsePlyHeader(std::string_view bytes);
 

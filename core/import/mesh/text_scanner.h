@@ -27,7 +27,7 @@ class TextScanner {
   std::string_view Token();
   // The next token of this line or of a later one; empty at the end of the text.
   std::string_view TokenAcrossLines();
-  // Drops what is left of this line.
+  // Skips the rest of this line.
   void SkipLine() { line_ = {}; }
 
   uint64_t line_number() const { return line_number_; }  // from 1

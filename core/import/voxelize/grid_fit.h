@@ -14,7 +14,7 @@ namespace bccskel {
 // lattice units along an axis times 2^16 ticks stay within the 40 bits of exact ray crossing.
 inline constexpr int kTickBits = 16;
 
-// Where the middle of the mesh comes to lie: on the middle of the lattice, or some thirds of a
+// Where the middle of the mesh lies: on the middle of the lattice, or some thirds of a
 // lattice unit beside it, still within the margin.
 enum class GridShift { kCentered, kOffCenter };
 

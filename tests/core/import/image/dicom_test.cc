@@ -299,7 +299,7 @@ TEST(Dicom, SegmentsThatOverlapAreChosen) {
   options.channel = 3;
   EXPECT_THAT(ErrorOf(folder, options), HasSubstr("no segment 3"));
   WriteSegmentation(folder, {{0, 1, "110000"}}, "FRACTIONAL");
-  EXPECT_THAT(ErrorOf(folder), HasSubstr("'FRACTIONAL' is not read"));
+  EXPECT_THAT(ErrorOf(folder), HasSubstr("'FRACTIONAL' is not supported"));
 }
 
 TEST(Dicom, DamagedFilesAreRefused) {

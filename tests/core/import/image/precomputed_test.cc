@@ -157,7 +157,7 @@ TEST(Precomputed, RefusesWhatIsNotRead) {
   };
   EXPECT_THAT(error_of("\"encoding\"", "\"sharding\":{\"@type\":\"x\"},\"encoding\""),
               AllOf(HasSubstr("UNIMPLEMENTED"), HasSubstr("is sharded")));
-  EXPECT_THAT(error_of("\"raw\"", "\"jpeg\""), HasSubstr("encoding 'jpeg' is not read"));
+  EXPECT_THAT(error_of("\"raw\"", "\"jpeg\""), HasSubstr("encoding 'jpeg' is not supported"));
   EXPECT_THAT(error_of("\"num_channels\":1", "\"num_channels\":3"), HasSubstr("only one channel"));
   EXPECT_THAT(error_of("multiscale_volume", "skeletons"), HasSubstr("not that of a volume"));
   EXPECT_THAT(error_of("uint64", "uint63"), HasSubstr("'uint63' is not a voxel type"));

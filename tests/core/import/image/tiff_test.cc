@@ -89,9 +89,9 @@ TEST(Tiff, SaysWhatToDoWithACompressionThatItDoesNotRead) {
   };
   for (const int jpeg_2000 : {33003, 33004, 33005, 34712}) {
     EXPECT_THAT(error(jpeg_2000), HasSubstr("JPEG 2000 compression (" + std::to_string(jpeg_2000) +
-                                            ") is not read; `bfconvert -compression LZW`"));
+                                            ") is not supported; `bfconvert -compression LZW`"));
   }
-  EXPECT_THAT(error(50013), HasSubstr("its compression (50013) is not read"));
+  EXPECT_THAT(error(50013), HasSubstr("its compression (50013) is not supported"));
 }
 
 TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
