@@ -111,7 +111,7 @@ class Server::Work {
 class Server::Services {
  public:
   Services(const ServerConfig& config, const Callers& callers, Work& work, ServerMetrics& metrics)
-      : gate_(callers, config.sender_timeout),
+      : gate_(callers, config.caller_timeouts),
         durable_gate_(gate_, work.durable_jobs()),
         skeletonization_(gate_, work.runner(), config.limits.volume, work.durable_jobs(), writers_),
         volumes_(durable_gate_, writers_, config.limits),

@@ -36,7 +36,8 @@ class SenderClock {
 
   // Errors: ABORTED, reason SENDER_TIMEOUT.
   absl::Status Check(TimePoint now, std::chrono::milliseconds limit) const {
-    if (!waiting_since_.has_value() || Waited(now) <= limit) return absl::OkStatus();
+    const bool waits = limit.count() > 0 && waiting_since_.has_value();  // 0: no limit
+    if (!waits || Waited(now) <= limit) return absl::OkStatus();
     const std::string ms = absl::StrCat(limit.count());
     return CallError(
         Reason::kSenderTimeout,
