@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "server/calls/call_gate.h"
+#include "server/calls/sender_clock.h"
 #include "server/durable/durable_options.h"
 #include "server/identity/tls_files.h"
 #include "server/jobs/job_pool.h"

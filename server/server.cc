@@ -23,7 +23,6 @@
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
-#include "server/metrics/metered_runner.h"
 #include "server/metrics/metrics_page.h"
 #include "server/server_status.h"
 #include "server/settings/values.h"
@@ -89,8 +88,7 @@ std::optional<ServerGauges::Stored> StoredGauges(const DurableJobs* durable_jobs
 // Where calls get their work done: at once, or kept on disk.
 class Server::Work {
  public:
-  Work(JobPool& jobs, ServerMetrics& metrics, const VolumeLimits& limits)
-      : runner_(jobs, metrics), codec_(limits) {}
+  Work(JobPool& jobs, const VolumeLimits& limits) : runner_(jobs), codec_(limits) {}
 
   absl::Status OpenDurableJobs(const DurableOptions& options) {
     BCCSKEL_ASSIGN_OR_RETURN(durable_jobs_, DurableJobs::Open(options, runner_, codec_));
@@ -103,7 +101,7 @@ class Server::Work {
   }  // null where nothing is durable
 
  private:
-  MeteredRunner runner_;
+  JobRunner& runner_;
   MessageCodec codec_;
   std::unique_ptr<DurableJobs> durable_jobs_;
 };
@@ -153,8 +151,10 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
     : config_(config),
       callers_(std::move(callers)),
       metrics_([this] { return Gauges(); }),
-      jobs_(config.limits),
-      work_(std::make_unique<Work>(jobs_, metrics_, config_.limits.volume)) {}
+      jobs_(config.limits,
+            {.on_admitted = [this](uint64_t volume_bytes) { metrics_.CountAdmitted(volume_bytes); },
+             .on_end = [this](const JobEnd& end) { metrics_.Count(end); }}),
+      work_(std::make_unique<Work>(jobs_, config_.limits.volume)) {}
 
 Server::~Server() {
   metrics_page_.reset();

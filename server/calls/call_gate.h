@@ -17,18 +17,13 @@
 #include "bccskel/v1/volume.pb.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
+#include "server/calls/sender_clock.h"
 #include "server/durable/durable_jobs.h"
 #include "server/identity/callers.h"
 
 namespace bccskel::server {
 
 struct CallFacts;
-
-// Time for callers to do their part; 0: no limit.
-struct CallerTimeouts {
-  std::chrono::milliseconds sender{60'000};   // for the next 1 MiB of a volume
-  std::chrono::milliseconds reader{600'000};  // for the next response
-};
 
 // A streaming call that is under way.
 // Threads: safe.

@@ -12,6 +12,12 @@
 
 namespace bccskel::server {
 
+// Time for callers to do their part; 0: no limit.
+struct CallerTimeouts {
+  std::chrono::milliseconds sender{60'000};   // for the next 1 MiB of a volume
+  std::chrono::milliseconds reader{600'000};  // for the next response
+};
+
 // Counts the time that the server waits for the next request of a caller who sends a volume. Within
 // the limit the caller must send kBytesInTime, or the rest. While the server itself is busy with
 // what came, no time counts.

@@ -101,16 +101,23 @@ class WritingCall : public Base {
  public:
   using Base::Base;
 
-  // A write that nobody reads ends by cancelling alone; until then its result keeps its memory.
+  // Who reads hears why. A write that nobody reads is cancelled when this comes again, as
+  // CheckCaller() sees to, or when it is the last one: until then it keeps its memory.
   void EndEarly(const absl::Status& why) override {
+    {
+      std::lock_guard lock(this->mutex_);
+      if (this->done_) return;
+      if (writing() && (this->finished_ || ended_early_)) {
+        this->end_ = why;
+        return this->facts_.context->TryCancel();
+      }
+      ended_early_ = true;
+    }
     Base::EndEarly(why);
-    std::lock_guard lock(this->mutex_);
-    if (!writing() || this->done_) return;
-    this->end_ = why;  // for the log, if the last response was on its way
-    this->facts_.context->TryCancel();
   }
   absl::Status CheckCaller(OpenStream::TimePoint now, const CallerTimeouts& timeouts) override {
     std::lock_guard lock(this->mutex_);
+    if (ended_early_ && writing() && this->end_.has_value()) return *this->end_;
     const bool waits = timeouts.reader.count() > 0 && writing();
     if (!waits || now - *writing_since_ <= timeouts.reader) return absl::OkStatus();
     const std::string ms = absl::StrCat(timeouts.reader.count());
@@ -171,6 +178,7 @@ class WritingCall : public Base {
 
   Response response_;                                   // of the write in flight
   std::optional<OpenStream::TimePoint> writing_since_;  // guarded by mutex_
+  bool ended_early_ = false;                            // guarded by mutex_
 };
 
 // A call that reads a config, the chunks of a volume and a finish. Read() begins the next read,

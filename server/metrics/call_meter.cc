@@ -16,6 +16,20 @@ using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::InterceptorBatchMethods;
 using Clock = std::chrono::steady_clock;
 
+// "OK", "NOT_FOUND", ...
+std::string CodeName(const grpc::Status& status) {
+  return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
+}
+
+// Of the ErrorInfo in the details; empty where there is none.
+std::string ReasonNameOf(const grpc::Status& status) {
+  if (status.ok() || status.error_details().empty()) return std::string();
+  v1::Status message;
+  if (!message.ParseFromString(status.error_details())) return std::string();
+  const auto info = wire::ErrorInfoOf(wire::FromRpcStatus(message));
+  return info.has_value() ? info->reason() : std::string();
+}
+
 class Meter : public grpc::experimental::Interceptor {
  public:
   Meter(ServerMetrics& metrics, const char* method) : metrics_(metrics), method_(method) {}
@@ -51,18 +65,6 @@ void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {
   for (int n = 0; found != nullptr && n < found->method_count(); ++n) {
     metrics.ExpectCalls("/" + service + "/" + found->method(n)->name());
   }
-}
-
-std::string CodeName(const grpc::Status& status) {
-  return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
-}
-
-std::string ReasonNameOf(const grpc::Status& status) {
-  if (status.ok() || status.error_details().empty()) return std::string();
-  v1::Status message;
-  if (!message.ParseFromString(status.error_details())) return std::string();
-  const auto info = wire::ErrorInfoOf(wire::FromRpcStatus(message));
-  return info.has_value() ? info->reason() : std::string();
 }
 
 }  // namespace bccskel::server
