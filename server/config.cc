@@ -59,8 +59,10 @@ std::vector<Setting> LimitSettings(ServerConfig& config) {
                   "Limit of the size of one encoded volume, such as 256MB"),
       CountSetting("max-bricks", limits.volume.max_bricks,
                    "Limit of the occupied bricks (512 points each) of one volume"),
-      MillisecondsSetting("sender-timeout-ms", config.sender_timeout,
+      MillisecondsSetting("sender-timeout-ms", config.caller_timeouts.sender,
                           "Time limit for a caller to send the next 1 MiB of its volume; 0: none"),
+      MillisecondsSetting("reader-timeout-ms", config.caller_timeouts.reader,
+                          "Time limit for a caller to read the next response; 0: none"),
   };
 }
 

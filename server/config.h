@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/calls/sender_clock.h"
 #include "server/durable/durable_options.h"
 #include "server/identity/tls_files.h"
 #include "server/jobs/job_pool.h"
@@ -27,10 +28,10 @@ struct ServerConfig {
   std::string plaintext_tokens = "refuse";  // over networks without TLS; or allow
   JobPool::Limits limits;
   DurableOptions durable;
-  std::chrono::milliseconds sender_timeout{60'000};  // for the next 1 MiB of a volume; 0: none
-  std::chrono::milliseconds lame_duck{0};            // "not serving", and serving all the same
-  std::chrono::milliseconds drain{25'000};           // for running calls after that
-  std::string log_level = "info";                    // trace, debug, info, warning, error, off
+  CallerTimeouts caller_timeouts;
+  std::chrono::milliseconds lame_duck{0};   // "not serving", and serving all the same
+  std::chrono::milliseconds drain{25'000};  // for running calls after that
+  std::string log_level = "info";           // trace, debug, info, warning, error, off
 };
 
 // Everything from what this machine has: its threads, three quarters of the memory that this

@@ -23,7 +23,6 @@
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
-#include "server/metrics/metered_runner.h"
 #include "server/metrics/metrics_page.h"
 #include "server/server_status.h"
 #include "server/settings/values.h"
@@ -86,34 +85,18 @@ std::optional<ServerGauges::Stored> StoredGauges(const DurableJobs* durable_jobs
 
 }  // namespace
 
-// Where calls get their work done: at once, or kept on disk.
-class Server::Work {
- public:
-  Work(JobPool& jobs, ServerMetrics& metrics, const VolumeLimits& limits)
-      : runner_(jobs, metrics), codec_(limits) {}
-
-  absl::Status OpenDurableJobs(const DurableOptions& options) {
-    BCCSKEL_ASSIGN_OR_RETURN(durable_jobs_, DurableJobs::Open(options, runner_, codec_));
-    return absl::OkStatus();
-  }
-
-  JobRunner& runner() { return runner_; }
-  DurableJobs* durable_jobs() const {
-    return durable_jobs_.get();
-  }  // null where nothing is durable
-
- private:
-  MeteredRunner runner_;
-  MessageCodec codec_;
-  std::unique_ptr<DurableJobs> durable_jobs_;
+struct Server::Data {
+  MessageCodec codec;
+  std::unique_ptr<DurableJobs> durable_jobs = nullptr;  // null where nothing is durable
 };
 
 class Server::Services {
  public:
-  Services(const ServerConfig& config, const Callers& callers, Work& work, ServerMetrics& metrics)
-      : gate_(callers, config.sender_timeout),
-        durable_gate_(gate_, work.durable_jobs()),
-        skeletonization_(gate_, work.runner(), config.limits.volume, work.durable_jobs(), writers_),
+  Services(const ServerConfig& config, const Callers& callers, JobRunner& runner,
+           DurableJobs* durable_jobs, ServerMetrics& metrics)
+      : gate_(callers, config.caller_timeouts),
+        durable_gate_(gate_, durable_jobs),
+        skeletonization_(gate_, runner, config.limits.volume, durable_jobs, writers_),
         volumes_(durable_gate_, writers_, config.limits),
         jobs_(durable_gate_),
         server_(gate_, config.limits, config.durable),
@@ -153,8 +136,10 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
     : config_(config),
       callers_(std::move(callers)),
       metrics_([this] { return Gauges(); }),
-      jobs_(config.limits),
-      work_(std::make_unique<Work>(jobs_, metrics_, config_.limits.volume)) {}
+      jobs_(config.limits,
+            {.on_admitted = [this](uint64_t volume_bytes) { metrics_.CountAdmitted(volume_bytes); },
+             .on_end = [this](const JobEnd& end) { metrics_.Count(end); }}),
+      data_(new Data{.codec = MessageCodec(config_.limits.volume)}) {}
 
 Server::~Server() {
   metrics_page_.reset();
@@ -192,9 +177,10 @@ absl::Status Server::OpenData() {
     options.on_warning = [](const std::string& warning) {
       Log(LogLevel::kWarning, "data", {{"message", warning}});
     };
-    BCCSKEL_RETURN_IF_ERROR(work_->OpenDurableJobs(options));
+    BCCSKEL_ASSIGN_OR_RETURN(data_->durable_jobs, DurableJobs::Open(options, jobs_, data_->codec));
   }
-  services_ = std::make_unique<Services>(config_, *callers_, *work_, metrics_);
+  services_ =
+      std::make_unique<Services>(config_, *callers_, jobs_, data_->durable_jobs.get(), metrics_);
   return absl::OkStatus();
 }
 
@@ -247,7 +233,7 @@ ServerGauges Server::Gauges() const {
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();
   now.certificate_end = CertificateEndSeconds(config_.tls);
-  now.stored = StoredGauges(work_->durable_jobs());
+  now.stored = StoredGauges(data_->durable_jobs.get());
   return now;
 }
 
@@ -273,7 +259,7 @@ void Server::ReloadNow() {
 void Server::LookAfterCalls() { services_->LookAfterCalls(); }
 
 void Server::LookAfterData() {
-  const DurableJobs* const durable_jobs = work_->durable_jobs();
+  const DurableJobs* const durable_jobs = data_->durable_jobs.get();
   if (durable_jobs == nullptr) return;
   const absl::Status health = durable_jobs->Health();
   if (health.ok() == data_is_well_) return;
@@ -319,7 +305,7 @@ void Server::Drain() {
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
   BeLameDuck();
-  if (DurableJobs* const durable_jobs = work_->durable_jobs()) durable_jobs->StopAdmitting();
+  if (data_->durable_jobs != nullptr) data_->durable_jobs->StopAdmitting();
   jobs_.StopAdmitting();
   jobs_.WaitUntilEmpty(config_.drain);
   services_->CutOff();

@@ -55,7 +55,7 @@ class Server {
 
  private:
   // These keep gRPC and messages out of this header.
-  class Work;
+  struct Data;
   class Services;
 
   Server(const ServerConfig& config, std::unique_ptr<Callers> callers);
@@ -75,7 +75,7 @@ class Server {
   ServerMetrics metrics_;
   JobPool jobs_;
   // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.
-  std::unique_ptr<Work> work_;
+  std::unique_ptr<Data> data_;
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work

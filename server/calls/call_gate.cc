@@ -75,7 +75,9 @@ absl::Status CheckName(const DurableGate::Name& name) {
 }  // namespace
 
 CallFacts FactsOf(const grpc::CallbackServerContext& context) {
-  return {.deadline = SteadyDeadline(context.deadline()), .trace = TraceOf(context)};
+  return {.deadline = SteadyDeadline(context.deadline()),
+          .trace = TraceOf(context),
+          .context = &context};
 }
 
 void CallFacts::LookAfter(const std::shared_ptr<OpenStream>& call) const {
@@ -154,9 +156,7 @@ void OpenStreams::LookAfter() {
   }
   const auto now = std::chrono::steady_clock::now();
   for (auto& [call, status] : seen) {
-    if (status.ok() && sender_timeout_.count() > 0) {
-      status = call->CheckSender(now, sender_timeout_);
-    }
+    if (status.ok()) status = call->CheckCaller(now, timeouts_);
     if (!status.ok()) call->EndEarly(status);
   }
 }

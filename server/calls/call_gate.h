@@ -17,6 +17,7 @@
 #include "bccskel/v1/volume.pb.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
+#include "server/calls/sender_clock.h"
 #include "server/durable/durable_jobs.h"
 #include "server/identity/callers.h"
 
@@ -33,19 +34,17 @@ class OpenStream {
   virtual ~OpenStream() = default;
   // Ends the call with this error, unless it has ended.
   virtual void EndEarly(const absl::Status& why) = 0;
-  // Errors: ABORTED when the caller has not sent what it promised within the limit.
-  virtual absl::Status CheckSender(TimePoint, std::chrono::milliseconds) {
-    return absl::OkStatus();
-  }
+  // Errors: ABORTED when the caller has not sent, or read, what it should within the limits.
+  virtual absl::Status CheckCaller(TimePoint, const CallerTimeouts&) { return absl::OkStatus(); }
 };
 
 // Looks after all of them: ends those whose token is accepted no longer, and those of callers who
-// do not send. Threads: safe.
+// do not send or do not read. Threads: safe.
 class OpenStreams {
  public:
-  // A `sender_timeout` of 0 is none. Needs: `callers` outlives this.
-  OpenStreams(const Callers& callers, std::chrono::milliseconds sender_timeout)
-      : callers_(callers), sender_timeout_(sender_timeout) {}
+  // Needs: `callers` outlives this.
+  OpenStreams(const Callers& callers, const CallerTimeouts& timeouts)
+      : callers_(callers), timeouts_(timeouts) {}
 
   // Until Remove().
   void Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts);
@@ -64,12 +63,10 @@ class OpenStreams {
   absl::Status CheckToken(Entry& entry, uint64_t generation) const;
 
   const Callers& callers_;
-  const std::chrono::milliseconds sender_timeout_;
+  const CallerTimeouts timeouts_;
   std::mutex mutex_;
   std::map<const OpenStream*, Entry> calls_;  // guarded by mutex_
 };
-
-class OpenStreams;
 
 // A method of the interface.
 struct Method {
@@ -94,6 +91,7 @@ struct CallFacts {
   uint64_t tokens = 0;             // Callers::generation() that accepted it
   // Who looks after streaming calls; null: nobody does. Outlives the call.
   OpenStreams* lasting = nullptr;
+  const grpc::CallbackServerContext* context = nullptr;  // there until gRPC is done with the call
 
   bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
 
@@ -117,10 +115,9 @@ std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish);
 // Threads: safe.
 class CallGate {
  public:
-  // Callers who send nothing for `sender_timeout` are sent away; 0: never. Needs: `callers`
-  // outlives the gate.
-  explicit CallGate(const Callers& callers, std::chrono::milliseconds sender_timeout = {})
-      : callers_(callers), lasting_(callers, sender_timeout) {}
+  // Needs: `callers` outlives the gate.
+  explicit CallGate(const Callers& callers, const CallerTimeouts& timeouts = {})
+      : callers_(callers), lasting_(callers, timeouts) {}
 
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,

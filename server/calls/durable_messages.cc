@@ -56,8 +56,9 @@ absl::Status CheckRequestId(const std::string& id) {
   if (id.size() <= kMaxRequestIdBytes && std::ranges::all_of(id, printable)) {
     return absl::OkStatus();
   }
-  return InvalidField("request_id", absl::StrCat("must be up to ", kMaxRequestIdBytes,
-                                                 " printable ASCII characters"));
+  return InvalidField("request_id",
+                      absl::StrCat(id.size(), " bytes, must be up to ", kMaxRequestIdBytes,
+                                   " printable ASCII characters without spaces"));
 }
 
 }  // namespace

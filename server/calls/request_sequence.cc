@@ -25,11 +25,13 @@ absl::Status RequestSequence::UnknownRequest() {
 absl::Status RequestSequence::HalfClose() const {
   if (finished()) return absl::OkStatus();
   if (expected_ == Expected::kConfig) {
-    return CallError(Reason::kRequestOrder, "the stream was closed before config");
+    return CallError(Reason::kRequestOrder,
+                     "the stream was closed, or a request cannot be parsed, before config");
   }
   return CallError(Reason::kVolumeTruncated,
-                   absl::StrCat("the stream was closed without finish after ", committed_bytes_,
-                                " of ", declared_bytes_, " declared bytes"));
+                   absl::StrCat("the stream was closed without finish, or a request cannot be "
+                                "parsed, after ",
+                                committed_bytes_, " of ", declared_bytes_, " declared bytes"));
 }
 
 absl::Status RequestSequence::TakeConfig(uint64_t declared_bytes) {

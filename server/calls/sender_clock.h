@@ -12,6 +12,12 @@
 
 namespace bccskel::server {
 
+// Time for callers to do their part; 0: no limit.
+struct CallerTimeouts {
+  std::chrono::milliseconds sender{60'000};   // for the next 1 MiB of a volume
+  std::chrono::milliseconds reader{600'000};  // for the next response
+};
+
 // Counts the time that the server waits for the next request of a caller who sends a volume. Within
 // the limit the caller must send kBytesInTime, or the rest. While the server itself is busy with
 // what came, no time counts.
@@ -36,7 +42,8 @@ class SenderClock {
 
   // Errors: ABORTED, reason SENDER_TIMEOUT.
   absl::Status Check(TimePoint now, std::chrono::milliseconds limit) const {
-    if (!waiting_since_.has_value() || Waited(now) <= limit) return absl::OkStatus();
+    const bool waits = limit.count() > 0 && waiting_since_.has_value();  // 0: no limit
+    if (!waits || Waited(now) <= limit) return absl::OkStatus();
     const std::string ms = absl::StrCat(limit.count());
     return CallError(
         Reason::kSenderTimeout,

@@ -10,10 +10,12 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/request_sequence.h"
 #include "server/calls/sender_clock.h"
 #include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 
@@ -45,6 +47,7 @@ class StreamCall : public Reactor,
     const std::shared_ptr<StreamCall> self = std::move(self_);
     facts_.Leave(*this);
     std::unique_lock lock(mutex_);
+    done_ = true;
     const absl::Status end = end_.value_or(absl::OkStatus());
     facts_.LogEnded(subject_, end);
     const bool failed_late = half_closed_ && !end.ok();
@@ -86,6 +89,7 @@ class StreamCall : public Reactor,
   std::optional<absl::Status> end_;  // guarded by mutex_
   bool half_closed_ = false;         // guarded by mutex_: before the finish
   bool finished_ = false;            // guarded by mutex_: nothing more may be started
+  bool done_ = false;                // guarded by mutex_: by gRPC
 
  private:
   std::shared_ptr<StreamCall> self_;
@@ -97,11 +101,36 @@ class WritingCall : public Base {
  public:
   using Base::Base;
 
+  // Who reads hears why. A write that nobody reads is cancelled when this comes again, as
+  // CheckCaller() sees to, or when it is the last one: until then it keeps its memory.
+  void EndEarly(const absl::Status& why) override {
+    {
+      std::lock_guard lock(this->mutex_);
+      if (this->done_) return;
+      if (writing() && (this->finished_ || ended_early_)) {
+        this->end_ = why;
+        return this->facts_.context->TryCancel();
+      }
+      ended_early_ = true;
+    }
+    Base::EndEarly(why);
+  }
+  absl::Status CheckCaller(OpenStream::TimePoint now, const CallerTimeouts& timeouts) override {
+    std::lock_guard lock(this->mutex_);
+    if (ended_early_ && writing() && this->end_.has_value()) return *this->end_;
+    const bool waits = timeouts.reader.count() > 0 && writing();
+    if (!waits || now - *writing_since_ <= timeouts.reader) return absl::OkStatus();
+    const std::string ms = absl::StrCat(timeouts.reader.count());
+    return CallError(Reason::kReaderTimeout,
+                     absl::StrCat("the caller has read nothing for more than ", ms,
+                                  " ms (reader-timeout-ms) while a response waited"),
+                     {.key = "reader_timeout_ms", .value = ms});
+  }
   void OnWriteDone(bool ok) override {
     bool fetch = false;
     {
       std::lock_guard lock(this->mutex_);
-      writing_ = false;
+      writing_since_.reset();
       fetch = ok && !this->end_.has_value() && IsFetched(Follows(response_));
       // A call that has failed while it wrote waits for this moment to finish.
       if (ok || this->end_.has_value()) Advance();
@@ -122,12 +151,12 @@ class WritingCall : public Base {
   virtual void Fetch() {}
 
   void Advance() override {
-    if (this->finished_ || writing_) return;
+    if (this->finished_ || writing()) return;
     const bool failed = this->end_.has_value() && !this->end_->ok();
     std::optional<Response> response = failed ? std::nullopt : Next();
     if (!response.has_value()) return Base::Advance();
     response_ = *std::move(response);
-    writing_ = true;
+    writing_since_ = std::chrono::steady_clock::now();
     grpc::WriteOptions options;
     const Following following = Follows(response_);
     if (following == Following::kNothing) {
@@ -140,15 +169,16 @@ class WritingCall : public Base {
     }
     this->StartWrite(&response_, options);
   }
-  bool writing() const { return writing_; }  // Needs: mutex_ held.
+  bool writing() const { return writing_since_.has_value(); }  // Needs: mutex_ held.
 
  private:
   static bool IsFetched(Following following) {
     return following == Following::kFetched || following == Following::kFetchedAtOnce;
   }
 
-  Response response_;     // of the write in flight
-  bool writing_ = false;  // guarded by mutex_
+  Response response_;                                   // of the write in flight
+  std::optional<OpenStream::TimePoint> writing_since_;  // guarded by mutex_
+  bool ended_early_ = false;                            // guarded by mutex_
 };
 
 // A call that reads a config, the chunks of a volume and a finish. Read() begins the next read,
@@ -169,9 +199,11 @@ class ReceivingCall : public Base {
     if (status.ok()) status = Take(request_);
     if (!status.ok()) this->End(status);
   }
-  absl::Status CheckSender(OpenStream::TimePoint now, std::chrono::milliseconds limit) override {
-    std::lock_guard lock(this->mutex_);
-    return sender_.Check(now, limit);
+  absl::Status CheckCaller(OpenStream::TimePoint now, const CallerTimeouts& timeouts) override {
+    std::unique_lock lock(this->mutex_);
+    const absl::Status sender = sender_.Check(now, timeouts.sender);
+    lock.unlock();
+    return sender.ok() ? Base::CheckCaller(now, timeouts) : sender;
   }
 
  protected:

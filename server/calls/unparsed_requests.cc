@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_split.h"
 #include "server/calls/status_mapping.h"
 #include "server/errors/call_error.h"
 
@@ -32,16 +31,25 @@ class NameUnparsed : public grpc::experimental::Interceptor {
 
 }  // namespace
 
+bool IsKnownMethod(std::string_view method) {
+  // gRPC has the code of its health service elsewhere.
+  if (method == "/grpc.health.v1.Health/Check" || method == "/grpc.health.v1.Health/Watch") {
+    return true;
+  }
+  std::string name(method.substr(std::min<size_t>(method.size(), 1)));
+  std::ranges::replace(name, '/', '.');
+  const auto* const found =
+      google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(name);
+  return found != nullptr && method == "/" + found->service()->full_name() + "/" + found->name();
+}
+
 grpc::experimental::Interceptor* UnparsedRequests::CreateServerInterceptor(
     grpc::experimental::ServerRpcInfo* info) {
-  const std::vector<std::string> parts =
-      absl::StrSplit(info->method(), '/');  // "", service, method
-  if (parts.size() != 3 || std::ranges::find(services_, parts[1]) == services_.end()) {
-    return nullptr;
-  }
-  const auto* const known = google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(
-      parts[1] + "." + parts[2]);
-  return known == nullptr ? nullptr : new NameUnparsed;
+  const std::string_view method = info->method();
+  const bool ours = std::ranges::any_of(services_, [method](const std::string& service) {
+    return method.starts_with("/" + service + "/");
+  });
+  return ours && IsKnownMethod(method) ? new NameUnparsed : nullptr;
 }
 
 }  // namespace bccskel::server

@@ -5,10 +5,15 @@
 #include <grpcpp/support/server_interceptor.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace bccskel::server {
+
+// Whether there is such a method, "/package.Service/Method", in the code of this program. Callers
+// may ask for any other name.
+bool IsKnownMethod(std::string_view method);
 
 // A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED, without a
 // word. This makes it the INVALID_ARGUMENT that it is, with details as every other error.

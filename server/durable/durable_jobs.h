@@ -113,7 +113,6 @@ class DurableJobs final : public RunObserver {
   // may be several volumes, declared differently.
   void FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
                    Done<std::vector<VolumeInfo>> done);
-  void GetVolume(const std::string& tenant, const std::string& volume, Done<VolumeInfo> done);
   // Erases the bytes. Errors: FAILED_PRECONDITION while an unfinished job needs it.
   void DeleteVolume(const std::string& tenant, const std::string& volume, DoneStatus done);
 

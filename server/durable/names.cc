@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/digest/sha256.h"
 #include "server/errors/call_error.h"
@@ -33,8 +34,9 @@ absl::Status CheckUploadName(const std::string& name) {
   }
   return InvalidField(
       "config.upload",
-      absl::StrCat("must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
-                   " letters, digits, '-' and '_', not ", name.size(), " bytes of others"));
+      absl::StrCat("\"", absl::CHexEscape(name.substr(0, front + kMostUploadNameBytes)), "\" (",
+                   name.size(), " bytes), must be \"uploads/\" and 1 to ", kMostUploadNameBytes,
+                   " letters, digits, '-' and '_'"));
 }
 
 std::string KeyOf(std::initializer_list<std::string> parts) {

@@ -192,16 +192,6 @@ void DurableJobs::FindVolumes(const std::string& tenant, const std::vector<std::
       std::move(done));
 }
 
-void DurableJobs::GetVolume(const std::string& tenant, const std::string& volume,
-                            Done<VolumeInfo> done) {
-  Read<VolumeInfo>(
-      [this, tenant, volume](JobStore& store) -> absl::StatusOr<VolumeInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, FindVolumeRow(store, tenant, volume));
-        return InfoOf(row);
-      },
-      std::move(done));
-}
-
 void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& volume,
                                DoneStatus done) {
   Erase(

@@ -41,6 +41,7 @@ constexpr Meaning kMeanings[] = {
     {Reason::kJobNotSucceeded, "JOB_NOT_SUCCEEDED", StatusCode::kFailedPrecondition},
     {Reason::kSecondWriter, "SECOND_WRITER", StatusCode::kAborted},
     {Reason::kSenderTimeout, "SENDER_TIMEOUT", StatusCode::kAborted},
+    {Reason::kReaderTimeout, "READER_TIMEOUT", StatusCode::kAborted},
     {Reason::kVolumeTooLarge, "VOLUME_TOO_LARGE", StatusCode::kResourceExhausted},
     {Reason::kShellPointsTooLarge, "SHELL_POINTS_TOO_LARGE", StatusCode::kResourceExhausted},
     {Reason::kDiskFull, "DISK_FULL", StatusCode::kResourceExhausted},

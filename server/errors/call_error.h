@@ -31,6 +31,7 @@ enum class Reason : uint8_t {
   kJobNotSucceeded,
   kSecondWriter,
   kSenderTimeout,
+  kReaderTimeout,
   kVolumeTooLarge,
   kShellPointsTooLarge,
   kDiskFull,

@@ -29,8 +29,9 @@ absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
 
 }  // namespace
 
-JobPool::JobPool(const Limits& limits)
+JobPool::JobPool(const Limits& limits, JobObserver observer)
     : limits_(limits),
+      observer_(std::move(observer)),
       admission_({.bytes = limits.max_bytes,
                   .places = limits.max_jobs + limits.max_queue,
                   .tenants = limits.tenants}),
@@ -48,7 +49,8 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
       Ticket ticket,
       admission_.Admit(request.origin.tenant, BytesToSkeletonize(request.header, request.size_bytes,
                                                                  request.shell_points)));
-  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline};
+  observer_.on_admitted(request.size_bytes);
+  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline, observer_};
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
   VolumeReceiver::MakeDecoder make_decoder = DecoderFor(request);
   return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
@@ -63,7 +65,8 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
   BCCSKEL_ASSIGN_OR_RETURN(
       Ticket ticket,
       admission_.Admit(request.origin.tenant, BytesToSkeletonizeLabels(request.header, threads)));
-  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline};
+  observer_.on_admitted(request.size_bytes);
+  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline, observer_};
   return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
                 std::move(ticket), std::move(facts), decoders_, listener);
 }

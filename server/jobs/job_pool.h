@@ -38,7 +38,7 @@ class JobPool : public JobRunner {
     std::vector<std::string> child_command = ThisProgramAsChild();
   };
 
-  explicit JobPool(const Limits& limits);
+  explicit JobPool(const Limits& limits, JobObserver observer = {});
 
   absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                              std::shared_ptr<JobListener> listener) override;
@@ -70,6 +70,7 @@ class JobPool : public JobRunner {
   VolumeReceiver::MakeDecoder DecoderFor(const JobRequest& request);
 
   const Limits limits_;
+  const JobObserver observer_;
   Admission admission_;
   ComputeQueue compute_;
   std::unique_ptr<ChildPool> children_;  // null where nothing is decoded in children

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/digest/sha256.h"
 #include "core/exec/context.h"
@@ -25,6 +27,20 @@ struct JobTimes {
   std::chrono::nanoseconds queued{0};    // waiting for threads
   std::chrono::nanoseconds decoded{0};   // in the decoder
   std::chrono::nanoseconds computed{0};  // from first to last of each turn
+};
+
+// How a job ended, for who counts that.
+struct JobEnd {
+  std::string tenant;
+  absl::Status status;
+  JobTimes times;
+  uint64_t object_points = 0;
+};
+
+// Hears of all jobs of a runner, from any thread, of an end before the job's listener does.
+struct JobObserver {
+  std::function<void(uint64_t volume_bytes)> on_admitted = [](uint64_t) {};
+  std::function<void(const JobEnd& end)> on_end = [](const JobEnd&) {};
 };
 
 // What a caller wants computed, and the volume it promises to send.

@@ -47,6 +47,8 @@ class JobWork {
                                    const std::shared_ptr<exec::MemoryBudget>& memory,
                                    const std::function<void()>& wake) = 0;
 
+  // Points of the object that was computed, or of all of them. Called before End().
+  virtual uint64_t ObjectPoints() const = 0;
   // Called once, last: gives back the memory that is no longer needed and tells the listener.
   virtual void End(absl::Status status, const JobTimes& times, Ticket ticket) = 0;
 };

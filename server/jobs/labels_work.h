@@ -65,6 +65,7 @@ class LabelsWork final : public JobWork {
   bool MayRun() const override;
   absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
                            const std::function<void()>& wake) override;
+  uint64_t ObjectPoints() const override { return result_.object_points; }
   void End(absl::Status status, const JobTimes& times, Ticket ticket) override;
 
  private:

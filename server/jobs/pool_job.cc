@@ -179,6 +179,10 @@ void PoolJob::End(absl::Status status) {
     if (stop_.stop_requested() && (status.ok() || absl::IsCancelled(status))) status = why_;
   }
   const bool was_large = memory_->taken() > kWorthTrimming;
+  facts_.observer.on_end({.tenant = facts_.origin.tenant,
+                          .status = status,
+                          .times = times_,
+                          .object_points = work_->ObjectPoints()});
   work_->End(std::move(status), times_, memory_->Close());
   if (was_large) malloc_trim(0);
 }

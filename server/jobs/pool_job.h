@@ -39,9 +39,10 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
     std::string name;
     JobOrigin origin;
     Clock::time_point deadline;
+    const JobObserver& observer;
   };
 
-  // Needs: the threads outlive the job.
+  // Needs: the threads and the observer outlive the job.
   PoolJob(Facts facts, std::unique_ptr<JobWork> work, Ticket ticket,
           std::shared_ptr<UploadListener> listener, const Threads& threads);
 

@@ -25,6 +25,7 @@ class SkeletonizeWork final : public JobWork {
   uint64_t Bricks() const override { return volume_->brick_count(); }
   absl::StatusOr<Turn> Run(exec::Context context, const std::shared_ptr<exec::MemoryBudget>& memory,
                            const std::function<void()>& wake) override;
+  uint64_t ObjectPoints() const override { return result_.skeleton.object_points; }
   void End(absl::Status status, const JobTimes& times, Ticket ticket) override;
 
  private:

@@ -7,6 +7,7 @@
 #include "absl/status/status.h"
 #include "bccskel/v1/rpc_details.pb.h"
 #include "proto/wire/error_details.h"
+#include "server/calls/unparsed_requests.h"
 
 namespace bccskel::server {
 namespace {
@@ -14,6 +15,20 @@ namespace {
 using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::InterceptorBatchMethods;
 using Clock = std::chrono::steady_clock;
+
+// "OK", "NOT_FOUND", ...
+std::string CodeName(const grpc::Status& status) {
+  return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
+}
+
+// Of the ErrorInfo in the details; empty where there is none.
+std::string ReasonNameOf(const grpc::Status& status) {
+  if (status.ok() || status.error_details().empty()) return std::string();
+  v1::Status message;
+  if (!message.ParseFromString(status.error_details())) return std::string();
+  const auto info = wire::ErrorInfoOf(wire::FromRpcStatus(message));
+  return info.has_value() ? info->reason() : std::string();
+}
 
 class Meter : public grpc::experimental::Interceptor {
  public:
@@ -40,7 +55,8 @@ class Meter : public grpc::experimental::Interceptor {
 
 grpc::experimental::Interceptor* CallMeter::CreateServerInterceptor(
     grpc::experimental::ServerRpcInfo* info) {
-  return new Meter(metrics_, info->method());
+  // Series stay for ever: not one for every name that callers make up.
+  return new Meter(metrics_, IsKnownMethod(info->method()) ? info->method() : "unknown");
 }
 
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {
@@ -49,18 +65,6 @@ void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {
   for (int n = 0; found != nullptr && n < found->method_count(); ++n) {
     metrics.ExpectCalls("/" + service + "/" + found->method(n)->name());
   }
-}
-
-std::string CodeName(const grpc::Status& status) {
-  return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
-}
-
-std::string ReasonNameOf(const grpc::Status& status) {
-  if (status.ok() || status.error_details().empty()) return std::string();
-  v1::Status message;
-  if (!message.ParseFromString(status.error_details())) return std::string();
-  const auto info = wire::ErrorInfoOf(wire::FromRpcStatus(message));
-  return info.has_value() ? info->reason() : std::string();
 }
 
 }  // namespace bccskel::server

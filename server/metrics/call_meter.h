@@ -25,11 +25,6 @@ class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
 // Counts begin at 0 for each method of the service.
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics);
 
-// "OK", "NOT_FOUND", ...
-std::string CodeName(const grpc::Status& status);
-// Of the ErrorInfo in the status's details; empty where there is none.
-std::string ReasonNameOf(const grpc::Status& status);
-
 }  // namespace bccskel::server
 
 #endif  // BCCSKEL_SERVER_METRICS_CALL_METER_H_

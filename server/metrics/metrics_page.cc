@@ -13,8 +13,10 @@
 namespace bccskel::server {
 namespace {
 
-// A scraper that does not read its answer holds up no other for longer than this.
-constexpr char kRequestTimeoutMs[] = "5000";
+// Who connects and asks for nothing, or does not read the answer, takes a thread for this time.
+// With so many threads the next scraper waits for none of them, or not for long.
+constexpr char kRequestTimeoutMs[] = "3000";
+constexpr char kThreads[] = "16";
 
 // civetweb takes numbers for hosts only.
 std::string ForCivetweb(const std::string& address) {
@@ -31,7 +33,7 @@ absl::StatusOr<std::unique_ptr<MetricsPage>> MetricsPage::Start(const std::strin
   page->collectables_ = std::move(collectables);
   try {
     page->exposer_ = std::make_unique<prometheus::Exposer>(
-        std::vector<std::string>{"listening_ports", ForCivetweb(address), "num_threads", "2",
+        std::vector<std::string>{"listening_ports", ForCivetweb(address), "num_threads", kThreads,
                                  "request_timeout_ms", kRequestTimeoutMs});
     for (const auto& collectable : page->collectables_) {
       page->exposer_->RegisterCollectable(collectable);

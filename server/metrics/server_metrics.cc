@@ -17,6 +17,8 @@
 
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -193,11 +195,6 @@ class ServerMetrics::Families {
         .SetToCurrentTime();
   }
 
-  void ObserveIfKnown(Histogram& histogram,
-                      const std::optional<std::chrono::duration<double>>& time) {
-    if (time.has_value()) histogram.Observe(time->count());
-  }
-
   const std::shared_ptr<Registry> registry = std::make_shared<Registry>();
   const std::shared_ptr<Seen> seen;
   Family<Counter>& calls = AddCounter(*registry, "bccskel_calls_total", "Calls that have ended");
@@ -252,15 +249,21 @@ void ServerMetrics::Count(const EndedCall& call) {
   if (call.code != "OK") ++sums_.failed_calls;
 }
 
-void ServerMetrics::Count(const EndedJob& job) {
-  families_->jobs.Add({{"tenant", job.tenant}, {"code", job.code}, {"reason", job.reason}})
+void ServerMetrics::Count(const JobEnd& job) {
+  const absl::Status end = WithJobReason(job.status);
+  families_->jobs
+      .Add({{"tenant", job.tenant},
+            {"code", absl::StatusCodeToString(end.code())},
+            {"reason", ReasonNameOf(end)}})
       .Increment();
-  families_->ObserveIfKnown(families_->queued, job.queued);
-  families_->ObserveIfKnown(families_->decoded, job.decoded);
-  families_->ObserveIfKnown(families_->computed, job.computed);
+  ++(end.ok() ? sums_.jobs : sums_.failed_jobs);
+  if (!end.ok()) return;
+  const auto seconds = [](std::chrono::duration<double> time) { return time.count(); };
+  families_->queued.Observe(seconds(job.times.queued));
+  families_->decoded.Observe(seconds(job.times.decoded));
+  families_->computed.Observe(seconds(job.times.computed));
   families_->points.Increment(static_cast<double>(job.object_points));
   sums_.object_points += job.object_points;
-  ++(job.code == "OK" ? sums_.jobs : sums_.failed_jobs);
 }
 
 void ServerMetrics::CountAdmitted(uint64_t volume_bytes) {

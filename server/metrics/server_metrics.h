@@ -10,6 +10,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "server/jobs/job_runner.h"
 
 namespace prometheus {
 class Collectable;
@@ -64,17 +65,6 @@ struct EndedCall {
   std::chrono::duration<double> seconds{0};
 };
 
-// A job that has ended. What is not known is left out.
-struct EndedJob {
-  std::string tenant;
-  std::string code;
-  std::string reason;
-  std::optional<std::chrono::duration<double>> queued;
-  std::optional<std::chrono::duration<double>> decoded;
-  std::optional<std::chrono::duration<double>> computed;
-  uint64_t object_points = 0;
-};
-
 // Sums since the start, of the same events.
 struct ServerSums {
   std::atomic<uint64_t> calls = 0;
@@ -100,7 +90,7 @@ class ServerMetrics {
   void ExpectDurableJobs();
   void Count(const EndedCall& call);
   void CountDurable(const std::string& code, const std::string& reason);
-  void Count(const EndedJob& job);
+  void Count(const JobEnd& job);
   void CountAdmitted(uint64_t volume_bytes);
 
   const ServerSums& sums() const { return sums_; }

@@ -47,7 +47,7 @@ TEST(ServerConfig, TakesEveryFlag) {
   EXPECT_EQ(config.limits.max_bytes, uint64_t{2} << 30);
   EXPECT_EQ(config.limits.max_volume_bytes, uint64_t{3} << 20);
   EXPECT_EQ(config.limits.volume.max_bricks, 77u);
-  EXPECT_EQ(config.sender_timeout, std::chrono::milliseconds(7));
+  EXPECT_EQ(config.caller_timeouts.sender, std::chrono::milliseconds(7));
   EXPECT_EQ(config.lame_duck, std::chrono::milliseconds(5));
   EXPECT_EQ(config.drain, std::chrono::milliseconds(6));
   EXPECT_EQ(config.log_level, "warning");

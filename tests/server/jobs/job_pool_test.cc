@@ -144,6 +144,25 @@ TEST(JobPool, GivesWhatThePipelineGives) {
   EXPECT_TRUE(result->thin_volume.empty());
 }
 
+TEST(JobPool, TellsItsObserverOfEveryJobBeforeItsListener) {
+  uint64_t admitted = 0;
+  std::vector<JobEnd> ends;
+  JobPool pool(RoomyLimits(), {.on_admitted = [&](uint64_t bytes) { admitted += bytes; },
+                               .on_end = [&](const JobEnd& end) { ends.push_back(end); }});
+  const Started done = Start(pool, SmallTorus());
+  Upload(*done.job, *done.listener, SmallTorus().bytes);
+  ASSERT_TRUE(done.listener->WaitForEnd().ok());
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_EQ(ends[0].object_points, done.listener->WaitForEnd()->skeleton.object_points);
+  EXPECT_GT(ends[0].times.computed.count(), 0);
+  const Started left = Start(pool, SmallTorus());
+  left.job->EndWith(absl::CancelledError("left"));
+  EXPECT_FALSE(left.listener->WaitForEnd().ok());
+  ASSERT_EQ(ends.size(), 2U);
+  EXPECT_EQ(ends[1].status, absl::CancelledError("left"));
+  EXPECT_EQ(admitted, 2 * SmallTorus().request.size_bytes);
+}
+
 TEST(JobPool, EncodesTheThinVolumeWhereItIsWanted) {
   Encoded encoded = SmallTorus();
   encoded.request.thin_volume = VolumeEncoding::kBricks;

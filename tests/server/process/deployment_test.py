@@ -38,7 +38,8 @@ def server_arguments():
 def named_metrics():
     """Names of metrics, by the file that reads them; of a histogram's series the histogram's."""
     for path in (DOCKER / "prometheus/alerts.yml", DOCKER / "grafana/bccskel.json",
-                 DOCKER / "kubernetes/base/autoscaler.yaml"):
+                 DOCKER / "kubernetes/base/autoscaler.yaml",
+                 DOCKER / "kubernetes/fleet/scale-by-queue.yaml"):
         for name in set(re.findall(r"\b(?:bccskel|process)_[a-z_]+\b", path.read_text())):
             yield path.name, re.sub(r"_bucket$", "", name)
 
@@ -86,6 +87,23 @@ class DeploymentTest(unittest.TestCase):
             self.assertIn(f"{name}:9464", targets)
         claim = yaml.safe_load((DOCKER / "kubernetes/fleet/volume-claim.yaml").read_text())
         self.assertEqual(claim["spec"]["accessModes"], ["ReadWriteMany"])
+
+    def test_a_fleet_grows_with_the_jobs_in_its_tables(self):
+        """Every server tells their number: an average over pods would count them once a pod."""
+        fleet = DOCKER / "kubernetes/fleet"
+        patches = yaml.safe_load((fleet / "kustomization.yaml").read_text())["patchesStrategicMerge"]
+        scalers = [document for document in map(yaml.safe_load, (
+            (fleet / patch).read_text() for patch in patches))
+            if document["kind"] == "HorizontalPodAutoscaler"]
+        self.assertEqual(len(scalers), 1)
+        by_type = {metric["type"]: metric[metric["type"].lower()]
+                   for metric in scalers[0]["spec"]["metrics"]}
+        self.assertEqual(by_type["Pods"]["metric"]["name"], "bccskel_jobs_waiting")
+        name = by_type["External"]["metric"]["name"]
+        self.assertEqual(name, "bccskel_durable_jobs_queued")
+        rule = re.search(r"```yaml\nexternalRules:.*?```", (DOCKER / "README.md").read_text(), re.S)
+        self.assertIn(f"'{name}{{", rule[0])
+        self.assertIn("'max(<<.Series>>", rule[0])
 
     def test_both_kinds_of_pod_mount_what_nginx_and_server_share(self):
         base = yaml.safe_load((DOCKER / "kubernetes/base/deployment.yaml").read_text())

@@ -3,6 +3,7 @@ understand."""
 
 import pathlib
 import tempfile
+import threading
 import unittest
 
 import grpc
@@ -106,6 +107,25 @@ class NginxTest(unittest.TestCase):
         for error in refused:
             self.assertEqual(error.code(), grpc.StatusCode.UNAVAILABLE)
             self.assertIn("slow down", error.details())
+
+    def test_who_has_too_many_calls_open_is_told_so(self):
+        """nginx counts calls that are open as connections."""
+        front, end = self.front(), threading.Event()
+        self.addCleanup(end.set)
+
+        def nothing():
+            end.wait()
+            yield from ()
+
+        with ServerProcess(listen=f"unix:{self.socket}"):
+            call = self.channel(front).stream_stream(
+                "/bccskel.v1.SkeletonizationService/Skeletonize")
+            calls = [call(nothing(), timeout=60) for _ in range(105)]
+            with self.assertRaises(grpc.RpcError) as refused:
+                list(calls[-1])
+            end.set()
+        self.assertEqual(refused.exception.code(), grpc.StatusCode.UNAVAILABLE)
+        self.assertIn("100 calls at a time", refused.exception.details())
 
 
 if __name__ == "__main__":

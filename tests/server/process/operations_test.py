@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import resource
+import select
 import signal
 import socket
 import subprocess
@@ -25,6 +26,7 @@ example = server_process.example()
 CLI = os.environ.get("BCCSKEL", "")
 CONNECTIONS = 300
 SPARE_FILES = 50  # more than a call needs
+SILENT_SCRAPERS = 8
 
 
 def health(channel, service=""):
@@ -180,6 +182,36 @@ class MetricsTest(unittest.TestCase):
                 lines = server_process.metrics_after(page, 2)
         self.assertEqual(lines.get(name), "2",
                          {name: value for name, value in lines.items() if "jobs_total" in name})
+
+    def test_methods_that_callers_make_up_share_one_series(self):
+        with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
+            page = server.line_after("metrics at ")
+            with grpc.insecure_channel(server.address) as channel:
+                self.assertEqual(health(channel), 1)
+                for method in ("/made.up/First", "/bccskel.v1.JobService/Second", "/third/"):
+                    with self.assertRaises(grpc.RpcError):
+                        channel.unary_unary(method)(b"", timeout=server_process.TIMEOUT_S)
+            lines = server_process.metrics_after(page, 4, "bccskel_calls_total")
+        calls = {name: value for name, value in lines.items()
+                 if name.startswith("bccskel_calls_total") and value != "0"}
+        self.assertEqual(calls, {
+            'bccskel_calls_total{code="OK",method="/grpc.health.v1.Health/Check",reason=""}': "1",
+            'bccskel_calls_total{code="UNIMPLEMENTED",method="unknown",reason=""}': "3"})
+
+    def test_connections_that_ask_for_nothing_keep_no_scraper_waiting(self):
+        with ServerProcess("--metrics-listen", "127.0.0.1:0") as server, \
+                contextlib.ExitStack() as stack:
+            page = server.line_after("metrics at ")
+            host, port = page.split("/")[2].split(":")
+            silent = [stack.enter_context(socket.create_connection((host, int(port))))
+                      for _ in range(SILENT_SCRAPERS)]
+            for connection in silent:
+                connection.send(b"GET /met")
+            self.assertIn("bccskel_threads", server_process.metrics(page))
+            still_open = [connection for connection in silent
+                          if not select.select([connection], [], [], 0)[0]]
+        # None of them had to give up first.
+        self.assertEqual(len(still_open), SILENT_SCRAPERS)
 
 
 class LoadTest(unittest.TestCase):

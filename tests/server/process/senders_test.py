@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import grpc
+import numpy as np
 
 import server_process
 from durable_case import (Code, DurableTest, durable, example, large_volume, service, service_grpc,
@@ -103,6 +104,25 @@ class SilentDurableSenderTest(DurableTest):
         found = self.volumes.GetUploadStatus(
             volumes.GetUploadStatusRequest(upload="uploads/silent"))
         self.assertEqual(found.upload.committed_size, 10)
+
+
+class SilentReaderTest(unittest.TestCase):
+    def test_who_does_not_read_a_result_loses_its_memory(self):
+        noise = np.random.default_rng(1).random((2, 64, 64, 64)) < 0.35
+        with ServerProcess("--reader-timeout-ms", str(LIMIT_MS), "--metrics-listen",
+                           "127.0.0.1:0") as server, contextlib.ExitStack() as stack:
+            page = server.line_after("metrics at ")
+            channel = stack.enter_context(grpc.insecure_channel(server.address))
+            unread = service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+                example.requests(noise), timeout=server_process.TIMEOUT_S)
+            server.wait_for_event("call ended")
+            self.assertIn('"reason":"READER_TIMEOUT"', server.log_text())
+            self.assertIn(f"{LIMIT_MS} ms (reader-timeout-ms)", server.log_text())
+            lines = server_process.metrics(page)
+            self.assertEqual((lines["bccskel_jobs_admitted"],
+                              lines["bccskel_memory_admitted_bytes"]), ("0", "0"))
+            with self.assertRaises(grpc.RpcError):
+                list(unread)
 
 
 class SharesTest(unittest.TestCase):

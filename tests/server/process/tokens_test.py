@@ -9,6 +9,7 @@ import time
 import unittest
 
 import grpc
+import numpy as np
 
 import server_process
 from server_process import ServerProcess, run_to_end
@@ -160,6 +161,18 @@ class TokensTest(unittest.TestCase):
                                  (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID"))
             go_on.set()
             self.assertTrue(list(kept)[-1].HasField("summary"))
+
+    def test_a_call_that_nobody_reads_ends_with_its_token(self):
+        noise = np.random.default_rng(1).random((2, 64, 64, 64)) < 0.35
+        with self.server() as server, grpc.insecure_channel(server.address) as channel:
+            unread = example.service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+                example.requests(noise), metadata=bearer(self.acme),
+                timeout=server_process.TIMEOUT_S)
+            server.wait_for_event("job accepted")
+            self.write(self.lines[1:])
+            server.wait_for_event("call ended")
+            self.assertIn('"reason":"TOKEN_INVALID"', server.log_text())
+            unread.cancel()
 
     def test_tenants_are_told_apart_and_no_token_is_written_anywhere(self):
         trace = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"
