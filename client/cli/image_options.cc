@@ -1,17 +1,20 @@
 #include "client/cli/image_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "client/cli/option_values.h"
+#include "core/exec/read_ahead.h"
 #include "core/exec/status_macros.h"
 #include "core/labels/label_collector.h"
 #include "core/mask/mask_converter.h"
@@ -266,6 +269,34 @@ MaskGrid GridOf(const ImageInfo& info) {
   return {info.size.nx, info.size.ny, info.size.nz, info.placement};
 }
 
+// Reads an image, several slices at once where they are small, each turned by
+// `take(slice, room)` into `slice_size` values, which `use(values)` gets in order.
+template <typename Take, typename Use>
+absl::Status ReadSlices(ImageSource& source, size_t slice_size, const exec::Context& context,
+                        Take take, Use use) {
+  using Room = std::vector<uint64_t>;
+  constexpr size_t kVoxelsAtOnce = size_t{1} << 18;
+  const ImageSize size = source.info().size;
+  const auto slices = static_cast<size_t>(size.nz);
+  const size_t at_once = std::clamp<size_t>(kVoxelsAtOnce / size.SliceVoxels(), 1, slices);
+  const auto each = [&](size_t part, Room& room, auto work) -> absl::Status {
+    const size_t count = std::min(at_once, slices - part * at_once);
+    room.resize(at_once * slice_size);
+    for (size_t n = 0; n < count; ++n) {
+      BCCSKEL_RETURN_IF_ERROR(work(std::span(room).subspan(n * slice_size, slice_size)));
+    }
+    return absl::OkStatus();
+  };
+  const auto read = [&](std::span<uint64_t> room) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    return take(slice, room);
+  };
+  return exec::ReadAhead<Room>(
+      context, (slices + at_once - 1) / at_once,
+      [&](size_t part, Room& room) { return each(part, room, read); },
+      [&](size_t part, Room& room) { return each(part, room, use); });
+}
+
 }  // namespace
 
 absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
@@ -274,14 +305,17 @@ absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArgumen
   const MaskGrid grid = GridOf(source.info());
   BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
-  std::vector<uint64_t> words(grid.WordsPerSlice());
-  for (int32_t z = 0; z < grid.nz; ++z) {
-    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
-    ForegroundSlice(slice, rule, words);
-    BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
-    if (kept == KeptVoxels::kNone) continue;
-    BCCSKEL_RETURN_IF_ERROR(collector.AddMaskSlice(words, context));
-  }
+  BCCSKEL_RETURN_IF_ERROR(ReadSlices(
+      source, grid.WordsPerSlice(), context,
+      [&](const ImageSlice& slice, std::span<uint64_t> words) {
+        ForegroundSlice(slice, rule, words);
+        return absl::OkStatus();
+      },
+      [&](std::span<const uint64_t> words) {
+        BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
+        return kept == KeptVoxels::kNone ? absl::OkStatus()
+                                         : collector.AddMaskSlice(words, context);
+      }));
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
   ImageObject object = {std::move(mask.volume), {source.info(), mask.voxels, mask.mask}};
   if (kept == KeptVoxels::kAll) {
@@ -296,12 +330,9 @@ absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageAr
   const MaskGrid grid = GridOf(labels.info);
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
                            LabelCollector::Create(grid, {.labels = arguments.labels}));
-  std::vector<uint64_t> values(grid.VoxelsPerSlice());
-  for (int32_t z = 0; z < grid.nz; ++z) {
-    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
-    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
-    BCCSKEL_RETURN_IF_ERROR(collector.AddSlice(values, context));
-  }
+  BCCSKEL_RETURN_IF_ERROR(ReadSlices(
+      source, grid.VoxelsPerSlice(), context, LabelSlice,
+      [&](std::span<const uint64_t> values) { return collector.AddSlice(values, context); }));
   BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
   labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
     return object.voxels < min_voxels;
