@@ -29,14 +29,16 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
       " among the curves; --fill-cavities fills cavities before thinning");
 }
 
-// How many loops close only through edges that are somewhere as thin as `radius`, lattice units.
-int64_t CountThinLoops(const SkeletonGraph& graph, double radius) {
+// How many loops close only through edges as thin as a voxel somewhere and four times as thick
+// elsewhere: what is thin all along is a thin object. `voxel` is its edge in lattice units.
+int64_t CountThinLoops(const SkeletonGraph& graph, double voxel) {
   DisjointSets joined(graph.nodes.size());
   int64_t count = 0;
   for (const bool thin : {false, true}) {
     for (const SkeletonEdge& edge : graph.edges) {
       const auto radii = graph.PointsOf(edge) | std::views::transform(&SkeletonPoint::radius);
-      const bool is_thin = !radii.empty() && std::ranges::min(radii) <= radius;
+      const bool is_thin = !radii.empty() && std::ranges::min(radii) <= 0.75 * voxel &&
+                           std::ranges::max(radii) >= 2 * voxel;
       if (is_thin != thin) continue;
       if (thin && joined.Find(edge.source) == joined.Find(edge.target)) ++count;
       joined.Join(edge.source, edge.target);
@@ -53,7 +55,7 @@ void AddThinLoops(const SkeletonizeResult& result, Notes& notes) {
   if (options.source == ObjectSource::kPoints || cuts || loops == 0) return;
   if (!MakesCurves(options.thinning.kind)) return;
   const double edge = SurfaceStepOf(options.source);  // of a voxel
-  const int64_t count = CountThinLoops(result.graph, 0.75 * edge);
+  const int64_t count = CountThinLoops(result.graph, edge);
   if (count == 0) return;
   notes.push_back(
       absl::StrFormat("%d of %s through parts as thin as a voxel; where noise made them, "

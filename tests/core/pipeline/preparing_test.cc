@@ -52,11 +52,10 @@ Volume BallWithThinRing() {
   return *std::move(builder).Build();
 }
 
-// Of a tube of radius 6.
-Volume ThickRing() {
+Volume RingOf(double tube_radius) {
   VolumeBuilder builder({24, 24, 24});
   for (LatticePoint p : test::RandomCloud(0, {24, 24, 24}, 1)) {
-    if (std::hypot(std::hypot(p.x - 24, p.y - 24) - 14, p.z - 24) < 6) builder.Add(p);
+    if (std::hypot(std::hypot(p.x - 24, p.y - 24) - 14, p.z - 24) < tube_radius) builder.Add(p);
   }
   return *std::move(builder).Build();
 }
@@ -116,7 +115,8 @@ TEST(NotesOn, NameTheLoopsThatNoiseMayHaveMadeAndTheOptionAgainstThem) {
   EXPECT_THAT(NotesOn(SkeletonOf(BallWithThinRing(), voxels)),
               ElementsAre(AllOf(HasSubstr("1 of 1 loop closes through parts as thin"),
                                 HasSubstr("--cut-loops 2 "))));
-  EXPECT_THAT(NotesOn(SkeletonOf(ThickRing(), voxels)), IsEmpty());
+  EXPECT_THAT(NotesOn(SkeletonOf(RingOf(6), voxels)), IsEmpty());
+  EXPECT_THAT(NotesOn(SkeletonOf(RingOf(1.5), voxels)), IsEmpty());
   EXPECT_THAT(NotesOn(SkeletonOf(BallWithThinRing(), {})), IsEmpty());
   SkeletonizeOptions cut = voxels;
   cut.preparing.tunnel_width = 2;
