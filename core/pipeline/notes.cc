@@ -1,12 +1,7 @@
 #include "core/pipeline/notes.h"
 
-#include <algorithm>
-#include <ranges>
-
 #include "absl/strings/str_format.h"
 #include "core/certificate/describe_changes.h"
-#include "core/distance/chamfer_weights.h"
-#include "core/exec/disjoint_sets.h"
 
 namespace bccskel {
 namespace {
@@ -27,41 +22,6 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
       " among the curves; --fill-cavities fills cavities before thinning");
-}
-
-// How many loops close only through edges as thin as a voxel somewhere and four times as thick
-// elsewhere: what is thin all along is a thin object. `voxel` is its edge in lattice units.
-int64_t CountThinLoops(const SkeletonGraph& graph, double voxel) {
-  DisjointSets joined(graph.nodes.size());
-  int64_t count = 0;
-  for (const bool thin : {false, true}) {
-    for (const SkeletonEdge& edge : graph.edges) {
-      const auto radii = graph.PointsOf(edge) | std::views::transform(&SkeletonPoint::radius);
-      const bool is_thin = !radii.empty() && std::ranges::min(radii) <= 0.75 * voxel &&
-                           std::ranges::max(radii) >= 2 * voxel;
-      if (is_thin != thin) continue;
-      if (thin && joined.Find(edge.source) == joined.Find(edge.target)) ++count;
-      joined.Join(edge.source, edge.target);
-    }
-  }
-  return count;
-}
-
-// Of images only: what is thin in a mesh is no noise.
-void AddThinLoops(const SkeletonizeResult& result, Notes& notes) {
-  const SkeletonizeOptions& options = result.options;
-  const bool cuts = options.preparing.tunnel_width > 0 || options.preparing.tunnel_cells > 0;
-  const int64_t loops = result.certificate.input.loops;
-  if (options.source == ObjectSource::kPoints || cuts || loops == 0) return;
-  if (!MakesCurves(options.thinning.kind)) return;
-  const double edge = SurfaceStepOf(options.source);  // of a voxel
-  const int64_t count = CountThinLoops(result.graph, edge);
-  if (count == 0) return;
-  notes.push_back(
-      absl::StrFormat("%d of %s through parts as thin as a voxel; where noise made them, "
-                      "--cut-loops %g fills their tunnels",
-                      count, Counted(loops, "loop closes", "loops close"),
-                      2 * edge * WorldUnitsPerLatticeUnit(result.graph.placement)));
 }
 
 void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
@@ -96,7 +56,6 @@ std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   AddEmpty(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
-  AddThinLoops(result, notes);
   AddSimplePoints(result, notes);
   return notes;
 }

@@ -9,9 +9,8 @@
 namespace bccskel {
 
 // What the user of this result should know, one sentence each: closed surfaces that cavities leave
-// in a curve skeleton, loops that noise of an image may have made (of thicker limbs, they close
-// through parts as thin as a voxel; a limb that ends in one has no end), topology that preparing
-// changed, simple points left on purpose, an object that preparing removed entirely. Mostly empty.
+// in a curve skeleton, topology that preparing changed, simple points left on purpose, an object
+// that preparing removed entirely. Mostly empty.
 std::vector<std::string> NotesOn(const SkeletonizeResult& result);
 
 // "5 cavities filled" and the like.

@@ -15,7 +15,6 @@
 namespace bccskel {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -35,27 +34,6 @@ Volume HollowBall() {
   for (LatticePoint p : test::RandomCloud(0, {24, 24, 24}, 1)) {
     const double r = std::hypot(p.x - 24, p.y - 24, p.z - 24);
     if (r < 20 && r > 9) builder.Add(p);
-  }
-  return *std::move(builder).Build();
-}
-
-// A ball of radius 12 around (24, 24, 24) with a ring on it, of a chain of single points.
-Volume BallWithThinRing() {
-  VolumeBuilder builder({40, 24, 24});
-  for (LatticePoint p : test::RandomCloud(0, {24, 24, 24}, 1)) {
-    if (std::hypot(p.x - 24, p.y - 24, p.z - 24) < 12) builder.Add(p);
-  }
-  for (int32_t x = 32; x <= 52; x += 2) {
-    for (int32_t y : {20, 28}) builder.Add({x, y, 24});
-  }
-  for (int32_t y = 22; y <= 26; y += 2) builder.Add({52, y, 24});
-  return *std::move(builder).Build();
-}
-
-Volume RingOf(double tube_radius) {
-  VolumeBuilder builder({24, 24, 24});
-  for (LatticePoint p : test::RandomCloud(0, {24, 24, 24}, 1)) {
-    if (std::hypot(std::hypot(p.x - 24, p.y - 24) - 14, p.z - 24) < tube_radius) builder.Add(p);
   }
   return *std::move(builder).Build();
 }
@@ -107,20 +85,6 @@ TEST(NotesOn, NameTheClosedSurfacesAndTheOptionAgainstThem) {
   EXPECT_THAT(NotesOn(SkeletonOf(HollowBall(), surface)), IsEmpty());
   EXPECT_THAT(NotesOn(SkeletonOf(HollowBall(), {.preparing = kAll})),
               ElementsAre(HasSubstr("cavities 1 -> 0")));
-}
-
-// A limb that ends in such a loop has no end.
-TEST(NotesOn, NameTheLoopsThatNoiseMayHaveMadeAndTheOptionAgainstThem) {
-  const SkeletonizeOptions voxels = {.source = ObjectSource::kVoxels};
-  EXPECT_THAT(NotesOn(SkeletonOf(BallWithThinRing(), voxels)),
-              ElementsAre(AllOf(HasSubstr("1 of 1 loop closes through parts as thin"),
-                                HasSubstr("--cut-loops 2 "))));
-  EXPECT_THAT(NotesOn(SkeletonOf(RingOf(6), voxels)), IsEmpty());
-  EXPECT_THAT(NotesOn(SkeletonOf(RingOf(1.5), voxels)), IsEmpty());
-  EXPECT_THAT(NotesOn(SkeletonOf(BallWithThinRing(), {})), IsEmpty());
-  SkeletonizeOptions cut = voxels;
-  cut.preparing.tunnel_width = 2;
-  EXPECT_THAT(NotesOn(SkeletonOf(BallWithThinRing(), cut)), IsEmpty());
 }
 
 TEST(NotesOn, SayWhenNothingIsLeft) {
