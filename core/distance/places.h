@@ -67,13 +67,13 @@ inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) 
 }
 
 // Finds bricks of points that lie close together: remembers what it found, all of it where the
-// extent has few bricks.
+// extent has few bricks. Memory goes with the object's bricks, not with the extent.
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
   explicit NearbyBricks(const Volume& object)
       : object_(object),
-        bits_(BitsFor(object.extent())),
+        bits_(BitsFor(object)),
         found_(size_t{1} << bits_.All(), Found{BrickKey(), none()}) {}
 
   BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
@@ -108,16 +108,17 @@ class NearbyBricks {
 
     int All() const { return x + y + z + 1; }
   };
-  static constexpr int kMostBits = 13;
-
-  static Bits BitsFor(const LatticeExtent& extent) {
+  static Bits BitsFor(const Volume& object) {
+    const LatticeExtent& extent = object.extent();
     const auto bits_for = [](int32_t cells, int32_t length) {
       return static_cast<int>(
           std::bit_width(static_cast<uint32_t>(std::max(cells - 1, 0) / length)));
     };
     Bits bits = {bits_for(extent.nx, kBrickX), bits_for(extent.ny, kBrickY),
                  bits_for(extent.nz, kBrickZ)};
-    while (bits.All() > kMostBits)
+    // Eight places or more for each brick: those that are not stored are asked for, too.
+    const int most = std::clamp(static_cast<int>(std::bit_width(object.brick_count())) + 3, 6, 13);
+    while (bits.All() > most)
       --(bits.x >= std::max(bits.y, bits.z) ? bits.x : bits.y >= bits.z ? bits.y : bits.z);
     return bits;
   }
