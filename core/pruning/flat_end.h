@@ -19,9 +19,9 @@ namespace bccskel {
 // widths are what radii are in space: W, the distance to the rim within the sheet, is the same
 // along the limb and falls toward a corner.
 // Does:  the end is the place with the largest sum of W and 0.75 of the way along the limb, as for
-//        tips in space (tips.h), less 0.4 of the way aside: the point of a leaf lies ahead, a corner
-//        of a strip aside. The limb's direction is that of the way to the last place that is as wide
-//        as any. The removed part lies within 1.75 W and 6 units of the new end, and the
+//        tips in space (tips.h), less 0.4 of the way aside: the point of a leaf lies ahead, a
+//        corner of a strip aside. The limb's direction is that of the way to the last place that is
+//        as wide as any. The removed part lies within 1.75 W and 6 units of the new end, and the
 //        limb is at least W / 2 long before it: corners of plates, which do not end limbs, stay.
 //        W is the shortest of 16 ways across the normal, which is that to the nearest background.
 //        Such a way follows a bent sheet: where it leaves the object it goes on where the object is
