@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"complex", Npy("{'descr': '<c8', 'fortran_order': False, 'shape': (2, 2, 3), }"),
                 kInvalid, "'<c8'"},
         Refused{"record", Npy("{'descr': [('a', '<u1')], 'fortran_order': False, 'shape': (2,), }"),
-                kInvalid, "not read"},
+                kInvalid, "not supported"},
         Refused{"channels",
                 Npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2, 3), }"), kInvalid,
                 "4 axes"},
