@@ -95,8 +95,8 @@ TEST(CrossingsLaw, AreThoseOfAllPairs) {
   }
 }
 
-// The numbers are those of CGAL's self_intersections() without pairs that only overlap in a plane or
-// touch, of which the scorpion has 12.
+// The numbers are those of CGAL's self_intersections() without pairs that only overlap in a plane
+// or touch, of which the scorpion has 12.
 TEST(Crossings, OfMeshesOfOthersAreThoseThatCgalFinds) {
   BCCSKEL_SKIP_WITHOUT_TEST_DATA();
   const auto crossings = [](const std::string& name) {
