@@ -15,6 +15,7 @@
 #include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
 #include "client/export/text.h"
+#include "client/view/render/subject_picture.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 
@@ -64,7 +65,7 @@ void AddFetch(CLI::App& command, FetchArguments& arguments) {
   AddSwcStep(command, arguments.swc);
   command
       .add_option("--object", arguments.object,
-                  "The volume that was submitted, which .svg and .html show")
+                  "The volume that was submitted, which .svg, .png and .html show")
       ->option_text("FILE");
   AddWaiting(command, arguments.waiting);
 }
@@ -168,7 +169,8 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
                                       .object = *object,
                                       .title = TitleOf(arguments),
                                       .context = team.context(),
-                                      .swc = arguments.swc};
+                                      .swc = arguments.swc,
+                                      .draw = view::DrawSubject};
   for (const std::string& path : arguments.outputs) {
     const absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());

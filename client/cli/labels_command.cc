@@ -54,7 +54,7 @@ std::string PathFor(std::string path, uint64_t label) {
 absl::Status CheckLabelOutput(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const exporting::SkeletonFormat format,
                            exporting::SkeletonFormatOf(path));
-  if (format == exporting::SkeletonFormat::kSvg || format == exporting::SkeletonFormat::kHtml) {
+  if (exporting::ShowsObject(format)) {
     return absl::InvalidArgumentError(
         path + ": pictures show one object; use skeletonize --label for one label");
   }

@@ -14,9 +14,6 @@
 namespace bccskel::cli {
 namespace {
 
-// Fine enough for a print.
-constexpr size_t kMostTriangles = 1'000'000;
-
 std::string SummaryOf(const RenderArguments& arguments, size_t triangles) {
   const view::PictureOptions& picture = arguments.picture;
   exporting::Text text;
@@ -72,7 +69,7 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<ResultAndObject> loaded = LoadResultAndObject(arguments, team.context());
   if (!loaded.ok()) return Fail(loaded.status());
   const absl::StatusOr<view::DisplaySurface> surface =
-      view::MakeDisplaySurface(loaded->object, kMostTriangles, team.context());
+      view::MakeDisplaySurface(loaded->object, view::kMostPictureTriangles, team.context());
   if (!surface.ok()) return Fail(surface.status());
   view::PictureOptions options = arguments.picture;
   options.title = FileName(arguments.object);

@@ -17,6 +17,7 @@
 #include "client/export/skeleton_file.h"
 #include "client/skeletonize_client.h"
 #include "client/view/display_surface.h"
+#include "client/view/render/subject_picture.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_file.h"
 #include "core/labels/convert_label.h"
@@ -215,7 +216,8 @@ absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments
       computed.shells.has_value() ? &*computed.shells : nullptr,
       arguments.root,
       object.image.has_value() ? WorldOf(object.image->info) : exporting::World(),
-      arguments.swc};
+      arguments.swc,
+      view::DrawSubject};
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
     BCCSKEL_RETURN_IF_ERROR(context.StopStatus());

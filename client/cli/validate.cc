@@ -134,8 +134,7 @@ absl::Status CheckFetch(const std::string& object, const std::string& output) {
   using exporting::SkeletonFormat;
   const absl::StatusOr<SkeletonFormat> format = exporting::SkeletonFormatOf(output);
   if (!format.ok()) return format.status();
-  const bool shows_object = *format == SkeletonFormat::kSvg || *format == SkeletonFormat::kHtml;
-  if (shows_object && object.empty()) {
+  if (exporting::ShowsObject(*format) && object.empty()) {
     return absl::InvalidArgumentError(
         output + ": shows the object, too: name the volume that was submitted with --object");
   }

@@ -31,7 +31,7 @@ struct Ending {
   std::string_view text;
   SkeletonFormat format;
 };
-constexpr std::array<Ending, 13> kEndings = {{{".swc", SkeletonFormat::kSwc},
+constexpr std::array<Ending, 14> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               // in front of .json, which it ends in
                                               {".mrk.json", SkeletonFormat::kMarkups},
                                               {".vtp", SkeletonFormat::kVtp},
@@ -43,6 +43,7 @@ constexpr std::array<Ending, 13> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".exr", SkeletonFormat::kVolume},
                                               {".bccb", SkeletonFormat::kVolume},
                                               {".svg", SkeletonFormat::kSvg},
+                                              {".png", SkeletonFormat::kPng},
                                               {".html", SkeletonFormat::kHtml},
                                               {".precomputed", SkeletonFormat::kPrecomputed}}};
 
@@ -138,11 +139,13 @@ absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;
   }
-  const bool picture = lower.ends_with(".png");
-  return absl::InvalidArgumentError(
-      path + ": no output format has this ending; " +
-      (picture ? "`bccskel render` draws pictures of a result, a .json file"
-               : "there are " + SkeletonFormatEndings()));
+  return absl::InvalidArgumentError(path + ": no output format has this ending; there are " +
+                                    SkeletonFormatEndings());
+}
+
+bool ShowsObject(SkeletonFormat format) {
+  return format == SkeletonFormat::kSvg || format == SkeletonFormat::kPng ||
+         format == SkeletonFormat::kHtml;
 }
 
 std::string SkeletonFormatEndings() {
@@ -157,7 +160,7 @@ std::string SkeletonFormatEndings() {
 bool HoldsGraph(const std::string& path) {
   const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
   return format.ok() && *format != SkeletonFormat::kJson && *format != SkeletonFormat::kVolume &&
-         *format != SkeletonFormat::kSvg && *format != SkeletonFormat::kHtml;
+         !ShowsObject(*format);
 }
 
 absl::Status CheckOutput(const std::string& path) {
@@ -174,11 +177,12 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
   }
   const SkeletonGraph& graph = subject.result.graph;
   const std::stop_token& stop = subject.context.stop;
-  if (format == SkeletonFormat::kJson || format == SkeletonFormat::kSvg ||
-      format == SkeletonFormat::kHtml) {
+  if (format == SkeletonFormat::kJson || ShowsObject(format)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFinite(graph));
     if (format == SkeletonFormat::kSvg)
       return WriteDocument(path, WithoutNote(SvgText(subject)), stop);
+    if (format == SkeletonFormat::kPng)
+      return WriteDocument(path, WithoutNote(subject.draw(subject)), stop);
     if (format == SkeletonFormat::kHtml)
       return WriteDocument(path, WithoutNote(PageText(subject)), stop);
     return WriteDocument(

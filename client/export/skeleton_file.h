@@ -21,6 +21,7 @@ enum class SkeletonFormat {
   kGlb,
   kVolume,
   kSvg,
+  kPng,
   kHtml,
   kPrecomputed
 };
@@ -28,6 +29,9 @@ enum class SkeletonFormat {
 // The format that a file's ending asks for, in capitals or not; of a folder also with a slash
 // behind. Errors: INVALID_ARGUMENT with the endings there are.
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
+
+// Whether files of this format show the object, too.
+bool ShowsObject(SkeletonFormat format);
 
 // The endings, for messages: ".swc, .vtp, ...".
 std::string SkeletonFormatEndings();
@@ -50,9 +54,9 @@ absl::Status CheckOutput(const std::string& path);
 // Writes one file, or for kPrecomputed a folder of them; either all of it appears or nothing. Equal
 // subjects give equal bytes. Returns what the format could not hold, a sentence for the user; empty
 // if it held everything.
-// Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
+// Needs:  for kVolume (.exr, .bccb), a result with its thin volume; for kPng, the subject's `draw`.
 // Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), those of
-//         WriteFileAtomically(), and for kHtml those of the subject's context.
+//         WriteFileAtomically(), for kHtml and kPng those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
 // The same bytes of a graph alone.

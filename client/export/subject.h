@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "absl/status/statusor.h"
 #include "client/export/point_forest.h"
 #include "client/export/world.h"
 #include "client/view/display_surface.h"
@@ -15,19 +16,26 @@
 
 namespace bccskel::exporting {
 
+struct Subject;
+
+// Makes a PNG file of a subject.
+using Drawing = absl::StatusOr<std::string> (*)(const Subject&);
+
 // A skeleton and what it is the skeleton of: what the formats are made from. Whoever holds one
 // keeps the two values alive.
 struct Subject {
   const SkeletonizeResult& result;
   const Volume& object;
   std::string title;           // of pictures; plain text
-  exec::Context context = {};  // for the surfaces of a page, which take a while
+  exec::Context context = {};  // for the surfaces of pages and pictures, which take a while
   // How the object was peeled, for a page; where nothing is known, by the distance to its boundary.
   const view::PeeledShells* shells = nullptr;
   // Where the trees begin, if they are to be ordered. Needs: CheckRootChoice() is OK.
   std::optional<RootChoice> root = std::nullopt;
   World world = {};
   CurveSampling swc = {};  // of SWC files
+  // Of .png files: this library is installed without the one that draws them.
+  Drawing draw = nullptr;
 };
 
 }  // namespace bccskel::exporting

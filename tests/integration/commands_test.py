@@ -47,7 +47,7 @@ class CommandsTest(harness.TestCase):
         text = self.succeed("voxelize", mesh, "--points", 20000, "-o", volume)
         self.assertIn("4 vertices, 4 triangles, watertight, genus 0", text)
         self.assertIn("written:     " + volume, text)
-        endings = "swc vtp graphml obj csv glb mrk.json json exr bccb svg html".split()
+        endings = "swc vtp graphml obj csv glb mrk.json json exr bccb svg png html".split()
         outputs = [word for e in endings for word in ("-o", self.path("s." + e))]
         with harness.Server(self.folder) as server:
             text = self.succeed("submit", volume, "--server", server.address, *outputs)
@@ -71,7 +71,7 @@ class CommandsTest(harness.TestCase):
 
     def run_json(self, source, *place):
         """The summary of one run, and a digest of each of its files (to compare long ones fast)."""
-        endings = ("json", "swc", "vtp", "graphml", "csv", "glb", "bccb", "svg", "html")
+        endings = ("json", "swc", "vtp", "graphml", "csv", "glb", "bccb", "svg", "png", "html")
         outputs = [word for e in endings for word in ("-o", self.path("run." + e))]
         grid = ("--points", 20000) if source.endswith(".off") else ()
         summary = json.loads(self.succeed("skeletonize", source, "--json", *grid, *place, *outputs))

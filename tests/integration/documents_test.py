@@ -51,7 +51,7 @@ class DocumentsTest(harness.TestCase):
     def test_the_man_page_names_formats_shapes_and_exit_codes(self):
         page = (CLI / "bccskel.1").read_text().replace("\\-", "-")
         help_text = harness.bccskel("skeletonize", "--help").stdout
-        for word in re.findall(r"\.(?:swc|vtp|graphml|obj|mrk\.json|json|csv|glb|exr|bccb|svg|html)\b", help_text):
+        for word in re.findall(r"\.(?:swc|vtp|graphml|obj|mrk\.json|json|csv|glb|exr|bccb|svg|png|html)\b", help_text):
             self.assertIn(word, page)
         for shape in shapes():
             self.assertIn(shape, page)

@@ -49,7 +49,7 @@ class JobsTest(harness.TestCase):
             self.fail_with(3, "server", "watch", job, "--server", server.address)
 
     def test_a_result_is_fetched_in_every_format(self):
-        endings = ("json", "graphml", "vtp", "swc", "csv", "glb", "obj", "svg", "html")
+        endings = ("json", "graphml", "vtp", "swc", "csv", "glb", "obj", "svg", "png", "html")
         with self.server() as server:
             job = self.submit(server, shape="horse")  # no loop, which SWC cannot hold
             local, fetched = ([self.path(f"{which}.{ending}") for ending in endings]

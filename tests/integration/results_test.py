@@ -101,6 +101,14 @@ class ResultsTest(harness.TestCase):
         self.assertGreater(summary["jaccard"], 0.9)
         self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))
 
+    def test_a_picture_beside_a_result_is_the_one_that_render_draws(self):
+        source = self.generate("tree")
+        self.skeletonize(source, "-o", self.path("beside.png"))
+        self.succeed("render", self.path("s.json"), "--object", source, "-o",
+                     self.path("rendered.png"))
+        self.assertEqual((self.folder / "beside.png").read_bytes(),
+                         (self.folder / "rendered.png").read_bytes())
+
     def test_another_object_is_refused(self):
         self.skeletonize(self.generate("tree"))
         (self.folder / "box.off").write_text(BOX)

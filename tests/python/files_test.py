@@ -11,7 +11,7 @@ import numpy
 from shapes import box_mesh, crossing_bars
 
 ENDINGS = (".swc", ".vtp", ".graphml", ".obj", ".json", ".csv", ".glb", ".mrk.json", ".exr", ".bccb",
-           ".svg", ".html")
+           ".svg", ".png", ".html")
 
 
 def without_times(text):

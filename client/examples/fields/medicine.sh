@@ -3,5 +3,4 @@
 # picture. Usage: medicine.sh IMAGE FOLDER
 set -eu
 bccskel skeletonize "$1" --local --preset airway --root thickest-end \
-  -o "$2/airway.mrk.json" -o "$2/airway.csv" -o "$2/airway.json"
-bccskel render "$2/airway.json" --object "$1" -o "$2/airway.png"
+  -o "$2/airway.mrk.json" -o "$2/airway.csv" -o "$2/airway.png"

@@ -309,7 +309,7 @@ class Skeleton:
 
     def save(self, path: Union[str, os.PathLike], swc_step: Optional[float] = None) -> None:
         """Writes a file; its ending is the format: .swc, .vtp, .graphml, .obj, .json, .csv (a table of
-        branches), .glb (tubes), .mrk.json (3D Slicer), .exr or .bccb (lattice points), .svg, .html
+        branches), .glb (tubes), .mrk.json (3D Slicer), .exr or .bccb (lattice points), .svg, .png, .html
         (a page) or .precomputed (a folder for Neuroglancer, in nanometers). It has the coordinates x, y, z.
 
         `swc_step` is the distance of SWC's points along the smooth curve, by default twice the

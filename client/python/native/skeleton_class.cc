@@ -23,6 +23,7 @@
 #include "client/python/native/edge_images.h"
 #include "client/python/native/job.h"
 #include "client/python/native/outcome_state.h"
+#include "client/view/render/subject_picture.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
@@ -216,7 +217,6 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
   if (!format.ok()) return format.status();
   using exporting::SkeletonFormat;
-  const bool shows_object = *format == SkeletonFormat::kSvg || *format == SkeletonFormat::kHtml;
   if (*format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
       outcome.result.skeleton_points > 0) {
     return absl::UnimplementedError("servers do not send the lattice points of labels");
@@ -229,7 +229,7 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
   }
   cli::LocalTeam team(0, job.stop());
   auto object = std::make_shared<const Volume>();
-  if (shows_object) {
+  if (exporting::ShowsObject(*format)) {
     absl::StatusOr<std::shared_ptr<const Volume>> made = outcome.Object();
     if (!made.ok()) return made.status();
     object = *std::move(made);
@@ -240,7 +240,8 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
                                       .context = team.context(),
                                       .root = outcome.root,
                                       .world = saying.world,
-                                      .swc = saying.swc};
+                                      .swc = saying.swc,
+                                      .draw = view::DrawSubject};
   absl::StatusOr<std::string> written = exporting::WriteSkeletonFile(path, subject);
   if (!written.ok()) return written.status();
   note = *std::move(written);

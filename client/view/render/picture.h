@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CLIENT_VIEW_RENDER_PICTURE_H_
 #define BCCSKEL_CLIENT_VIEW_RENDER_PICTURE_H_
 
+#include <cstddef>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -20,6 +21,8 @@ struct PictureOptions {
 
 inline constexpr int kMinPictureSide = 160;
 inline constexpr int kMaxPictureSide = 16384;
+// Of the object's surface; fine enough for a print.
+inline constexpr size_t kMostPictureTriangles = 1'000'000;
 
 // A PNG file: the object as tinted glass, its skeleton inside colored by radius, and a legend.
 // Equal values give equal bytes for any number of threads, with the same fonts installed.
