@@ -28,9 +28,9 @@ FileWriters::~FileWriters() { Finish().IgnoreError(); }
 
 absl::Status FileWriters::Add(Task task) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return tasks_.size() < kMostWaiting; });
+  room_.wait(lock, [this] { return tasks_.size() < kMostWaiting; });
   tasks_.push_back(std::move(task));
-  changed_.notify_all();
+  work_.notify_one();
   return status_;
 }
 
@@ -39,7 +39,7 @@ absl::Status FileWriters::Finish() {
     const std::scoped_lock lock(mutex_);
     ended_ = true;
   }
-  changed_.notify_all();
+  work_.notify_all();
   writers_.clear();  // joins them
   return status_;
 }
@@ -47,11 +47,11 @@ absl::Status FileWriters::Finish() {
 void FileWriters::Write() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
+    work_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
     if (tasks_.empty()) return;
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
-    changed_.notify_all();
+    room_.notify_one();
     if (!status_.ok()) continue;
     lock.unlock();
     const absl::Status done = StatusOf(task);

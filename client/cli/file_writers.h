@@ -35,7 +35,8 @@ class FileWriters {
   void Write();
 
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable room_;
+  std::condition_variable work_;
   std::deque<Task> tasks_;
   absl::Status status_;
   bool ended_ = false;
