@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -47,22 +48,35 @@ constexpr std::array<Ending, 14> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".html", SkeletonFormat::kHtml},
                                               {".precomputed", SkeletonFormat::kPrecomputed}}};
 
-bool IsFinite(const SkeletonGraph& graph, const SkeletonPoint& point) {
+// A billion ways of such a length add up to a finite one.
+constexpr double kModerate = 1e150;
+
+// The largest size of a number of the point; infinity where one is not finite.
+double LargestOf(const SkeletonGraph& graph, const SkeletonPoint& point) {
   const WorldPoint p = graph.PositionOf(point);
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
-         std::isfinite(graph.RadiusOf(point));
+  double largest = 0;
+  for (const double number : {p[0], p[1], p[2], graph.RadiusOf(point)}) {
+    if (!std::isfinite(number)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, std::abs(number));
+  }
+  return largest;
 }
 
 // Text formats cannot hold infinities.
 absl::Status CheckFinite(const SkeletonGraph& graph) {
-  const auto finite = [&](const SkeletonPoint& p) { return IsFinite(graph, p); };
-  const bool all = std::ranges::all_of(graph.points, finite) &&
-                   std::ranges::all_of(graph.sheets, finite) &&
-                   std::ranges::all_of(graph.nodes, finite, &SkeletonNode::at) &&
-                   std::ranges::all_of(graph.edges, [&](const SkeletonEdge& edge) {
-                     return std::isfinite(FiguresOf(graph, edge).length);
-                   });
-  return all ? absl::OkStatus()
+  double largest = std::ranges::max(graph.placement.spacing);
+  const auto add = [&](const SkeletonPoint& p) {
+    largest = std::max(largest, LargestOf(graph, p));
+  };
+  std::ranges::for_each(graph.points, add);
+  std::ranges::for_each(graph.sheets, add);
+  std::ranges::for_each(graph.nodes, add, &SkeletonNode::at);
+  if (largest < kModerate) return absl::OkStatus();
+  const bool lengths = std::ranges::all_of(graph.edges, [&](const SkeletonEdge& edge) {
+    return std::isfinite(FiguresOf(graph, edge).length);
+  });
+  return std::isfinite(largest) && lengths
+             ? absl::OkStatus()
              : absl::InvalidArgumentError("the skeleton's coordinates do not fit a double");
 }
 

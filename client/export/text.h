@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_TEXT_H_
 #define BCCSKEL_CLIENT_EXPORT_TEXT_H_
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <concepts>
@@ -34,20 +35,34 @@ class Text {
     Append(text == "-0" ? "0" : text);
     return *this;
   }
-  std::string Take() && { return std::move(text_); }
+  std::string Take() && {
+    text_.resize(used_);
+    return std::move(text_);
+  }
 
  private:
-  void Append(std::string_view part) { text_.append(part); }
-  void Append(char part) { text_.push_back(part); }
+  static constexpr size_t kMostDigits = 32;  // of a number
+
+  void Append(std::string_view part) {
+    std::ranges::copy(part, Room(part.size()));
+    used_ += part.size();
+  }
+  void Append(char part) {
+    *Room(1) = part;
+    ++used_;
+  }
   template <typename Number>
   requires(std::integral<Number> || std::floating_point<Number>) void Append(Number number) {
-    std::array<char, 32> digits;
+    char* const begin = Room(kMostDigits);
     char* end = nullptr;
-    if constexpr (std::floating_point<Number>) end = WriteHalf(number, digits.data());
-    if (end == nullptr) {
-      end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    }
-    text_.append(digits.data(), static_cast<size_t>(end - digits.data()));
+    if constexpr (std::floating_point<Number>) end = WriteHalf(number, begin);
+    if (end == nullptr) end = std::to_chars(begin, begin + kMostDigits, number).ptr;
+    used_ += static_cast<size_t>(end - begin);
+  }
+  // Where the next bytes go, so many or fewer. No call of the library most often.
+  char* Room(size_t bytes) {
+    if (text_.size() - used_ < bytes) text_.resize(used_ + bytes + used_ / 8);
+    return text_.data() + used_;
   }
   // What std::to_chars() writes in ten times the time, of whole numbers and halves, as which most
   // coordinates come. Null for other numbers.
@@ -58,7 +73,11 @@ class Text {
     const auto halves = static_cast<int>(2 * size);
     if (halves != 2 * size) return nullptr;
     if (number < 0) *to++ = '-';
-    to = std::to_chars(to, to + 4, halves / 2).ptr;
+    const int whole = halves / 2;
+    for (const int tens : {1000, 100, 10}) {
+      if (whole >= tens) *to++ = static_cast<char>('0' + whole / tens % 10);
+    }
+    *to++ = static_cast<char>('0' + whole % 10);
     if (halves % 2 != 0) {
       *to++ = '.';
       *to++ = '5';
@@ -66,7 +85,8 @@ class Text {
     return to;
   }
 
-  std::string text_;
+  std::string text_;  // longer than what is written
+  size_t used_ = 0;
 };
 
 }  // namespace bccskel::exporting

@@ -36,5 +36,15 @@ TEST(TextTest, OtherNumbersAreWrittenInTheShortestForm) {
   }
 }
 
+TEST(TextTest, PartsOfAnyLengthFollowEachOther) {
+  Text text;
+  std::string expected;
+  for (size_t length = 0; length < 300; ++length) {
+    text.Add(std::string(length, 'a'), std::string_view(), 'b', length);
+    expected += std::string(length, 'a') + 'b' + std::to_string(length);
+  }
+  EXPECT_EQ(std::move(text).Take(), expected);
+}
+
 }  // namespace
 }  // namespace bccskel::exporting
