@@ -16,6 +16,19 @@ void Include(VoxelBox& box, const VoxelRun& run) {
               std::max(box.high[2], run.z + 1)};
 }
 
+// Of the equal labels from x on. Looks at several at a time, since most are the background's.
+size_t EndOfRun(std::span<const uint64_t> labels, size_t x) {
+  constexpr size_t kAtOnce = 8;
+  const uint64_t label = labels[x];
+  for (; x + kAtOnce <= labels.size(); x += kAtOnce) {
+    uint64_t differences = 0;
+    for (size_t n = 0; n < kAtOnce; ++n) differences |= labels[x + n] ^ label;
+    if (differences != 0) break;
+  }
+  while (x < labels.size() && labels[x] == label) ++x;
+  return x;
+}
+
 }  // namespace
 
 absl::StatusOr<LabelCollector> LabelCollector::Create(const MaskGrid& grid,
@@ -77,7 +90,7 @@ void LabelCollector::AddRow(std::span<const uint64_t> labels, int32_t y) {
   for (size_t x = 0; x < labels.size();) {
     const size_t begin = x;
     const uint64_t label = labels[x];
-    while (x < labels.size() && labels[x] == label) ++x;
+    x = EndOfRun(labels, x);
     if (label == 0) continue;
     AddRun(label, {next_z_, y, static_cast<int32_t>(begin), static_cast<int32_t>(x)});
   }
