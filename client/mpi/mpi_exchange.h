@@ -10,18 +10,18 @@
 
 namespace bccskel::cli {
 
-// What a rank has said so far.
+// What a rank has sent so far.
 struct ExchangeCounts {
   uint64_t trades = 0;
   uint64_t sums = 0;
   uint64_t letters = 0;  // sent to one other rank
   uint64_t bytes = 0;    // in these
-  double waited = 0;     // seconds in trades and sums, of which sending takes its part
-  int64_t peak = 0;      // KiB of memory, most until the end of the stage; 0: never there
+  double waited = 0;     // seconds in trades and sums, sending included
+  int64_t peak = 0;      // KiB of memory, the most until the end of the stage; 0: not run
 };
 
-// The ranks of an MPI job. Waits without burning the processor: after some microseconds of looking
-// out it sleeps between looks. What goes wrong in MPI ends the job, by its default error handler.
+// The ranks of an MPI job. Waiting takes little processor time: it polls for 100 us, then sleeps
+// between polls. Errors of MPI end the job, by its default error handler.
 // Needs: MPI is initialized, and is finalized after this is gone; one thread at a time.
 class MpiExchange : public ranks::Exchange {
  public:

@@ -21,7 +21,7 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
     if (!format.ok() || *format != exporting::SkeletonFormat::kHtml) continue;
     return absl::InvalidArgumentError(
         path +
-        ": ranks do not collect the points of each shell that a page shows; write .json, "
+        ": ranks do not record the shells that a page shows; write .json, "
         "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
   }
   return absl::OkStatus();
@@ -58,11 +58,11 @@ absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments) {
   auto* chosen = std::get_if<SkeletonizeArguments>(&arguments);
   if (chosen == nullptr || chosen->accepted != AcceptedInput::kAll) {
     return absl::InvalidArgumentError(
-        "ranks run `skeletonize` only; run other commands with `bccskel`, on one machine");
+        "bccskel-mpi runs only `skeletonize`; run other commands with `bccskel`, on one machine");
   }
   if (chosen->place == Place::kServer) {
     return absl::InvalidArgumentError(
-        "--server: ranks compute themselves; leave it out, or run `bccskel skeletonize`");
+        "--server: ranks compute themselves; omit it, or run `bccskel skeletonize`");
   }
   BCCSKEL_RETURN_IF_ERROR(ranks::CheckRankOptions(chosen->skeletonize));
   BCCSKEL_RETURN_IF_ERROR(CheckOutputFormats(*chosen));
@@ -90,7 +90,7 @@ ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
   LocalTeam team(arguments.common.threads, stop);
   const auto make = MakerOf(arguments, options, exchange);
   absl::StatusOr<Volume> part = make ? make(team.context()) : LoadPart(arguments, team.context());
-  // Rank 0 reports how the job ends.
+  // Rank 0 reports the outcome.
   (void)ranks::FollowLead(exchange, team.context(), std::move(part), checkpoints);
   return ExitCode::kOk;
 }

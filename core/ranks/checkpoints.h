@@ -17,12 +17,12 @@
 
 namespace bccskel::ranks {
 
-// A folder that all ranks see. Threads: one thread of each rank.
+// A folder that all ranks share. Threads: one thread of each rank.
 class CheckpointFolder {
  public:
   virtual ~CheckpointFolder() = default;
 
-  // As a whole or not at all, and there after a loss of power.
+  // Atomic, and on the disk when it returns.
   virtual absl::Status Write(const std::string& name, const Bytes& bytes) = 0;
   // Errors: NOT_FOUND.
   virtual absl::StatusOr<Bytes> Read(const std::string& name) = 0;
@@ -30,8 +30,8 @@ class CheckpointFolder {
 };
 
 enum class Resuming : uint8_t {
-  kNever,     // begins anew; the first checkpoint replaces one that is there
-  kWhereDone  // goes on from the checkpoint; begins anew where there is none
+  kNever,     // starts from the beginning; the first checkpoint replaces an existing one
+  kWhereDone  // continues from the checkpoint, or starts from the beginning if there is none
 };
 
 struct CheckpointOptions {
@@ -46,19 +46,19 @@ struct ShellsDone {
   std::vector<IsthmusBirth> isthmuses;  // of all ranks
 };
 
-// Writes what is left of the object between shells, each rank its own bricks, and reads it back on
-// any number of ranks. A checkpoint counts once rank 0 has written which one it is, which it does
-// after all ranks have written theirs; then the one before goes.
+// Writes the rest of the object between shells, each rank its own bricks, and reads it back on any
+// number of ranks. A checkpoint is valid once rank 0 has written its name, after all ranks have
+// written their parts; then the previous one is deleted.
 class Checkpoints {
  public:
   // All ranks together. `bricks` and `exchange` outlive this.
   Checkpoints(Exchange& exchange, const RankBricks& bricks, const CheckpointOptions& options,
               DistanceKind distance, const ThinningOptions& thinning);
 
-  // Puts what the last checkpoint left of the object into `object`, in the order of bricks.local;
-  // 0 shells, and nothing there, where there is none or none is wanted.
-  // Errors: FAILED_PRECONDITION where it is one of another object or of other options, DATA_LOSS;
-  //         on all ranks.
+  // Reads the rest of the object into `object`, in the order of bricks.local. Returns 0 shells and
+  // leaves `object` empty if there is no checkpoint or none is wanted.
+  // Errors, on all ranks: FAILED_PRECONDITION if the checkpoint belongs to another object or other
+  //         options, or is damaged.
   absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);
 
   // Writes one if it is time. All ranks together, after a shell.
@@ -78,7 +78,6 @@ class Checkpoints {
 
   absl::StatusOr<Mark> ReadMark();
   absl::StatusOr<std::vector<Bytes>> ReadParts(const Mark& mark);
-  absl::Status Agree(absl::Status own);
   Bytes PartOf(const ThinningState& state, const std::vector<IsthmusBirth>& isthmuses) const;
 
   Exchange& exchange_;

@@ -6,16 +6,19 @@
 #include <span>
 #include <vector>
 
+#include "core/exec/uninitialized.h"
+
 namespace bccskel::ranks {
 
-using Bytes = std::vector<std::byte>;
+// Messages of some MiB are exchanged round by round; large ones reuse their memory.
+using Bytes = exec::UninitializedVector<std::byte>;
 
-// What ranks are at, for those who count what they say to each other.
+// The stage of a job, for statistics of the communication.
 enum class Stage : uint8_t { kSharing, kDistances, kThinning, kTopology, kGathering };
 inline constexpr size_t kStageCount = 5;
 
-// What the ranks of a job say to each other. All ranks make the same calls in the same order.
-// Where a rank is lost, calls need not come back: whoever started the ranks ends the others.
+// The communication between the ranks of a job. All ranks make the same calls in the same order.
+// If a rank is lost, calls may never return: the program that started the ranks ends the others.
 // Threads: one thread of each rank.
 class Exchange {
  public:
@@ -24,27 +27,27 @@ class Exchange {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  // Sends `out[n]` to rank peers[n] and takes what that one sends here to `in[n]`.
-  // Needs: peers of each other name each other; no rank is its own peer; peers increase.
+  // Sends `out[n]` to rank peers[n] and stores its message to this rank in `in[n]`.
+  // Needs: peers name each other; no rank is its own peer; peers increase.
   virtual void Trade(std::span<const int> peers, std::span<const Bytes> out,
                      std::span<Bytes> in) = 0;
 
-  // What follows belongs to another stage.
+  // The following calls belong to this stage.
   virtual void Enter(Stage) {}
 
-  // Puts the sum over all ranks, modulo 2^64, in the place of each number.
+  // Replaces each number by the sum over all ranks, modulo 2^64.
   virtual void Sum(std::span<uint64_t> numbers) = 0;
-  // Puts the largest of all ranks in the place of each number.
+  // Replaces each number by the largest of all ranks.
   virtual void Max(std::span<uint64_t> numbers) = 0;
 };
 
-// Sends `out[r]` to each rank r, also to itself. Returns what each sends here, by rank.
+// Sends `out[r]` to each rank r, also to itself. Returns the received messages, by rank.
 std::vector<Bytes> TradeWithAll(Exchange& exchange, std::vector<Bytes> out);
 
 // Each rank's number, by rank.
 std::vector<uint64_t> ShareNumber(Exchange& exchange, uint64_t number);
 
-// Returns what each sends to rank 0 there, by rank; nothing elsewhere.
+// Sends `out` to rank 0. Returns all messages there, by rank; nothing on other ranks.
 std::vector<Bytes> Gather(Exchange& exchange, Bytes out);
 
 }  // namespace bccskel::ranks

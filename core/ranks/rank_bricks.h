@@ -15,14 +15,14 @@
 
 namespace bccskel::ranks {
 
-// Who owns what: the bricks of the object in their order are cut into as many runs as there are
-// ranks.
+// The owner of each brick: the bricks of the object in their order are cut into as many runs as
+// there are ranks.
 class Owners {
  public:
-  // `first` is the least key of this rank's bricks, none where it has none.
+  // `first` is the least key of this rank's bricks; nothing if it has no bricks.
   Owners(Exchange& exchange, std::optional<BrickKey> first);
 
-  // Whose bricks a key would be among. Needs: some rank has bricks.
+  // The rank whose run contains the key. Needs: some rank has bricks.
   int OwnerOf(BrickKey key) const;
 
  private:
@@ -30,7 +30,7 @@ class Owners {
   std::vector<int> ranks_;
 };
 
-// A rank's bricks of the object, and those of others beside them.
+// A rank's bricks of the object, and the adjacent bricks of other ranks.
 struct RankBricks {
   struct Peer {
     int rank = 0;
@@ -45,20 +45,20 @@ struct RankBricks {
 };
 
 // Moves bricks so that ranks own equal numbers of them, and the bricks of each rank come before
-// those of the next. Before, any rank may have any of them.
-// Cost:   besides moving the bricks, about 60 sums over all ranks of a number for each.
-// Errors: INVALID_ARGUMENT where two ranks have the same brick, on all ranks.
+// those of the next. Before, they may be anywhere.
+// Cost:   moving the bricks, and about 60 sums of one number per rank.
+// Errors: INVALID_ARGUMENT on all ranks if two ranks have the same brick.
 absl::StatusOr<Volume> ShareEvenly(Exchange& exchange, Volume part);
 
-// Adds ghosts: all bricks of others that touch an own one by a side, an edge or a corner, whatever
-// their sublattice. Needs: the bricks of each rank come before those of the next.
+// Adds ghosts: all bricks of other ranks that share a side, an edge or a corner with an own brick,
+// of either sublattice. Needs: the bricks of each rank come before those of the next.
 RankBricks AddGhosts(Exchange& exchange, Volume own);
 
-// The bricks `own` of all ranks, on rank 0; none elsewhere. The ranks send one after the other.
+// The bricks `own` of all ranks, on rank 0; none on other ranks, which send one at a time.
 // Needs: as AddGhosts().
 Volume GatherBricks(Exchange& exchange, const Volume& local, exec::Share own);
 
-// Sends the value of each own brick to those who have the brick as a ghost.
+// Sends the value of each own brick to the ranks that have it as a ghost.
 // Shapes: `values` has one for each brick of `local`; may be longer.
 template <typename T>
 void ShareWithGhosts(Exchange& exchange, const RankBricks& bricks, std::span<T> values) {

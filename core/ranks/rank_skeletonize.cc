@@ -78,7 +78,7 @@ Order Receive(Exchange& exchange) {
 absl::StatusOr<Volume> FitPart(absl::StatusOr<Volume> part, const Volume& object) {
   if (!part.ok() || part->empty()) return part.ok() ? object : std::move(part);
   if (part->extent() == object.extent() && part->placement() == object.placement()) return part;
-  return absl::InvalidArgumentError("has read another object than rank 0");
+  return absl::InvalidArgumentError("read a different object than rank 0");
 }
 
 // All ranks together: the whole object on rank 0, nothing elsewhere.
@@ -93,7 +93,7 @@ absl::StatusOr<Volume> BringParts(Exchange& exchange, absl::StatusOr<Volume> par
 absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
   if (options.border == Border::kContinues) {
     return absl::InvalidArgumentError(
-        "an object that continues beyond the border: ranks take the border for an end; leave "
+        "--border continues: ranks can only treat the border as the end of the object; leave "
         "--border out, or run `bccskel skeletonize --local` on one machine");
   }
   return absl::OkStatus();

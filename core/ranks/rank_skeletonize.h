@@ -11,25 +11,25 @@
 
 namespace bccskel::ranks {
 
-// OK for the options that ranks can keep to. Errors: INVALID_ARGUMENT, with what to do instead.
+// OK for the options that ranks support. Errors: INVALID_ARGUMENT, with what to do instead.
 absl::Status CheckRankOptions(const SkeletonizeOptions& options);
 
-// Rank 0's side of a job. The others are in FollowLead() meanwhile.
+// Rank 0's part of a job. The other ranks are in FollowLead() meanwhile.
 class Lead {
  public:
   // Needs: `exchange` outlives this; all ranks have equal checkpoint options.
   explicit Lead(Exchange& exchange, const CheckpointOptions& checkpoints = {})
       : exchange_(exchange), checkpoints_(checkpoints) {}
-  ~Lead();  // lets the others go
+  ~Lead();  // makes FollowLead() return
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
 
-  // Skeletonize(), where all ranks measure distances, thin and count the object's topology; the
-  // same result for any number of them. `object` is this rank's part of it, and the whole
-  // afterwards: of that radii, pruning and the graph are made here alone, after the others have
-  // thinned. Preparing has the whole here from the beginning. Errors: as Skeletonize() and
-  // CheckRankOptions(); those of other ranks' parts; CANCELLED and
-  //         DEADLINE_EXCEEDED where any rank has to stop.
+  // Skeletonize(): all ranks measure distances, thin and count the object's topology; the result
+  // is the same for any number of ranks. `object` is this rank's part and becomes the whole object,
+  // from which this rank alone computes radii, pruning and the graph. Preparation gathers the whole
+  // object here at the start.
+  // Errors: those of Skeletonize(), CheckRankOptions() and other ranks' parts; CANCELLED and
+  //         DEADLINE_EXCEEDED if any rank must stop.
   absl::StatusOr<SkeletonizeResult> Skeletonize(Volume& object, const SkeletonizeOptions& options,
                                                 const exec::Context& context);
 
@@ -38,9 +38,9 @@ class Lead {
   const CheckpointOptions checkpoints_;
 };
 
-// What ranks other than 0 do until rank 0 lets them go, in the first job with their part of the
-// object or why they have none: no brick is in two ranks' parts, and parts with bricks have the
-// extent and placement of rank 0's.
+// The part of all other ranks, until rank 0's Lead is destroyed. `part` is this rank's part of the
+// first object, or the reason why there is none.
+// Needs:  no brick is in two ranks' parts; parts with bricks have rank 0's extent and placement.
 // Errors: of the last job.
 absl::Status FollowLead(Exchange& exchange, const exec::Context& context,
                         absl::StatusOr<Volume> part, const CheckpointOptions& checkpoints = {});
