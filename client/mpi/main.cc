@@ -25,7 +25,7 @@ namespace {
 using bccskel::cli::ExitCode;
 using bccskel::cli::MpiExchange;
 
-// All ranks read the same command line; one of them says what is wrong with it.
+// All ranks read the same command line; only rank 0 reports its errors.
 class Silence {
  public:
   explicit Silence(bool wanted) {
@@ -75,8 +75,9 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
   return Command{*std::move(arguments), *options};
 }
 
-// A line for each stage, which scripts read, and one for the rank.
-void Report(const MpiExchange& exchange) {
+// One line per stage, which scripts read, and one for the rank.
+void Report(MpiExchange& exchange) {
+  exchange.Enter(bccskel::ranks::Stage::kGathering);  // which ends it, too
   constexpr const char* kStages[bccskel::ranks::kStageCount] = {"sharing", "distances", "thinning",
                                                                 "topology", "gathering"};
   for (size_t n = 0; n < bccskel::ranks::kStageCount; ++n) {
@@ -100,7 +101,7 @@ void Report(const MpiExchange& exchange) {
                exchange.rank(), exchange.size(), seconds, usage.ru_maxrss / 1024);
 }
 
-// Whoever cannot go on takes the others along, who would wait for ever.
+// A rank that fails ends the others, which would wait forever.
 ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::stop_token& stop) {
   try {
     return bccskel::cli::RunRank(command.arguments, command.options, exchange, stop);
@@ -116,8 +117,10 @@ ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::st
 
 ExitCode Main(std::vector<char*> words) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // as in client/cli/main.cc
-  // Letters of megabytes go back to the system when they have been read.
-  mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  // Arrays of megabytes go back to the system after use; smaller ones, such as messages to many
+  // ranks, are needed again in the next round.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 8 << 20);
   const bccskel::cli::Interrupt interrupt;  // before MPI's threads
   std::signal(SIGPIPE, SIG_IGN);
   int level = 0;

@@ -12,8 +12,8 @@ namespace {
 using ranks::Bytes;
 
 constexpr int kTag = 19;
-// MPI counts in int. A letter is sent in pieces of this size and a shorter last one, so that nobody
-// has to know its length in advance.
+// MPI counts in int. A message is sent in pieces of this size and a shorter last one, so that the
+// receiver need not know its length in advance.
 constexpr size_t kPieceBytes = size_t{1} << 30;
 
 // Between two polls for messages.
@@ -49,7 +49,7 @@ class WaitClock {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Takes a piece of the letter if one has come. Returns whether it was the last.
+// Receives a piece of the message if one has arrived. Returns whether it was the last.
 bool TakePiece(int peer, MPI_Comm communicator, Bytes& letter) {
   int has_come = 0;
   MPI_Message message;

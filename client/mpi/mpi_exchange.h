@@ -10,14 +10,14 @@
 
 namespace bccskel::cli {
 
-// What a rank has said so far.
+// What a rank has sent so far.
 struct ExchangeCounts {
   uint64_t trades = 0;
   uint64_t sums = 0;
   uint64_t letters = 0;  // sent to one other rank
   uint64_t bytes = 0;    // in these
-  double waited = 0;     // seconds in trades and sums, of which sending takes its part
-  int64_t peak = 0;      // KiB of memory, most until the end of the stage; 0: never there
+  double waited = 0;     // seconds in trades and sums, sending included
+  int64_t peak = 0;      // KiB of memory, the most until the end of the stage; 0: not run
 };
 
 // The ranks of an MPI job. Waits without occupying the processor: after 100 microseconds of polling

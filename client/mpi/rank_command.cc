@@ -21,7 +21,7 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
     if (!format.ok() || *format != exporting::SkeletonFormat::kHtml) continue;
     return absl::InvalidArgumentError(
         path +
-        ": ranks do not collect the points of each shell that a page shows; write .json, "
+        ": ranks do not record the shells that a page shows; write .json, "
         "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
   }
   return absl::OkStatus();
@@ -90,7 +90,7 @@ ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
   LocalTeam team(arguments.common.threads, stop);
   const auto make = MakerOf(arguments, options, exchange);
   absl::StatusOr<Volume> part = make ? make(team.context()) : LoadPart(arguments, team.context());
-  // Rank 0 reports how the job ends.
+  // Rank 0 reports the outcome.
   (void)ranks::FollowLead(exchange, team.context(), std::move(part), checkpoints);
   return ExitCode::kOk;
 }

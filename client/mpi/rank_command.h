@@ -12,11 +12,11 @@
 
 namespace bccskel::cli {
 
-// The arguments of `skeletonize`, with one thread where none are named. All ranks get the same.
+// The arguments of `skeletonize`, with one thread by default. The same on all ranks.
 // Errors: INVALID_ARGUMENT for other commands and for options that ranks do not have.
 absl::StatusOr<SkeletonizeArguments> RankArguments(Arguments arguments);
 
-// Runs the command as this rank of all. Each reads its part of the input; rank 0 writes and
+// Runs the command as one rank of the job. Each rank reads its part of the input; rank 0 writes and
 // reports.
 ExitCode RunRank(SkeletonizeArguments arguments, const RankOptions& options,
                  ranks::Exchange& exchange, const std::stop_token& stop);

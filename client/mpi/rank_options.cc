@@ -64,7 +64,7 @@ absl::Status TakeNumber(Words& words, std::string_view name, Number& number) {
   const char* const end = text->data() + text->size();
   const auto [at, error] = std::from_chars(text->data(), end, number);
   if (error == std::errc() && at == end) return absl::OkStatus();
-  return absl::InvalidArgumentError(std::string(name) + " " + *text + ": is not a number");
+  return absl::InvalidArgumentError(std::string(name) + " " + *text + ": not a number");
 }
 
 // The name of the shape takes the place of the input.

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/distance/distance_field.h"
+#include "core/exec/uninitialized.h"
 
 namespace bccskel {
 
@@ -47,7 +48,7 @@ absl::Status StreamChamfer(const Volume& object, DistanceKind kind, const exec::
 // order; the lowest takes nothing from below and the highest nothing from above.
 class LayerRelay {
  public:
-  using Bytes = std::vector<std::byte>;
+  using Bytes = exec::UninitializedVector<std::byte>;
   virtual ~LayerRelay() = default;
 
   virtual Bytes TakeFromBelow() = 0;

@@ -7,7 +7,7 @@
 
 namespace bccskel::ranks {
 
-// OK on all ranks, or on none: CANCELLED or DEADLINE_EXCEEDED where one of them has to stop.
+// OK on all ranks or on none: CANCELLED or DEADLINE_EXCEEDED if one of them must stop.
 inline absl::Status AgreeToGoOn(Exchange& exchange, const exec::Context& context) {
   absl::Status own = context.StopStatus();
   uint64_t stopped = own.ok() ? 0 : 1;
@@ -16,7 +16,7 @@ inline absl::Status AgreeToGoOn(Exchange& exchange, const exec::Context& context
   return absl::CancelledError("the job was stopped on another rank");
 }
 
-// OK on all ranks, or on none. Rank 0 gets the first error of all, and whose it is.
+// OK on all ranks or on none. Rank 0 gets the first error and the number of its rank.
 absl::Status AgreeOn(Exchange& exchange, const absl::Status& own);
 
 }  // namespace bccskel::ranks

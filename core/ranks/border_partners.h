@@ -11,7 +11,7 @@
 
 namespace bccskel::ranks {
 
-// Tells ranks with bricks beside a rank's own what these lose.
+// Tells ranks with adjacent bricks which points this rank's bricks lose.
 class BorderPartners : public SweepPartners {
  public:
   // Needs: both outlive this.

@@ -6,6 +6,7 @@
 #include "absl/strings/str_format.h"
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
+#include "core/ranks/agreement.h"
 #include "core/ranks/packing.h"
 
 namespace bccskel::ranks {
@@ -75,14 +76,6 @@ Checkpoints::Checkpoints(Exchange& exchange, const RankBricks& bricks,
   job_ = Mixed(job_, HashOf(distance, thinning));
 }
 
-// The first error of all.
-absl::Status Checkpoints::Agree(absl::Status own) {
-  uint64_t failed = own.ok() ? 0 : 1;
-  exchange_.Max({&failed, 1});
-  if (failed == 0 || !own.ok()) return own;
-  return absl::InternalError("checkpoint: failed on another rank");
-}
-
 absl::StatusOr<Checkpoints::Mark> Checkpoints::ReadMark() {
   BCCSKEL_ASSIGN_OR_RETURN(Bytes sealed, options_.folder->Read(kMarkName));
   BCCSKEL_ASSIGN_OR_RETURN(const Bytes bytes, Unsealed(kMarkName, std::move(sealed)));
@@ -112,9 +105,9 @@ absl::StatusOr<ShellsDone> Checkpoints::Resume(std::vector<BrickBits>& object) {
   uint64_t missing = absl::IsNotFound(mark.status()) ? 1 : 0;
   exchange_.Max({&missing, 1});
   if (missing != 0) return ShellsDone();
-  BCCSKEL_RETURN_IF_ERROR(Agree(mark.status()));
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, mark.status()));
   absl::StatusOr<std::vector<Bytes>> parts = ReadParts(*mark);
-  BCCSKEL_RETURN_IF_ERROR(Agree(parts.status()));
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, parts.status()));
 
   // Bricks go to their owners, births to all.
   std::vector<Bytes> out(static_cast<size_t>(exchange_.size()));
@@ -170,8 +163,8 @@ absl::Status Checkpoints::AfterShell(int32_t shell, const ThinningState& state,
   exchange_.Max({&due, 1});
   if (due == 0) return absl::OkStatus();
   const int rank = exchange_.rank(), ranks = exchange_.size();
-  BCCSKEL_RETURN_IF_ERROR(
-      Agree(options_.folder->Write(PartName(shell, rank, ranks), PartOf(state, isthmuses))));
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(
+      exchange_, options_.folder->Write(PartName(shell, rank, ranks), PartOf(state, isthmuses))));
   const Mark mark = {shell, ranks, job_};
   absl::Status marked;
   if (rank == 0) {
@@ -180,7 +173,7 @@ absl::Status Checkpoints::AfterShell(int32_t shell, const ThinningState& state,
     Pack(mark, bytes);
     marked = options_.folder->Write(kMarkName, Sealed(std::move(bytes)));
   }
-  BCCSKEL_RETURN_IF_ERROR(Agree(marked));
+  BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange_, marked));
   if (last_.has_value()) {
     for (int part = rank; part < last_->ranks; part += ranks) {
       options_.folder->Remove(PartName(last_->shells, part, last_->ranks));

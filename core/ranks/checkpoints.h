@@ -78,7 +78,6 @@ class Checkpoints {
 
   absl::StatusOr<Mark> ReadMark();
   absl::StatusOr<std::vector<Bytes>> ReadParts(const Mark& mark);
-  absl::Status Agree(absl::Status own);
   Bytes PartOf(const ThinningState& state, const std::vector<IsthmusBirth>& isthmuses) const;
 
   Exchange& exchange_;

@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "core/exec/uninitialized.h"
+
 namespace bccskel::ranks {
 
-using Bytes = std::vector<std::byte>;
+// Messages of some MiB are exchanged round by round; large ones reuse their memory.
+using Bytes = exec::UninitializedVector<std::byte>;
 
 // The stages of a job, for communication counts.
 enum class Stage : uint8_t { kSharing, kDistances, kThinning, kTopology, kGathering };

@@ -24,7 +24,7 @@ class LayerOwners {
 
   // Layers of the box.
   int32_t count() const { return static_cast<int32_t>(ranks_.size()); }
-  // Of the nearest layer where there is none.
+  // Outside the box: the rank of the nearest layer.
   size_t RankOf(int32_t layer) const;
   // The layers of a rank.
   int32_t FirstOf(int rank) const;

@@ -11,7 +11,7 @@
 
 namespace bccskel::ranks {
 
-// Values as they lie in memory: ranks are the same program on machines of one kind.
+// Copies values as they are in memory: all ranks run the same program on machines of one kind.
 template <typename T>
 void Pack(std::span<const T> values, Bytes& to) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -29,7 +29,7 @@ void Pack(const T& value, Bytes& to) {
   Pack(std::span<const T>(&value, 1), to);
 }
 
-// Reads in the order of packing. Needs: what is read was packed.
+// Reads values in the order in which they were packed. Needs: they were packed.
 class Unpacker {
  public:
   explicit Unpacker(const Bytes& bytes) : rest_(bytes) {}

@@ -54,7 +54,7 @@ absl::StatusOr<Volume> ShareEvenly(Exchange& exchange, Volume part);
 // either sublattice. Needs: the bricks of each rank come before those of the next.
 RankBricks AddGhosts(Exchange& exchange, Volume own);
 
-// The bricks `own` of all ranks, on rank 0; none elsewhere. The ranks send one after the other.
+// The bricks `own` of all ranks, on rank 0; none on other ranks, which send one at a time.
 // Needs: as AddGhosts().
 Volume GatherBricks(Exchange& exchange, const Volume& local, exec::Share own);
 

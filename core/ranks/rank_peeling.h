@@ -15,13 +15,13 @@ namespace bccskel::ranks {
 //        for any number of ranks, and of threads on each.
 // Needs: each brick of the object is in the part of one rank, in any order; all have the same
 //        options, extent and placement.
-// Returns: the result on rank 0, nothing but an empty one elsewhere. There the whole object takes
-//        the place of the part, and nothing elsewhere.
-// Cost:  a rank owns its share of the bricks (rank_bricks.h). Per pass one Trade() with those who
-//        have bricks beside its own, 68 bytes for each brick on the border that loses points; per
-//        shell one Sum().
-// Errors: INVALID_ARGUMENT, where two ranks have the same brick, too; those of Checkpoints;
-// CANCELLED and DEADLINE_EXCEEDED on all ranks where one has to stop.
+// Returns: on rank 0 the result, and `part` becomes the whole object; on other ranks both are
+// empty. Cost:  a rank owns its share of the bricks (rank_bricks.h). Per pass one Trade() with the
+// ranks
+//        that have adjacent bricks, 68 bytes for each border brick that loses points; per shell one
+//        Sum().
+// Errors: INVALID_ARGUMENT, also if two ranks have the same brick; those of Checkpoints; CANCELLED
+//         and DEADLINE_EXCEEDED, on all ranks if one must stop.
 absl::StatusOr<PeeledObject> PeelOverRanks(Exchange& exchange, Volume& part, DistanceKind distance,
                                            const ThinningOptions& options,
                                            const CheckpointOptions& checkpoints,

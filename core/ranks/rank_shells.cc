@@ -20,7 +20,7 @@ namespace bccskel::ranks {
 namespace {
 
 // Squares of a round of columns that a rank has, or more where the object is large across x.
-constexpr size_t kBytesPerRound = size_t{8} << 20;
+constexpr size_t kBytesPerRound = size_t{4} << 20;
 
 // Which rank measures a column: as many ranks take their turn as there are, and who begins is by
 // chance, so that neither solids nor patterns leave some with more.

@@ -17,17 +17,16 @@ struct RankShells {
   BrickDepths depths;  // empty where they are not wanted
 };
 
-// Does:  BuildShells() and BuildDepths() of an object that is spread over ranks; the same bits.
+// Does:  BuildShells() and BuildDepths() of a distributed object; the same bits.
 // Why it is right: bricks go to ranks that own whole layers, with the layers below and above.
-//        Euclidean distances within layers need whole layers, those across layers whole columns,
-//        and nothing else (euclidean_scan.cc): so squares go on to ranks that own whole columns.
-//        Chamfer scans go up and down, and of what is below or above a layer they need the next
-//        layer (chamfer_scan.cc): so ranks scan one after the other. Shells go to the owners.
-// Cost:  Euclidean distances are measured some columns at a time, so that beside the shells a rank
-//        has 332 bytes for each brick of its layers and the two beside, and the squares of a
-//        round. On the wire 72 to
-//        216 bytes for a brick on its way to the layers, 1,088 squares on to the columns, 400 or
-//        720 bytes back. Chamfer scans take as long as on one machine, and the memory of
+//        Euclidean distances within layers need whole layers only, those across layers whole
+//        columns only (euclidean_scan.cc): so squares are sent to ranks that own whole columns.
+//        Chamfer scans go up and down and need only the adjacent layer (chamfer_scan.cc): so ranks
+//        scan one after the other. Shells are sent to the owners.
+// Cost:  Euclidean distances are measured some columns at a time. Besides the shells a rank holds
+//        332 bytes for each brick of its layers and the two adjacent ones, and the squares of a
+//        round. Sent per brick: 72 to 216 bytes to the layers, 1,088 squares to the columns, 400
+//        or 720 bytes back. Chamfer scans take as long as on one machine, and the memory of
 //        StreamShells() for a rank's layers.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.
 absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& bricks,

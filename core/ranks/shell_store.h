@@ -12,23 +12,23 @@
 
 namespace bccskel::ranks {
 
-// The shells of a rank's bricks, as they come back from those who have measured distances.
+// Collects the shells of a rank's bricks from the ranks that measure their distances.
 class ShellStore {
  public:
   // Needs: `bricks` and `exchange` outlive this.
   ShellStore(Exchange& exchange, const RankBricks& bricks, double shell_width, Depths depths);
 
-  // What is measured next: shells of bricks that are this rank's own go to their places, those of
-  // others to ones from where they are sent.
+  // Announces what is measured next: shells of own bricks are stored, those of other ranks' bricks
+  // are kept until SendAway().
   void Expect(const Volume& volume, exec::Share measured);
-  // The places of the bricks of that volume that are measured here. Needs: outlived by this.
+  // Where to write the shells of these bricks. Needs: this outlives it.
   ShellPlaces Places();
-  // Slices squared distances to these places.
+  // Slices squared distances into shells there.
   SquareSlicer Slicer();
   // All ranks together.
   void SendAway(const Volume& volume);
 
-  // Needs: all own bricks have come.
+  // Needs: the shells of all own bricks have arrived.
   RankShells Finish() &&;
 
  private:

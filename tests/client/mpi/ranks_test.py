@@ -231,7 +231,7 @@ class Checkpoints(TestCase):
         self.assertNotIn("shell 3/", run.stderr)
         self.assertEqual(result_of(got), result_of(wanted))
 
-    def test_a_checkpoint_of_another_object_is_refused(self):
+    def test_a_checkpoint_of_another_object_or_a_damaged_one_is_refused(self):
         folder = self.folder / "shells"
         options = ("-o", self.folder / "out.json", "--checkpoint", folder, "--checkpoint-every",
                    "0", "--resume")
@@ -240,6 +240,10 @@ class Checkpoints(TestCase):
         run = run_ranks(2, "skeletonize", self.generate("torus", 20_000), *options)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("another object", run.stderr)
+        (folder / "checkpoint").write_bytes(b"damaged")
+        run = run_ranks(2, "skeletonize", self.folder / "ball20000.exr", *options)
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertIn("checkpoint is damaged", run.stderr)
 
 
 class Ends(TestCase):
