@@ -61,7 +61,8 @@ absl::StatusOr<Bytes> Unsealed(const std::string& name, Bytes bytes) {
     bytes.resize(size);
     if (Crc32c(bytes) == sum) return bytes;
   }
-  return absl::DataLossError("checkpoint: " + name + " is damaged; start again without --resume");
+  return absl::FailedPreconditionError("checkpoint: " + name +
+                                       " is damaged; start again without --resume");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class Checkpoints {
 
   // Stores what the last checkpoint left of the object in `object`, in the order of bricks.local;
   // returns 0 shells and leaves `object` empty if there is none or none is wanted.
-  // Errors: FAILED_PRECONDITION (checkpoint of another object or of other options), DATA_LOSS;
+  // Errors: FAILED_PRECONDITION (checkpoint of another object or of other options, or damaged);
   //         on all ranks.
   absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);
 
