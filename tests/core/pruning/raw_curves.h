@@ -2,10 +2,12 @@
 #define BCCSKEL_TESTS_CORE_PRUNING_RAW_CURVES_H_
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "core/distance/exact_radius.h"
+#include "core/pipeline/skeletonize.h"
 #include "core/pruning/prune.h"
 #include "core/thinning/thinning.h"
 
@@ -37,6 +39,14 @@ struct RawCurves {
   std::vector<float> radii;
   std::vector<int32_t> births;  // empty where the kind keeps no isthmuses
 };
+
+// The number of ends after everything, with this pruning.
+inline size_t EndsOf(const Volume& object, const PruningOptions& pruning = {}) {
+  SkeletonizeOptions options;
+  options.pruning = pruning;
+  const SkeletonGraph graph = Skeletonize(object, options, {})->graph;
+  return static_cast<size_t>(std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind));
+}
 
 }  // namespace bccskel::test
 
