@@ -7,7 +7,7 @@
 namespace bccskel::cli {
 namespace {
 
-constexpr int kWriters = 16;
+constexpr size_t kMostWriters = 16;
 constexpr size_t kMostWaiting = 64;
 
 absl::Status StatusOf(const FileWriters::Task& task) {
@@ -20,16 +20,13 @@ absl::Status StatusOf(const FileWriters::Task& task) {
 
 }  // namespace
 
-FileWriters::FileWriters() {
-  for (int n = 0; n < kWriters; ++n) writers_.emplace_back([this] { Write(); });
-}
-
 FileWriters::~FileWriters() { Finish().IgnoreError(); }
 
 absl::Status FileWriters::Add(Task task) {
   std::unique_lock lock(mutex_);
   room_.wait(lock, [this] { return tasks_.size() < kMostWaiting; });
   tasks_.push_back(std::move(task));
+  if (writers_.size() < kMostWriters) writers_.emplace_back([this] { Write(); });
   work_.notify_one();
   return status_;
 }

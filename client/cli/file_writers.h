@@ -13,13 +13,13 @@
 namespace bccskel::cli {
 
 // Writes many small files, several at a time: each file is synced before it takes its name, and the
-// disk syncs 16 files in about the time of one.
+// disk syncs 16 files in about the time of one. Has no threads before the first task.
 // Threads: Add() and Finish() from one thread; tasks run on others.
 class FileWriters {
  public:
   using Task = std::function<absl::Status()>;
 
-  FileWriters();
+  FileWriters() = default;
   ~FileWriters();  // as Finish()
   FileWriters(const FileWriters&) = delete;
   FileWriters& operator=(const FileWriters&) = delete;
