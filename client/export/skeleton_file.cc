@@ -195,6 +195,11 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
     BCCSKEL_RETURN_IF_ERROR(CheckFinite(graph));
     if (format == SkeletonFormat::kSvg)
       return WriteDocument(path, WithoutNote(SvgText(subject)), stop);
+    if (format == SkeletonFormat::kPng && subject.draw == nullptr) {
+      return absl::UnimplementedError(path +
+                                      ": this program draws no pictures; write an .svg, or " +
+                                      "draw a .json file with `bccskel render`");
+    }
     if (format == SkeletonFormat::kPng)
       return WriteDocument(path, WithoutNote(subject.draw(subject)), stop);
     if (format == SkeletonFormat::kHtml)

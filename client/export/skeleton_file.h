@@ -54,9 +54,10 @@ absl::Status CheckOutput(const std::string& path);
 // Writes one file, or for kPrecomputed a folder of them; either all of it appears or nothing. Equal
 // subjects give equal bytes. Returns what the format could not hold, a sentence for the user; empty
 // if it held everything.
-// Needs:  for kVolume (.exr, .bccb), a result with its thin volume; for kPng, the subject's `draw`.
-// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), those of
-//         WriteFileAtomically(), for kHtml and kPng those of the subject's context.
+// Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
+// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), UNIMPLEMENTED for kPng
+//         without the subject's `draw`, those of WriteFileAtomically(), for kHtml and kPng those of
+//         the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
 // The same bytes of a graph alone.

@@ -59,6 +59,19 @@ TEST_F(SkeletonFileTest, EqualSubjectsGiveEqualBytes) {
   }
 }
 
+// Programs that use the library without that of pictures leave `draw` out.
+TEST_F(SkeletonFileTest, PicturesNeedSomeoneWhoDrawsThem) {
+  const Sample sample = SampleOf(Shape::kTree);
+  Subject subject = {sample.result, sample.object, "title"};
+  const absl::Status refused = WriteSkeletonFile(folder_ / "a.png", subject).status();
+  EXPECT_TRUE(absl::IsUnimplemented(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("bccskel render"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.png"));
+  subject.draw = [](const Subject& drawn) -> absl::StatusOr<std::string> { return drawn.title; };
+  EXPECT_TRUE(WriteSkeletonFile(folder_ / "a.png", subject).ok());
+  EXPECT_EQ(fs::file_size(folder_ / "a.png"), subject.title.size());
+}
+
 TEST_F(SkeletonFileTest, VolumesReadBackToTheThinnedObject) {
   const Sample sample = SampleOf(Shape::kTree);
   for (const char* name : {"thin.exr", "thin.bccb"}) {
