@@ -22,7 +22,7 @@ constexpr size_t kLevelsAlwaysVisited = 10;
 
 struct KnownPoint {
   SkeletonPoint point;
-  double level = -1;  // the largest of the edges through it; -1: of none
+  double level = kNoLevel;  // the largest of the edges through it
 };
 using KnownPoints = PointTable<KnownPoint>;
 
@@ -49,7 +49,7 @@ KnownPoints PointsOf(const SkeletonGraph& graph) {
   return known;
 }
 
-absl::StatusOr<Volume> VolumeOf(const KnownPoints& known, const Placement& placement) {
+absl::StatusOr<ThinSkeleton> SkeletonOf(const KnownPoints& known, const Placement& placement) {
   LatticeExtent extent{1, 1, 1};
   known.ForEach([&](LatticePoint p, const KnownPoint&) {
     extent.nx = std::max(extent.nx, p.x / 2 + 1);
@@ -58,13 +58,11 @@ absl::StatusOr<Volume> VolumeOf(const KnownPoints& known, const Placement& place
   });
   VolumeBuilder builder(extent, placement);
   known.ForEach([&](LatticePoint p, const KnownPoint&) { builder.Add(p); });
-  return std::move(builder).Build();
-}
-
-std::vector<float> RadiiOf(const KnownPoints& known, const Volume& volume) {
-  std::vector<float> radii;
-  volume.ForEachPoint([&](LatticePoint p) { radii.push_back(known.Find(p)->point.radius); });
-  return radii;
+  ThinSkeleton skeleton;
+  BCCSKEL_ASSIGN_OR_RETURN(skeleton.points, std::move(builder).Build());
+  skeleton.points.ForEachPoint(
+      [&](LatticePoint p) { skeleton.radii.push_back(known.Find(p)->point.radius); });
+  return skeleton;
 }
 
 // Removes branches with a free end, those of the lowest levels first, as they were removed when
@@ -138,29 +136,7 @@ void Restore(const KnownPoints& known, SkeletonGraph& graph) {
   std::ranges::for_each(graph.sheets, restore);
 }
 
-// Points at junctions have no level of their own.
-PruningLevels LevelsOf(const KnownPoints& known, const ThinSet& set) {
-  PruningLevels levels;
-  set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, known.Find(p)->level); });
-  return levels;
-}
-
 }  // namespace
-
-absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
-                              SkeletonGraph& graph) {
-  StopPoll poll(context);
-  for (SkeletonEdge& edge : graph.edges) {
-    double level = -1;
-    for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-      if (poll.Stopped()) return context.StopStatus();
-      const double* found = levels.Find(p.point);
-      if (found != nullptr) level = std::max(level, *found);
-    }
-    if (level >= 0) edge.pruning_level = level;
-  }
-  return absl::OkStatus();
-}
 
 absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reach,
                                 uint64_t most_points, const exec::Context& context,
@@ -169,16 +145,17 @@ absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reac
   if (known.empty()) return absl::OkStatus();
   const std::vector<double> levels = LevelsToVisit(graph, most_points / known.size());
   if (levels.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(const Volume whole, VolumeOf(known, graph.placement));
-  const std::vector<float> radii = RadiiOf(known, whole);
-  ThinSet set({whole, radii}, context);
+  BCCSKEL_ASSIGN_OR_RETURN(const ThinSkeleton whole, SkeletonOf(known, graph.placement));
+  ThinSet set(whole, context);
   LevelPruner pruner(known, set);
   for (const double level : levels) {
     pruner.PruneTo(level);
-    const Volume thin = set.ToVolume(whole);
-    BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph pruned,
-                             TraceSkeleton(thin, RadiiOf(known, thin), context));
-    BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(LevelsOf(known, set), context, pruned));
+    ThinSkeleton thin = set.ToSkeleton(whole);
+    thin.points.ForEachPoint([&](LatticePoint p) {
+      const bool at_junction = set.Degree(p) > 2;
+      thin.levels.push_back(at_junction ? kNoLevel : known.Find(p)->level);
+    });
+    BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph pruned, TraceSkeleton(thin, context));
     BCCSKEL_RETURN_IF_ERROR(MergeJunctions(junction_reach, context, pruned));
     Restore(known, pruned);
     visit(level, pruned);

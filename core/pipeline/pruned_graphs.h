@@ -6,15 +6,9 @@
 
 #include "absl/status/status.h"
 #include "core/exec/context.h"
-#include "core/pruning/prune.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel {
-
-// Sets the level of each edge: the largest of its points, since an edge stays as long as a part of
-// it. Errors: those of the context.
-absl::Status SetPruningLevels(const PruningLevels& levels, const exec::Context& context,
-                              SkeletonGraph& graph);
 
 // Receives the level and the graph that pruning by a threshold just above it leaves.
 using OnPrunedGraph = std::function<void(double, const SkeletonGraph&)>;

@@ -7,10 +7,9 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
-#include "core/pipeline/pruned_graphs.h"
 #include "core/pipeline/skeletonize_within.h"
-#include "core/pipeline/thin_points.h"
 #include "core/prepare/beyond_border.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
 #include "core/skeleton/trace_skeleton.h"
@@ -19,13 +18,24 @@
 namespace bccskel {
 namespace {
 
+// Needs: the points of the graph are those of `thin`; `radii` in the order of its ForEachPoint().
+void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph) {
+  PointTable<float> by_point;
+  by_point.Reserve(radii.size());
+  size_t n = 0;
+  thin.ForEachPoint([&](LatticePoint p) { by_point.Set(p, radii[n++]); });
+  for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
+}
+
 // The points that stay though they may be simple: isthmuses where they are not made curves of, and
 // those that the caller keeps.
-Volume SparedPoints(const Volume& thin, const std::vector<IsthmusBirth>& isthmuses,
-                    const ThinningOptions& thinning) {
-  VolumeBuilder spared(thin.extent(), thin.placement());
-  if (!HasCurves(thinning)) {
-    for (const IsthmusBirth& birth : isthmuses) spared.Add(birth.point);
+Volume SparedPoints(const ThinSkeleton& skeleton, const ThinningOptions& thinning) {
+  VolumeBuilder spared(skeleton.points.extent(), skeleton.points.placement());
+  if (!HasCurves(thinning) && !skeleton.births.empty()) {
+    size_t n = 0;
+    skeleton.points.ForEachPoint([&](LatticePoint p) {
+      if (skeleton.births[n++] > 0) spared.Add(p);
+    });
   }
   for (LatticePoint p : thinning.keep) spared.Add(p);
   absl::StatusOr<Volume> volume = std::move(spared).Build();
@@ -184,24 +194,23 @@ class Pipeline {
   }
 
   absl::Status FinishIn(const Volume& object, DistanceField distance) {
-    BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(result_.thin.PointCount(), kBytesPerThinPoint,
+    BCCSKEL_RETURN_IF_ERROR(memory_.TakeFor(skeleton_.points.PointCount(), kBytesPerThinPoint,
                                             "points that thinning leaves"));
-    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii, MeasureAndPrune(object, distance));
+    BCCSKEL_RETURN_IF_ERROR(MeasureAndPrune(object, distance));
     if (peeler_ == nullptr) {
       BCCSKEL_ASSIGN_OR_RETURN(result_.certificate.input, CountBettiNumbers(object, context_));
     }
-    BCCSKEL_RETURN_IF_ERROR(Certify(result_.thin, context_, result_.certificate));
-    result_.certificate.simple_points_left =
-        CountSimplePoints(result_.thin, ThatMayGo(options_),
-                          SparedPoints(result_.thin, isthmuses_, thinning_), context_);
+    BCCSKEL_RETURN_IF_ERROR(Certify(skeleton_.points, context_, result_.certificate));
+    result_.certificate.simple_points_left = CountSimplePoints(
+        skeleton_.points, ThatMayGo(options_), SparedPoints(skeleton_, thinning_), context_);
     result_.timings.certificate = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> stated, StatedRadii(SpaceOf(object), radii));
-    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(result_.thin, stated, memory_, context_));
-    BCCSKEL_RETURN_IF_ERROR(SetPruningLevels(levels_, context_, result_.graph));
+    const std::vector<float> exact = skeleton_.radii;
+    BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, StatedRadii(SpaceOf(object), exact));
+    BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(skeleton_, memory_, context_));
     BCCSKEL_RETURN_IF_ERROR(
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
-    SetBirths(isthmuses_, result_.graph);
-    BCCSKEL_RETURN_IF_ERROR(Center(object, distance, radii, stated));
+    BCCSKEL_RETURN_IF_ERROR(Center(object, distance, exact));
+    result_.thin = std::move(skeleton_.points);
     if (continued_.has_value()) ShiftGraphBack();
     BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
@@ -216,16 +225,17 @@ class Pipeline {
     if (!IsConverted(options_.source)) return exact;
     if (!search_.has_value()) search_.emplace(space);
     return MeasureVoxelRadii(space, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
-                             result_.thin, exact, context_);
+                             skeleton_.points, exact, context_);
   }
 
   // Curves are centered in discs as wide as the exact radii.
   absl::Status Center(const Volume& object, const DistanceField& distance,
-                      const std::vector<float>& exact, const std::vector<float>& stated) {
+                      const std::vector<float>& exact) {
     if (options_.distance != DistanceKind::kEuclidean) return absl::OkStatus();
-    if (exact != stated) SetRadii(exact, result_.thin, result_.graph);
+    const bool differ = exact != skeleton_.radii;
+    if (differ) SetRadii(exact, skeleton_.points, result_.graph);
     BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
-    if (exact != stated) SetRadii(stated, result_.thin, result_.graph);
+    if (differ) SetRadii(skeleton_.radii, skeleton_.points, result_.graph);
     return absl::OkStatus();
   }
 
@@ -286,69 +296,54 @@ class Pipeline {
   }
 
   void TakeOver(ThinningResult thinned) {
-    result_.thin = std::move(thinned.thin);
+    const SkeletonKind kind = thinning_.kind;
+    if (kind == SkeletonKind::kSurface || kind == SkeletonKind::kIsthmusCurve) {
+      skeleton_.births = BirthsOf(thinned);
+    }
+    skeleton_.points = std::move(thinned.thin);
     result_.last_shell = thinned.last_shell;
     result_.timings.shells = thinned.times.shells;
     result_.timings.thinning = thinned.times.passes;
     result_.timings.cleanup = thinned.times.cleanup;
-    isthmuses_ = std::move(thinned.isthmuses);
     clock_.Lap();
   }
 
-  // Returns the radii of the points that stay.
-  absl::StatusOr<std::vector<float>> MeasureAndPrune(const Volume& object,
-                                                     DistanceField& distance) {
+  absl::Status MeasureAndPrune(const Volume& object, DistanceField& distance) {
     if (peeler_ == nullptr && !continued_.has_value()) {
       const uint64_t searches =
-          result_.thin.PointCount() *
+          skeleton_.points.PointCount() *
           (options_.distance == DistanceKind::kEuclidean ? kMostDistancesOfPoint : 1);
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
     } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
       distance = std::move(continued_->distance);
     }
     const ExactRadius radius(object, distance);
-    BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(result_.thin, radius, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, ExactRadii(skeleton_.points, radius, context_));
     if (IsConverted(options_.source) && !continued_.has_value()) search_.emplace(object);
     if (HasCurves(options_.thinning)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
-      BCCSKEL_RETURN_IF_ERROR(PruneCurves(object, single, radii));
+      BCCSKEL_ASSIGN_OR_RETURN(
+          ThinSkeleton pruned,
+          Prune(skeleton_, {object, single, SurfaceStepOf(options_.source), &SpaceOf(object)},
+                thinning_.keep, options_.pruning, context_));
+      TakeOver(std::move(pruned));
     }
-    if (HasSheets(options_.thinning)) BCCSKEL_RETURN_IF_ERROR(PruneSurface(radii));
-    result_.skeleton_points = result_.thin.PointCount();
-    result_.timings.pruning = clock_.Lap();
-    return radii;
-  }
-
-  absl::Status PruneCurves(const Volume& object, const ExactRadius& radius,
-                           std::vector<float>& radii) {
-    std::vector<int32_t> births;
-    if (options_.thinning.kind == SkeletonKind::kIsthmusCurve) {
-      births = BirthsOf(result_.thin, isthmuses_);
-    }
-    BCCSKEL_ASSIGN_OR_RETURN(
-        PrunedSkeleton pruned,
-        Prune({result_.thin, radii, births, SurfaceStepOf(options_.source), &SpaceOf(object)},
-              object, radius, thinning_.keep, options_.pruning, context_));
-    TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
-    levels_ = std::move(pruned.levels);
-    return absl::OkStatus();
-  }
-
-  absl::Status PruneSurface(std::vector<float>& radii) {
     const PruningOptions& pruning = result_.options.pruning;
-    if (pruning.rule == PruningRule::kNone) return absl::OkStatus();
-    const std::vector<int32_t> births = BirthsOf(result_.thin, isthmuses_);
-    BCCSKEL_ASSIGN_OR_RETURN(
-        PrunedSheets pruned,
-        PruneSheets({result_.thin, radii, births}, pruning.threshold, thinning_.keep, context_));
-    TakeOver(std::move(pruned.thin), std::move(pruned.radii), radii);
+    if (HasSheets(options_.thinning) && pruning.rule != PruningRule::kNone) {
+      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
+                               PruneSheets(skeleton_, pruning.threshold, thinning_.keep, context_));
+      TakeOver(std::move(pruned));
+    }
+    result_.skeleton_points = skeleton_.points.PointCount();
+    result_.timings.pruning = clock_.Lap();
     return absl::OkStatus();
   }
 
-  void TakeOver(Volume thin, std::vector<float> new_radii, std::vector<float>& radii) {
-    if (on_points_) PointsTeller()(result_.last_shell + 1, PointsOnlyIn(result_.thin, thin));
-    result_.thin = std::move(thin);
-    radii = std::move(new_radii);
+  void TakeOver(ThinSkeleton pruned) {
+    if (on_points_) {
+      PointsTeller()(result_.last_shell + 1, PointsOnlyIn(skeleton_.points, pruned.points));
+    }
+    skeleton_ = std::move(pruned);
   }
 
   const SkeletonizeOptions& options_;
@@ -358,8 +353,7 @@ class Pipeline {
   const OnShellPoints& on_points_;
   const Peeler* const peeler_;
   exec::StageClock clock_;
-  std::vector<IsthmusBirth> isthmuses_;
-  PruningLevels levels_;
+  ThinSkeleton skeleton_;
   std::optional<ContinuedObject> continued_;
   std::optional<ExactRadius> search_;  // where radii of voxels are measured
   LatticeExtent extent_;               // of the object as it was given, where that is continued

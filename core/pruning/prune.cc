@@ -23,14 +23,15 @@ double ThresholdOf(const PruningOptions& options, const Placement& placement) {
   return in_world ? threshold / WorldUnitsPerLatticeUnit(placement) : threshold;
 }
 
-PruningRule RuleOfLevels(const PruningOptions& options, const ThinCurves& curves) {
+PruningRule RuleOfLevels(const PruningOptions& options, const ThinSkeleton& curves) {
   const bool by_births = options.rule == PruningRule::kNone && !curves.births.empty();
   return by_births || options.rule == PruningRule::kPersistence ? PruningRule::kPersistence
                                                                 : PruningRule::kSignificance;
 }
 
-absl::Status CheckCurves(const ThinCurves& curves, const PruningOptions& options) {
-  if (options.rule != PruningRule::kPersistence || !curves.births.empty() || curves.thin.empty()) {
+absl::Status CheckCurves(const ThinSkeleton& curves, const PruningOptions& options) {
+  if (options.rule != PruningRule::kPersistence || !curves.births.empty() ||
+      curves.points.empty()) {
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(
@@ -51,42 +52,44 @@ absl::Status CheckPruningOptions(const PruningOptions& options) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
-                                     const ExactRadius& radius, std::span<const LatticePoint> keep,
-                                     const PruningOptions& options, const exec::Context& context) {
+absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObject& in,
+                                   std::span<const LatticePoint> keep,
+                                   const PruningOptions& options, const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options));
   BCCSKEL_RETURN_IF_ERROR(CheckCurves(curves, options));
-  const Volume& thin = curves.thin;
-  if (thin.empty()) return PrunedSkeleton{thin, {}, 0, {}};
+  if (curves.points.empty()) return curves;
   ThinSet set(curves, context);
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
-  const Volume& space = curves.space != nullptr ? *curves.space : object;
-  const SurfaceNoise noise = SurfaceNoiseOf(space, curves.surface_step);
-  const ExactRadius in_space = curves.space == nullptr ? radius : ExactRadius(space);
+  const Volume& space = in.space != nullptr ? *in.space : in.object;
+  const SurfaceNoise noise = SurfaceNoiseOf(space, in.surface_step);
+  const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
   std::optional<WayOn> way_on;
   std::optional<FirmDepth> firm_depth;
   // A voxel's edge is longer than what thinning leaves out, and its pit is deeper than a point's.
-  if (curves.surface_step == 1) {
+  if (in.surface_step == 1) {
     way_on.emplace(space, in_space);
   } else if (noise.roughness > 0) {
     firm_depth.emplace(space, in_space);
   }
   Significance significance(space, noise, std::move(way_on), std::move(firm_depth));
-  PrunedSkeleton pruned;
   if (options.rule != PruningRule::kNone) {
-    const double threshold = ThresholdOf(options, thin.placement());
-    pruned.branches_removed =
-        BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
+    const double threshold = ThresholdOf(options, curves.points.placement());
+    BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
   }
-  pruned.levels = PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
+  const PruningLevels levels =
+      PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
   if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, object, space, radius, kept, noise, context));
+    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, in.object, space, in.radius, kept, noise, context));
   }
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
-  pruned.thin = set.ToVolume(thin);
-  pruned.radii = set.RadiiOf(pruned.thin);
+  ThinSkeleton pruned = set.ToSkeleton(curves);
+  pruned.levels.reserve(pruned.radii.size());
+  pruned.points.ForEachPoint([&](LatticePoint p) {
+    const double* level = levels.Find(p);
+    pruned.levels.push_back(level != nullptr ? *level : kNoLevel);
+  });
   return pruned;
 }
 

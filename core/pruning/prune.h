@@ -3,14 +3,13 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
-#include "core/pruning/thin_set.h"
+#include "core/skeleton/thin_skeleton.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -47,30 +46,28 @@ struct PruningOptions {
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 
-// For each point of a branch, the threshold above which it goes; infinity where it never does.
-// Points at junctions and tips that have grown have none. Thresholds are those of pruning by
-// persistence where that was the rule, or none was and births are known; else those of
-// significance.
-using PruningLevels = PointTable<double>;
-
-struct PrunedSkeleton {
-  Volume thin;
-  std::vector<float> radii;  // of its points, lattice units, in the order of ForEachPoint()
-  uint64_t branches_removed = 0;
-  PruningLevels levels;  // as pruned, before tips were placed
+// Where pruning measures.
+struct PrunedObject {
+  const Volume& object;
+  const ExactRadius& radius;  // of the object
+  // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
+  double surface_step = 1;
+  // Where widths and depths are measured, if not in the object: the same with points beyond the
+  // border.
+  const Volume* space = nullptr;
 };
 
 // Removes spurious branches and places the tips of the others. Points go and come one by one, each
 // simple at its turn, so the topology stays: loops and components have no end to begin at. A branch
-// with points of `keep` stays.
+// with points of `keep` stays. Levels are those of the skeleton as pruned, before tips were placed.
 // Isthmuses that later became simple make curves thick: where births are known, such points go
 // first.
-// Shapes: the points of `curves` are points of `object`, to which `radius` belongs.
+// Shapes: the points of `curves` are points of the object.
 // Needs:  a thin curve skeleton, or one of isthmuses with their births.
 // Errors: INVALID_ARGUMENT (options, or persistence without births), CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<PrunedSkeleton> Prune(const ThinCurves& curves, const Volume& object,
-                                     const ExactRadius& radius, std::span<const LatticePoint> keep,
-                                     const PruningOptions& options, const exec::Context& context);
+absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObject& in,
+                                   std::span<const LatticePoint> keep,
+                                   const PruningOptions& options, const exec::Context& context);
 
 }  // namespace bccskel
 

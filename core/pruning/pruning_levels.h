@@ -2,12 +2,17 @@
 #define BCCSKEL_CORE_PRUNING_PRUNING_LEVELS_H_
 
 #include "core/exec/context.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/prune.h"
 #include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
 
 namespace bccskel {
+
+// For each point of a branch, the threshold above which it goes; infinity where it never does.
+// Points at junctions have none.
+using PruningLevels = PointTable<double>;
 
 // Does:  answers every threshold of a rule in one run: pruning by a threshold leaves the
 //        points whose level is not below it. Branches go one after the other, the least first; the

@@ -52,9 +52,8 @@ struct Twig {
 
 class TwigFinder {
  public:
-  TwigFinder(const ThinSet& set, const Volume& grid, StopPoll& poll)
-      : thin_(set.ToVolume(grid)),
-        points_(thin_, set.RadiiOf(thin_), poll),
+  TwigFinder(const ThinSet& set, const ThinSkeleton& grid, StopPoll& poll)
+      : points_(set.ToSkeleton(grid), poll),
         clusters_(points_, poll),
         branches_(FollowBranches(points_, clusters_, poll)) {}
 
@@ -93,7 +92,6 @@ class TwigFinder {
     return twig;
   }
 
-  Volume thin_;
   ThinPoints points_;
   Clusters clusters_;
   Branches branches_;
@@ -122,7 +120,7 @@ bool RemoveFarthestFirst(ThinSet& set, const Twig& twig) {
 
 // As the slope rule for curves, with the place where the curve leaves the sheet as the junction.
 // Returns whether any went.
-bool RemoveTwigs(ThinSet& set, const Volume& grid, double margin, const PointSet& keep,
+bool RemoveTwigs(ThinSet& set, const ThinSkeleton& grid, double margin, const PointSet& keep,
                  StopPoll& poll) {
   const TwigFinder finder(set, grid, poll);
   if (poll.StoppedNow()) return false;
@@ -139,7 +137,7 @@ bool RemoveTwigs(ThinSet& set, const Volume& grid, double margin, const PointSet
 
 }  // namespace
 
-absl::StatusOr<PrunedSheets> PruneSheets(const ThinCurves& sheets, double margin,
+absl::StatusOr<ThinSkeleton> PruneSheets(const ThinSkeleton& sheets, double margin,
                                          std::span<const LatticePoint> keep,
                                          const exec::Context& context) {
   ThinSet set(sheets, context);
@@ -157,11 +155,9 @@ absl::StatusOr<PrunedSheets> PruneSheets(const ThinCurves& sheets, double margin
   StopPoll poll(context);
   do {
     RemoveSimplePoints(set, spared);
-  } while (RemoveTwigs(set, sheets.thin, margin, kept, poll));
+  } while (RemoveTwigs(set, sheets, margin, kept, poll));
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
-  PrunedSheets pruned{set.ToVolume(sheets.thin), {}};
-  pruned.radii = set.RadiiOf(pruned.thin);
-  return pruned;
+  return set.ToSkeleton(sheets);
 }
 
 }  // namespace bccskel

@@ -8,18 +8,18 @@
 
 namespace bccskel {
 
-ThinSet::ThinSet(const ThinCurves& curves, const exec::Context& context)
-    : scale_(AxisScaleOf(curves.thin.placement())) {
-  const Volume& thin = curves.thin;
+ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
+    : scale_(AxisScaleOf(skeleton.points.placement())) {
+  const Volume& thin = skeleton.points;
   StopPoll poll(context);
-  points_.Reserve(curves.radii.size());
+  points_.Reserve(skeleton.radii.size());
   size_t n = 0;
   for (BrickIndex brick = 0; brick < thin.brick_count() && !poll.Stopped(); ++brick) {
     const BrickCoordinates at = thin.keys()[brick].coordinates();
     const NeighborPlanes planes = NeighborPlanesOf(thin, brick);
     thin.bricks()[brick].ForEachSetBit([&](int bit) {
-      const int32_t birth = curves.births.empty() ? 0 : curves.births[n];
-      points_.Set(PointOf(at, bit), {curves.radii[n], birth, NeighborsAt(bit, planes)});
+      const int32_t birth = skeleton.births.empty() ? 0 : skeleton.births[n];
+      points_.Set(PointOf(at, bit), {skeleton.radii[n], birth, NeighborsAt(bit, planes)});
       ++n;
     });
   }
@@ -68,16 +68,21 @@ std::vector<LatticePoint> ThinSet::Ends() const {
   return ends;
 }
 
-Volume ThinSet::ToVolume(const Volume& thin) const {
-  VolumeBuilder builder(thin.extent(), thin.placement());
+ThinSkeleton ThinSet::ToSkeleton(const ThinSkeleton& like) const {
+  VolumeBuilder builder(like.points.extent(), like.points.placement());
   ForEachPoint([&](LatticePoint p) { builder.Add(p); });
-  return *std::move(builder).Build();
-}
-
-std::vector<float> ThinSet::RadiiOf(const Volume& volume) const {
-  std::vector<float> radii;
-  volume.ForEachPoint([&](LatticePoint p) { radii.push_back(RadiusOf(p)); });
-  return radii;
+  ThinSkeleton skeleton{*std::move(builder).Build(), {}};
+  skeleton.radii.reserve(points_.size());
+  skeleton.points.ForEachPoint([&](LatticePoint p) { skeleton.radii.push_back(RadiusOf(p)); });
+  if (like.births.empty()) return skeleton;
+  PointTable<int32_t> births;
+  size_t n = 0;
+  like.points.ForEachPoint([&](LatticePoint p) { births.Set(p, like.births[n++]); });
+  skeleton.points.ForEachPoint([&](LatticePoint p) {
+    const int32_t* birth = births.Find(p);
+    skeleton.births.push_back(birth != nullptr ? *birth : 0);
+  });
+  return skeleton;
 }
 
 }  // namespace bccskel

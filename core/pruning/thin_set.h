@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "core/exec/context.h"
 #include "core/lattice/directions.h"
 #include "core/pruning/point_table.h"
+#include "core/skeleton/thin_skeleton.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -21,26 +21,12 @@ namespace bccskel {
 // frees what it never got, which ends the process.
 using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
-// A thin volume and what is known of its points, in the order of Volume::ForEachPoint().
-struct ThinCurves {
-  const Volume& thin;
-  std::span<const float> radii;  // lattice units
-  // The pass of thinning in which the point became an isthmus, from 1; 0 for points that never did.
-  // Empty where the kind of skeleton keeps no isthmuses.
-  std::span<const int32_t> births = {};
-  // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
-  double surface_step = 1;
-  // Where widths and depths are measured, if not in the object: the same with points beyond the
-  // border.
-  const Volume* space = nullptr;
-};
-
-// The points of a thin volume while branches go and tips move: each with its radius, its birth and
-// its neighbors in the set.
+// The points of a skeleton while branches go and tips move: each with what is known of it and its
+// neighbors in the set.
 class ThinSet {
  public:
   // Empty or incomplete where the context says to stop.
-  explicit ThinSet(const ThinCurves& curves, const exec::Context& context = {});
+  explicit ThinSet(const ThinSkeleton& skeleton, const exec::Context& context = {});
 
   bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
   // Of points of the set.
@@ -78,9 +64,8 @@ class ThinSet {
     return std::sqrt(x * x + y * y + z * z);
   }
 
-  // The points as a volume on the grid of `thin`, and their radii in its order.
-  Volume ToVolume(const Volume& thin) const;
-  std::vector<float> RadiiOf(const Volume& volume) const;
+  // The points on the grid of `like`, with its births: points that went and came back keep theirs.
+  ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
 
  private:
   struct Entry {

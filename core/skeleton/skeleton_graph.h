@@ -11,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
+#include "core/skeleton/thin_skeleton.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -71,7 +72,7 @@ struct SkeletonEdge {
       0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
   uint64_t point_count = 0;
   // The threshold above which pruning removes the edge, by significance or persistence: see
-  // PruningLevels. Edges on loops, and one path of each tree, are never removed.
+  // ThinSkeleton. Edges on loops, and one path of each tree, are never removed.
   double pruning_level = std::numeric_limits<double>::infinity();
 
   friend constexpr bool operator==(const SkeletonEdge&, const SkeletonEdge&) = default;
@@ -116,13 +117,12 @@ struct SkeletonGraph {
 absl::StatusOr<std::string> SkeletonDigest(const SkeletonGraph& graph,
                                            const exec::Context& context = {});
 
-// Extracts the graph of a thin volume. The invariants hold for any volume; one that is not thin
-// gives few nodes for large clusters, and many points of sheets.
-// Shapes: `radii` one per point of `thin`, in lattice units, in the order of
-//         Volume::ForEachPoint().
-// Cost:   follows the points of `thin`.
+// Extracts the graph of a skeleton. The invariants hold for any points; a volume that is not thin
+// gives few nodes for large clusters, and many points of sheets. The level of an edge is the
+// largest of its points, since an edge stays as long as a part of it.
+// Cost:   follows the points.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             const exec::Context& context);
 
 }  // namespace bccskel

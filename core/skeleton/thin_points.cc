@@ -29,9 +29,9 @@ bool IsForward(Direction d) { return LatticePoint{} < d.offset(); }
 
 }  // namespace
 
-ThinPoints::ThinPoints(const Volume& thin, std::span<const float> radii, StopPoll& poll) {
-  Gather(thin, radii, poll);
-  if (FitsShortKeys(thin.extent())) {
+ThinPoints::ThinPoints(const ThinSkeleton& skeleton, StopPoll& poll) {
+  Gather(skeleton, poll);
+  if (FitsShortKeys(skeleton.points.extent())) {
     FindNeighbors<uint64_t>(poll);
   } else {
     FindNeighbors<absl::uint128>(poll);
@@ -40,18 +40,20 @@ ThinPoints::ThinPoints(const Volume& thin, std::span<const float> radii, StopPol
 
 PointIndex ThinPoints::DeepestOf(std::span<const PointIndex> some) const {
   return *std::ranges::min_element(some, [this](PointIndex p, PointIndex q) {
-    const float a = points_[p].radius, b = points_[q].radius;
+    const float a = points_[p].at.radius, b = points_[q].at.radius;
     return a != b ? a > b : p < q;
   });
 }
 
 // Bricks come in order of bz, and bricks of different bz hold different z: sorting each layer of
 // bricks sorts all points.
-void ThinPoints::Gather(const Volume& thin, std::span<const float> radii, StopPoll& poll) {
+void ThinPoints::Gather(const ThinSkeleton& skeleton, StopPoll& poll) {
+  const Volume& thin = skeleton.points;
   size_t layer_begin = 0;
   int32_t layer = 0;
   const auto sort_layer = [&] {
-    std::sort(points_.begin() + static_cast<ptrdiff_t>(layer_begin), points_.end());
+    const auto begin = points_.begin() + static_cast<ptrdiff_t>(layer_begin);
+    std::ranges::sort(begin, points_.end(), {}, [](const Point& p) { return p.at.point; });
     layer_begin = points_.size();
   };
   for (size_t n = 0; n < thin.brick_count() && !poll.Stopped(); ++n) {
@@ -62,7 +64,10 @@ void ThinPoints::Gather(const Volume& thin, std::span<const float> radii, StopPo
     }
     layer = brick.bz;
     thin.bricks()[n].ForEachSetBit([&](int bit) {
-      points_.push_back({PointOf(brick, bit), radii[points_.size()]});
+      const size_t at = points_.size();
+      const int32_t birth = skeleton.births.empty() ? 0 : skeleton.births[at];
+      const double level = skeleton.levels.empty() ? kNoLevel : skeleton.levels[at];
+      points_.push_back({{PointOf(brick, bit), skeleton.radii[at], birth}, level});
     });
   }
   sort_layer();
@@ -74,7 +79,7 @@ void ThinPoints::FindNeighbors(StopPoll& poll) {
   neighbors_.resize(size());
   std::vector<Key> keys;
   keys.reserve(size() + 1);
-  for (const SkeletonPoint& p : points_) keys.push_back(KeyOf<Key>(p.point));
+  for (const Point& p : points_) keys.push_back(KeyOf<Key>(p.at.point));
   keys.push_back(std::numeric_limits<Key>::max());
   if (poll.StoppedNow()) return;
   for (int bit = 0; bit < kNeighborCount; ++bit) {

@@ -10,22 +10,23 @@
 #include "core/exec/stop_poll.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
-#include "core/volume/volume.h"
+#include "core/skeleton/thin_skeleton.h"
 
 namespace bccskel {
 
 // Position of a point in ThinPoints.
 using PointIndex = uint32_t;
 
-// The points of a thin volume as a list in lattice order, with their radii and neighbors.
-// Translating the volume translates the list: nothing that follows depends on bricks.
+// The points of a skeleton as a list in lattice order, with what is known of them and their
+// neighbors. Translating the volume translates the list: nothing that follows depends on bricks.
 class ThinPoints {
  public:
-  // Left unfinished when `poll` says stop. Shapes: as TraceSkeleton().
-  ThinPoints(const Volume& thin, std::span<const float> radii, StopPoll& poll);
+  // Left unfinished when `poll` says stop.
+  ThinPoints(const ThinSkeleton& skeleton, StopPoll& poll);
 
   size_t size() const { return points_.size(); }
-  const SkeletonPoint& operator[](PointIndex p) const { return points_[p]; }
+  const SkeletonPoint& operator[](PointIndex p) const { return points_[p].at; }
+  double level(PointIndex p) const { return points_[p].level; }  // kNoLevel where it has none
   // The point with the largest radius, on ties the smallest. Needs: some points.
   PointIndex DeepestOf(std::span<const PointIndex> some) const;
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
@@ -41,13 +42,18 @@ class ThinPoints {
   }
 
  private:
-  void Gather(const Volume& thin, std::span<const float> radii, StopPoll& poll);
+  struct Point {
+    SkeletonPoint at;
+    double level = kNoLevel;
+  };
+
+  void Gather(const ThinSkeleton& skeleton, StopPoll& poll);
   template <typename Key>
   void FindNeighbors(StopPoll& poll);
   template <typename Key>
   void LinkAlong(Direction d, std::span<const Key> keys, StopPoll& poll);
 
-  std::vector<SkeletonPoint> points_;
+  std::vector<Point> points_;
   std::vector<NeighborMask> masks_;
   std::vector<std::array<PointIndex, kNeighborCount>> neighbors_;  // by direction
 };

@@ -197,8 +197,14 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
   graph.nodes = std::move(nodes_);
   for (const TracedEdge& edge : edges_) {
     if (poll_.StoppedNow()) break;
-    graph.edges.push_back({edge.source, edge.target, graph.points.size(), edge.points.size()});
-    for (PointIndex p : edge.points) graph.points.push_back(points_[p]);
+    SkeletonEdge& added = graph.edges.emplace_back(
+        SkeletonEdge{edge.source, edge.target, graph.points.size(), edge.points.size()});
+    double level = kNoLevel;
+    for (PointIndex p : edge.points) {
+      graph.points.push_back(points_[p]);
+      level = std::max(level, points_.level(p));
+    }
+    if (level != kNoLevel) added.pruning_level = level;
   }
   for (PointIndex p = 0; p < points_.size() && !poll_.Stopped(); ++p) {
     if (on_graph_[p] == 0) graph.sheets.push_back(points_[p]);
@@ -208,18 +214,18 @@ SkeletonGraph GraphBuilder::Finish(const Placement& placement) && {
 
 }  // namespace
 
-absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             const exec::Context& context) {
   exec::UnlimitedMemory memory;
-  return TraceSkeleton(thin, radii, memory, context);
+  return TraceSkeleton(skeleton, memory, context);
 }
 
-absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const float> radii,
+absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             exec::MemoryBudget& memory,
                                             const exec::Context& context) {
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   StopPoll poll(context);
-  const ThinPoints points(thin, radii, poll);
+  const ThinPoints points(skeleton, poll);
   if (poll.Stopped()) return context.StopStatus();
   const Clusters clusters(points, poll);
   if (poll.Stopped()) return context.StopStatus();
@@ -229,7 +235,7 @@ absl::StatusOr<SkeletonGraph> TraceSkeleton(const Volume& thin, std::span<const 
   if (poll.Stopped()) return context.StopStatus();
   builder.AddBranches(branches);
   if (!builder.refused().ok()) return builder.refused();
-  SkeletonGraph graph = std::move(builder).Finish(thin.placement());
+  SkeletonGraph graph = std::move(builder).Finish(skeleton.points.placement());
   if (poll.Stopped()) return context.StopStatus();
   return graph;
 }

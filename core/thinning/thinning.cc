@@ -118,6 +118,16 @@ class Thinning {
 
 }  // namespace
 
+std::vector<int32_t> BirthsOf(const ThinningResult& result) {
+  std::vector<int32_t> births;
+  births.reserve(result.thin.PointCount());
+  result.thin.ForEachPoint([&](LatticePoint p) {
+    const auto found = std::ranges::lower_bound(result.isthmuses, p, {}, &IsthmusBirth::point);
+    births.push_back(found != result.isthmuses.end() && found->point == p ? found->pass : 0);
+  });
+  return births;
+}
+
 absl::StatusOr<ThinningResult> ThinObject(const Volume& object, const DistanceField& distance,
                                           const ThinningOptions& options,
                                           const exec::Context& context,

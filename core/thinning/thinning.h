@@ -106,6 +106,10 @@ struct ThinningResult {
   ThinningTimes times;
 };
 
+// Of the points of `thin`, in the order of Volume::ForEachPoint(); 0 for those that never were
+// isthmuses.
+std::vector<int32_t> BirthsOf(const ThinningResult& result);
+
 // Hears which points of the object went while a shell was thinned: once for each shell, in order,
 // also where none did; and, as shell `last_shell + 1`, those that went after the shells. Called on
 // worker 0 while the others go on, so the sooner it returns the better.

@@ -20,11 +20,11 @@ absl::StatusOr<std::string> ReferenceDigest(const Volume& object) {
   BCCSKEL_ASSIGN_OR_RETURN(const Volume thin, std::move(builder).Build());
   BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                            ComputeDistance(object, DistanceKind::kChamfer, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> radii,
-                           ExactRadii(thin, ExactRadius(object, distance), {}));
-  BCCSKEL_ASSIGN_OR_RETURN(const PrunedSkeleton pruned,
-                           Prune({thin, radii}, object, ExactRadius(object, distance), {}, {}, {}));
-  BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph graph, TraceSkeleton(pruned.thin, pruned.radii, {}));
+  const ExactRadius radius(object, distance);
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<float> radii, ExactRadii(thin, radius, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(const ThinSkeleton pruned,
+                           Prune({thin, std::move(radii)}, {object, radius}, {}, {}, {}));
+  BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph graph, TraceSkeleton(pruned, {}));
   BCCSKEL_RETURN_IF_ERROR(MergeJunctions(SkeletonizeOptions().junction_reach, {}, graph));
   return SkeletonDigest(graph);
 }

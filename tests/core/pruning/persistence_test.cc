@@ -111,11 +111,11 @@ TEST(PruningByPersistence, NeedsBirths) {
     EXPECT_NE(status.message().find("isthmus-curve"), std::string::npos) << status;
   }
   const test::RawCurves raw(VolumeOfPoints({{{2, 2, 2}, {3, 3, 3}}}), SkeletonKind::kCurve);
-  EXPECT_EQ(Prune({raw.thin, raw.radii}, raw.object, ExactRadius(raw.object, raw.field), {},
-                  options.pruning, {})
-                .status()
-                .code(),
-            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(
+      Prune(raw.skeleton, {raw.object, ExactRadius(raw.object, raw.field)}, {}, options.pruning, {})
+          .status()
+          .code(),
+      absl::StatusCode::kInvalidArgument);
 }
 
 // One run, all thresholds: what any of them leaves has the topology of the object.
@@ -143,7 +143,7 @@ TEST(Births, AreThoseOfThinningForNodesAndPoints) {
   const test::RawCurves raw(*GenerateShape(Shape::kTree, {.points = 20'000}),
                             SkeletonKind::kIsthmusCurve);
   const auto result = Skeletonize(raw.object, ByPersistence(0), {});
-  const ThinSet set({raw.thin, raw.radii, raw.births});
+  const ThinSet set(raw.skeleton);
   for (const SkeletonPoint& p : result->graph.points) EXPECT_EQ(p.birth, set.BirthOf(p.point));
   for (const SkeletonNode& n : result->graph.nodes) EXPECT_EQ(n.at.birth, set.BirthOf(n.at.point));
 }

@@ -123,9 +123,9 @@ TEST(PruningOptions, AreChecked) {
 TEST(Pruning, OfNothingIsNothing) {
   const Volume nothing;
   const auto field = ComputeDistance(nothing, DistanceKind::kChamfer, {});
-  const auto pruned = Prune({nothing, {}}, nothing, ExactRadius(nothing, *field), {}, {}, {});
+  const auto pruned = Prune({}, {nothing, ExactRadius(nothing, *field)}, {}, {}, {});
   ASSERT_TRUE(pruned.ok()) << pruned.status();
-  EXPECT_TRUE(pruned->thin.empty() && pruned->radii.empty());
+  EXPECT_TRUE(pruned->points.empty() && pruned->radii.empty());
 }
 
 TEST(Pruning, StopsWhenAsked) {
@@ -138,7 +138,7 @@ TEST(Pruning, StopsWhenAsked) {
   context.stop = source.get_token();
   source.request_stop();
   EXPECT_EQ(
-      Prune({thin, *radii}, object, ExactRadius(object, *field), {}, {}, context).status().code(),
+      Prune({thin, *radii}, {object, ExactRadius(object, *field)}, {}, {}, context).status().code(),
       absl::StatusCode::kCancelled);
 }
 

@@ -15,6 +15,7 @@
 namespace bccskel {
 namespace {
 
+using test::LevelsOf;
 using test::RawCurves;
 
 // Curves and the rule that their levels are of.
@@ -58,10 +59,10 @@ std::vector<double> ThresholdsFor(const PruningLevels& levels) {
 TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
   size_t kept = 0, gone = 0;
   for (const auto& [raw, rule] : Objects()) {
-    const PruningLevels levels = raw.PrunedBy(PruningRule::kNone, 0).levels;
+    const PruningLevels levels = LevelsOf(raw.PrunedBy(PruningRule::kNone, 0));
     for (double threshold : ThresholdsFor(levels)) {
       SCOPED_TRACE(threshold);
-      const Volume pruned = raw.PrunedBy(rule, threshold).thin;
+      const Volume pruned = raw.PrunedBy(rule, threshold).points;
       levels.ForEach([&](LatticePoint p, double level) {
         ASSERT_EQ(pruned.Contains(p), level >= threshold);
         ++(level >= threshold ? kept : gone);
@@ -74,9 +75,8 @@ TEST(PruningLevels, TellWhatEveryThresholdLeaves) {
 
 TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
   for (const auto& [raw, rule] : Objects()) {
-    const PruningLevels before = raw.PrunedBy(PruningRule::kNone, 0).levels;
-    const PrunedSkeleton pruned = raw.PrunedBy(rule, 3);
-    pruned.levels.ForEach([&](LatticePoint p, double level) {
+    const PruningLevels before = LevelsOf(raw.PrunedBy(PruningRule::kNone, 0));
+    LevelsOf(raw.PrunedBy(rule, 3)).ForEach([&](LatticePoint p, double level) {
       EXPECT_GE(level, 3);
       const double* found = before.Find(p);
       if (found == nullptr) return;  // a branch point now, a junction before
@@ -90,21 +90,20 @@ TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
     const Volume object = test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7);
     for (const auto& [kind, rule] : {std::pair(SkeletonKind::kCurve, PruningRule::kSignificance),
                                      {SkeletonKind::kIsthmusCurve, PruningRule::kPersistence}}) {
-      const PrunedSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
-      EXPECT_FALSE(pruned.levels.empty());
-      pruned.levels.ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
-      EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(object, {}));
+      const ThinSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
+      EXPECT_FALSE(LevelsOf(pruned).empty());
+      LevelsOf(pruned).ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
+      EXPECT_EQ(*CountBettiNumbers(pruned.points, {}), *CountBettiNumbers(object, {}));
     }
   }
 }
 
 TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
   const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
-  const std::vector<LatticePoint> ends = ThinSet({raw.thin, raw.radii}).Ends();
+  const std::vector<LatticePoint> ends = ThinSet(raw.skeleton).Ends();
   const PointSet keep(ends.begin(), ends.end());
   Significance significance(raw.object, {.thin = 1, .thick = 1});
-  PruningLevelsOf(ThinSet({raw.thin, raw.radii}), significance, PruningRule::kSignificance, keep,
-                  {})
+  PruningLevelsOf(ThinSet(raw.skeleton), significance, PruningRule::kSignificance, keep, {})
       .ForEach([](LatticePoint, double level) { EXPECT_EQ(level, HUGE_VAL); });
 }
 

@@ -8,7 +8,9 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/prune.h"
+#include "core/skeleton/thin_skeleton.h"
 #include "core/thinning/thinning.h"
 
 namespace bccskel::test {
@@ -19,26 +21,32 @@ struct RawCurves {
       : object(std::move(whole)), field(*ComputeDistance(object, DistanceKind::kEuclidean, {})) {
     const ThinningOptions options = {.method = ThinningMethod::kSymmetric, .kind = kind};
     ThinningResult result = *ThinObject(object, field, options, {});
-    thin = std::move(result.thin);
-    radii = *ExactRadii(thin, ExactRadius(object, field), {});
-    if (kind != SkeletonKind::kIsthmusCurve && kind != SkeletonKind::kSurface) return;
-    thin.ForEachPoint([&](LatticePoint p) {
-      const auto found = std::ranges::find(result.isthmuses, p, &IsthmusBirth::point);
-      births.push_back(found == result.isthmuses.end() ? 0 : found->pass);
-    });
+    if (kind == SkeletonKind::kIsthmusCurve || kind == SkeletonKind::kSurface) {
+      skeleton.births = BirthsOf(result);
+    }
+    skeleton.points = std::move(result.thin);
+    skeleton.radii = *ExactRadii(skeleton.points, ExactRadius(object, field), {});
   }
 
-  PrunedSkeleton PrunedBy(PruningRule rule, double threshold) const {
+  ThinSkeleton PrunedBy(PruningRule rule, double threshold) const {
     const PruningOptions options = {rule, threshold, TipPlacement::kAsThinned};
-    return *Prune({thin, radii, births}, object, ExactRadius(object, field), {}, options, {});
+    return *Prune(skeleton, {object, ExactRadius(object, field)}, {}, options, {});
   }
 
   Volume object;
   DistanceField field;
-  Volume thin;
-  std::vector<float> radii;
-  std::vector<int32_t> births;  // empty where the kind keeps no isthmuses
+  ThinSkeleton skeleton;
 };
+
+// Of the points that have one.
+inline PointTable<double> LevelsOf(const ThinSkeleton& skeleton) {
+  PointTable<double> levels;
+  size_t n = 0;
+  skeleton.points.ForEachPoint([&](LatticePoint p) {
+    if (const double level = skeleton.levels[n++]; level != kNoLevel) levels.Set(p, level);
+  });
+  return levels;
+}
 
 // The number of ends after everything, with this pruning.
 inline size_t EndsOf(const Volume& object, const PruningOptions& pruning = {}) {

@@ -175,9 +175,9 @@ TEST(Ribs, StayWhereTheThresholdIsSmall) {
 
 TEST(Ribs, HaveLevelsThatTellWhatEveryThresholdLeaves) {
   const RawCurves raw(FlatLimb(8, {}), SkeletonKind::kCurve);
-  const PruningLevels levels = raw.PrunedBy(PruningRule::kNone, 0).levels;
+  const PointTable<double> levels = test::LevelsOf(raw.PrunedBy(PruningRule::kNone, 0));
   for (double threshold : {0.05, 0.1, 0.2, 0.3, 0.4, 1.0, 4.0}) {
-    const Volume pruned = raw.PrunedBy(PruningRule::kSignificance, threshold).thin;
+    const Volume pruned = raw.PrunedBy(PruningRule::kSignificance, threshold).points;
     levels.ForEach([&](LatticePoint p, double level) {
       ASSERT_EQ(pruned.Contains(p), level >= threshold) << threshold;
     });

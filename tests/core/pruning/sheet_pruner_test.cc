@@ -39,9 +39,9 @@ Block TurnedBlock(Vector half_edges) {
   return {half_edges, first, shapes::Unit(some - Dot(first, some) * first)};
 }
 
-PrunedSheets Pruned(const RawCurves& raw, double margin = kDefaultSheetMargin,
+ThinSkeleton Pruned(const RawCurves& raw, double margin = kDefaultSheetMargin,
                     const std::vector<LatticePoint>& keep = {}) {
-  return *PruneSheets({raw.thin, raw.radii, raw.births}, margin, keep, {});
+  return *PruneSheets(raw.skeleton, margin, keep, {});
 }
 
 struct Counts {
@@ -62,8 +62,8 @@ Counts CountsOf(const Volume& thin) {
 
 TEST(PruneSheets, LeavesNoRimOfAClosedShellWithNoise) {
   const RawCurves raw = SheetsOf(BallShell{10, 8}, 0.05);
-  EXPECT_GT(CountsOf(raw.thin).ends, 200u);
-  const Counts counts = CountsOf(Pruned(raw).thin);
+  EXPECT_GT(CountsOf(raw.skeleton.points).ends, 200u);
+  const Counts counts = CountsOf(Pruned(raw).points);
   EXPECT_EQ(counts.ends, 0u);
   EXPECT_EQ(counts.rim, 0u);
 }
@@ -72,15 +72,15 @@ TEST(PruneSheets, LeavesNoHairAtTheRimOfADisk) {
   const Spheroid disk = {{0, 0, 0}, shapes::Unit({1, 0.3, 0.2}), 1, 8};
   for (const double noise : {0.0, 0.05}) {
     const RawCurves raw = SheetsOf(disk, noise);
-    EXPECT_GT(CountsOf(raw.thin).ends, 10u);
-    EXPECT_LE(CountsOf(Pruned(raw).thin).ends, 1u) << "noise " << noise;
+    EXPECT_GT(CountsOf(raw.skeleton.points).ends, 10u);
+    EXPECT_LE(CountsOf(Pruned(raw).points).ends, 1u) << "noise " << noise;
   }
 }
 
 TEST(PruneSheets, LeavesAPlateItsCornersAtMost) {
   const RawCurves raw = SheetsOf(TurnedBlock({10, 6, 1}), 0);
-  EXPECT_GT(CountsOf(raw.thin).ends, 90u);
-  EXPECT_LE(CountsOf(Pruned(raw).thin).ends, 8u);
+  EXPECT_GT(CountsOf(raw.skeleton.points).ends, 90u);
+  EXPECT_LE(CountsOf(Pruned(raw).points).ends, 8u);
 }
 
 // Where an edge of the object runs askew to the lattice, its bevel is a comb, and its teeth end in
@@ -91,9 +91,9 @@ TEST(PruneSheets, LeavesNoCombOfABevelInAnyPose) {
       for (const uint64_t points : {60'000, 300'000}) {
         const Vector turned = shapes::Unit(first), some = {-0.3, 1, 0.15};
         const Block block = {half_edges, turned, shapes::Unit(some - Dot(turned, some) * turned)};
-        const PrunedSheets pruned = Pruned(SheetsOf(block, 0, points));
+        const ThinSkeleton pruned = Pruned(SheetsOf(block, 0, points));
         exec::UnlimitedMemory memory;
-        const SkeletonGraph graph = *TraceSkeleton(pruned.thin, pruned.radii, memory, {});
+        const SkeletonGraph graph = *TraceSkeleton(pruned, memory, {});
         const auto ends = std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind);
         EXPECT_LE(ends, 2) << half_edges.x << " " << first.x << " " << points;
       }
@@ -104,23 +104,23 @@ TEST(PruneSheets, LeavesNoCombOfABevelInAnyPose) {
 // They are worth what is behind them.
 TEST(PruneSheets, LeavesTheBevelsOfABox) {
   const RawCurves raw = SheetsOf(Block{{3, 2, 1}}, 0);
-  EXPECT_GT(10 * Pruned(raw).thin.PointCount(), 9 * raw.thin.PointCount());
+  EXPECT_GT(10 * Pruned(raw).points.PointCount(), 9 * raw.skeleton.points.PointCount());
 }
 
 TEST(PruneSheets, LeavesTheMiddleOfAPlateWithNoise) {
   const RawCurves clean = SheetsOf(Block{{10, 6, 1}}, 0), noisy = SheetsOf(Block{{10, 6, 1}}, 0.05);
-  const auto clean_points = static_cast<double>(Pruned(clean).thin.PointCount());
-  const auto noisy_points = static_cast<double>(Pruned(noisy).thin.PointCount());
-  EXPECT_GT(static_cast<double>(noisy.thin.PointCount()), 1.6 * clean_points);
+  const auto clean_points = static_cast<double>(Pruned(clean).points.PointCount());
+  const auto noisy_points = static_cast<double>(Pruned(noisy).points.PointCount());
+  EXPECT_GT(static_cast<double>(noisy.skeleton.points.PointCount()), 1.6 * clean_points);
   EXPECT_GT(noisy_points, 0.9 * clean_points);
   EXPECT_LT(noisy_points, 1.4 * clean_points);
 }
 
 TEST(PruneSheets, TakesMoreByALargerMargin) {
   const RawCurves raw = SheetsOf(TurnedBlock({3, 2, 1}), 0.02);
-  size_t before = raw.thin.PointCount();
+  size_t before = raw.skeleton.points.PointCount();
   for (const double margin : {1.0, 3.0, 8.0}) {
-    const size_t points = Pruned(raw, margin).thin.PointCount();
+    const size_t points = Pruned(raw, margin).points.PointCount();
     EXPECT_LT(points, before) << margin;
     before = points;
   }
@@ -128,9 +128,9 @@ TEST(PruneSheets, TakesMoreByALargerMargin) {
 
 TEST(PruneSheets, LeavesWhatIsKept) {
   const RawCurves raw = SheetsOf(BallShell{10, 8}, 0.05);
-  const std::vector<LatticePoint> keep = {ThinSet({raw.thin, raw.radii}).Ends().front()};
-  EXPECT_TRUE(Pruned(raw, kDefaultSheetMargin, keep).thin.Contains(keep.front()));
-  EXPECT_FALSE(Pruned(raw).thin.Contains(keep.front()));
+  const std::vector<LatticePoint> keep = {ThinSet(raw.skeleton).Ends().front()};
+  EXPECT_TRUE(Pruned(raw, kDefaultSheetMargin, keep).points.Contains(keep.front()));
+  EXPECT_FALSE(Pruned(raw).points.Contains(keep.front()));
 }
 
 TEST(PruneSheetsLaw, KeepsTheTopologyAndGivesRadiiInOrder) {
@@ -140,12 +140,12 @@ TEST(PruneSheetsLaw, KeepsTheTopologyAndGivesRadiiInOrder) {
         test::WithNoisyBoundary(seed, test::RandomBlob(seed, {16, 16, 16}, 5, 9), 0.2);
     const RawCurves raw(VolumeOfPoints(blob), SkeletonKind::kSurface);
     for (const double margin : {1.0, kDefaultSheetMargin, 100.0}) {
-      const PrunedSheets pruned = Pruned(raw, margin);
-      EXPECT_EQ(*CountBettiNumbers(pruned.thin, {}), *CountBettiNumbers(raw.thin, {}));
-      const ThinSet set({raw.thin, raw.radii});
+      const ThinSkeleton pruned = Pruned(raw, margin);
+      EXPECT_EQ(*CountBettiNumbers(pruned.points, {}), *CountBettiNumbers(raw.skeleton.points, {}));
+      const ThinSet set(raw.skeleton);
       size_t n = 0;
-      ASSERT_EQ(pruned.radii.size(), pruned.thin.PointCount());
-      pruned.thin.ForEachPoint([&](LatticePoint p) {
+      ASSERT_EQ(pruned.radii.size(), pruned.points.PointCount());
+      pruned.points.ForEachPoint([&](LatticePoint p) {
         ASSERT_TRUE(set.Contains(p));
         EXPECT_EQ(pruned.radii[n++], set.RadiusOf(p));
       });

@@ -259,7 +259,7 @@ TEST(TraceSkeletonLaw, PathsOfALongSpongeFollowItsPoints) {
     }
   }
   const Volume sponge = VolumeOfPoints(points);
-  const SkeletonGraph graph = TraceSkeleton(sponge, test::RadiiOf(sponge), {}).value();
+  const SkeletonGraph graph = TraceSkeleton({sponge, test::RadiiOf(sponge)}, {}).value();
   EXPECT_LT(graph.points.size(), 80 * points.size());  // those of branches included
   const auto longest = std::ranges::max_element(graph.nodes, {}, &SkeletonNode::loops);
   EXPECT_EQ(longest->kind, NodeKind::kJunction);

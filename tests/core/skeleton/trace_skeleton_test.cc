@@ -70,7 +70,7 @@ constexpr NodeKind kEnd = NodeKind::kEnd, kJunction = NodeKind::kJunction, kLoop
 using Kinds = std::vector<NodeKind>;
 
 TEST(TraceSkeleton, OfNothingIsTheEmptyGraph) {
-  const SkeletonGraph graph = TraceSkeleton({}, {}, {}).value();
+  const SkeletonGraph graph = TraceSkeleton({}, {}).value();
   EXPECT_TRUE(graph.nodes.empty() && graph.edges.empty() && graph.points.empty());
 }
 
@@ -271,7 +271,7 @@ TEST(TraceSkeleton, KeepsRadiiAndPlacement) {
   for (LatticePoint p : line) builder.Add(p);
   const Volume thin = *std::move(builder).Build();
   const SkeletonGraph graph =
-      TraceSkeleton(thin, test::RadiiOf(thin, test::RuggedDepth), {}).value();
+      TraceSkeleton({thin, test::RadiiOf(thin, test::RuggedDepth)}, {}).value();
   EXPECT_EQ(graph.placement, thin.placement());
   ASSERT_EQ(graph.points.size(), line.size());
   for (const SkeletonPoint& p : graph.points) EXPECT_EQ(p.radius, test::RuggedDepth(p.point));
@@ -283,11 +283,11 @@ TEST(TraceSkeleton, StopsWhenTheJobIsCancelledOrLate) {
   cancel.request_stop();
   exec::Context context;
   context.stop = cancel.get_token();
-  EXPECT_EQ(TraceSkeleton(volume, test::RadiiOf(volume), context).status().code(),
+  EXPECT_EQ(TraceSkeleton({volume, test::RadiiOf(volume)}, context).status().code(),
             absl::StatusCode::kCancelled);
   exec::Context late;
   late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
-  EXPECT_EQ(TraceSkeleton(volume, test::RadiiOf(volume), late).status().code(),
+  EXPECT_EQ(TraceSkeleton({volume, test::RadiiOf(volume)}, late).status().code(),
             absl::StatusCode::kDeadlineExceeded);
 }
 

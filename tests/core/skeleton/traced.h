@@ -28,12 +28,12 @@ inline float RuggedDepth(LatticePoint p) {
 
 inline SkeletonGraph Trace(const std::vector<LatticePoint>& points) {
   const Volume volume = VolumeOfPoints(points);
-  return TraceSkeleton(volume, RadiiOf(volume), {}).value();
+  return TraceSkeleton({volume, RadiiOf(volume)}, {}).value();
 }
 
 inline SkeletonGraph Trace(const std::vector<LatticePoint>& points, const Depth& depth) {
   const Volume volume = VolumeOfPoints(points);
-  return TraceSkeleton(volume, RadiiOf(volume, depth), {}).value();
+  return TraceSkeleton({volume, RadiiOf(volume, depth)}, {}).value();
 }
 
 }  // namespace bccskel::test
