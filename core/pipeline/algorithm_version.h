@@ -10,7 +10,7 @@ namespace bccskel {
 inline constexpr char kAlgorithmVersion[] = "13";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "13.mask-3";
+inline constexpr char kMaskAlgorithmVersion[] = "13.mask-4";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

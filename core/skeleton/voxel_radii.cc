@@ -43,7 +43,9 @@ class VoxelRadii {
     const Vector way = WayTo(p, search_.NearestAt(p, radius));
     const double near = NearSide(p, way);
     const double far = FarSide(p, way, near);
-    return static_cast<float>((near + far) / 2);
+    // Where voxels meet in an edge or a corner there is no thickness; no mask shows thinner parts.
+    const double half_edge = voxel_ / 2.0;  // of the shortest
+    return static_cast<float>(std::max((near + far) / 2, half_edge));
   }
 
  private:

@@ -19,7 +19,7 @@ namespace bccskel {
 //        up to half a voxel off the middle. So half a voxel is subtracted where the surface is
 //        flat, and the chord extends to the face where it leaves the object on the other side.
 //        If the other side is more than a voxel and a half farther away, the point is not near
-//        the middle, and only the near side counts.
+//        the middle, and only the near side counts. Half the shortest edge of a voxel at least.
 // Cost:  a search for background at a known distance (see ExactRadius) and a dozen look-ups per
 //        point.
 // Needs: an exact conversion of a mask, a voxel's edge `voxel_units` lattice units long (2 or 4);

@@ -152,5 +152,34 @@ TEST(MaskRadius, OfASlabIsHalfItsThickness) {
   }
 }
 
+// Walks in steps of all kinds: where voxels meet in an edge or a corner the solid has no thickness.
+TEST(MaskRadius, OfAnyPartIsHalfAVoxelAtLeast) {
+  for (VoxelPoints points : {VoxelPoints::kTwo, VoxelPoints::kSixteen}) {
+    for (double thick : {1.0, 4.0}) {
+      MaskGrid grid = {.nx = 64, .ny = 20, .nz = 20};
+      grid.placement.spacing = {2, 2, 2 * thick};
+      std::vector<std::vector<uint64_t>> slices(20, std::vector<uint64_t>(grid.WordsPerSlice()));
+      std::mt19937 random(7);
+      std::uniform_int_distribution<int> step(-1, 1);
+      for (int walk = 0; walk < 4; ++walk) {
+        int y = 10, z = 5 + 3 * walk;
+        for (int x = 1; x < 63; ++x) {
+          slices[static_cast<size_t>(z)][static_cast<size_t>(y)] |= uint64_t{1} << x;
+          y = std::clamp(y + step(random), 1, 18);
+          z = std::clamp(z + step(random), 0, 19);
+        }
+      }
+      const MaskOptions options = {.points = points};
+      auto converter = *MaskConverter::Create(grid, options);
+      for (const auto& words : slices) ASSERT_TRUE(converter.AddSlice(words, {}).ok());
+      const ConvertedMask converted = *std::move(converter).Finish();
+      const SkeletonGraph graph = Skeletonize(converted.volume, ForMask({}, options), {})->graph;
+      ASSERT_GT(graph.points.size(), 100u);
+      for (const SkeletonPoint& p : graph.points) EXPECT_GE(graph.RadiusOf(p), 0.999);
+      for (const SkeletonNode& n : graph.nodes) EXPECT_GE(graph.RadiusOf(n.at), 0.999);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bccskel
