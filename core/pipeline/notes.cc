@@ -2,6 +2,8 @@
 
 #include "absl/strings/str_format.h"
 #include "core/certificate/describe_changes.h"
+#include "core/distance/chamfer_weights.h"
+#include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel {
 namespace {
@@ -22,6 +24,23 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
       " among the curves; --fill-cavities fills cavities before thinning");
+}
+
+// Tunnels that noise opens split limbs into rings, which have no ends.
+void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
+  constexpr double kVoxels = 2;
+  const SkeletonizeOptions& options = result.options;
+  const double edge = SurfaceStepOf(options.source);  // of the shortest, in lattice units
+  if (edge == 1 || !MakesCurves(options.thinning.kind) || options.preparing.tunnel_width > 0) {
+    return;
+  }
+  const double width = kVoxels * edge * WorldUnitsPerLatticeUnit(result.graph.placement);
+  const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
+  if (loops == 0) return;
+  notes.push_back(Counted(loops, "loop is", "loops are") +
+                  absl::StrFormat(" narrower than %g voxels, as noise makes them; --cut-loops %g "
+                                  "closes such tunnels before thinning",
+                                  kVoxels, width));
 }
 
 void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
@@ -56,6 +75,7 @@ std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   AddEmpty(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
+  AddNarrowLoops(result, notes);
   AddSimplePoints(result, notes);
   return notes;
 }

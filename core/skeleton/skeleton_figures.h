@@ -45,6 +45,11 @@ GraphComponents ComponentsOf(const SkeletonGraph& graph);
 // The sum of all components.
 ComponentFigures TotalOf(const GraphComponents& components);
 
+// How many loops lead around tunnels narrower than `width`, world units: the circumference over pi,
+// less two mean radii of the curve, is what a round tunnel is wide, and more than any other is.
+// Counts loops of one edge, and of two between the same nodes; those of more edges are left out.
+uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width);
+
 // The curve through the points of an edge, one place for each, in world units: the mean of the
 // point and up to four on either side, each moved to the middle by its shift. A path on a lattice
 // is a staircase, up to 24 % too long; this is not. No place is farther from its point than half
