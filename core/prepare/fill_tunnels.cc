@@ -9,8 +9,12 @@
 #include <vector>
 
 #include "core/certificate/component_sets.h"
+#include "core/certificate/neighbor_planes.h"
+#include "core/distance/chamfer_weights.h"
 #include "core/distance/distance_field.h"
+#include "core/distance/places.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/stop_poll.h"
 #include "core/lattice/directions.h"
 #include "core/prepare/brick_sets.h"
 #include "core/prepare/fill_cavities.h"
@@ -28,6 +32,44 @@ constexpr uint64_t kBytesPerNewBrick = 5120;
 
 // In lattice units: that of a voxel missing in a wall.
 constexpr double kNarrowest = 2;
+// A ball of at most this radius is compared point by point, which takes a fifth of the time.
+constexpr double kFewPoints = 4;
+
+// The way from the middle of the ball to each other point in it, the nearest first.
+std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
+  std::vector<std::pair<double, LatticePoint>> ways;
+  const auto reach = static_cast<int32_t>(radius);
+  for (int32_t z = -reach; z <= reach; ++z) {
+    for (int32_t y = -reach; y <= reach; ++y) {
+      for (int32_t x = -reach; x <= reach; ++x) {
+        const double length = std::hypot(scale[0] * x, scale[1] * y, scale[2] * z);
+        if (IsOnLattice({x, y, z}) && length > 0 && length < radius) {
+          ways.push_back({length, {x, y, z}});
+        }
+      }
+    }
+  }
+  std::ranges::sort(ways);
+  std::vector<LatticePoint> sorted;
+  for (const auto& [length, way] : ways) sorted.push_back(way);
+  return sorted;
+}
+
+// The points with background beside them.
+template <typename Visit>
+void ForEachSurfacePoint(const Volume& object, Visit visit) {
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    BrickBits surface;
+    for (const BrickBits& plane : NeighborPlanesOf(object, n)) {
+      for (size_t w = 0; w < plane.words.size(); ++w) surface.words[w] |= ~plane.words[w];
+    }
+    for (size_t w = 0; w < surface.words.size(); ++w) {
+      surface.words[w] &= object.bricks()[n].words[w];
+    }
+    const BrickCoordinates at = object.keys()[n].coordinates();
+    surface.ForEachSetBit([&](int bit) { visit(PointOf(at, bit)); });
+  }
+}
 
 template <typename Passes>
 Volume PointsAt(const Volume& volume, const DistanceField& distance, Passes passes) {
@@ -85,7 +127,8 @@ class TunnelFiller {
     // Nothing is known of what lies beyond the bricks that are looked at, and they count as
     // background. That is wrong by up to two radii from there, and matters to the closing up to two
     // radii from the object.
-    const BrickCoordinates room = RoomFor(4 * radius_);
+    const bool few = radius_ <= kFewPoints;
+    const BrickCoordinates room = RoomFor(few ? radius_ : 4 * radius_);
     const LatticeExtent& given = object_.extent();
     const LatticeExtent extent = WithRoom(given, room);
     const Volume object = ShiftedBy(object_, room, 1, extent);
@@ -96,15 +139,10 @@ class TunnelFiller {
     BrickBits all;
     all.words.fill(~uint64_t{0});
     std::vector<BrickBits> whole(keys.size(), all);
-    const Volume around = Difference(
-        Volume::FromSortedBricks(extent, object.placement(), std::move(keys), std::move(whole)),
-        object);
-    BCCSKEL_ASSIGN_OR_RETURN(const Volume near, Near(around));
-    const Volume grown = Union(object, near);
-    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField depth,
-                             ComputeDistance(grown, DistanceKind::kEuclidean, context_));
-    const Volume closed =
-        PointsAt(grown, depth, [&](double distance) { return distance >= radius_; });
+    const Volume bricks =
+        Volume::FromSortedBricks(extent, object.placement(), std::move(keys), std::move(whole));
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, few ? ClosedByPoints(object, bricks)
+                                                      : ClosedByDistances(object, bricks));
     // The builder drops what lies outside the extent.
     VolumeBuilder pieces(given, object_.placement());
     Difference(closed, object).ForEachPoint([&](LatticePoint p) {
@@ -115,10 +153,47 @@ class TunnelFiller {
     return context_.StopStatus();
   }
 
-  absl::StatusOr<Volume> Near(const Volume& around) {
+  absl::StatusOr<Volume> ClosedByDistances(const Volume& object, const Volume& bricks) const {
+    const Volume around = Difference(bricks, object);
     BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
                              ComputeDistance(around, DistanceKind::kEuclidean, context_));
-    return PointsAt(around, distance, [&](double far) { return far < radius_; });
+    const Volume near = PointsAt(around, distance, [&](double far) { return far < radius_; });
+    const Volume grown = Union(object, near);
+    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField depth,
+                             ComputeDistance(grown, DistanceKind::kEuclidean, context_));
+    return PointsAt(grown, depth, [&](double deep) { return deep >= radius_; });
+  }
+
+  // The nearest point of the object is one of its surface: one of its neighbors would be nearer.
+  absl::StatusOr<Volume> ClosedByPoints(const Volume& object, const Volume& bricks) const {
+    const std::vector<LatticePoint> ways = WaysInBall(radius_, AxisScaleOf(object.placement()));
+    const auto volume_of = [&](std::vector<BrickBits> bits) {
+      return Volume::FromSortedBricks(object.extent(), object.placement(),
+                                      {bricks.keys().begin(), bricks.keys().end()},
+                                      std::move(bits));
+    };
+    StopPoll poll(context_);
+    NearbyBricks nearby(bricks);
+    std::vector<BrickBits> near(bricks.brick_count()), closed(bricks.brick_count());
+    ForEachSurfacePoint(object, [&](LatticePoint p) {
+      if (poll.Stopped()) return;
+      for (LatticePoint way : ways) {
+        const BrickAddress at = AddressOf(p + way);
+        near[nearby.Find(at.brick)].Set(at.bit);
+      }
+    });
+    const Volume around = Difference(volume_of(std::move(near)), object);
+    const Volume grown = Union(object, around);
+    NearbyBricks in_grown(grown);
+    around.ForEachPoint([&](LatticePoint p) {
+      if (poll.Stopped()) return;
+      const auto is_grown = [&](LatticePoint way) { return in_grown.Contains(p + way); };
+      if (!std::ranges::all_of(ways, is_grown)) return;
+      const BrickAddress at = AddressOf(p);
+      closed[nearby.Find(at.brick)].Set(at.bit);
+    });
+    if (poll.StoppedNow()) return context_.StopStatus();
+    return volume_of(std::move(closed));
   }
 
   // Sets judged_.
