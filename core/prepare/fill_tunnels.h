@@ -19,8 +19,9 @@ inline constexpr double kMaxTunnelWidth = 256;
 //        encloses none. So components and cavities stay, and each unit that the characteristic
 //        rises is a loop less. Narrow balls come first, each twice as wide as the last: the pieces
 //        of a wide one join a tunnel to the crevices around it.
-// Cost:  for each ball two Euclidean distance fields over the bricks around the object, and a
-//        labeling of the background for each round in which pieces are refused.
+// Cost:  for each ball two Euclidean distance fields over the bricks around the object, for a small
+//        one a visit to its points around each point of the surface; and a labeling of the
+//        background for each round in which pieces are refused.
 // Errors: of the budget; CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           exec::MemoryBudget& memory, const exec::Context& context);
