@@ -33,7 +33,8 @@ constexpr uint64_t kBytesPerNewBrick = 5120;
 
 // In lattice units: that of a voxel missing in a wall.
 constexpr double kNarrowest = 2;
-// A ball of at most this radius is compared point by point: distance fields take up to five times as long.
+// A ball of at most this radius is compared point by point: distance fields take up to five times
+// as long.
 constexpr double kFewPoints = 5;
 
 // The way from the middle of the ball to each other point in it, the farthest first: most points
