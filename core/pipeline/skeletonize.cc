@@ -394,8 +394,7 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& ob
     return absl::InvalidArgumentError("an object that is peeled elsewhere must end at its border");
   }
   exec::MachineMemory memory;
-  const OnShellPoints nobody;
-  return Pipeline(options, memory, context, nobody, &peeler).RunByPeeler(object);
+  return Pipeline(options, memory, context, nullptr, &peeler).RunByPeeler(object);
 }
 
 }  // namespace bccskel
