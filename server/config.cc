@@ -8,10 +8,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/exec/machine_memory.h"
 #include "core/version/version.h"
 #include "server/identity/token.h"
 #include "server/identity/token_table.h"
-#include "server/settings/memory_limit.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -245,7 +245,7 @@ ServerConfig DefaultServerConfig() {
   config.limits.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   config.limits.max_jobs = config.limits.threads;
   config.limits.max_queue = 64;
-  config.limits.max_bytes = AvailableMemoryBytes() / 4 * 3;
+  config.limits.max_bytes = exec::AvailableMemoryBytes() / 4 * 3;
   config.limits.max_volume_bytes = uint64_t{1} << 30;
   return config;
 }

@@ -17,6 +17,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/option_values.h"
 #include "core/version/version.h"
 
 namespace bccskel::cli {
@@ -103,7 +104,7 @@ class CommandLine {
     app_.footer(kFooter);
     app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
       const std::string unknown = UnknownWord(*app);
-      const std::string what = unknown.empty() ? error.what() : unknown;
+      const std::string what = unknown.empty() ? InWords(error.what()) : unknown;
       return "bccskel: error: " + what + "\nbccskel: hint: " + HintFor(what) + "\n";
     });
     for (CLI::App* command : app_.get_subcommands({})) command->footer(kFooter);

@@ -159,7 +159,7 @@ void AddBenchCore(CLI::App& command, BenchCoreArguments& arguments) {
   AddObject(command, arguments);
   AddEngine(command, arguments);
   command.add_option("--repeat", arguments.repeat, "Warm runs, after a cold one (default 11)")
-      ->check(CLI::Range(1, 100'000))
+      ->check(Within(1, 100'000))
       ->option_text("N");
   AddJson(command, arguments.common);
 }

@@ -334,7 +334,7 @@ void AddBenchServer(CLI::App& command, BenchServerArguments& arguments) {
       .add_option("--clients", arguments.clients,
                   "Clients at the same time, each with its own connection (default 1,2,4,8)")
       ->delimiter(',')
-      ->check(CLI::Range(1, 1024))
+      ->check(Within(1, 1024))
       ->option_text("N,...");
   command
       .add_option_function<std::vector<std::string>>(

@@ -59,7 +59,7 @@ void AddJson(CLI::App& command, CommonArguments& common) {
 
 void AddThreads(CLI::App& command, CommonArguments& common, const char* description) {
   command.add_option("--threads", common.threads, description)
-      ->check(CLI::Range(0, 1024))
+      ->check(Within(0, 1024))
       ->option_text("N");
 }
 
@@ -86,7 +86,7 @@ CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::millis
             time = std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
           },
           description)
-      ->check(CLI::Range(0.001, 1e7))
+      ->check(Within(0.001, 1e7))
       ->option_text("SECONDS");
 }
 

@@ -45,7 +45,7 @@ void AddJobs(CLI::App& command, JobsArguments& arguments) {
   AddServer(command, arguments.server);
   command
       .add_option("--limit", arguments.limit, "Maximum number of jobs, newest first (default 50)")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(Within(1, 1'000'000))
       ->option_text("N");
   AddJson(command, arguments.common);
 }

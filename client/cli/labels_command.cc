@@ -12,6 +12,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/str_format.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
@@ -292,13 +293,19 @@ absl::StatusOr<CollectedLabels> Collect(const LabelsArguments& arguments,
   return CollectLabels(*source, arguments.image, arguments.min_voxels, context);
 }
 
+absl::Status NoLabels(const LabelsArguments& arguments, uint64_t left_out) {
+  if (left_out == 0) return NoSuchLabel(arguments.input, arguments.image);
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "no wanted label has %d voxels or more (--min-voxels); %s fewer", arguments.min_voxels,
+      exporting::Counted(left_out, "label has", "labels have")));
+}
+
 absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
                                      const exec::Context& context) {
   absl::StatusOr<CollectedLabels> labels = Collect(arguments, context);
   if (!labels.ok()) return WithPath(labels.status(), arguments.input);
   if (labels->objects.objects.empty()) {
-    return absl::InvalidArgumentError(arguments.input + ": has no such label of " +
-                                      std::to_string(arguments.min_voxels) + " voxels or more");
+    return WithPath(NoLabels(arguments, labels->left_out), arguments.input);
   }
   return labels;
 }

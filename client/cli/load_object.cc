@@ -14,6 +14,7 @@
 #include "client/cli/console.h"
 #include "client/export/picture/caption.h"
 #include "client/view/result_balls.h"
+#include "core/exec/machine_memory.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
@@ -115,8 +116,13 @@ absl::StatusOr<std::set<uint64_t>> LabelsIn(const std::string& path,
   return labels;
 }
 
+}  // namespace
+
 absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments) {
   constexpr size_t kShown = 10;
+  if (arguments.labels.empty()) {
+    return absl::InvalidArgumentError("no voxel has a label: all are 0, the background");
+  }
   const std::string none =
       "no voxel has the label " +
       absl::StrJoin(std::set(arguments.labels.begin(), arguments.labels.end()), " or ");
@@ -129,6 +135,8 @@ absl::Status NoSuchLabel(const std::string& path, const ImageArguments& argument
       none + "; " + exporting::Counted(there->size(), "label is there: ", "labels are there: ") +
       absl::StrJoin(there->begin(), end, ", ") + (there->size() > kShown ? ", ..." : ""));
 }
+
+namespace {
 
 absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArguments& arguments,
                                     KeptVoxels kept, const exec::Context& context) {
@@ -254,7 +262,7 @@ absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
                          ? FillOnGridOf(result, arguments, context)
                          : LoadObject(arguments.object, arguments.grid, arguments.image, context));
   if (!result.preparing.Wanted()) return object;
-  exec::UnlimitedMemory memory;
+  exec::MachineMemory memory;
   BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared,
                            Prepare(object, result.preparing, memory, context));
   return std::move(prepared.object);

@@ -28,6 +28,9 @@ absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
                                              const ImageArguments& arguments, KeptVoxels kept,
                                              const exec::Context& context);
 
+// That no voxel has a wanted label, and which labels the image has. Errors: that.
+absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments);
+
 // What the image says of its world.
 exporting::World WorldOf(const ImageInfo& info);
 

@@ -3,8 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_split.h"
 #include "client/cli/image_options.h"
 #include "client/cli/thinning_options.h"
 
@@ -38,6 +44,32 @@ std::optional<int> TakeZeros(std::string_view& text) {
 }
 
 }  // namespace
+
+CLI::Validator Within(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    double value = 0;
+    if (absl::SimpleAtod(text, &value) && value >= low && value <= high) return "";
+    const bool open = high == std::numeric_limits<double>::max();
+    return absl::StrFormat("must be %.8g ", low) +
+           (open ? "or more, and finite" : absl::StrFormat("to %.8g", high)) + ", not " + text;
+  };
+  return {check, ""};
+}
+
+std::string InWords(const std::string& error) {
+  const std::vector<std::string> words = absl::StrSplit(error, ' ');
+  if (error.starts_with("Could not convert: ") && words.size() >= 5) {
+    double value = 0;
+    const std::string given = error.substr(error.find(" = ") + 3);
+    return absl::StrCat(words[3], " ", given, ": must be a ",
+                        absl::SimpleAtod(given, &value) ? "whole number" : "number");
+  }
+  if (words.size() == 8 && words[1] == "At" && words[4] == "required") {
+    return absl::StrCat(words[0], " needs ", words[3], " numbers with commas between them, not ",
+                        words[7]);
+  }
+  return error;
+}
 
 std::optional<uint64_t> ParseCount(std::string_view text) {
   std::string digits, decimals;
@@ -93,7 +125,7 @@ struct Reader {
     try {
       app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-      return Wrong(error.what());
+      return Wrong(InWords(error.what()));
     }
     const absl::Status fit = ValidateOptions(arguments.skeletonize);
     return fit.ok() ? fit : Wrong(std::string(fit.message()));

@@ -59,6 +59,12 @@ auto Choices(const Table& table) {
   return std::vector<std::pair<std::string, Enum>>(table.begin(), table.end());
 }
 
+// Checks for a number from `low` to `high`. CLI::Range() takes NaN for one.
+CLI::Validator Within(double low, double high);
+
+// What CLI11 says of a wrong value, with the value and what is wanted.
+std::string InWords(const std::string& error);
+
 // A whole number from 0 on: 850000, 850k, 1.5M, 2G, 1e6; nothing for another text.
 std::optional<uint64_t> ParseCount(std::string_view text);
 

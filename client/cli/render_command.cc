@@ -5,6 +5,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/option_values.h"
 #include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
@@ -51,8 +52,10 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
       .add_option(
           "--turn", picture.turn,
           "Rotate the view to the right, starting in front of the broadest side (default 30)")
+      ->check(Within(-360, 360))
       ->option_text("DEGREES");
   command.add_option("--climb", picture.climb, "Raise the view above the object (default 15)")
+      ->check(Within(-360, 360))
       ->option_text("DEGREES");
 }
 

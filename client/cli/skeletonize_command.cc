@@ -14,6 +14,7 @@
 #include "client/cli/load_object.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
+#include "client/export/atomic_file.h"
 #include "client/export/skeleton_file.h"
 #include "client/skeletonize_client.h"
 #include "client/view/display_surface.h"
@@ -232,22 +233,30 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
                          const SkeletonGraph& graph, const exec::Context& context,
                          std::vector<WrittenFile>& files) {
   const SkeletonImages& images = arguments.images;
-  if (!images.wanted() || object.voxels->objects.empty()) return absl::OkStatus();
+  if (!images.wanted()) return absl::OkStatus();
   const MaskGrid& grid = object.voxels->grid;
-  const LabeledObject& voxels = object.voxels->objects.front();
+  const auto write = [&](const std::string& path, const SparseImage& image,
+                         const char* note) -> absl::Status {
+    const ImageInfo& info = object.image->info;
+    BCCSKEL_ASSIGN_OR_RETURN(const std::string bytes,
+                             NrrdBytes(grid, {info.world, info.unit}, image));
+    BCCSKEL_RETURN_IF_ERROR(exporting::WriteFileAtomically(path, bytes, context.stop));
+    files.push_back({path, note});
+    return absl::OkStatus();
+  };
+  static const LabeledObject kNone = {};
+  const auto& objects = object.voxels->objects;
+  const LabeledObject& voxels = objects.empty() ? kNone : objects.front();
   if (!images.branches.empty()) {
     BCCSKEL_ASSIGN_OR_RETURN(
         const SparseImage branches,
         NearestEdges(grid, voxels, graph, arguments.image.mask.adjacency, context));
-    BCCSKEL_RETURN_IF_ERROR(WriteNrrd(images.branches, grid, branches));
-    files.push_back({images.branches, "every voxel's nearest branch: its index in the graph + 1"});
+    BCCSKEL_RETURN_IF_ERROR(write(images.branches, branches,
+                                  "every voxel's nearest branch: its index in the graph + 1"));
   }
-  if (!images.curves.empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const SparseImage curves, DrawSkeleton(grid, voxels, graph));
-    BCCSKEL_RETURN_IF_ERROR(WriteNrrd(images.curves, grid, curves));
-    files.push_back({images.curves, "the voxels of each branch: its index in the graph + 1"});
-  }
-  return absl::OkStatus();
+  if (images.curves.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const SparseImage curves, DrawSkeleton(grid, voxels, graph));
+  return write(images.curves, curves, "the voxels of each branch: its index in the graph + 1");
 }
 
 // The one invalid argument of writing is an object with coordinates that no format can hold.

@@ -186,7 +186,7 @@ void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling) {
           "--swc-step", sampling.step,
           "Distance between SWC points along the smooth curve, in world units; 0: the lattice "
           "points, not smoothed (default: twice the smallest spacing)")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()))
+      ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("LENGTH");
 }
 

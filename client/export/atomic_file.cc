@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
 namespace bccskel::exporting {
 namespace {
@@ -84,6 +86,14 @@ absl::Status WriteNewFile(const std::string& draft, const std::string& path, std
   return StopStatus(path, stop);
 }
 
+// A link stays, and what it leads to is replaced.
+std::string BehindLinks(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path behind = std::filesystem::canonical(path, error);
+  return error ? path : behind.string();
+}
+
 std::string DraftOf(const std::string& path) { return path + ".part" + std::to_string(::getpid()); }
 
 }  // namespace
@@ -91,9 +101,9 @@ std::string DraftOf(const std::string& path) { return path + ".part" + std::to_s
 absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes,
                                  const std::stop_token& stop) {
   if (IsSpecialFile(path)) return WriteDirectly(path, bytes, stop);
-  const std::string draft = DraftOf(path);
+  const std::string place = BehindLinks(path), draft = DraftOf(place);
   const absl::Status written = WriteNewFile(draft, path, bytes, stop);
-  if (written.ok() && std::rename(draft.c_str(), path.c_str()) == 0) return absl::OkStatus();
+  if (written.ok() && std::rename(draft.c_str(), place.c_str()) == 0) return absl::OkStatus();
   absl::Status error = written.ok() ? ErrnoStatus(path) : written;
   ::unlink(draft.c_str());
   return error;
@@ -108,7 +118,7 @@ absl::Status CheckWritable(const std::string& path) {
     errno = EISDIR;
     return ErrnoStatus(path);
   }
-  const std::string draft = DraftOf(path);
+  const std::string draft = DraftOf(BehindLinks(path));
   if (!OpenNewFile(draft).is_open()) return ErrnoStatus(path);
   ::unlink(draft.c_str());
   return absl::OkStatus();

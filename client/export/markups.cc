@@ -23,12 +23,20 @@ void AddMeasurement(Text& text, std::string_view before, std::string_view name, 
   text.Add('}');
 }
 
-void AddPoints(Text& text, const std::vector<CurvePoint>& curve) {
+// Markups are RAS or LPS. LAS is RAS with its first axis turned round.
+bool IsTurned(const World& world) { return world.axes == "LAS"; }
+
+std::string_view SystemOf(const World& world) {
+  return world.axes == "RAS" || IsTurned(world) ? "RAS" : "LPS";
+}
+
+void AddPoints(Text& text, const std::vector<CurvePoint>& curve, const World& world) {
+  const double sign = IsTurned(world) ? -1 : 1;
   for (size_t n = 0; n < curve.size(); ++n) {
     const WorldPoint& p = curve[n].at;
     text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1,
              "\",\"label\":\"\",\"description\":\"radius ", static_cast<float>(curve[n].radius),
-             "\",\"position\":[", p[0], ',', p[1], ',', p[2],
+             "\",\"position\":[", sign * p[0], ',', p[1], ',', p[2],
              "],\"selected\":true,\"locked\":false,\"visibility\":true,"
              "\"positionStatus\":\"defined\"}");
   }
@@ -42,13 +50,13 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
   if (closed && !curve.empty()) curve.pop_back();  // is the first
   const EdgeFigures figures = FiguresOf(graph, edge);
   text.Add("{\"type\":\"", closed ? "ClosedCurve" : "Curve", "\",\"coordinateSystem\":\"",
-           world.axes == "RAS" ? "RAS" : "LPS", '"');
+           SystemOf(world), '"');
   if (world.unit == "mm") text.Add(",\"coordinateUnits\":\"mm\"");
   text.Add(",\"name\":\"", BranchName(context.labels, n),
            "\",\"locked\":true,\"fixedNumberOfControlPoints\":false,\"labelFormat\":\"\","
            "\"lastUsedControlPointNumber\":",
            curve.size(), ",\"controlPoints\":[");
-  AddPoints(text, curve);
+  AddPoints(text, curve, world);
   text.Add("],\"measurements\":[");
   AddMeasurement(text, "", "length", figures.length, world);
   AddMeasurement(text, ",", "mean radius", figures.mean_radius, world);
@@ -63,6 +71,7 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
 
 std::string NoteOn(const World& world) {
   if (world.axes == "RAS" || world.axes == "LPS") return "";
+  if (IsTurned(world)) return "the input's world is LAS; written as RAS, x with the other sign";
   return "the input does not say whether its world is RAS or LPS; written as LPS";
 }
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -34,7 +33,18 @@ absl::Status CheckImage(const MaskGrid& grid, const SparseImage& image) {
   return absl::OkStatus();
 }
 
-std::string HeaderOf(const MaskGrid& grid) {
+// Viewers put an image without a named space into one of their own, mirrored if that is another.
+std::string SpaceOf(const ImageWorld& world) {
+  std::string space = "space dimension: 3\n";
+  if (world.axes == "RAS") space = "space: right-anterior-superior\n";
+  if (world.axes == "LPS") space = "space: left-posterior-superior\n";
+  if (world.axes == "LAS") space = "space: left-anterior-superior\n";
+  const std::string& unit = world.unit;
+  if (unit.empty() || unit.find_first_of("\"\\\n") != unit.npos) return space;
+  return space + absl::StrFormat("space units: \"%s\" \"%s\" \"%s\"\n", unit, unit, unit);
+}
+
+std::string HeaderOf(const MaskGrid& grid, const ImageWorld& world) {
   const Placement& p = grid.placement;
   std::string directions;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -43,37 +53,30 @@ std::string HeaderOf(const MaskGrid& grid) {
                                   p.direction[axis + 3] * size, p.direction[axis + 6] * size);
   }
   return absl::StrFormat(
-      "NRRD0004\ntype: uint32\ndimension: 3\nspace dimension: 3\nsizes: %d %d %d\n"
+      "NRRD0004\ntype: uint32\ndimension: 3\n%ssizes: %d %d %d\n"
       "space directions:%s\nspace origin: (%.17g,%.17g,%.17g)\nendian: little\n"
       "encoding: gzip\n\n",
-      grid.nx, grid.ny, grid.nz, directions, p.origin[0], p.origin[1], p.origin[2]);
+      SpaceOf(world), grid.nx, grid.ny, grid.nz, directions, p.origin[0], p.origin[1], p.origin[2]);
 }
 
-// A gzip stream into a file.
-class GzipFile {
+// Appends a gzip stream to bytes.
+class GzipStream {
  public:
-  explicit GzipFile(const std::string& path) : file_(path, std::ios::binary) {
+  explicit GzipStream(std::string& bytes) : bytes_(bytes) {
     constexpr int kGzip = 15 + 16;  // the largest window, with gzip's header
     deflateInit2(&stream_, Z_BEST_SPEED, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
   }
-  ~GzipFile() { deflateEnd(&stream_); }
-  GzipFile(const GzipFile&) = delete;
-  GzipFile& operator=(const GzipFile&) = delete;
+  ~GzipStream() { deflateEnd(&stream_); }
+  GzipStream(const GzipStream&) = delete;
+  GzipStream& operator=(const GzipStream&) = delete;
 
-  void WritePlain(const std::string& text) {
-    file_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  }
-  void Write(const std::vector<uint32_t>& values) {
+  void Add(const std::vector<uint32_t>& values) {
     constexpr size_t kPiece = size_t{1} << 28;  // zlib counts in 32 bits
     for (size_t at = 0; at < values.size(); at += kPiece) {
       Deflate(values.data() + at, std::min(kPiece, values.size() - at), Z_NO_FLUSH);
     }
   }
-  bool Close() {
-    Deflate(nullptr, 0, Z_FINISH);
-    file_.close();
-    return file_.good();
-  }
+  void Finish() { Deflate(nullptr, 0, Z_FINISH); }
 
  private:
   void Deflate(const uint32_t* values, size_t count, int flush) {
@@ -84,23 +87,24 @@ class GzipFile {
       stream_.next_out = buffer_.data();
       stream_.avail_out = static_cast<uInt>(buffer_.size());
       deflate(&stream_, flush);
-      file_.write(reinterpret_cast<const char*>(buffer_.data()),
-                  static_cast<std::streamsize>(buffer_.size() - stream_.avail_out));
+      bytes_.append(reinterpret_cast<const char*>(buffer_.data()),
+                    buffer_.size() - stream_.avail_out);
     } while (stream_.avail_out == 0);
   }
 
-  std::ofstream file_;
+  std::string& bytes_;
   z_stream stream_ = {};
   std::vector<Bytef> buffer_ = std::vector<Bytef>(1 << 16);
 };
 
 }  // namespace
 
-absl::Status WriteNrrd(const std::string& path, const MaskGrid& grid, const SparseImage& image) {
+absl::StatusOr<std::string> NrrdBytes(const MaskGrid& grid, const ImageWorld& world,
+                                      const SparseImage& image) {
   BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(grid));
   BCCSKEL_RETURN_IF_ERROR(CheckImage(grid, image));
-  GzipFile file(path);
-  file.WritePlain(HeaderOf(grid));
+  std::string bytes = HeaderOf(grid, world);
+  GzipStream voxels(bytes);
   std::vector<uint32_t> slice(grid.VoxelsPerSlice());
   auto run = image.begin();
   for (int32_t z = 0; z < grid.nz; ++z) {
@@ -109,10 +113,10 @@ absl::Status WriteNrrd(const std::string& path, const MaskGrid& grid, const Spar
       const auto row = slice.begin() + ptrdiff_t{run->voxels.y} * grid.nx;
       std::fill(row + run->voxels.begin, row + run->voxels.end, run->value);
     }
-    file.Write(slice);
+    voxels.Add(slice);
   }
-  if (file.Close()) return absl::OkStatus();
-  return absl::UnknownError(absl::StrFormat("cannot write %s", path));
+  voxels.Finish();
+  return bytes;
 }
 
 }  // namespace bccskel

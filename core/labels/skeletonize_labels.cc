@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "core/exec/machine_memory.h"
 #include "core/exec/status_macros.h"
 #include "core/labels/convert_label.h"
 #include "core/labels/ordered_delivery.h"
@@ -123,7 +124,7 @@ class LabelWork {
 
 absl::Status SkeletonizeLabels(const LabeledObjects& labels, const LabelsOptions& options,
                                const LabelConsumer& consume, const exec::Context& context) {
-  exec::UnlimitedMemory memory;
+  exec::MachineMemory memory;
   return SkeletonizeLabelsWithin(memory, labels, options, consume, context);
 }
 

@@ -1,6 +1,7 @@
 #include "core/certificate/describe_changes.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/exact_radius.h"
+#include "core/exec/machine_memory.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
@@ -366,7 +367,7 @@ absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
                                               const exec::Context& context,
                                               const OnShellPoints& on_points) {
-  exec::UnlimitedMemory memory;
+  exec::MachineMemory memory;
   return SkeletonizeWithin(memory, object, options, context, on_points);
 }
 
@@ -386,9 +387,8 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& ob
   if (options.border != Border::kEnds) {
     return absl::InvalidArgumentError("an object that is peeled elsewhere must end at its border");
   }
-  exec::UnlimitedMemory memory;
-  const OnShellPoints nobody;
-  return Pipeline(options, memory, context, nobody, &peeler).RunByPeeler(object);
+  exec::MachineMemory memory;
+  return Pipeline(options, memory, context, nullptr, &peeler).RunByPeeler(object);
 }
 
 }  // namespace bccskel

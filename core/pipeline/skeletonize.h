@@ -74,7 +74,8 @@ struct SkeletonizeResult {
 // Runs all stages: preparing, distance, shells, thinning, pruning, certificate, graph. An empty
 // object gives an empty graph. `on_points`, if given, receives all points that are removed; those
 // that pruning removes come after the shells. A tip that moves outward may add points again.
-// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an object),
+// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an object,
+//         or thinning leaves more points than this machine has memory for),
 //         CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost,
 //         which would be a defect of this library.
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,

@@ -47,7 +47,9 @@ void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
   size_t most = 0;
   worker.slabs.clear();
   for (size_t begin = 0; begin < end;) {
-    const int32_t touched = begin == 0 ? LayerOf(state, 0) - 1 : LayerOf(state, begin - 1);
+    // Below may be layers without bricks.
+    const int32_t below = LayerOf(state, begin) - 1;
+    const int32_t touched = begin == 0 ? below : std::max(below, LayerOf(state, begin - 1));
     const size_t next = std::min(RoundUp(FirstFromLayer(state, touched + 2)), end);
     worker.slabs.push_back({begin, next});
     most = std::max(most, next - begin);

@@ -2,6 +2,8 @@
 
 import gzip
 import json
+import os
+import subprocess
 import xml.etree.ElementTree
 
 import harness
@@ -197,6 +199,24 @@ class ImagesTest(harness.TestCase):
         self.assertLessEqual(branches.max(), summary["edges"])
         header = (self.folder / "b.nrrd").read_bytes().split(b"\n\n")[0].decode()
         self.assertIn("space origin: (100,200,300)", header)
+        self.assertIn("space: left-posterior-superior", header)
+
+    def test_an_image_of_nothing_is_written_and_a_failed_one_replaces_nothing(self):
+        empty = self.path("empty.npy")
+        numpy.save(empty, numpy.zeros((7, 8, 9), "u1"))
+        self.skeletonize(empty, "--branch-image", self.path("b.nrrd"), "--curve-image",
+                         self.path("c.nrrd"))
+        self.assertEqual(self.read_nrrd("b.nrrd").max() + self.read_nrrd("c.nrrd").max(), 0)
+        before = (self.folder / "c.nrrd").read_bytes()
+        nowhere = self.path("s.swc")
+        os.symlink("/dev/null", nowhere)
+        done = subprocess.run(
+            ["sh", "-c", 'trap "" XFSZ; ulimit -f 0; exec "$@"', "sh", harness.CLIENT, "skeletonize",
+             self.write_ring(), "--local", "-o", nowhere, "--curve-image", self.path("c.nrrd")],
+            capture_output=True, text=True)
+        self.assertEqual(done.returncode, 8, done.stderr)
+        self.assertIn("c.nrrd: File too large", done.stderr)
+        self.assertEqual((self.folder / "c.nrrd").read_bytes(), before)
 
     def read_nrrd(self, name):
         """Index (z, y, x)."""

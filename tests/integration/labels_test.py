@@ -166,7 +166,10 @@ class LabelsTest(harness.TestCase):
                 (("-o", self.path("a.swc")), 2, "{label}"),
                 (("-o", self.path("{label}.svg")), 2, "pictures show one object"),
                 (("-o", self.path("{label}.xyz")), 2, "no output format"),
-                (("--label", "77", "-o", self.path("a.vtp")), 3, "no such label"),
+                (("--label", "77", "-o", self.path("a.vtp")), 3,
+                 "no voxel has the label 77; "),
+                (("--min-voxels", "1M", "-o", self.path("a.vtp")), 3,
+                 "no wanted label has 1000000 voxels or more (--min-voxels); "),
                 (("--label", "0", "-o", self.path("a.vtp")), 3, "background"),
                 (("-o", self.path("missing/{label}.swc")), 8, "missing")):
             with self.subTest(words):

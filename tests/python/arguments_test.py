@@ -23,7 +23,8 @@ class ArgumentsTest(harness.TestCase):
 
     def test_masks(self):
         refuse = lambda error, message, mask: self.refuse(error, message, bccskel.skeletonize, mask)
-        refuse(ValueError, "mask must have 3 axes, got shape (5, 5)", numpy.ones((5, 5)))
+        refuse(ValueError, "mask must have 3 axes, got shape (5, 5): mask[None] is a stack of one slice",
+               numpy.ones((5, 5)))
         refuse(TypeError, "mask must be an array, got a path: read('a.nii') reads the file", "a.nii")
         refuse(ValueError, "mask must not be empty, got shape (3, 0, 2)", numpy.ones((3, 0, 2)))
         refuse(TypeError, "mask must hold booleans or real numbers, got dtype complex128",
@@ -61,6 +62,10 @@ class ArgumentsTest(harness.TestCase):
         refuse(TypeError, "progress must be a function of (done, total) or None, got bool",
                progress=True)
         refuse(ValueError, "no voxel has the label 7", label=7)
+        refuse(ValueError, "root must be 3 numbers, one per axis, got (1, 2)", root=(1, 2))
+        refuse(ValueError, "root must be 3 numbers, one per axis, got 7", root=7)
+        refuse(ValueError, "pruning_threshold wide: must be a number", pruning_threshold="wide")
+        refuse(ValueError, "denoise 2.5: must be a whole number", denoise=2.5)
         self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",
                     bccskel.skeletonize_labels, MASK, root="node:1")
 

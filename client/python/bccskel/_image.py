@@ -136,7 +136,8 @@ def voxels_of(array: Any, name: str) -> np.ndarray:
         array = array.filled(0)
     array = np.asarray(array)
     if array.ndim != 3:
-        raise ValueError(f"{name} must have 3 axes, got shape {array.shape}")
+        hint = f": {name}[None] is a stack of one slice" if array.ndim == 2 else ""
+        raise ValueError(f"{name} must have 3 axes, got shape {array.shape}{hint}")
     if array.size == 0:
         raise ValueError(f"{name} must not be empty, got shape {array.shape}")
     if array.dtype.kind not in "biuf":

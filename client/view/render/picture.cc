@@ -193,7 +193,8 @@ class Words {
       return std::ranges::any_of(result.nodes, [&](const auto& node) { return node.kind == kind; });
     };
     if (has("end")) x = Dot("end", kEndColor, x + size_, base);
-    if (has("junction")) Dot("junction", kJunctionColor, x + size_, base);
+    if (has("junction")) x = Dot("junction", kJunctionColor, x + size_, base);
+    if (has("isolated") || has("closed_surface")) Dot("other", kOtherColor, x + size_, base);
   }
 
  private:

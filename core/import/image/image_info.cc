@@ -64,7 +64,8 @@ absl::Status CheckAxes(std::span<const int64_t> lengths, const ImageLimits& limi
     }
     if (n >= 3 && lengths[n] > 1) {
       return absl::InvalidArgumentError(absl::StrFormat(
-          "the image has %d axes (%s); only 3 are read: choose one channel or point of time",
+          "the image has %d axes (%s); only 3 are read: save one channel or point of "
+          "time as an image of its own",
           lengths.size(), ListOf(lengths)));
     }
     if (lengths[n] > limits.max_axis_voxels) {

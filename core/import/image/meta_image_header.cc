@@ -50,7 +50,8 @@ absl::Status CheckSupported(const HeaderFields& fields) {
   }
   const std::string_view channels = fields.Find({"ElementNumberOfChannels"}).value_or("1");
   if (channels == "1") return absl::OkStatus();
-  return BadField("ElementNumberOfChannels", channels, "must be 1: choose one channel");
+  return BadField("ElementNumberOfChannels", channels,
+                  "must be 1: save one channel as an image of its own");
 }
 
 absl::StatusOr<std::vector<int64_t>> SizesOf(const HeaderFields& fields) {

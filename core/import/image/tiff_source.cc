@@ -67,8 +67,10 @@ absl::StatusOr<Page> PageOf(TIFF* tiff) {
   page.height = TagOr<uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);
   const int samples = TagOr<uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
   if (samples != 1) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("%d samples per pixel; only 1 is read: choose one channel", samples));
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%d samples per pixel, as of colors; only 1 is read: save one channel as an "
+        "image of its own",
+        samples));
   }
   page.bits = TagOr<uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1);
   const int format = TagOr<uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);

@@ -67,6 +67,14 @@ TEST_F(AtomicFileTest, ReplacesAFile) {
   EXPECT_EQ(ReadBack(folder_ / "file"), "new");
 }
 
+TEST_F(AtomicFileTest, ALinkStaysALink) {
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
+  fs::create_symlink("file", folder_ / "link");
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "link", "new").ok());
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(ReadBack(folder_ / "file"), "new");
+}
+
 TEST_F(AtomicFileTest, AFailureLeavesTheOldFileAndNoDraft) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
   const FileSizeLimit limit(1000);

@@ -107,6 +107,14 @@ TEST(MarkupsTest, ALoopWithoutJunctionIsAClosedCurve) {
   EXPECT_NE(curve["controlPoints"].front()["position"], curve["controlPoints"].back()["position"]);
 }
 
+TEST(MarkupsTest, TurnAWorldThatSlicerDoesNotKnow) {
+  const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "LAS", .unit = "mm"});
+  EXPECT_THAT(document.note, HasSubstr("LAS"));
+  const Json markups = Json::parse(document.text)["markups"];
+  EXPECT_EQ(markups[0]["coordinateSystem"], "RAS");
+  EXPECT_THAT(markups[0]["controlPoints"].front()["position"], ElementsAre(-10, 20, 30));
+}
+
 TEST(MarkupsTest, NamesTheLabel) {
   GraphContext context;
   context.labels.of_edges = {5, 18446744073709551615u};

@@ -22,6 +22,11 @@ using testing::HasSubstr;
 class WrittenNrrd : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
+  void Write(const MaskGrid& grid, const ImageWorld& world, const SparseImage& image) const {
+    const absl::StatusOr<std::string> bytes = NrrdBytes(grid, world, image);
+    ASSERT_TRUE(bytes.ok()) << bytes.status();
+    std::ofstream(path_, std::ios::binary) << *bytes;
+  }
   std::string path_ = ::testing::TempDir() + "/written_" + std::to_string(::getpid()) + ".nrrd";
 };
 
@@ -45,7 +50,7 @@ std::string Unzipped(const std::string& path, size_t offset, size_t bytes) {
 TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
   const MaskGrid grid = {5, 3, 2, {{4, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
   const SparseImage image = {{{0, 1, 1, 3}, 70000}, {{1, 2, 4, 5}, 2}};
-  ASSERT_TRUE(WriteNrrd(path_, grid, image).ok());
+  Write(grid, {}, image);
   std::ifstream file(path_, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   const size_t data = text.find("\n\n") + 2;
@@ -62,7 +67,7 @@ TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
 
 TEST_F(WrittenNrrd, IsReadBackAsItWas) {
   const MaskGrid grid = {5, 3, 2, {{4, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
-  ASSERT_TRUE(WriteNrrd(path_, grid, {{{1, 2, 3, 5}, 4000000000}}).ok());
+  Write(grid, {}, {{{1, 2, 3, 5}, 4000000000}});
   const auto image = OpenImage(path_);
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_EQ((*image)->info().size, (ImageSize{5, 3, 2}));
@@ -78,19 +83,26 @@ TEST_F(WrittenNrrd, IsReadBackAsItWas) {
   EXPECT_EQ(labels, expected);
 }
 
+TEST_F(WrittenNrrd, NamesTheWorldSoThatViewersDoNotMirrorIt) {
+  const MaskGrid grid = {1, 1, 1, {}};
+  for (const std::string axes : {"RAS", "LPS", "LAS", ""}) {
+    for (const std::string unit : {"mm", "um", ""}) {
+      Write(grid, {axes, unit}, {});
+      const auto image = OpenImage(path_);
+      ASSERT_TRUE(image.ok()) << image.status();
+      EXPECT_EQ((*image)->info().world, axes);
+      EXPECT_EQ((*image)->info().unit, unit);
+    }
+  }
+}
+
 TEST_F(WrittenNrrd, IsNotMadeOfRunsOutsideOrOutOfOrder) {
   const MaskGrid grid = {5, 3, 2, {}};
   for (const SparseImage& image :
        {SparseImage{{{0, 0, 3, 6}, 1}}, SparseImage{{{2, 0, 0, 1}, 1}},
         SparseImage{{{0, 1, 0, 1}, 1}, {{0, 0, 0, 1}, 1}}, SparseImage{{{0, 0, 2, 2}, 1}}}) {
-    EXPECT_EQ(WriteNrrd(path_, grid, image).code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(NrrdBytes(grid, {}, image).status().code(), absl::StatusCode::kInvalidArgument);
   }
-}
-
-TEST_F(WrittenNrrd, SaysWhenTheFileCannotBeWritten) {
-  const absl::Status status = WriteNrrd("/no/such/folder/image.nrrd", {1, 1, 1, {}}, {});
-  EXPECT_EQ(status.code(), absl::StatusCode::kUnknown);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("/no/such/folder/image.nrrd"));
 }
 
 }  // namespace

@@ -299,5 +299,18 @@ TEST(SymmetricSlabs, GiveWhatStepsOfTheWholeObjectGive) {
   }
 }
 
+// Layers without bricks, above any number of bricks.
+TEST(SymmetricSlabs, EndAtEveryGap) {
+  std::vector<LatticePoint> points;
+  for (int32_t bricks = 1; bricks <= 70; ++bricks) {
+    points.push_back({32 * bricks, 0, 0});
+    std::vector<LatticePoint> with_gap = points;
+    with_gap.push_back({32, 0, 200});
+    const Volume apart = VolumeOfPoints(with_gap);
+    ASSERT_EQ(apart.brick_count(), static_cast<size_t>(bricks) + 1);
+    EXPECT_EQ(Thin(apart, Symmetric(SkeletonKind::kCurve), 1).thin, apart);
+  }
+}
+
 }  // namespace
 }  // namespace bccskel

@@ -118,6 +118,25 @@ TEST(PictureTest, NoWordIsCutOff) {
   }
 }
 
+TEST(PictureTest, TheLegendHasEveryColorOfNodes) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  const auto surface = *MakeDisplaySurface(sample.object, 10000, {});
+  PictureOptions options = Small();
+  options.width = 600;
+  const auto legend_with = [&](const char* kind) {
+    ResultDocument result = *ParseResultDocument(exporting::JsonText(sample.result));
+    result.nodes.front().kind = kind;
+    const Pixels picture = Decoded(*RenderPng(result, surface, options, {}));
+    constexpr int kRowsOfLegend = 20;
+    return std::vector<uint32_t>(picture.values.end() - kRowsOfLegend * options.width,
+                                 picture.values.end());
+  };
+  const auto loop = legend_with("loop");
+  EXPECT_NE(legend_with("end"), loop);
+  EXPECT_NE(legend_with("isolated"), loop);
+  EXPECT_NE(legend_with("closed_surface"), loop);
+}
+
 TEST(PictureTest, StopsWhenItIsToldTo) {
   std::stop_source stop;
   stop.request_stop();

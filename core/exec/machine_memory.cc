@@ -1,4 +1,4 @@
-#include "server/settings/memory_limit.h"
+#include "core/exec/machine_memory.h"
 
 #include <unistd.h>
 
@@ -9,9 +9,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 
-namespace bccskel::server {
+namespace bccskel::exec {
 namespace {
 
 constexpr uint64_t kNone = UINT64_MAX;
@@ -61,4 +62,18 @@ uint64_t AvailableMemoryBytes(const std::string& root) {
   return least;
 }
 
-}  // namespace bccskel::server
+absl::Status MachineMemory::Take(uint64_t bytes, const std::string& what_for) {
+  uint64_t taken = taken_;
+  do {
+    if (bytes > limit_ || taken > limit_ - bytes) {
+      return absl::ResourceExhaustedError(
+          absl::StrFormat("%s: they need up to %d bytes of memory, and %d are reserved already; "
+                          "this machine has %d; "
+                          "take an object with fewer parts, such as a denoised or coarser one",
+                          what_for, bytes, taken, limit_));
+    }
+  } while (!taken_.compare_exchange_weak(taken, taken + bytes));
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel::exec

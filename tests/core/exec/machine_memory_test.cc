@@ -1,30 +1,30 @@
-#include "server/settings/memory_limit.h"
+#include "core/exec/machine_memory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "tests/server/support/running_server.h"
-
-namespace bccskel::server {
+namespace bccskel::exec {
 namespace {
 
-class MemoryLimitTest : public testing::Test {
+class MachineMemoryTest : public testing::Test {
  protected:
-  void Write(const std::string& path, const std::string& text) const {
+  static void Write(const std::string& path, const std::string& text) {
     const std::filesystem::path file = root() + path;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file) << text << "\n";
   }
-  std::string root() const { return folder_.File("root"); }
-
- private:
-  test::TemporaryFolder folder_;
+  void TearDown() override { std::filesystem::remove_all(root()); }
+  static std::string root() {
+    return testing::TempDir() + "/machine_" + std::to_string(::getpid());
+  }
 };
 
-TEST_F(MemoryLimitTest, IsTheMachinesWhereNoGroupHasOne) {
+TEST_F(MachineMemoryTest, IsTheMachinesWhereNoGroupHasOne) {
   const uint64_t machine = AvailableMemoryBytes(root());
   EXPECT_GT(machine, uint64_t{1} << 20);
   Write("/proc/self/cgroup", "0::/a");
@@ -34,7 +34,7 @@ TEST_F(MemoryLimitTest, IsTheMachinesWhereNoGroupHasOne) {
   EXPECT_EQ(AvailableMemoryBytes(root()), machine);
 }
 
-TEST_F(MemoryLimitTest, IsTheLeastOfTheGroupAndThoseAroundIt) {
+TEST_F(MachineMemoryTest, IsTheLeastOfTheGroupAndThoseAroundIt) {
   Write("/proc/self/cgroup", "0::/system.slice/bccskel.service");
   Write("/sys/fs/cgroup/system.slice/bccskel.service/memory.max", "3000000");
   EXPECT_EQ(AvailableMemoryBytes(root()), 3'000'000u);
@@ -42,17 +42,30 @@ TEST_F(MemoryLimitTest, IsTheLeastOfTheGroupAndThoseAroundIt) {
   EXPECT_EQ(AvailableMemoryBytes(root()), 2'000'000u);
 }
 
-TEST_F(MemoryLimitTest, InAContainerTheTopmostGroupIsItsOwn) {
+TEST_F(MachineMemoryTest, InAContainerTheTopmostGroupIsItsOwn) {
   Write("/proc/self/cgroup", "0::/");
   Write("/sys/fs/cgroup/memory.max", "5000000");
   EXPECT_EQ(AvailableMemoryBytes(root()), 5'000'000u);
 }
 
-TEST_F(MemoryLimitTest, KnowsTheFirstVersionToo) {
+TEST_F(MachineMemoryTest, KnowsTheFirstVersionToo) {
   Write("/proc/self/cgroup", "12:cpu,cpuacct:/x\n9:memory:/docker/0a1b\n0::/y");
   Write("/sys/fs/cgroup/memory/memory.limit_in_bytes", "4000000");  // seen from inside
   EXPECT_EQ(AvailableMemoryBytes(root()), 4'000'000u);
 }
 
+TEST(MachineMemory, IsTakenUpToTheLimit) {
+  MachineMemory memory(100);
+  EXPECT_TRUE(memory.TakeFor(6, 10, "points").ok());
+  const absl::Status refused = memory.TakeFor(5, 10, "points");
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(std::string(refused.message()),
+              testing::StartsWith(
+                  "5 points: they need up to 50 bytes of memory, and 60 are reserved already"));
+  EXPECT_FALSE(memory.Take(UINT64_MAX, "all").ok());
+  memory.GiveBack(10);
+  EXPECT_TRUE(memory.TakeFor(5, 10, "points").ok());
+}
+
 }  // namespace
-}  // namespace bccskel::server
+}  // namespace bccskel::exec
