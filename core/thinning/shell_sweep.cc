@@ -290,7 +290,7 @@ class ShellSweep {
                 part.end_points_to_do);
     }
     rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.thin);
-    if (at.step + 1 == rule_.steps()) MarkStubble(state_, stubble_, dirty_, part);
+    if (at.step + 1 == rule_.steps()) MarkStubble(stubble_, state_, dirty_, part);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.

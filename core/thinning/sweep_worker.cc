@@ -19,6 +19,10 @@ size_t FirstFromLayer(const ThinningState& state, int32_t layer) {
   return static_cast<size_t>(first - state.keys.begin());
 }
 
+void Take(const BrickBits& points, BrickBits& from) {
+  for (size_t k = 0; k < from.words.size(); ++k) from.words[k] &= ~points.words[k];
+}
+
 void Reserve(size_t bricks, SweepPart& part) {
   part.to_do.Reserve(bricks);
   part.end_points_to_do.Reserve(bricks);
@@ -67,7 +71,7 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span
   }
 }
 
-void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<DirtyMask> dirty,
+void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask> dirty,
                  SweepPart& part) {
   if (policy == StubblePolicy::kNone) return;
   const ObjectView view = state.View();
@@ -78,10 +82,11 @@ void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<Dir
     MarkedBrick* marked = part.marks.Room(thin.size());
     const size_t count = MarkEndPoints(view, sublattice, thin, marked);
     for (const MarkedBrick& m : std::span(marked, count)) {
-      dirty[m.brick] |= kEndPointsDirty;
-      const BrickBits stubble = SelectStubble(state, m, policy);
-      if (stubble.Empty()) continue;
-      *part.marks.Room(1) = {stubble, m.brick};
+      const JudgedEnds ends = JudgeEnds(state, m, policy);
+      if (ends.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
+      Take(ends.stay, state.candidates[m.brick]);
+      if (ends.stubble.Empty()) continue;
+      *part.marks.Room(1) = {ends.stubble, m.brick};
       part.marks.Add(1);
     }
   }
