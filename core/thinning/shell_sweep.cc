@@ -285,11 +285,11 @@ class ShellSweep {
   void Mark(const PassStep& at, Part& part) {
     if (at.step == 0) {
       part.marks.Clear();
-      part.thin.SetCounts(0, 0);
+      part.ends.clear();
       TakeDirty(DirtyView(), part.bricks.begin, part.bricks.end, rule_.BitsToVisit(at), part.to_do,
                 part.end_points_to_do);
     }
-    rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.thin);
+    rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.ends);
     if (at.step + 1 == rule_.steps()) MarkStubble(stubble_, state_, dirty_, part);
   }
 

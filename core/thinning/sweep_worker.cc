@@ -26,7 +26,6 @@ void Take(const BrickBits& points, BrickBits& from) {
 void Reserve(size_t bricks, SweepPart& part) {
   part.to_do.Reserve(bricks);
   part.end_points_to_do.Reserve(bricks);
-  part.thin.Reserve(bricks);
 }
 
 }  // namespace
@@ -76,19 +75,15 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
   if (policy == StubblePolicy::kNone) return;
   const ObjectView view = state.View();
   for (Sublattice sublattice : kSublattices) {
-    part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
-                                             part.thin.Room(sublattice)));
-    const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
-    MarkedBrick* marked = part.marks.Room(thin.size());
-    const size_t count = MarkEndPoints(view, sublattice, thin, marked);
-    for (const MarkedBrick& m : std::span(marked, count)) {
-      const JudgedEnds ends = JudgeEnds(state, m, policy);
-      if (ends.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
-      Take(ends.stay, state.candidates[m.brick]);
-      if (ends.stubble.Empty()) continue;
-      *part.marks.Room(1) = {ends.stubble, m.brick};
-      part.marks.Add(1);
-    }
+    MarkEndPoints(view, sublattice, part.end_points_to_do.Of(sublattice), part.ends);
+  }
+  for (const MarkedBrick& m : part.ends) {
+    const JudgedEnds judged = JudgeEnds(state, m, policy);
+    if (judged.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
+    Take(judged.stay, state.candidates[m.brick]);
+    if (judged.stubble.Empty()) continue;
+    *part.marks.Room(1) = {judged.stubble, m.brick};
+    part.marks.Add(1);
   }
 }
 
