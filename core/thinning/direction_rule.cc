@@ -12,13 +12,11 @@ DirtyMask DirectionRule::BitsToVisit(const PassStep& at) const {
 }
 
 void DirectionRule::Mark(const PassStep& at, BrickLists& bricks, DirtyMask*, MarkBuffer& marks,
-                         BrickLists& thin) {
+                         std::vector<MarkedBrick>& ends) {
   for (Sublattice sublattice : kSublattices) {
     const std::span<const BrickIndex> list = bricks.Of(sublattice);
-    const FoundBricks found = MarkRemovable(state_.View(), sublattice, DirectionOf(at), list,
-                                            marks.Room(list.size()), thin.Room(sublattice));
-    marks.Add(found.marked);
-    thin.Add(sublattice, found.thin);
+    marks.Add(MarkRemovable(state_.View(), sublattice, DirectionOf(at), list,
+                            marks.Room(list.size()), ends));
   }
 }
 

@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_THINNING_DIRECTION_RULE_H_
 #define BCCSKEL_CORE_THINNING_DIRECTION_RULE_H_
 
+#include <vector>
+
 #include "core/thinning/pass_rule.h"
 #include "core/thinning/thinning_state.h"
 
@@ -25,7 +27,7 @@ class DirectionRule : public PassRule {
   size_t work() const override { return 1; }
   DirtyMask BitsToVisit(const PassStep& at) const override;
   void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
-            BrickLists& thin) override;
+            std::vector<MarkedBrick>& ends) override;
   void Finish(const BrickLists&) override {}
 
  private:

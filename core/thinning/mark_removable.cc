@@ -9,6 +9,7 @@
 // headers.
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/thinning/add_marks-inl.h"
 #include "core/volume/brick_planes-inl.h"
 #include "hwy/highway.h"
 // clang-format on
@@ -28,14 +29,11 @@ HWY_INLINE Plane AtMostOne(const Plane& a, const Plane& b, const Plane& c, const
   return AndNot(Or(two, And(Or(a, b), Or(c, d))), among);
 }
 
-struct RemovableAndThin {
-  Plane removable;
-  Plane thin;
-};
-
-// Conditions 1 to 4, and what Thin() finds. `kAxes` are the axes of d.
+// Conditions 1 to 4. `kAxes` are the axes of d. Most bricks have no candidates with at most one
+// object neighbor along y and z, so that is tested before the end points are looked for.
 template <Sublattice kSublattice, int kAxes>
-HWY_INLINE RemovableAndThin Removable(const ObjectView& view, BrickIndex brick) {
+HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick,
+                           std::vector<MarkedBrick>& ends) {
   constexpr Step kStep = StepOf(kSublattice);
   const PlaneReader<kStep> read{view.object, view.neighbors[brick]};
   const Plane own = LoadPlane(view.object[brick]);
@@ -65,7 +63,18 @@ HWY_INLINE RemovableAndThin Removable(const ObjectView& view, BrickIndex brick) 
   imply(std::integral_constant<int, 0>());
   imply(std::integral_constant<int, 1>());
   imply(std::integral_constant<int, 2>());
-  return {And(removable, right), AtMostOne(towards[1], aways[1], towards[2], aways[2], candidates)};
+  const Plane thin = AtMostOne(towards[1], aways[1], towards[2], aways[2], candidates);
+  if (!IsEmpty(thin)) {
+    Plane some = Or(Or(towards[1], aways[1]), Or(towards[2], aways[2]));
+    Plane several = Or(And(towards[0], aways[0]), And(some, Or(towards[0], aways[0])));
+    some = Or(some, Or(towards[0], aways[0]));
+    for (int n = 0; n < 8; ++n) {
+      several = Or(several, And(some, diagonal[n]));
+      some = Or(some, diagonal[n]);
+    }
+    AddIfAny(AndNot(several, And(some, thin)), brick, ends);
+  }
+  return And(removable, right);
 }
 
 HWY_INLINE Plane Thin(const ObjectView& view, BrickIndex brick) {
@@ -111,48 +120,20 @@ HWY_INLINE Plane PossiblySimple(const ObjectView& view, BrickIndex brick) {
   return And(adjacent, And(own, LoadPlane(view.candidates[brick])));
 }
 
-// All these loops always write and then advance by a comparison: an early-out branch on such data
-// is mispredicted too often to pay.
-template <typename Test>
-HWY_INLINE size_t KeepIf(std::span<const BrickIndex> bricks, BrickIndex* kept, Test test) {
-  size_t count = 0;
-  for (BrickIndex brick : bricks) {
-    kept[count] = brick;
-    count += IsEmpty(test(brick)) ? 0 : 1;
-  }
-  return count;
-}
-template <typename Test>
-HWY_INLINE size_t MarkIf(std::span<const BrickIndex> bricks, MarkedBrick* marked, Test test) {
-  size_t count = 0;
-  for (BrickIndex brick : bricks) {
-    const Plane marks = test(brick);
-    StorePlane(marks, marked[count].marks);
-    marked[count].brick = brick;
-    count += IsEmpty(marks) ? 0 : 1;
-  }
-  return count;
-}
-
-using MarkFunction = FoundBricks (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*,
-                                     BrickIndex*);
+using MarkFunction = size_t (*)(const ObjectView&, std::span<const BrickIndex>, MarkedBrick*,
+                                std::vector<MarkedBrick>&);
 
 template <Sublattice kSublattice, int kDirection>
-FoundBricks MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
-                          MarkedBrick* marked, BrickIndex* thin) {
-  FoundBricks found;
+size_t MarkDirection(const ObjectView& view, std::span<const BrickIndex> bricks,
+                     MarkedBrick* marked, std::vector<MarkedBrick>& ends) {
+  size_t count = 0;
   for (size_t at = 0; at < bricks.size(); ++at) {
     if (view.is_far) PrefetchAhead(view, kSublattice, bricks, at);
     const BrickIndex brick = bricks[at];
-    const RemovableAndThin planes =
-        Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick);
-    StorePlane(planes.removable, marked[found.marked].marks);
-    marked[found.marked].brick = brick;
-    found.marked += IsEmpty(planes.removable) ? 0 : 1;
-    thin[found.thin] = brick;
-    found.thin += IsEmpty(planes.thin) ? 0 : 1;
+    Append(Removable<kSublattice, AxesOf(kSublattice, kDirection)>(view, brick, ends), brick,
+           marked, count);
   }
-  return found;
+  return count;
 }
 
 template <Sublattice kSublattice, int... kDirections>
@@ -160,40 +141,33 @@ constexpr std::array<MarkFunction, 8> MarkTable(std::integer_sequence<int, kDire
   return {MarkDirection<kSublattice, kDirections>...};
 }
 
-FoundBricks MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
-                                std::span<const BrickIndex> bricks, MarkedBrick* marked,
-                                BrickIndex* thin) {
+size_t MarkRemovableTarget(const ObjectView& view, Sublattice sublattice, int d,
+                           std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                           std::vector<MarkedBrick>& ends) {
   static constexpr std::array<MarkFunction, 8> kTables[2] = {
       MarkTable<Sublattice::kEven>(std::make_integer_sequence<int, 8>()),
       MarkTable<Sublattice::kOdd>(std::make_integer_sequence<int, 8>())};
   return kTables[static_cast<size_t>(sublattice)][static_cast<size_t>(d)](view, bricks, marked,
-                                                                          thin);
+                                                                          ends);
 }
-size_t KeepThinBricksTarget(const ObjectView& view, std::span<const BrickIndex> bricks,
-                            BrickIndex* kept) {
-  return KeepIf(bricks, kept, [&](BrickIndex brick) HWY_ATTR { return Thin(view, brick); });
-}
-size_t MarkEndPointsTarget(const ObjectView& view, Sublattice sublattice,
-                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {
-  if (sublattice == Sublattice::kEven) {
-    return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
-      return EndPoints<Sublattice::kEven>(view, brick);
-    });
+void MarkEndPointsTarget(const ObjectView& view, Sublattice sublattice,
+                         std::span<const BrickIndex> bricks, std::vector<MarkedBrick>& ends) {
+  for (const BrickIndex brick : bricks) {
+    if (IsEmpty(Thin(view, brick))) continue;
+    AddIfAny(sublattice == Sublattice::kEven ? EndPoints<Sublattice::kEven>(view, brick)
+                                             : EndPoints<Sublattice::kOdd>(view, brick),
+             brick, ends);
   }
-  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
-    return EndPoints<Sublattice::kOdd>(view, brick);
-  });
 }
 size_t MarkPossiblySimpleTarget(const ObjectView& view, Sublattice sublattice,
                                 std::span<const BrickIndex> bricks, MarkedBrick* marked) {
-  if (sublattice == Sublattice::kEven) {
-    return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
-      return PossiblySimple<Sublattice::kEven>(view, brick);
-    });
+  size_t count = 0;
+  for (const BrickIndex brick : bricks) {
+    Append(sublattice == Sublattice::kEven ? PossiblySimple<Sublattice::kEven>(view, brick)
+                                           : PossiblySimple<Sublattice::kOdd>(view, brick),
+           brick, marked, count);
   }
-  return MarkIf(bricks, marked, [&](BrickIndex brick) HWY_ATTR {
-    return PossiblySimple<Sublattice::kOdd>(view, brick);
-  });
+  return count;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -204,22 +178,17 @@ HWY_AFTER_NAMESPACE();
 namespace bccskel {
 
 HWY_EXPORT(MarkRemovableTarget);
-HWY_EXPORT(KeepThinBricksTarget);
 HWY_EXPORT(MarkEndPointsTarget);
 HWY_EXPORT(MarkPossiblySimpleTarget);
 
-FoundBricks MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                          std::span<const BrickIndex> bricks, MarkedBrick* marked,
-                          BrickIndex* thin) {
-  return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked, thin);
+size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                     std::vector<MarkedBrick>& ends) {
+  return HWY_DYNAMIC_DISPATCH(MarkRemovableTarget)(view, sublattice, d.bit(), bricks, marked, ends);
 }
-size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks,
-                      BrickIndex* kept) {
-  return HWY_DYNAMIC_DISPATCH(KeepThinBricksTarget)(view, bricks, kept);
-}
-size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
-                     std::span<const BrickIndex> bricks, MarkedBrick* marked) {
-  return HWY_DYNAMIC_DISPATCH(MarkEndPointsTarget)(view, sublattice, bricks, marked);
+void MarkEndPoints(const ObjectView& view, Sublattice sublattice,
+                   std::span<const BrickIndex> bricks, std::vector<MarkedBrick>& ends) {
+  HWY_DYNAMIC_DISPATCH(MarkEndPointsTarget)(view, sublattice, bricks, ends);
 }
 size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
                           std::span<const BrickIndex> bricks, MarkedBrick* marked) {

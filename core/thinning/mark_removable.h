@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "core/lattice/directions.h"
 #include "core/volume/brick.h"
@@ -61,32 +62,21 @@ struct MarkedBrick {
   BrickIndex brick = 0;
 };
 
-struct FoundBricks {
-  size_t marked = 0;
-  size_t thin = 0;
-};
-
-// Conditions 1 to 4 along d for all candidates of the given bricks; and which of them
-// KeepThinBricks() would keep, since both read the same neighbors.
-// Shapes: `bricks` all of `sublattice`; `marked` and `thin` have room for bricks.size().
-// Returns: how many bricks have marks, and how many are thin; both come in the order of `bricks`.
-FoundBricks MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
-                          std::span<const BrickIndex> bricks, MarkedBrick* marked,
-                          BrickIndex* thin);
-
-// The bricks that hold candidates with at most one object neighbor along y and z by D6 steps; the
-// others have no end points. Shapes: `kept` has room for bricks.size().
-// Returns: how many bricks were written to `kept`, in the order of `bricks`.
-size_t KeepThinBricks(const ObjectView& view, std::span<const BrickIndex> bricks, BrickIndex* kept);
-
-// The end points among the candidates of the given bricks. Shapes: `bricks` all of
-// `sublattice`; `marked` has room for bricks.size().
+// Conditions 1 to 4 along d for all candidates of the given bricks. As MarkEndPoints() it adds the
+// bricks with end points to `ends`, since both read the same neighbors.
+// Shapes: `bricks` all of `sublattice`; `marked` has room for bricks.size().
 // Returns: how many bricks have marks; they come in the order of `bricks`.
-size_t MarkEndPoints(const ObjectView& view, Sublattice sublattice,
-                     std::span<const BrickIndex> bricks, MarkedBrick* marked);
+size_t MarkRemovable(const ObjectView& view, Sublattice sublattice, DiagonalDirection d,
+                     std::span<const BrickIndex> bricks, MarkedBrick* marked,
+                     std::vector<MarkedBrick>& ends);
+
+// Adds the end points among the candidates of the given bricks. Shapes: `bricks` all of
+// `sublattice`.
+void MarkEndPoints(const ObjectView& view, Sublattice sublattice,
+                   std::span<const BrickIndex> bricks, std::vector<MarkedBrick>& ends);
 
 // Points with two adjacent object neighbors among the candidates: every simple point that is not an
-// end point is one of them. Shapes and result as MarkEndPoints().
+// end point is one of them. Shapes and result as MarkRemovable().
 size_t MarkPossiblySimple(const ObjectView& view, Sublattice sublattice,
                           std::span<const BrickIndex> bricks, MarkedBrick* marked);
 

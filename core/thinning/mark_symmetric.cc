@@ -8,6 +8,7 @@
 // headers.
 // clang-format off
 #include "hwy/foreach_target.h"
+#include "core/thinning/add_marks-inl.h"
 #include "core/thinning/link_circuits-inl.h"
 #include "hwy/highway.h"
 // clang-format on
@@ -21,21 +22,32 @@ HWY_INLINE void LinkOf(const ObjectView& view, BrickIndex brick, Plane (&link)[1
   AllPlanes<kSublattice>(view.object, view.neighbors[brick], LoadPlane(view.object[brick]), link);
 }
 
+HWY_INLINE Plane AnyOf(const Plane (&planes)[14]) {
+  Plane any = planes[0];
+  for (int n = 1; n < 14; ++n) any = Or(any, planes[n]);
+  return any;
+}
+
 HWY_INLINE Plane CandidatesOf(const ObjectView& view, BrickIndex brick) {
   return And(LoadPlane(view.object[brick]), LoadPlane(view.candidates[brick]));
 }
 
 template <Sublattice kSublattice>
 size_t FindSimpleIn(const ObjectView& view, EndPoints end_points, std::span<BrickIndex> bricks,
-                    BrickBits* simple) {
+                    BrickBits* simple, std::vector<MarkedBrick>& ends) {
   size_t count = 0;
   for (size_t at = 0; at < bricks.size(); ++at) {
     if (view.is_far) PrefetchAhead(view, kSublattice, bricks, at, simple);
     const BrickIndex brick = bricks[at];
     Plane link[14];
     LinkOf<kSublattice>(view, brick, link);
-    Plane found = And(CandidatesOf(view, brick), Simple(link));
-    if (end_points == EndPoints::kStay) found = And(found, SeveralNeighbors(link));
+    const Plane candidates = CandidatesOf(view, brick);
+    Plane found = And(candidates, Simple(link));
+    if (end_points == EndPoints::kStay) {
+      const Plane several = SeveralNeighbors(link);
+      found = And(found, several);
+      AddIfAny(AndNot(several, And(candidates, AnyOf(link))), brick, ends);
+    }
     StorePlane(found, simple[brick]);
     bricks[count] = brick;
     count += IsEmpty(found) ? 0 : 1;
@@ -122,12 +134,6 @@ HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
   }
 }
 
-HWY_INLINE Plane AnyOf(const Plane (&planes)[14]) {
-  Plane any = planes[0];
-  for (int n = 1; n < 14; ++n) any = Or(any, planes[n]);
-  return any;
-}
-
 HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
   for (int n = 0; n < 14; ++n) planes[n] = And(planes[n], with[n]);
 }
@@ -135,13 +141,6 @@ HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
 // The next pass visits bricks that lost points again.
 HWY_INLINE void MarkDirtyIf(const Plane& sent_back, DirtyMask& brick) {
   brick = static_cast<DirtyMask>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsDirty));
-}
-
-// Appends the points as marks if there are any.
-HWY_INLINE void Append(const Plane& marks, BrickIndex brick, MarkedBrick* marked, size_t& count) {
-  StorePlane(marks, marked[count].marks);
-  marked[count].brick = brick;
-  count += IsEmpty(marks) ? 0 : 1;
 }
 
 // Points of S that have the highest priority in a critical pair.
@@ -232,10 +231,11 @@ size_t QuadruplesIn(const RuleBView& view, std::span<const BrickIndex> bricks,
 }
 
 size_t FindSimpleTarget(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
-                        std::span<BrickIndex> bricks, BrickBits* simple) {
+                        std::span<BrickIndex> bricks, BrickBits* simple,
+                        std::vector<MarkedBrick>& ends) {
   return sublattice == Sublattice::kEven
-             ? FindSimpleIn<Sublattice::kEven>(view, end_points, bricks, simple)
-             : FindSimpleIn<Sublattice::kOdd>(view, end_points, bricks, simple);
+             ? FindSimpleIn<Sublattice::kEven>(view, end_points, bricks, simple, ends)
+             : FindSimpleIn<Sublattice::kOdd>(view, end_points, bricks, simple, ends);
 }
 
 size_t MarkIsthmusesTarget(const ObjectView& view, Sublattice sublattice, SkeletonKind kind,
@@ -275,8 +275,8 @@ HWY_EXPORT(TriplesTarget);
 HWY_EXPORT(QuadruplesTarget);
 
 size_t FindSimple(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
-                  std::span<BrickIndex> bricks, BrickBits* simple) {
-  return HWY_DYNAMIC_DISPATCH(FindSimpleTarget)(view, sublattice, end_points, bricks, simple);
+                  std::span<BrickIndex> bricks, BrickBits* simple, std::vector<MarkedBrick>& ends) {
+  return HWY_DYNAMIC_DISPATCH(FindSimpleTarget)(view, sublattice, end_points, bricks, simple, ends);
 }
 size_t MarkIsthmuses(const ObjectView& view, Sublattice sublattice, SkeletonKind kind,
                      std::span<const BrickIndex> bricks, MarkedBrick* marked) {

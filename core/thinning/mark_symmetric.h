@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/shells/slice_bricks.h"
 #include "core/thinning/mark_removable.h"
@@ -34,11 +35,12 @@ namespace bccskel {
 // Whether end points are kept (Condition 2).
 enum class EndPoints : uint8_t { kStay, kMayGo };
 
-// Writes the set S to `simple[brick]` for each of the bricks.
+// Writes the set S to `simple[brick]` for each of the bricks. If end points stay, adds those among
+// the candidates to `ends`.
 // Shapes: `bricks` all of `sublattice`.
 // Returns: how many bricks have points in S; they come first in `bricks`, in order.
 size_t FindSimple(const ObjectView& view, Sublattice sublattice, EndPoints end_points,
-                  std::span<BrickIndex> bricks, BrickBits* simple);
+                  std::span<BrickIndex> bricks, BrickBits* simple, std::vector<MarkedBrick>& ends);
 
 // The candidates that a kind of skeleton keeps for what they separate: 2-isthmuses for kSurface,
 // 1-isthmuses for kIsthmusCurve. Shapes and result as MarkRemovable().

@@ -61,10 +61,10 @@ class PassRule {
   virtual DirtyMask BitsToVisit(const PassStep& at) const = 0;
 
   // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the
-  // pass gets, and make listed bricks dirty again. The first step lists the bricks that
-  // KeepThinBricks() keeps in `thin`.
+  // pass gets, and make listed bricks dirty again. The first step adds the listed bricks' end
+  // points to `ends`, if end points stay.
   virtual void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
-                    BrickLists& thin) = 0;
+                    std::vector<MarkedBrick>& ends) = 0;
   // After the last step, while workers remove.
   virtual void Finish(const BrickLists& bricks) = 0;
 };

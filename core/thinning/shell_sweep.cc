@@ -285,12 +285,12 @@ class ShellSweep {
   void Mark(const PassStep& at, Part& part) {
     if (at.step == 0) {
       part.marks.Clear();
-      part.thin.SetCounts(0, 0);
+      part.ends.clear();
       TakeDirty(DirtyView(), part.bricks.begin, part.bricks.end, rule_.BitsToVisit(at), part.to_do,
                 part.end_points_to_do);
     }
-    rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.thin);
-    if (at.step + 1 == rule_.steps()) MarkStubble(state_, stubble_, dirty_, part);
+    rule_.Mark(at, part.to_do, dirty_.data(), part.marks, part.ends);
+    if (at.step + 1 == rule_.steps()) MarkStubble(stubble_, state_, dirty_, part);
   }
 
   // Bricks of this worker next to which others removed points in the last pass.

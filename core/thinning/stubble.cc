@@ -20,26 +20,31 @@ int EndPointsBefore(const ThinningState& state, const NeighborAddress& q, Neighb
   return count;
 }
 
+enum class EndKind : uint8_t { kStays, kStubble, kKept };
+
 // Needs: the point is an end point.
-bool IsStubblePoint(const ThinningState& state, BrickIndex brick, int bit, StubblePolicy policy) {
+EndKind Judge(const ThinningState& state, BrickIndex brick, int bit, StubblePolicy policy) {
   const Direction to_neighbor(std::countr_zero(state.NeighborsOf(brick, bit)));
   const NeighborAddress q = NeighborAt(state, brick, bit, to_neighbor);
   const NeighborMask around_q = state.NeighborsOf(q.brick, q.bit);
   const int neighbors = NeighborsIn(around_q);
-  if (neighbors <= 2) return false;
-  if (policy == StubblePolicy::kLiteral) return true;
-  return EndPointsBefore(state, q, around_q, to_neighbor.Opposite()) < neighbors - 2;
+  if (neighbors <= 2) return EndKind::kStays;
+  if (policy == StubblePolicy::kLiteral) return EndKind::kStubble;
+  const int before = EndPointsBefore(state, q, around_q, to_neighbor.Opposite());
+  return before < neighbors - 2 ? EndKind::kStubble : EndKind::kKept;
 }
 
 }  // namespace
 
-BrickBits SelectStubble(const ThinningState& state, const MarkedBrick& end_points,
-                        StubblePolicy policy) {
-  BrickBits stubble;
+JudgedEnds JudgeEnds(const ThinningState& state, const MarkedBrick& end_points,
+                     StubblePolicy policy) {
+  JudgedEnds judged;
   end_points.marks.ForEachSetBit([&](int bit) {
-    if (IsStubblePoint(state, end_points.brick, bit, policy)) stubble.Set(bit);
+    const EndKind kind = Judge(state, end_points.brick, bit, policy);
+    if (kind == EndKind::kStubble) judged.stubble.Set(bit);
+    if (kind == EndKind::kStays) judged.stay.Set(bit);
   });
-  return stubble;
+  return judged;
 }
 
 }  // namespace bccskel

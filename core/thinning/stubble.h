@@ -7,11 +7,18 @@
 
 namespace bccskel {
 
-// The stubble points (Condition 6) among the end points of one brick, judged on the frozen object.
-// A stubble point's neighbor is never removed in the same pass: it is neither an end point nor
-// simple, so the topology is kept.
-BrickBits SelectStubble(const ThinningState& state, const MarkedBrick& end_points,
-                        StubblePolicy policy);
+// End points of one brick, judged on the frozen object.
+struct JudgedEnds {
+  // Condition 6. A stubble point's neighbor is never removed in the same pass: it is neither an end
+  // point nor simple, so the topology is kept.
+  BrickBits stubble;
+  // No pass will remove these: no rule removes an end point but as stubble, and the neighbor has
+  // two neighbors at most and gets no more.
+  BrickBits stay;
+};
+
+JudgedEnds JudgeEnds(const ThinningState& state, const MarkedBrick& end_points,
+                     StubblePolicy policy);
 
 }  // namespace bccskel
 

@@ -19,10 +19,13 @@ size_t FirstFromLayer(const ThinningState& state, int32_t layer) {
   return static_cast<size_t>(first - state.keys.begin());
 }
 
+void Take(const BrickBits& points, BrickBits& from) {
+  for (size_t k = 0; k < from.words.size(); ++k) from.words[k] &= ~points.words[k];
+}
+
 void Reserve(size_t bricks, SweepPart& part) {
   part.to_do.Reserve(bricks);
   part.end_points_to_do.Reserve(bricks);
-  part.thin.Reserve(bricks);
 }
 
 }  // namespace
@@ -69,23 +72,20 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span
   }
 }
 
-void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<DirtyMask> dirty,
+void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask> dirty,
                  SweepPart& part) {
   if (policy == StubblePolicy::kNone) return;
   const ObjectView view = state.View();
   for (Sublattice sublattice : kSublattices) {
-    part.thin.Add(sublattice, KeepThinBricks(view, part.end_points_to_do.Of(sublattice),
-                                             part.thin.Room(sublattice)));
-    const std::span<const BrickIndex> thin = part.thin.Of(sublattice);
-    MarkedBrick* marked = part.marks.Room(thin.size());
-    const size_t count = MarkEndPoints(view, sublattice, thin, marked);
-    for (const MarkedBrick& m : std::span(marked, count)) {
-      dirty[m.brick] |= kEndPointsDirty;
-      const BrickBits stubble = SelectStubble(state, m, policy);
-      if (stubble.Empty()) continue;
-      *part.marks.Room(1) = {stubble, m.brick};
-      part.marks.Add(1);
-    }
+    MarkEndPoints(view, sublattice, part.end_points_to_do.Of(sublattice), part.ends);
+  }
+  for (const MarkedBrick& m : part.ends) {
+    const JudgedEnds judged = JudgeEnds(state, m, policy);
+    if (judged.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
+    Take(judged.stay, state.candidates[m.brick]);
+    if (judged.stubble.Empty()) continue;
+    *part.marks.Room(1) = {judged.stubble, m.brick};
+    part.marks.Add(1);
   }
 }
 

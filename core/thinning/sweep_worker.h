@@ -22,8 +22,8 @@ struct SweepPart {
   exec::Share bricks = {0, 0};
   BrickLists to_do;
   BrickLists end_points_to_do;
-  BrickLists thin;   // bricks that may have end points
-  MarkBuffer marks;  // of this pass
+  std::vector<MarkedBrick> ends;  // end points, judged as stubble or not
+  MarkBuffer marks;               // of this pass
 
   bool empty() const { return bricks.begin == bricks.end; }
 };
@@ -61,10 +61,10 @@ void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 // Marks the bricks that border on other workers'.
 void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty);
 
-// Condition 6 in the bricks that were listed for their end points or are thin. Whether an end point
-// is a stubble point depends on points up to three steps away, so a brick with end points stays
-// dirty for them.
-void MarkStubble(const ThinningState& state, StubblePolicy policy, std::span<DirtyMask> dirty,
+// Condition 6, for the end points that the rule found and those of bricks listed for them. End
+// points that stay for good are no candidates from then on. Whether another one is a stubble point
+// depends on points up to three steps away, so its brick stays dirty for end points.
+void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask> dirty,
                  SweepPart& part);
 
 // Needs: `shells` outlive the worker; bricks outside of `own` are partners'.

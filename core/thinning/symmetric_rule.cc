@@ -9,13 +9,12 @@ SymmetricRule::SymmetricRule(const BrickDepths& depth, SkeletonKind kind, Thinni
 }
 
 void SymmetricRule::Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty,
-                         MarkBuffer& marks, BrickLists& thin) {
+                         MarkBuffer& marks, std::vector<MarkedBrick>& ends) {
   if (at.step == 0) {
-    if (EndPointsOf(kind_) == EndPoints::kStay) ListThin(bricks, thin);
     if (kind_ == SkeletonKind::kSurface || kind_ == SkeletonKind::kIsthmusCurve) {
       KeepIsthmuses(at.cycle + 1, bricks, marks);
     }
-    return FindSimpleIn(bricks);
+    return FindSimpleIn(bricks, ends);
   }
   const RuleBView view = ViewOf(at, dirty);
   for (Sublattice sublattice : kSublattices) {
@@ -73,18 +72,12 @@ std::vector<IsthmusBirth> SymmetricRule::Isthmuses() const {
   return isthmuses;
 }
 
-void SymmetricRule::ListThin(const BrickLists& bricks, BrickLists& thin) const {
-  for (Sublattice sublattice : kSublattices) {
-    thin.Add(sublattice,
-             KeepThinBricks(state_.View(), bricks.Of(sublattice), thin.Room(sublattice)));
-  }
-}
-
-void SymmetricRule::FindSimpleIn(BrickLists& bricks) {
+void SymmetricRule::FindSimpleIn(BrickLists& bricks, std::vector<MarkedBrick>& ends) {
   std::array<size_t, 2> counts = {};
   for (Sublattice sublattice : kSublattices) {
-    counts[static_cast<size_t>(sublattice)] = FindSimple(
-        state_.View(), sublattice, EndPointsOf(kind_), bricks.Of(sublattice), simple_[0].data());
+    counts[static_cast<size_t>(sublattice)] =
+        FindSimple(state_.View(), sublattice, EndPointsOf(kind_), bricks.Of(sublattice),
+                   simple_[0].data(), ends);
   }
   bricks.SetCounts(counts[0], counts[1]);
 }

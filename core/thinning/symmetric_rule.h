@@ -38,7 +38,7 @@ class SymmetricRule : public PassRule {
   size_t work() const override { return 4; }
   DirtyMask BitsToVisit(const PassStep&) const override { return kDirectionsDirty; }
   void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
-            BrickLists& thin) override;
+            std::vector<MarkedBrick>& ends) override;
   void Finish(const BrickLists& bricks) override;
 
   // The points kept as isthmuses, in lattice order. Needs: no pass is running.
@@ -52,8 +52,7 @@ class SymmetricRule : public PassRule {
 
   void KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBuffer& scratch);
   void Keep(int32_t pass, std::span<const MarkedBrick> points);
-  void ListThin(const BrickLists& bricks, BrickLists& thin) const;
-  void FindSimpleIn(BrickLists& bricks);
+  void FindSimpleIn(BrickLists& bricks, std::vector<MarkedBrick>& ends);
   RuleBView ViewOf(const PassStep& at, DirtyMask* dirty);
 
   const BrickDepths& depth_;

@@ -56,7 +56,30 @@ class Circuits : public testing::TestWithParam<Sublattice> {
 
   std::vector<BrickBits> Simple(EndPoints end_points) const {
     return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
-      FindSimple(state_.View(), GetParam(), end_points, bricks, found.data());
+      std::vector<MarkedBrick> ends;
+      FindSimple(state_.View(), GetParam(), end_points, bricks, found.data(), ends);
+    });
+  }
+  std::vector<BrickBits> Ends() const {
+    return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
+      std::vector<MarkedBrick> ends;
+      std::vector<BrickBits> simple(found.size());
+      FindSimple(state_.View(), GetParam(), EndPoints::kStay, bricks, simple.data(), ends);
+      for (const MarkedBrick& m : ends) found[m.brick] = m.marks;
+    });
+  }
+  std::vector<BrickBits> EndsAlone() const {
+    return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
+      std::vector<MarkedBrick> ends;
+      MarkEndPoints(state_.View(), GetParam(), bricks, ends);
+      for (const MarkedBrick& m : ends) found[m.brick] = m.marks;
+    });
+  }
+  std::vector<BrickBits> EndsAlong(DiagonalDirection d) const {
+    return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
+      std::vector<MarkedBrick> ends, marked(bricks.size());
+      MarkRemovable(state_.View(), GetParam(), d, bricks, marked.data(), ends);
+      for (const MarkedBrick& m : ends) found[m.brick] = m.marks;
     });
   }
   std::vector<BrickBits> Isthmuses(SkeletonKind kind) const {
@@ -92,6 +115,14 @@ class Circuits : public testing::TestWithParam<Sublattice> {
 TEST_P(Circuits, FindSimplePointsInEveryNeighborhood) {
   ExpectEverywhere([this] { return Simple(EndPoints::kMayGo); }, IsSimple);
   ExpectEverywhere([this] { return Simple(EndPoints::kStay); }, IsSimpleNonEnd);
+}
+
+TEST_P(Circuits, FindEndPointsInEveryNeighborhood) {
+  ExpectEverywhere([this] { return Ends(); }, IsEndPoint);
+  ExpectEverywhere([this] { return EndsAlone(); }, IsEndPoint);
+  for (int d = 0; d < 8; ++d) {
+    ExpectEverywhere([&] { return EndsAlong(DiagonalDirection(d)); }, IsEndPoint);
+  }
 }
 
 TEST_P(Circuits, FindIsthmusesInEveryNeighborhood) {
