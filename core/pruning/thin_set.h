@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
+#include "core/distance/places.h"
 #include "core/exec/context.h"
 #include "core/lattice/directions.h"
 #include "core/pruning/point_table.h"
@@ -76,6 +77,12 @@ class ThinSet {
     const double x = scale_[0] * (a.x - b.x), y = scale_[1] * (a.y - b.y),
                  z = scale_[2] * (a.z - b.z);
     return std::sqrt(x * x + y * y + z * z);
+  }
+
+  // The same to a place between points.
+  double Between(LatticePoint a, const Coordinates& place) const {
+    const Coordinates way = Sum(place, -1, PlaceOf(a, scale_));
+    return std::sqrt(Dot(way, way));
   }
 
   // The points as a volume on the grid of `thin`, and their radii in its order.
