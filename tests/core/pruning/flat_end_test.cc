@@ -160,6 +160,7 @@ TEST(FlatEnd, LiesInTheMiddleOfALimbBentInItsPlane) {
   static constexpr double kHalf = 28, kBend = 220, kAngle = 0.45;  // to either side
   for (const double turn : {0.2, 0.5, 0.9}) {
     const Turned limb = {turn, 150, [](Vector at) {
+                           if (std::abs(at.z) > kHalf / 6) return false;
                            const double y = at.y - kBend, angle = std::atan2(at.x, -y);
                            const double held = std::clamp(angle, -kAngle, kAngle);
                            const double off = std::hypot(at.x - kBend * std::sin(held),
@@ -186,6 +187,7 @@ TEST(FlatEnd, LiesAtThePointOfABroadLeaf) {
   static constexpr double kLength = (kHalf - kPoint) / kSlope;
   for (const double turn : {0.2, 0.5, 0.9}) {
     const Turned leaf = {turn, 110, [](Vector at) {
+                           if (std::abs(at.z) > kHalf / 4) return false;
                            const double x = at.x + 20, y = std::abs(at.y);
                            const double cosine = std::sqrt(1 - kSlope * kSlope);
                            const double along = std::clamp(x - y * kSlope / cosine, 0.0, kLength);
