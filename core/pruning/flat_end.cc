@@ -1,81 +1,148 @@
 #include "core/pruning/flat_end.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.75;       // of a tip's merit, along the limb
+constexpr double kSlope = 0.75;       // of a place's merit, along the limb
 constexpr double kAside = 0.4;        // and across it: corners lie aside, points do not
 constexpr double kFlatness = 1.5;     // width by radius: less is round
-constexpr double kFlatMargin = 3;     // so are limbs as thick as the steps of the surface
+constexpr double kFlatMargin = 1.5;   // so are limbs as thick as the steps of the surface
 constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
 constexpr double kMostMargin = 16;
 constexpr double kRoundRadii = 4;  // so far from the end a flat limb is wide, in radii
 constexpr double kMargin = 6;
 constexpr double kCutWidths = 1.75;
-constexpr double kAsWide = 0.9;  // of the largest width
-constexpr double kHalfAsWide = 0.5;
-constexpr double kLeastLimb = 0.5;  // of that: the limb before its end
+constexpr double kAboutAsWide = 0.7;  // as the largest width: the end itself is narrow
+constexpr double kAsWide = 0.9;
+constexpr double kAsWideMargin = 1;
+constexpr double kLeastLimb = 0.4;  // of the largest width: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kLeastStride = 1;
-constexpr double kStride = 8;       // places in a width
-constexpr double kStep = 1.5;       // lattice units
-constexpr double kMostOff = 2;      // farther off lies another sheet
-constexpr size_t kNormalReach = 4;  // points on either side
-
-// Eighths of a half turn: cosine and sine.
-constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
-                                                          {0, 1},
-                                                          {0.70710678, 0.70710678},
-                                                          {-0.70710678, 0.70710678},
-                                                          {0.92387953, 0.38268343},
-                                                          {-0.38268343, 0.92387953},
-                                                          {0.38268343, 0.92387953},
-                                                          {-0.92387953, 0.38268343}}};
+constexpr double kStride = 8;         // places in a width
+constexpr size_t kNormalReach = 4;    // points on either side
+constexpr double kWalkWidths = 1;     // so long before its end the limb is walked along
+constexpr double kWalkSlope = 0.85;   // no corners, so more than kSlope: leaves taper by up to this
+constexpr double kWalkStep = 2;       // lattice units
+constexpr size_t kHeadingSteps = 12;  // the way is that of the last steps,
+constexpr size_t kLeastHeading = 6;   // if there are so many
+constexpr double kMostWiden = 1.3;    // what is wider is no limb
+constexpr double kLeastInPlane = 0.3;  // of a way of length 1
 
 // Where the limb is about as wide as anywhere.
 bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
   size_t wide = 0, flat = 0;
   for (const FlatEnd::Place& place : places) {
-    if (place.width < kHalfAsWide * widest) continue;
+    if (place.width < kAboutAsWide * widest) continue;
     ++wide;
     if (place.flat) ++flat;
   }
   return 2 * flat > wide;
 }
 
+// `way` of length 1.
+double MeritOf(double width, const Coordinates& out, const Coordinates& way) {
+  const double along = Dot(way, out);
+  const double aside = std::sqrt(std::max(Dot(out, out) - along * along, 0.0));
+  return width + kSlope * along - kAside * aside;
+}
+
 }  // namespace
 
 FlatEnd::FlatEnd(const Volume& object, const ExactRadius& radius, FirmDepth& depth)
-    : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius), depth_(depth) {}
+    : scale_(AxisScaleOf(object.placement())),
+      radius_(radius),
+      sheet_(object, radius),
+      depth_(depth) {}
 
-std::optional<size_t> FlatEnd::In(std::span<const LatticePoint> path, const ThinSet& set) {
+std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, const ThinSet& set) {
   const std::vector<Place> places = WidePlaces(path, set);
   if (places.empty()) return std::nullopt;
   const double widest = std::ranges::max(places, {}, &Place::width).width;
   if (!IsFlat(places, widest)) return std::nullopt;
-  const Place aim =
-      *std::ranges::find_if(places, [&](const Place& p) { return p.width >= kAsWide * widest; });
-  if (set.Between(path[0], path[aim.position]) < kLeastLimb * widest) return std::nullopt;
-  size_t from = aim.position;
-  while (from > 0 && set.Between(path[from], path[aim.position]) < kAimWidths * widest) --from;
-  const Coordinates start = PlaceOf(path[from], scale_);
-  const Coordinates way = Unit(Sum(PlaceOf(path[aim.position], scale_), -1, start));
-  Place best;
+  const size_t aim = std::ranges::find_if(places, [&](const Place& p) {
+                       return p.width >= kAsWide * widest - kAsWideMargin;
+                     })->position;
+  const double least = kLeastLimb * widest;
+  if (set.Between(path[0], path[aim]) < least) return std::nullopt;
+  const auto before_aim = [&](double far, double least_limb) {
+    size_t n = aim;
+    while (n > 0 && set.Between(path[n], path[aim]) < far &&
+           set.Between(path[0], path[n]) > least_limb) {
+      --n;
+    }
+    return n;
+  };
+  const Coordinates start = PlaceOf(path[before_aim(kAimWidths * widest, 0)], scale_);
+  const Coordinates way = Unit(Sum(PlaceOf(path[aim], scale_), -1, start));
+  Tip tip{.from = before_aim(kWalkWidths * widest, least), .middle = {}};
   double most = -std::numeric_limits<double>::infinity();
   for (const Place& p : places) {
     const Coordinates out = Sum(PlaceOf(path[p.position], scale_), -1, start);
-    const double along = Dot(way, out);
-    const double aside = std::sqrt(std::max(Dot(out, out) - along * along, 0.0));
-    const double merit = p.width + kSlope * along - kAside * aside;
-    if (merit > most) best = p, most = merit;
+    const double merit = MeritOf(p.width, out, way);
+    if (merit > most) tip.last = p.position, most = merit;
   }
-  if (best.position + 1 >= path.size()) return std::nullopt;
-  return best.position;
+  const Walker walker = {PlaceOf(path[tip.from], scale_), NormalAt(path, tip.from, set), way};
+  tip.middle =
+      MiddleFrom(walker, widest, set.Between(path[tip.from], path.back()) + widest + kMargin);
+  return tip;
+}
+
+// Up to the best place.
+std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, double longest) {
+  std::vector<Coordinates> places = {walker.place};
+  size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity(), gone = 0;
+  while (gone < longest && Step(walker)) {
+    gone += kWalkStep;
+    const auto [width, ahead] = MoveToMiddle(walker, widest);
+    places.push_back(walker.place);
+    const size_t back = std::min(places.size() - 1, kHeadingSteps);
+    if (ahead > width && back >= kLeastHeading) {
+      const Coordinates heading = Sum(walker.place, -1, places[places.size() - 1 - back]);
+      if (Dot(heading, heading) > 0) walker.way = Unit(heading);
+    }
+    const double merit = std::min(width, ahead) + kWalkSlope * gone;
+    if (merit > most) most = merit, best = places.size() - 1;
+  }
+  places.resize(best + 1);
+  return places;
+}
+
+// Returns whether there is a place to go on to.
+bool FlatEnd::Step(Walker& walker) {
+  const auto in_plane = [&walker] {
+    const Coordinates way = Sum(walker.way, -Dot(walker.way, walker.normal), walker.normal);
+    const bool is_long = Dot(way, way) >= kLeastInPlane * kLeastInPlane;
+    if (is_long) walker.way = Unit(way);
+    return is_long;
+  };
+  if (!in_plane()) return false;
+  const std::optional<Coordinates> next =
+      sheet_.MiddleNear(Sum(walker.place, kWalkStep, walker.way), walker.normal);
+  if (!next.has_value()) return false;
+  walker.place = *next;
+  walker.normal = sheet_.NormalNear(walker.place, walker.normal);
+  return in_plane();
+}
+
+// Half a step aside at most, and not near the rim ahead.
+FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
+  const double longest = kMostWiden * widest + kFlatMargin;
+  const Coordinates left = Cross(walker.normal, walker.way), right = Sum({0, 0, 0}, -1, left);
+  const auto [place, normal, way] = walker;
+  const double to_left = sheet_.WayToSide(place, way, left, normal, longest);
+  const double to_right = sheet_.WayToSide(place, way, right, normal, longest);
+  const double width = (to_left + to_right) / 2;
+  const double ahead = sheet_.WayToRim(place, way, normal, width + kWalkStep);
+  if (ahead > width) {
+    const double aside = std::clamp((to_left - to_right) / 2, -kWalkStep / 2, kWalkStep / 2);
+    walker.place = sheet_.MiddleNear(Sum(place, aside, left), normal).value_or(place);
+  }
+  return {width, ahead};
 }
 
 // From the end back, as far as an end may be cut; none where the limb is round.
@@ -86,8 +153,8 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
   bool flat = false;  // so far
   for (size_t n = path.size(); n-- > 0;) {
     const double back = set.Between(path[n], path.back()), radius = depth_.At(path[n]);
-    const double width = WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n, set),
-                                 kMostFlatness * radius + kMostMargin);
+    const double width = sheet_.WidthAt(PlaceOf(path[n], scale_), NormalAt(path, n, set),
+                                        kMostFlatness * radius + kMostMargin);
     if (back > kCutWidths * width + kMargin) break;
     const bool is_flat = width > kFlatness * radius + kFlatMargin;
     flat = flat || is_flat;
@@ -121,44 +188,6 @@ Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t 
     way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
   }
   return *way;
-}
-
-double FlatEnd::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {
-  double width = longest;
-  const auto [u, v] = Across(normal);
-  for (const auto& [cosine, sine] : kTurns) {
-    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
-    for (const double side : {1.0, -1.0}) {
-      width = WayToRim(place, Sum({0, 0, 0}, side, way), normal, width);
-    }
-  }
-  return width;
-}
-
-// `longest` where the rim is farther.
-double FlatEnd::WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
-                         double longest) {
-  for (double length = kStep; length < longest; length += kStep) {
-    place = Sum(place, kStep, way);
-    if (InObject(place)) continue;
-    const std::optional<Coordinates> near = InSheetNear(place, normal);
-    if (!near.has_value()) return length;
-    place = *near;
-  }
-  return longest;
-}
-
-// The place moved along the normal until it is in the object again, and one unit deeper.
-std::optional<Coordinates> FlatEnd::InSheetNear(const Coordinates& place,
-                                                const Coordinates& normal) {
-  for (double off = 1; off <= kMostOff; ++off) {
-    for (const double side : {1.0, -1.0}) {
-      if (!InObject(Sum(place, side * off, normal))) continue;
-      const Coordinates deeper = Sum(place, side * (off + 1), normal);
-      return InObject(deeper) ? deeper : Sum(place, side * off, normal);
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace bccskel

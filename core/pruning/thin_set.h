@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
+#include "core/distance/places.h"
 #include "core/exec/context.h"
 #include "core/lattice/directions.h"
 #include "core/pruning/point_table.h"
@@ -62,6 +63,12 @@ class ThinSet {
     const double x = scale_[0] * (a.x - b.x), y = scale_[1] * (a.y - b.y),
                  z = scale_[2] * (a.z - b.z);
     return std::sqrt(x * x + y * y + z * z);
+  }
+
+  // The same to a place between points.
+  double Between(LatticePoint a, const Coordinates& place) const {
+    const Coordinates way = Sum(place, -1, PlaceOf(a, scale_));
+    return std::sqrt(Dot(way, way));
   }
 
   // The points on the grid of `like`, with its births: points that went and came back keep theirs.

@@ -12,6 +12,7 @@
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/firm_depth.h"
 #include "core/pruning/flat_end.h"
+#include "core/pruning/grow_along.h"
 #include "core/pruning/significance.h"
 
 namespace bccskel {
@@ -103,9 +104,23 @@ class TipPlacer {
     path_.assign(branch.points.rbegin(), branch.points.rend());
     const auto root = std::ranges::find(path_, root_);
     if (root != path_.end()) path_.erase(path_.begin(), root);
-    const std::optional<size_t> last = flat_.In(path_, set_);
-    if (last.has_value()) CutAfter(*last);
-    return last.has_value();
+    const std::optional<FlatEnd::Tip> tip = flat_.In(path_, set_);
+    if (!tip.has_value()) return false;
+    if (!GrowInFlat(*tip)) CutAfter(tip->last);
+    MeasureGrown();
+    return true;
+  }
+
+  // Returns whether the limb grew along its middle; else nothing changed.
+  bool GrowInFlat(const FlatEnd::Tip& tip) {
+    const auto behind = std::span(path_).subspan(tip.from + 1);
+    const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
+    if (tip.middle.size() < 2 || std::ranges::any_of(behind, is_kept)) return false;
+    balls_.SetOwn(own_);
+    const auto may_add = [&](LatticePoint p) {
+      return bricks_.Contains(p) && !IsInBallOfAnother(p);
+    };
+    return GrowAlong(tip.middle, tip.from, may_add, path_, set_);
   }
 
   // Finds the anchor and leaves the points between the end and it. Where the limb bends, the anchor

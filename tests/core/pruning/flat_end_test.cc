@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/import/shapes/rasterize.h"
@@ -104,6 +105,106 @@ TEST(FlatEnd, LiesInTheMiddleOfABentStrip) {
     EXPECT_LT(std::abs(node.at.point.z - 50), 0.3 * kWidth);
   }
   EXPECT_EQ(ends, 2);
+}
+
+// What is inside by its own coordinates, at most `reach` units from its middle, turned about two
+// axes; and the way from its ends to `tip`, the nearest, along a segment from there of length
+// `cap`.
+struct Turned {
+  double turn = 0, reach = 0;
+  std::function<bool(Vector)> inside;
+
+  Vector Own(Vector at) const {
+    const double c = std::cos(turn), s = std::sin(turn);
+    const Vector flat = {c * at.x + s * at.y, -s * at.x + c * at.y, at.z};
+    return {flat.x, c * flat.y + s * flat.z, -s * flat.y + c * flat.z};
+  }
+  Vector FromMiddle(LatticePoint p) const {
+    const double middle = std::ceil(reach) + 2;
+    return Own({p.x - middle, p.y - middle, p.z - middle});
+  }
+  Volume Sampled() const {
+    const auto cells = static_cast<int32_t>(reach) + 4;
+    VolumeBuilder builder({cells, cells, cells});
+    for (int32_t z = 0; z < 2 * cells; ++z) {
+      for (int32_t y = 0; y < 2 * cells; ++y) {
+        for (int32_t x = 0; x < 2 * cells; ++x) {
+          if (IsOnLattice({x, y, z}) && inside(FromMiddle({x, y, z}))) builder.Add({x, y, z});
+        }
+      }
+    }
+    return *std::move(builder).Build();
+  }
+  std::vector<Vector> Ends(double noise, uint64_t seed) const {
+    const Volume clean = Sampled();
+    const SkeletonizeResult result =
+        *Skeletonize(noise > 0 ? test::WithSimpleNoise(clean, noise, seed) : clean, {}, {});
+    std::vector<Vector> ends;
+    for (const SkeletonNode& node : result.graph.nodes) {
+      if (node.kind == NodeKind::kEnd) ends.push_back(FromMiddle(node.at.point));
+    }
+    return ends;
+  }
+};
+
+// Pressed flat: 2 * `half` thick where the rim is `width` away, sharp at the rim.
+bool IsThick(double rim_way, double width, double half, double z) {
+  if (rim_way < 0) return false;
+  const double in = 1 - std::min(rim_way / width, 1.0);
+  return std::abs(z) <= half * std::sqrt(1 - in * in);
+}
+
+// Six times as wide as thick, round at the ends, bent in its own plane. Noise on its rim led the
+// curve out of the middle long before the end.
+TEST(FlatEnd, LiesInTheMiddleOfALimbBentInItsPlane) {
+  static constexpr double kHalf = 28, kBend = 220, kAngle = 0.45;  // to either side
+  for (const double turn : {0.2, 0.5, 0.9}) {
+    const Turned limb = {turn, 150, [](Vector at) {
+                           if (std::abs(at.z) > kHalf / 6) return false;
+                           const double y = at.y - kBend, angle = std::atan2(at.x, -y);
+                           const double held = std::clamp(angle, -kAngle, kAngle);
+                           const double off = std::hypot(at.x - kBend * std::sin(held),
+                                                         y + kBend * std::cos(held));
+                           return IsThick(kHalf - off, kHalf, kHalf / 6, at.z);
+                         }};
+    for (const uint64_t seed : {1u, 2u, 3u}) {
+      SCOPED_TRACE(testing::Message() << turn << ' ' << seed);
+      const std::vector<Vector> ends = limb.Ends(0.05, seed);
+      ASSERT_EQ(ends.size(), 2u);
+      for (const Vector& end : ends) {
+        const double y = end.y - kBend, angle = std::abs(std::atan2(end.x, -y));
+        EXPECT_LT(std::abs(std::hypot(end.x, y) - kBend), 5);  // off its line
+        EXPECT_GT(angle, kAngle - 5 / kBend);
+        EXPECT_LT(angle, kAngle + kHalf / kBend);
+      }
+    }
+  }
+}
+
+// Its sides meet at 74 degrees, so W falls nearly as fast as the way grows.
+TEST(FlatEnd, LiesAtThePointOfABroadLeaf) {
+  static constexpr double kHalf = 56, kPoint = 6, kSlope = 0.6;  // a sine
+  static constexpr double kLength = (kHalf - kPoint) / kSlope;
+  for (const double turn : {0.2, 0.5, 0.9}) {
+    const Turned leaf = {turn, 110, [](Vector at) {
+                           if (std::abs(at.z) > kHalf / 4) return false;
+                           const double x = at.x + 20, y = std::abs(at.y);
+                           const double cosine = std::sqrt(1 - kSlope * kSlope);
+                           const double along = std::clamp(x - y * kSlope / cosine, 0.0, kLength);
+                           const double width = kHalf - kSlope * along;
+                           const double rim = width - std::hypot(x - along, y);
+                           const bool stalk = x < 0 && x > -80 && std::hypot(y, at.z) < 9;
+                           return stalk || IsThick(rim, width, width / 4, at.z);
+                         }};
+    for (const double noise : {0.0, 0.05}) {
+      SCOPED_TRACE(testing::Message() << turn << ' ' << noise);
+      const std::vector<Vector> ends = leaf.Ends(noise, 1);
+      ASSERT_EQ(ends.size(), 2u);
+      const Vector end = std::ranges::max(ends, {}, &Vector::x);
+      EXPECT_GT(end.x, kLength - 20 - 6);
+      EXPECT_LT(std::abs(end.y), 5);
+    }
+  }
 }
 
 // Its corners end no limbs.
