@@ -23,13 +23,6 @@ struct PointsAlong {
 PointsAlong FindPointsAlong(const Coordinates& from, const Coordinates& way, double first,
                             double step, const AxisScale& scale);
 
-// How far the object goes on from a place, up to `reach`, in whole lattice units; one more where
-// that leads past a missing point. A single missing point is noise and passed over.
-// Needs: it goes on up to `start`, a whole number; reach less than 4096; what PointNear() needs of
-// each place; `nearby` is of the object.
-double WayInObject(const Volume& object, NearbyBricks& nearby, const Coordinates& from,
-                   const Coordinates& way, double start, double reach, const AxisScale& scale);
-
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_DISTANCE_POINTS_ALONG_H_

@@ -98,7 +98,6 @@ Significance::Significance(const Volume& object, const SurfaceNoise& noise,
                            std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
-      object_(object),
       bricks_(object),
       way_on_(std::move(way_on)),
       firm_depth_(std::move(firm_depth)) {}
@@ -377,9 +376,24 @@ bool Significance::GoOnInWall(Front& front, double out, double radius) {
   return true;
 }
 
+// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`,
+// a whole number. A single missing point is noise and passed over.
 double Significance::WayOut(const Coordinates& from, const Coordinates& way, double start,
                             double reach) {
-  return WayInObject(object_, bricks_, from, way, start, reach, scale_);
+  double out = start;
+  PointsAlong ahead;
+  size_t passed = PointsAlong::kCount;  // of those ahead
+  while (out < reach) {
+    if (passed + 2 > PointsAlong::kCount) {
+      ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
+      passed = 0;
+    }
+    const size_t steps = bricks_.Contains(ahead[passed]) ? 1 : 2;
+    if (steps == 2 && !bricks_.Contains(ahead[passed + 1])) break;
+    passed += steps;
+    out += static_cast<double>(steps);
+  }
+  return out;
 }
 
 }  // namespace bccskel

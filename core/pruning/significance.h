@@ -129,7 +129,6 @@ class Significance {
 
   const SurfaceNoise noise_;
   const AxisScale scale_;
-  const Volume& object_;
   NearbyBricks bricks_;
   std::optional<WayOn> way_on_;
   std::optional<FirmDepth> firm_depth_;

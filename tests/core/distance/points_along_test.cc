@@ -3,10 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/exec/instruction_sets.h"
 #include "gtest/gtest.h"
-#include "tests/support/random_objects.h"
-#include "tests/support/reference_point_set.h"
 
 namespace bccskel {
 namespace {
@@ -33,47 +30,6 @@ TEST(PointsAlong, AreThoseNextToEachPlace) {
       }
     }
   }
-}
-
-double WayByPoints(const Volume& object, const Coordinates& from, const Coordinates& way,
-                   double start, double reach, const AxisScale& scale) {
-  const auto is_in = [&](double along) {
-    const LatticePoint p = PointNear(Sum(from, along, way), scale);
-    return object.Contains(p);
-  };
-  double out = start;
-  while (out < reach) {
-    const int steps = is_in(out + 1) ? 1 : 2;
-    if (steps == 2 && !is_in(out + 2)) break;
-    out += steps;
-  }
-  return out;
-}
-
-// From inside and outside of an object with holes, to all sides and beyond its extent.
-TEST(WayInObject, EndsAtTwoMissingPointsOrWithinReachOnEveryInstructionSet) {
-  std::vector<LatticePoint> points = test::RandomBlob(7, {90, 60, 60}, 9, 60);
-  std::mt19937 random(6);
-  std::erase_if(points, [&](LatticePoint) { return random() % 20 == 0; });
-  const Volume object = VolumeOfPoints(points);
-  std::uniform_real_distribution<double> part(-1, 1), reach(0, 60);
-  for (const std::string& name : exec::SupportedInstructionSets()) {
-    SCOPED_TRACE(name);
-    ASSERT_TRUE(exec::ChooseInstructionSet(name));
-    NearbyBricks nearby(object);
-    for (const AxisScale& scale : {kIsotropic, AxisScale{1, 1, 2.5}}) {
-      for (int line = 0; line < 3000; ++line) {
-        const Coordinates from = PlaceOf(points[random() % points.size()], scale);
-        const Coordinates way = Unit({part(random), part(random), part(random)});
-        const double start = line % 5,
-                     most = line % 2 == 0 ? std::floor(reach(random)) : reach(random);
-        ASSERT_EQ(WayInObject(object, nearby, from, way, start, most, scale),
-                  WayByPoints(object, from, way, start, most, scale))
-            << line;
-      }
-    }
-  }
-  exec::ChooseInstructionSet("");
 }
 
 }  // namespace
