@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::quality {
