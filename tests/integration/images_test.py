@@ -62,8 +62,8 @@ class ImagesTest(harness.TestCase):
                     found = (betti["components"], betti["loops"], betti["cavities"])
                     self.assertEqual(found, topology, stage)
                 self.assertEqual(summary["certificate"]["simple_points_left"], 0)
-                self.assertEqual(len(summary["notes"]), min(topology[2], 1), summary["notes"])
-                self.assertTrue(all("--fill-cavities" in note for note in summary["notes"]))
+                cavities = [note for note in summary["notes"] if "--fill-cavities" in note]
+                self.assertEqual(len(cavities), min(topology[2], 1), summary["notes"])
 
     def test_the_skeleton_lies_in_the_world_of_the_image(self):
         summary = self.skeletonize(self.write_ring())
