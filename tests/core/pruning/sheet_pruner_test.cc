@@ -88,7 +88,7 @@ TEST(PruneSheets, LeavesAPlateItsCornersAtMost) {
 TEST(PruneSheets, LeavesNoCombOfABevelInAnyPose) {
   for (const Vector half_edges : {Vector{10, 7, 1}, Vector{18, 13, 7}, Vector{1, 1, 1}}) {
     for (const Vector first : {Vector{1, 0.3, 0.2}, Vector{0.4, 1, -0.7}, Vector{-0.2, 0.6, 1}}) {
-      for (const uint64_t points : {60'000, 300'000}) {
+      for (const uint64_t points : {60'000u, 300'000u}) {
         const Vector turned = shapes::Unit(first), some = {-0.3, 1, 0.15};
         const Block block = {half_edges, turned, shapes::Unit(some - Dot(turned, some) * turned)};
         const ThinSkeleton pruned = Pruned(SheetsOf(block, 0, points));

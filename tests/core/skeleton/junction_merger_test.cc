@@ -57,6 +57,12 @@ TEST(MergeJunctions, LeavesThoseFartherApart) {
   EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 4, kDefaultJunctionReach)), 2);
 }
 
+// Sampling moves junctions by a lattice unit; of a ball of radius 6 that decides, of 60 it does not.
+TEST(MergeJunctions, AllowsForSampling) {
+  EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 5.7f, kDefaultJunctionReach)), 1);
+  EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 5.5f, kDefaultJunctionReach)), 2);
+}
+
 TEST(MergeJunctions, MakesNotOneOfARow) {
   const auto row = Comb({10, 18, 26, 34, 42, 50, 58, 66});
   EXPECT_EQ(JunctionsOf(Merged(row, 5, 0)), 8);
@@ -66,10 +72,10 @@ TEST(MergeJunctions, MakesNotOneOfARow) {
 // Two dendrites leave a soma side by side, within one ball of it.
 TEST(MergeJunctions, LeavesThinLimbsOfAThickBody) {
   const auto thin_limbs = [](LatticePoint p) { return p.y == kMiddle ? 20.0f : 3.0f; };
-  SkeletonGraph graph = test::Trace(Comb({30, 46}), thin_limbs);
+  SkeletonGraph graph = test::Trace(Comb({30, 48}), thin_limbs);
   ASSERT_TRUE(MergeJunctions(kDefaultJunctionReach, {}, graph).ok());
   EXPECT_EQ(JunctionsOf(graph), 2);
-  EXPECT_EQ(JunctionsOf(Merged(Comb({30, 46}), 20, kDefaultJunctionReach)), 1);
+  EXPECT_EQ(JunctionsOf(Merged(Comb({30, 48}), 20, kDefaultJunctionReach)), 1);
 }
 
 TEST(MergeJunctions, TakesTheDeepest) {
