@@ -122,7 +122,9 @@ class Browser:
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         self.wait("!gliding && !asked")
 
-    def resize(self, width, height, scale=1):
+    def resize(self, width, height, scale=0.5):
+        """In CSS pixels. Drawing without a graphics card takes most of the time of a test, so
+        the canvas has fewer pixels unless a test counts them."""
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=scale, mobile=False)
 

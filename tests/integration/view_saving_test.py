@@ -48,6 +48,7 @@ class SavingTest(ToolsTestCase):
         self.assertEqual([row["branch_id"] for row in rows], ["2", "5", "8"])
 
     def test_pictures_are_as_large_as_the_canvas_or_twice_that(self):
+        self.browser.resize(1200, 800, scale=1)
         page = self.open_sample(view_samples.forest(3))
         width, height = page.run("[stage.clientWidth, stage.clientHeight]")
         for button, ratio in (("#save-1x", 1), ("#save-2x", 2)):

@@ -31,7 +31,7 @@ std::vector<RuledCurves> Objects() {
     objects.push_back({RawCurves(object, SkeletonKind::kIsthmusCurve), PruningRule::kPersistence});
   };
   for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot, Shape::kHollowBall}) {
-    const Volume clean = *GenerateShape(shape, {.points = 30'000});
+    const Volume clean = *GenerateShape(shape, {.points = 15'000});
     add(clean);
     add(test::WithSimpleNoise(clean, 0.1, 7));
   }
@@ -50,7 +50,7 @@ std::vector<double> ThresholdsFor(const PruningLevels& levels) {
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<double> some;
-  for (size_t n = 0; n < all.size(); n += 1 + all.size() / 12) {
+  for (size_t n = 0; n < all.size(); n += 1 + all.size() / 8) {
     some.insert(some.end(), {std::nextafter(all[n], 0), all[n], std::nextafter(all[n], 1e9)});
   }
   return some;
@@ -87,7 +87,7 @@ TEST(PruningLevels, OfAPrunedSkeletonAreThoseOfItsBranchesBefore) {
 
 TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
   for (Shape shape : {Shape::kTorus, Shape::kKnot, Shape::kTree}) {
-    const Volume object = test::WithSimpleNoise(*GenerateShape(shape, {.points = 30'000}), 0.1, 7);
+    const Volume object = test::WithSimpleNoise(*GenerateShape(shape, {.points = 15'000}), 0.1, 7);
     for (const auto& [kind, rule] : {std::pair(SkeletonKind::kCurve, PruningRule::kSignificance),
                                      {SkeletonKind::kIsthmusCurve, PruningRule::kPersistence}}) {
       const ThinSkeleton pruned = RawCurves(object, kind).PrunedBy(rule, 1e9);
@@ -99,7 +99,7 @@ TEST(PruningLevels, LeaveLoopsAndOnePathOfEveryTreeForever) {
 }
 
 TEST(PruningLevels, OfBranchesWithKeptPointsAreInfinite) {
-  const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 30'000}), SkeletonKind::kCurve);
+  const RawCurves raw(*GenerateShape(Shape::kTree, {.points = 15'000}), SkeletonKind::kCurve);
   const std::vector<LatticePoint> ends = ThinSet(raw.skeleton).Ends();
   const PointSet keep(ends.begin(), ends.end());
   Significance significance(raw.object, {.thin = 1, .thick = 1});
