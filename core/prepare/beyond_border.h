@@ -23,7 +23,8 @@ struct ContinuedObject {
 // Does:  adds the points beyond, farther and farther out, until no point of the object is deeper
 //        than they reach. Of an object without background all is deeper than that.
 // Cost:  a distance field of object and points beyond, up to three for thick objects.
-// Errors: of the budget; INVALID_ARGUMENT where no axis has room for the points beyond; CANCELLED, DEADLINE_EXCEEDED.
+// Errors: of the budget; INVALID_ARGUMENT where an axis has no room for the points beyond;
+//         CANCELLED, DEADLINE_EXCEEDED.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, BorderPoints border,
                                                      exec::MemoryBudget& memory,
