@@ -189,6 +189,9 @@ absl::Status CheckHeadersEnd(ByteCursor& cursor) {
   return absl::InvalidArgumentError("OpenEXR file: must have exactly two parts, even and odd");
 }
 
+// Of any compression: a server knows a volume's own after these sizes.
+uint64_t MostExrChunks(const LatticeExtent& extent) { return static_cast<uint64_t>(extent.ny); }
+
 }  // namespace
 
 std::string ExrChannelName(int32_t channel) { return absl::StrFormat("z%04d", channel); }
@@ -209,13 +212,11 @@ uint64_t ExrLineBytes(const LatticeExtent& extent) {
 
 uint64_t ExrStripBytes(const LatticeExtent& extent, VolumeCompression compression) {
   const auto lines = static_cast<uint64_t>(ExrLinesPerChunk(compression));
-  const auto chunks = static_cast<uint64_t>(ExrChunkCount(extent, compression));
-  return (3 * lines + 4) * ExrLineBytes(extent) + 16 * chunks + (uint64_t{4} << 20);
+  return (3 * lines + 4) * ExrLineBytes(extent) + 16 * MostExrChunks(extent) + (uint64_t{4} << 20);
 }
 
-uint64_t MaxExrBytes(const LatticeExtent& extent, VolumeCompression compression) {
-  const auto chunks = static_cast<uint64_t>(ExrChunkCount(extent, compression));
-  const uint64_t tables_and_leaders = 2 * chunks * (8 + 12);
+uint64_t MaxExrBytes(const LatticeExtent& extent) {
+  const uint64_t tables_and_leaders = 2 * MostExrChunks(extent) * (8 + 12);
   uint64_t sum = 0;
   const bool overflow =
       __builtin_add_overflow(DensePlaneBytes(extent), kMaxHeaderBytes + tables_and_leaders, &sum);

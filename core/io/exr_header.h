@@ -34,7 +34,7 @@ uint64_t ExrLineBytes(const LatticeExtent& extent);
 // Buffers of the decoder: a chunk as stored, decompressed and in between, four lines, the tables.
 uint64_t ExrStripBytes(const LatticeExtent& extent, VolumeCompression compression);
 // No file of the profile is longer. Saturates.
-uint64_t MaxExrBytes(const LatticeExtent& extent, VolumeCompression compression);
+uint64_t MaxExrBytes(const LatticeExtent& extent);
 // Errors: INVALID_ARGUMENT when OpenEXR cannot hold a volume of this extent: a chunk over 2 GiB, or
 //         more channels than fit in the header.
 absl::Status CheckExrCanHold(const LatticeExtent& extent, VolumeCompression compression);

@@ -80,7 +80,7 @@ void DeriveSizes(VolumeHeader& header) {
     case VolumeEncoding::kOpenExr:
       header.decoded_bytes = DensePlaneBytes(header.extent);
       header.strip_bytes = ExrStripBytes(header.extent, header.compression);
-      header.max_encoded_bytes = MaxExrBytes(header.extent, header.compression);
+      header.max_encoded_bytes = MaxExrBytes(header.extent);
       return;
     case VolumeEncoding::kRawPlanes:
       header.decoded_bytes = DensePlaneBytes(header.extent);

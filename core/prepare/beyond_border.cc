@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel {
@@ -30,6 +31,12 @@ Box BoxWithin(const LatticeExtent& extent, BorderPoints border, LatticePoint shi
           shift + LatticePoint{2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
 }
 
+uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
+  if (border == BorderPoints::kLastOfLattice) return extent.PointCount();
+  const LatticeExtent corners = extent, voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
+  return (corners.PointCount() + voxels.PointCount()) / 2;
+}
+
 BrickBits PointsBeyond(const Box& box, BrickCoordinates brick) {
   BrickBits bits;
   const LatticePoint first = PointOf(brick, 0), last = PointOf(brick, kBrickPoints - 1);
@@ -40,11 +47,32 @@ BrickBits PointsBeyond(const Box& box, BrickCoordinates brick) {
   return bits;
 }
 
-// The points beyond the box in bricks up to `room` away from the object.
-Volume Beyond(const Volume& object, const Box& box, BrickCoordinates room) {
+// The bricks from which the points beyond the box are at most `room` away.
+Volume BricksNearSides(const Volume& object, const Box& box, BrickCoordinates room) {
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bricks;
-  for (BrickKey key : BricksAround(object, room)) {
+  const LatticePoint reach = ShiftOf(room) + LatticePoint{1, 1, 1};  // of the other sublattice
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    const BrickCoordinates at = object.keys()[n].coordinates();
+    if (box.Contains(PointOf(at, 0) - reach) && box.Contains(PointOf(at, kBrickPoints - 1) + reach))
+      continue;
+    keys.push_back(object.keys()[n]);
+    bricks.push_back(object.bricks()[n]);
+  }
+  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                  std::move(bricks));
+}
+
+// The points beyond the box in bricks up to `room` away from the object.
+absl::StatusOr<Volume> Beyond(const Volume& object, const Box& box, BrickCoordinates room,
+                              exec::MemoryBudget& memory) {
+  const Volume near = BricksNearSides(object, box, room);
+  exec::MemoryShare share(memory);
+  BCCSKEL_RETURN_IF_ERROR(share.TakeFor(MostBricksAround(near, room), kBytesPerListedBrick,
+                                        "bricks to look beyond the border in"));
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (BrickKey key : BricksAround(near, room)) {
     const BrickBits bits = PointsBeyond(box, key.coordinates());
     if (bits.Empty()) continue;
     keys.push_back(key);
@@ -52,6 +80,14 @@ Volume Beyond(const Volume& object, const Box& box, BrickCoordinates room) {
   }
   return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
                                   std::move(bricks));
+}
+
+absl::Status CheckRoom(const LatticeExtent& extent) {
+  if (std::max({extent.nx, extent.ny, extent.nz}) <= kMaxExtentCells) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "extent of %d x %d x %d cells with room for what continues beyond the border: each axis must "
+      "have at most %d",
+      extent.nx, extent.ny, extent.nz, kMaxExtentCells));
 }
 
 template <typename Value>
@@ -82,11 +118,17 @@ absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, Borde
                                                      exec::MemoryBudget& memory,
                                                      const exec::Context& context) {
   const LatticeExtent& given = object.extent();
-  const double most = 2.0 * std::max({given.nx, given.ny, given.nz});
+  // What has no background is equally deep wherever one stops looking for it.
+  const bool full = object.PointCount() == PointCountOf(given, border);
+  const double most = full ? kFirstDepth : 2.0 * std::max({given.nx, given.ny, given.nz});
   for (double depth = kFirstDepth;; depth *= 2) {
     const BrickCoordinates room = RoomFor(depth);
-    Volume shifted = ShiftedBy(object, room, 1, WithRoom(given, room));
-    const Volume beyond = Beyond(shifted, BoxWithin(given, border, ShiftOf(room)), room);
+    const LatticeExtent extent = WithRoom(given, room);
+    BCCSKEL_RETURN_IF_ERROR(CheckRoom(extent));
+    Volume shifted = ShiftedBy(object, room, 1, extent);
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const Volume beyond,
+        Beyond(shifted, BoxWithin(given, border, ShiftOf(room)), room, memory));
     exec::MemoryShare share(memory);
     BCCSKEL_RETURN_IF_ERROR(
         share.TakeFor(beyond.brick_count(), kBytesPerBrick, "bricks beyond the border"));

@@ -21,9 +21,10 @@ struct ContinuedObject {
 // Distances without background beyond the border: that of the lattice, or of the image that it was
 // made from, whose last corner points lie on its faces.
 // Does:  adds the points beyond, farther and farther out, until no point of the object is deeper
-//        than they reach. An object without background is as deep as its lattice is long.
+//        than they reach. Of an object without background all is deeper than that.
 // Cost:  a distance field of object and points beyond, up to three for thick objects.
-// Errors: of the budget; CANCELLED, DEADLINE_EXCEEDED.
+// Errors: of the budget; INVALID_ARGUMENT where an axis has no room for the points beyond;
+//         CANCELLED, DEADLINE_EXCEEDED.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, BorderPoints border,
                                                      exec::MemoryBudget& memory,

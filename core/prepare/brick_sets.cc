@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 namespace bccskel {
@@ -42,16 +44,24 @@ Volume Joined(const Volume& a, const Volume& b, Join join) {
   return Volume::FromSortedBricks(a.extent(), a.placement(), std::move(keys), std::move(bricks));
 }
 
-// Sorted keys with those beside them, up to `reach` bricks away along one axis.
+// Sorted keys with those beside them, up to `reach` bricks away along one axis. `step` keeps their
+// order, so lists are merged, each time with one as wide.
 template <typename Step>
 std::vector<BrickKey> Widened(const std::vector<BrickKey>& keys, int32_t reach, Step step) {
-  std::vector<BrickKey> wide;
-  wide.reserve(keys.size() * static_cast<size_t>(2 * reach + 1));
-  for (BrickKey key : keys) {
-    for (int32_t n = -reach; n <= reach; ++n) wide.push_back(BrickKey(step(key.coordinates(), n)));
+  const auto moved = [&](const std::vector<BrickKey>& list, int32_t n) {
+    std::vector<BrickKey> there;
+    there.reserve(list.size());
+    for (BrickKey key : list) there.push_back(BrickKey(step(key.coordinates(), n)));
+    return there;
+  };
+  std::vector<BrickKey> wide = moved(keys, -reach);
+  for (int32_t width = 1, last = 2 * reach + 1; width < last;) {
+    const int32_t more = std::min(width, last - width);
+    std::vector<BrickKey> both;
+    std::ranges::set_union(wide, moved(wide, more), std::back_inserter(both));
+    wide = std::move(both);
+    width += more;
   }
-  std::ranges::sort(wide);
-  wide.erase(std::unique(wide.begin(), wide.end()), wide.end());
   return wide;
 }
 
@@ -92,6 +102,23 @@ Volume ShiftedBy(const Volume& volume, BrickCoordinates by, int32_t times, Latti
   }
   return Volume::FromSortedBricks(extent, volume.placement(), std::move(keys),
                                   {volume.bricks().begin(), volume.bricks().end()});
+}
+
+uint64_t MostBricksAround(const Volume& object, BrickCoordinates reach) {
+  if (object.empty()) return 0;
+  constexpr int32_t kFar = std::numeric_limits<int32_t>::max();
+  BrickCoordinates low = {kFar, kFar, kFar}, high = {-1, -1, -1};
+  for (BrickKey key : object.keys()) {
+    const BrickCoordinates brick = key.coordinates();
+    low = {std::min(low.bx, brick.bx), std::min(low.by, brick.by), std::min(low.bz, brick.bz)};
+    high = {std::max(high.bx, brick.bx), std::max(high.by, brick.by), std::max(high.bz, brick.bz)};
+  }
+  const auto places = [&](BrickCoordinates wide) {
+    return (wide.bx + 2.0 * reach.bx) * (wide.by + 2.0 * reach.by) * (wide.bz + 2.0 * reach.bz);
+  };
+  const double each = static_cast<double>(object.brick_count()) * places({1, 1, 1});
+  const double box = places({high.bx - low.bx + 1, high.by - low.by + 1, high.bz - low.bz + 1});
+  return 2 * static_cast<uint64_t>(std::min(each, box));
 }
 
 std::vector<BrickKey> BricksAround(const Volume& object, BrickCoordinates reach) {

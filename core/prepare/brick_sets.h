@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_PREPARE_BRICK_SETS_H_
 #define BCCSKEL_CORE_PREPARE_BRICK_SETS_H_
 
+#include <cstdint>
 #include <vector>
 
 #include "core/volume/volume.h"
@@ -24,6 +25,10 @@ Volume ShiftedBy(const Volume& volume, BrickCoordinates by, int32_t times, Latti
 // The keys of an object's bricks, of both sublattices, and of all around them up to `reach` bricks
 // away, increasing. Needs: no coordinate below `reach`.
 std::vector<BrickKey> BricksAround(const Volume& object, BrickCoordinates reach);
+
+// No fewer than these keys, and the memory that each takes until they are listed.
+uint64_t MostBricksAround(const Volume& object, BrickCoordinates reach);
+inline constexpr uint64_t kBytesPerListedBrick = 32;
 
 }  // namespace bccskel
 

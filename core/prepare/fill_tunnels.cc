@@ -135,8 +135,10 @@ class TunnelFiller {
     const LatticeExtent& given = object_.extent();
     const LatticeExtent extent = WithRoom(given, room);
     const Volume object = ShiftedBy(object_, room, 1, extent);
-    std::vector<BrickKey> keys = BricksAround(object, room);
     exec::MemoryShare share(memory_);
+    BCCSKEL_RETURN_IF_ERROR(share.TakeFor(MostBricksAround(object, room), kBytesPerListedBrick,
+                                          "bricks to list around the object"));
+    std::vector<BrickKey> keys = BricksAround(object, room);
     BCCSKEL_RETURN_IF_ERROR(
         share.TakeFor(keys.size(), kBytesPerRoomBrick, "bricks to look for tunnels in"));
     BrickBits all;

@@ -24,7 +24,8 @@ bool SkeletonGraph::HasShifts() const {
 
 bool SkeletonGraph::HasBirths() const {
   const auto is_born = [](const SkeletonPoint& p) { return p.birth > 0; };
-  return std::ranges::any_of(points, is_born) || std::ranges::any_of(sheets, is_born);
+  return std::ranges::any_of(points, is_born) || std::ranges::any_of(sheets, is_born) ||
+         std::ranges::any_of(nodes, is_born, &SkeletonNode::at);
 }
 
 }  // namespace bccskel

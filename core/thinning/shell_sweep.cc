@@ -65,7 +65,6 @@ class ShellSweep {
     int32_t cycle = done_;  // each of those shells had one
     for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
     for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
-      if (team_.parting() && !JoinedInOne(index, worker)) return;
       OpenShell(worker, shell);
       uint64_t before = 0;
       do {
@@ -78,6 +77,8 @@ class ShellSweep {
         if (partners_ != nullptr && !Agree(index, shell)) return;
         if (sleeps()) FallAsleep(worker, cycle);
         ++cycle;
+        // The last shell may have thousands of cycles.
+        if (team_.parting() && !JoinedInOne(index, worker)) return;
       } while (shell == last_ && TotalRemoved() != before);
       if (index == 0) Report(shell);
     }

@@ -170,6 +170,15 @@ class Voxelizer {
     return plausible ? spacing : coarse;
   }
 
+  // At this spacing the volume asks for far more points than wanted. Fewer are found where flat
+  // walls lie between the layers of points; finer grids then find none, and at once too many.
+  double LeastSpacing(uint64_t target) const {
+    constexpr double kFarMore = 512;
+    if (surface_.report.closure != SurfaceClosure::kOriented) return 0;
+    return std::cbrt(2 * std::max(surface_.unit_volume, 0.0) /
+                     (kFarMore * static_cast<double>(target)));
+  }
+
   // Points = 2 * volume / spacing^3, so each count tells a better spacing. The count jumps where
   // flat walls cross whole layers of points; the second half of the tries moves the grid off the
   // middle, where opposite walls jump at different spacings.
@@ -178,6 +187,7 @@ class Voxelizer {
     constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
     constexpr double kTolerance = 0.02;
     BCCSKEL_ASSIGN_OR_RETURN(const double first, FirstSpacing(target));
+    const double least = LeastSpacing(target);
     SpacingSearch search(first);
     Volume best;
     double best_ratio = 0;
@@ -185,6 +195,7 @@ class Voxelizer {
       if (n == kTries / 2) search = SpacingSearch(search.spacing());
       const GridShift shift = n < kTries / 2 ? GridShift::kCentered : GridShift::kOffCenter;
       if (n == kFruitlessTries && best.empty()) break;
+      if (search.spacing() < least) break;
       BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(search.spacing(), shift));
       const uint64_t count = volume.PointCount();
       const double ratio = static_cast<double>(count) / static_cast<double>(target);

@@ -95,6 +95,16 @@ TEST(Births, AreInEveryFormatOfFigures) {
   EXPECT_THAT(VtpText(result.graph), HasSubstr("Name=\"birth\" format=\"ascii\">\n4\n0\n0\n5\n"));
 }
 
+TEST(Births, OfNodesAloneAreInEveryFormatOfFigures) {
+  SkeletonizeResult result;
+  result.graph.nodes = {{NodeKind::kIsolated, {{2, 2, 2}, 1.5f, 3}}};
+  EXPECT_THAT(JsonText(result), HasSubstr("\"birth\":3}"));
+  const std::string graphml = GraphMlText(result.graph);
+  EXPECT_THAT(graphml, HasSubstr("<key id=\"birth\""));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"birth\">3</data>"));
+  EXPECT_THAT(VtpText(result.graph), HasSubstr("Name=\"birth\" format=\"ascii\">\n3\n"));
+}
+
 SkeletonGraph LollipopWithSheet() {
   SkeletonGraph graph = Lollipop();
   graph.sheets = {{{10, 10, 12}, 5}, {{11, 11, 11}, 6}};

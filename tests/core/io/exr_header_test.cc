@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/io/volume_decoder.h"
+#include "core/io/volume_encoder.h"
 #include "tests/core/io/handmade_exr.h"
 #include "tests/core/io/test_volumes.h"
 
@@ -45,6 +46,30 @@ TEST(ExrHeader, ReadsTheDeclaredNumberOfBricks) {
   ASSERT_TRUE(header.ok()) << header.status();
   EXPECT_EQ(header->volume.declared_bricks, 3u);
   EXPECT_EQ(header->volume.max_bricks, 3u);
+}
+
+// A server knows the compression from the file alone, and takes the one that needs most memory.
+TEST(ExrHeader, OfAnyCompressionBoundsTheFilesOfAll) {
+  for (const LatticeExtent extent : {LatticeExtent{4, 33000, 2}, {3, 70, 40}}) {
+    VolumeBuilder builder(extent);
+    for (int32_t n = 0; n < 2 * extent.ny; n += 14) builder.Add({2, n, 2 * (n / 7 % extent.nz)});
+    const Volume volume = *std::move(builder).Build();
+    for (const VolumeCompression stated : {VolumeCompression::kRle, VolumeCompression::kZip}) {
+      VolumeHeader declared;
+      declared.encoding = VolumeEncoding::kOpenExr;
+      declared.compression = stated;
+      declared.extent = extent;
+      const auto header = CompleteVolumeHeader(declared, {});
+      ASSERT_TRUE(header.ok()) << header.status();
+      for (const VolumeCompression used : {VolumeCompression::kNone, VolumeCompression::kRle,
+                                           VolumeCompression::kZips, VolumeCompression::kZip}) {
+        const auto bytes =
+            EncodeVolume(volume, {.encoding = VolumeEncoding::kOpenExr, .compression = used});
+        ASSERT_TRUE(bytes.ok()) << bytes.status();
+        EXPECT_LE(bytes->size(), header->max_encoded_bytes) << VolumeCompressionName(used);
+      }
+    }
+  }
 }
 
 struct BadHeader {

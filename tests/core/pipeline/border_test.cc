@@ -4,9 +4,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "core/exec/worker_team.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/pipeline/skeletonize_within.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -155,6 +157,55 @@ TEST(Border, OfAnObjectWithoutBackgroundLeavesOnePoint) {
   EXPECT_TRUE(result.certificate.TopologyKept());
   EXPECT_EQ(result.certificate.skeleton.components, 1);
   EXPECT_EQ(SkeletonOf(Volume(), Continued()).skeleton_points, 0u);
+}
+
+// Allows a job so many bytes.
+class Allowance final : public exec::MemoryBudget {
+ public:
+  explicit Allowance(uint64_t bytes) : left_(bytes) {}
+  absl::Status Take(uint64_t bytes, const std::string& what_for) override {
+    if (bytes > left_) return absl::ResourceExhaustedError(what_for);
+    left_ -= bytes;
+    return absl::OkStatus();
+  }
+  void GiveBack(uint64_t bytes) override { left_ += bytes; }
+
+ private:
+  uint64_t left_;
+};
+
+absl::Status StatusWithin(uint64_t bytes, const Volume& object) {
+  exec::WorkerTeam team(1);
+  exec::Context context;
+  context.team = &team;
+  Allowance memory(bytes);
+  return SkeletonizeWithin(memory, object, Continued(), context).status();
+}
+
+// As far out as it is long there are some 10^12 points on all sides.
+TEST(Border, OfALongObjectWithoutBackgroundTakesLittleMemory) {
+  const Volume row = VolumeWhere({4000, 2, 2}, [](double, double, double) { return true; });
+  EXPECT_EQ(StatusWithin(256 << 20, row), absl::OkStatus());
+  const Volume corners = VolumeWhere(
+      {4001, 2, 2}, [](double x, double y, double z) { return x <= 8000 && y <= 2 && z <= 2; });
+  SkeletonizeOptions options = Continued();
+  options.source = ObjectSource::kVoxels;
+  EXPECT_TRUE(SkeletonOf(corners, options).certificate.TopologyKept());
+}
+
+TEST(Border, WithBackgroundTooFarAwayIsOverTheLimitOfMemory) {
+  const Volume row = VolumeWhere({4000, 2, 2}, [](double x, double, double) { return x > 0; });
+  const absl::Status status = StatusWithin(64 << 20, row);
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+}
+
+TEST(Border, NeedsRoomBeyondTheLongestAxis) {
+  VolumeBuilder builder({kMaxExtentCells, 8, 8});
+  for (int32_t x = 0; x < 40; x += 2) builder.Add({2 * kMaxExtentCells - 40 + x, 4, 4});
+  const Volume rod = *std::move(builder).Build();
+  const absl::Status status = StatusWithin(64 << 20, rod);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+  EXPECT_TRUE(SkeletonOf(rod, {}).certificate.TopologyKept());
 }
 
 }  // namespace

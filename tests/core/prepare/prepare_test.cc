@@ -6,8 +6,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "core/exec/worker_team.h"
+#include "core/prepare/brick_sets.h"
 #include "core/prepare/fill_cavities.h"
 #include "tests/core/prepare/reference_prepare.h"
 #include "tests/support/random_objects.h"
@@ -55,6 +57,36 @@ std::vector<Points> RandomObjects() {
     objects.push_back(test::Sorted(border));
   }
   return objects;
+}
+
+TEST(BricksAroundLaw, AreThoseUpToTheReachAndNoMoreThanStated) {
+  for (const BrickCoordinates reach : {BrickCoordinates{0, 0, 0}, {1, 2, 3}, {5, 1, 0}}) {
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+      VolumeBuilder builder({1000, 300, 400});
+      for (LatticePoint p : RandomCloud(seed, {24, 24, 12}, seed % 2 == 0 ? 0.003 : 0.1)) {
+        builder.Add(
+            {p.x + 2 * kBrickX * 7 * (p.y % 5 + 1), 100 + 7 * p.y - 6 * (p.x & 1), p.z + 200});
+      }
+      const Volume object = *std::move(builder).Build();
+      std::set<BrickKey> expected;
+      for (BrickKey key : object.keys()) {
+        const BrickCoordinates at = key.coordinates();
+        for (int32_t z = -reach.bz; z <= reach.bz; ++z) {
+          for (int32_t y = -reach.by; y <= reach.by; ++y) {
+            for (int32_t x = -reach.bx; x <= reach.bx; ++x) {
+              for (const Sublattice s : kSublattices) {
+                expected.insert(BrickKey({at.bx + x, at.by + y, at.bz + z, s}));
+              }
+            }
+          }
+        }
+      }
+      const std::vector<BrickKey> around = BricksAround(object, reach);
+      EXPECT_TRUE(std::ranges::equal(around, expected)) << seed;
+      EXPECT_LE(around.size(), MostBricksAround(object, reach)) << seed;
+    }
+  }
+  EXPECT_EQ(MostBricksAround(Volume(), {1, 1, 1}), 0u);
 }
 
 TEST(FillCavitiesLaw, FillsWhatAFloodFromOutsideDoesNotReach) {

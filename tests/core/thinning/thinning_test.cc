@@ -239,5 +239,29 @@ TEST(Thinning, LeavesACurveInAPlainBar) {
   EXPECT_LT(thin.PointCount(), 250u);
 }
 
+// A thin rod has one shell, from which the ends retreat by a point in each cycle.
+TEST(Thinning, GoesOnAloneWithinTheLastShell) {
+  std::vector<LatticePoint> points;
+  for (int32_t z = 0; z < 4000; ++z) points.push_back({2 + z % 2, 2 + z % 2, z});
+  const Volume rod = VolumeOfPoints(points);
+  const auto distance = ComputeDistance(rod, DistanceKind::kEuclidean, {});
+  const ThinningOptions kernel = {.method = ThinningMethod::kSymmetric,
+                                  .kind = SkeletonKind::kKernel};
+  const auto alone = ThinObject(rod, *distance, kernel, {});
+  exec::WorkerTeam team(2);
+  exec::Context context;
+  context.team = &team;
+  context.min_bricks_per_worker = 1;
+  context.patience = 1e9;
+  int asked = 0;
+  context.share = [&] { return ++asked > 20 ? 1 : 2; };  // a team that is alone does not ask
+  const auto result = ThinObject(rod, *distance, kernel, context);
+  ASSERT_TRUE(alone.ok() && result.ok());
+  EXPECT_TRUE(result->thin == alone->thin);
+  EXPECT_EQ(result->passes, alone->passes);
+  EXPECT_GT(result->passes, 500);
+  EXPECT_LT(asked, 50);
+}
+
 }  // namespace
 }  // namespace bccskel

@@ -92,6 +92,11 @@ TEST(SkeletonChunksRoundTrip, EmptyGraph) { ExpectSurvives(SkeletonGraph()); }
 TEST(SkeletonChunksRoundTrip, ManyNodesAndShortEdges) { ExpectSurvives(Chain(30'000, 2)); }
 TEST(SkeletonChunksRoundTrip, AnEdgeLongerThanAChunk) { ExpectSurvives(Chain(2, 50'000)); }
 TEST(SkeletonChunksRoundTrip, Births) { ExpectSurvives(WithBirths(Chain(3, 5))); }
+TEST(SkeletonChunksRoundTrip, BirthsOfNodesAlone) {
+  SkeletonGraph graph;
+  graph.nodes = {{NodeKind::kIsolated, {{2, 2, 2}, 1.5f, 3}}};
+  ExpectSurvives(graph);
+}
 TEST(SkeletonChunksRoundTrip, Shifts) { ExpectSurvives(WithShifts(Chain(3, 5))); }
 
 TEST(SkeletonChunksRoundTrip, Sheets) { ExpectSurvives(WithSheets(Chain(3, 5), 7)); }

@@ -87,6 +87,17 @@ TEST(VoxelizePoints, SaysSoWhereWholeLayersOfACubeLeaveNoCountNearby) {
   EXPECT_LT(count, 160);
 }
 
+// The first grid with layers of points inside has 2 * 10^8 of them.
+TEST(VoxelizePoints, AreNotFarMoreThanWantedInAThinPlate) {
+  exec::Context context;
+  context.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto plate = Voxelize(Box({0, 0, 0}, {100, 80, 0.001}), {.points = 20000}, context);
+  EXPECT_THAT(plate.status().message(), HasSubstr("nothing enclosed"));
+  const VoxelizeResult thicker =
+      Voxelized(Box({0, 0, 0}, {100, 80, 0.1}), {.points = 1000, .topology = TopologyCheck::kSkip});
+  EXPECT_LT(thicker.volume.PointCount(), 512'000u);
+}
+
 TEST(VoxelizePoints, OnePointIsAnObjectToo) {
   const VoxelizeResult result = Voxelized(Sphere({0, 0, 0}, 1), {.points = 1});
   EXPECT_GE(result.volume.PointCount(), 1u);
