@@ -79,7 +79,7 @@ class ViewTest(PageTestCase):
                     f"1,1,0,0,{cavities},{cavities}")
 
     def test_the_peeled_object_is_seen(self):
-        self.page("tree", 50000)
+        self.page("tree")
         pictures = []
         for address in ("", "#peel=2", "#theme=dark", "#prune=20", "#cut=y_0.5", "#cut=y_0.5_back",
                         "#off=object", "#off=skeleton", "#off=nodes", "#glass=1", "#color=branch",
@@ -288,8 +288,8 @@ class ViewTest(PageTestCase):
         self.assertRegex(page.text("#scale"), "^[12] mm$")  # its ball has a radius of 3 mm
 
     def test_a_huge_result_is_shown(self):
-        page = self.open_sample(view_samples.forest(50000, columns=250), "#off=skeleton.nodes")
-        self.assertTrue(page.text("#counts").startswith("200,000 nodes, 150,000 branches"))
+        page = self.open_sample(view_samples.forest(20000, columns=160), "#off=skeleton.nodes")
+        self.assertTrue(page.text("#counts").startswith("80,000 nodes, 60,000 branches"))
         page.click("#dock-toggle")
         self.assertLess(page.run("document.querySelectorAll('#body > div').length"), 40)
 
