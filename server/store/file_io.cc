@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -173,7 +174,10 @@ absl::StatusOr<CheckedFile> CheckedFile::Open(const std::string& path, const std
 }
 
 absl::StatusOr<std::string> CheckedFile::Next() {
-  BCCSKEL_ASSIGN_OR_RETURN(std::string bytes, file_.ReadAt(offset_, kReadBytes));
+  BCCSKEL_ASSIGN_OR_RETURN(const uint64_t size, file_.Size());
+  const uint64_t left = size - std::min(size, offset_);
+  BCCSKEL_ASSIGN_OR_RETURN(std::string bytes,
+                           file_.ReadAt(offset_, std::min<uint64_t>(left, kReadBytes)));
   offset_ += bytes.size();
   sha256_.Add(bytes);
   if (!bytes.empty()) return bytes;
