@@ -42,11 +42,11 @@ constexpr double kCosineWeight = 0.5;  // against the rise of the distance
 constexpr double kGrowthMargin = 6;    // a tip grows by this and the radius at the limb's root
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
 constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
+constexpr int kThinner = 3;            // in thin limbs: so many fewer than their points have
 
-// Needs: at least one.
-double MedianOf(std::vector<float> radii) {
-  const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::ranges::nth_element(radii, median);
+double MedianOf(std::vector<float> values) {  // at least one
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, median);
   return *median;
 }
 
@@ -74,6 +74,7 @@ class TipPlacer {
     if (!anchor.has_value() || branch.points.empty()) return;
     anchor_ = *anchor;
     path_.assign(branch.points.rbegin(), branch.points.rend());
+    FindMajority();
     CutHair();
     const size_t first = FirstCut();
     aim_ = set_.Between(anchor_, path_[first]) < kLeastAim ? path_.back() : path_[first];
@@ -219,11 +220,20 @@ class TipPlacer {
     }
   }
 
-  // Whether p takes the side of the majority.
-  bool IsFirm(LatticePoint p) {
-    const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(p + offset); };
-    return std::ranges::count_if(kDirections14, in_object) >= kMajority;
+  int NeighborsOf(LatticePoint p) {
+    return static_cast<int>(std::ranges::count_if(
+        kDirections14, [&](LatticePoint offset) { return bricks_.Contains(p + offset); }));
   }
+
+  // Near their tips thin limbs have no points with many neighbors.
+  void FindMajority() {
+    std::vector<float> counts;
+    for (LatticePoint p : path_) counts.push_back(static_cast<float>(NeighborsOf(p)));
+    majority_ = std::clamp(static_cast<int>(MedianOf(counts)) - kThinner, kThinner, kMajority);
+  }
+
+  // Whether p takes the side of the majority.
+  bool IsFirm(LatticePoint p) { return NeighborsOf(p) >= majority_; }
 
   // Where noise lies on the surface the path may end in single points, where no tip is.
   void CutHair() {
@@ -365,6 +375,7 @@ class TipPlacer {
   std::vector<LatticePoint> own_;         // its points
   LatticePoint root_;                     // where the limb begins; it may be cut off
   double root_radius_ = 0;
+  int majority_ = kMajority;  // in this limb
   LatticePoint anchor_;
   LatticePoint aim_;                // the limb runs from the anchor to here
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip

@@ -180,6 +180,30 @@ TEST(Tips, OfThinLimbsAreNotTakenForHair) {
   }
 }
 
+// Where few points have half of their neighbors, those of the limb's points count instead. Ends lay
+// up to 2.3 cells from the tips.
+TEST(Tips, OfThinLimbsInAnyDirectionLieAtTheirEnds) {
+  constexpr int kLimbs = 60;
+  double largest = 0;
+  for (int n = 0; n < kLimbs; ++n) {
+    const double height = 1 - (n + 0.5) / kLimbs, across = std::sqrt(1 - height * height);
+    const double angle = 2.399963 * n;
+    const WorldPoint way = {across * std::cos(angle), across * std::sin(angle), height};
+    const WorldPoint a = {24 - 18 * way[0], 24 - 18 * way[1], 4.5};
+    const WorldPoint b = {24 + 18 * way[0], 24 + 18 * way[1], 4.5 + 36 * way[2]};
+    const auto result = Skeletonize(Capsule(a, b, 0.7, {1, 1, 1}), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    for (const WorldPoint& tip : {a, b}) {
+      double gap = 1000;
+      for (const SkeletonNode& node : result->graph.nodes) {
+        gap = std::min(gap, Gap(result->graph.PositionOf(node.at), tip));
+      }
+      largest = std::max(largest, gap);
+    }
+  }
+  EXPECT_LT(largest, 1.2);
+}
+
 // The steps of a surface of voxels are twice as high as those of lattice points.
 TEST(Tips, OfLimbsOfVoxelsLieNoFartherOutForASteppedSurface) {
   constexpr int kLimbs = 60;
