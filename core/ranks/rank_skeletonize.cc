@@ -1,5 +1,6 @@
 #include "core/ranks/rank_skeletonize.h"
 
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -100,7 +101,11 @@ absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
   return absl::OkStatus();
 }
 
-Lead::~Lead() { Send(exchange_, {}); }
+// After an exception the others wait in some other call, where this message would never arrive:
+// whoever catches it ends the job. Not even memory for the message ends the process, and the job.
+Lead::~Lead() {  // NOLINT(bugprone-exception-escape)
+  if (std::uncaught_exceptions() == exceptions_) Send(exchange_, {});
+}
 
 absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(Volume& object,
                                                     const SkeletonizeOptions& options,

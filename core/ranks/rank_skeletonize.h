@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_RANKS_RANK_SKELETONIZE_H_
 #define BCCSKEL_CORE_RANKS_RANK_SKELETONIZE_H_
 
+#include <exception>
+
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
@@ -20,7 +22,7 @@ class Lead {
   // Needs: `exchange` outlives this; all ranks have equal checkpoint options.
   explicit Lead(Exchange& exchange, const CheckpointOptions& checkpoints = {})
       : exchange_(exchange), checkpoints_(checkpoints) {}
-  ~Lead();  // ends FollowLead() on the others
+  ~Lead();  // ends FollowLead() on the others, unless an exception is on its way
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
 
@@ -36,6 +38,7 @@ class Lead {
  private:
   Exchange& exchange_;
   const CheckpointOptions checkpoints_;
+  const int exceptions_ = std::uncaught_exceptions();
 };
 
 // Runs the ranks other than 0 until rank 0 ends the job. `part` is the rank's part of the object

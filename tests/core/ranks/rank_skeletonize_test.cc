@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -135,6 +137,36 @@ TEST(RankSkeletonize, OptionsThatRanksCannotKeepToAreRefused) {
   const Volume object = Objects().front();
   EXPECT_THAT(std::string(OnRanks(object, {.border = Border::kContinues}, 2).status().message()),
               HasSubstr("--border"));
+}
+
+// Two ranks, of which this one counts its messages.
+class CountingExchange : public ranks::Exchange {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 2; }
+  void Trade(std::span<const int>, std::span<const ranks::Bytes>,
+             std::span<ranks::Bytes>) override {
+    ++messages;
+  }
+  void Sum(std::span<uint64_t>) override { throw std::bad_alloc(); }
+  void Max(std::span<uint64_t>) override { throw std::bad_alloc(); }
+
+  int messages = 0;
+};
+
+// The others wait for its sum, so a message would wait for them.
+TEST(RankSkeletonize, ALeadWithoutMemorySendsNothingMore) {
+  CountingExchange exchange;
+  try {
+    ranks::Lead lead(exchange);
+    uint64_t number = 1;
+    exchange.Sum({&number, 1});
+    FAIL();
+  } catch (const std::bad_alloc&) {
+    EXPECT_EQ(exchange.messages, 0);
+  }
+  { const ranks::Lead lead(exchange); }
+  EXPECT_EQ(exchange.messages, 1);
 }
 
 TEST(RankSkeletonize, AStopOnAnyRankStopsAll) {
