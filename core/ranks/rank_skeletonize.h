@@ -22,7 +22,8 @@ class Lead {
   // Needs: `exchange` outlives this; all ranks have equal checkpoint options.
   explicit Lead(Exchange& exchange, const CheckpointOptions& checkpoints = {})
       : exchange_(exchange), checkpoints_(checkpoints) {}
-  ~Lead();  // ends FollowLead() on the others, unless an exception is on its way
+  // Ends FollowLead() on the others, unless an exception is on its way.
+  ~Lead();  // NOLINT(bugprone-exception-escape)
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
 
