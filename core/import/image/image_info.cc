@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 
@@ -35,6 +36,33 @@ const TypeEntry& EntryOf(VoxelType type) { return kTypes[static_cast<size_t>(typ
 
 // Rounded numbers in a header make axes lean by about 1e-6; a real shear is larger than this.
 constexpr double kMaxLean = 1e-3;
+
+// Of a step in single precision, or in text of as many digits.
+constexpr double kMaxRounding = 2e-6;
+
+// Steps in double precision are off in the last digits.
+double WithoutLastDigits(double length) {
+  double number = length;
+  return absl::SimpleAtod(absl::StrFormat("%.13g", length), &number) ? number : length;
+}
+
+using Spacing = std::array<double, 3>;
+
+Spacing LengthsOf(const std::array<WorldPoint, 3>& steps, const std::optional<Spacing>& stated) {
+  const bool oblique = std::ranges::any_of(
+      steps, [](const WorldPoint& step) { return std::ranges::count(step, 0.0) < 2; });
+  Spacing lengths;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    lengths[axis] = std::sqrt(Dot(steps[axis], steps[axis]));
+    const double other = stated.has_value() ? (*stated)[axis] : 0;
+    if (std::abs(lengths[axis] - other) <= kMaxRounding * other) {
+      lengths[axis] = other;
+    } else if (oblique) {
+      lengths[axis] = WithoutLastDigits(lengths[axis]);
+    }
+  }
+  return lengths;
+}
 
 bool IsFinite(const WorldPoint& p) {
   return std::ranges::all_of(p, [](double c) { return std::isfinite(c); });
@@ -125,9 +153,9 @@ absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacin
 }
 
 absl::StatusOr<Placement> PlacementOfSteps(const std::array<WorldPoint, 3>& steps,
-                                           const WorldPoint& origin) {
-  std::array<double, 3> spacing;
-  for (size_t axis = 0; axis < 3; ++axis) spacing[axis] = std::sqrt(Dot(steps[axis], steps[axis]));
+                                           const WorldPoint& origin,
+                                           const std::optional<std::array<double, 3>>& stated) {
+  const Spacing spacing = LengthsOf(steps, stated);
   BCCSKEL_ASSIGN_OR_RETURN(Placement placement, PlacementOfSpacing(spacing, origin));
   for (size_t axis = 0; axis < 3; ++axis) {
     for (size_t row = 0; row < 3; ++row) {

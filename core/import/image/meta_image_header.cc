@@ -94,7 +94,9 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, size_t dimensi
       if (!spacing.empty()) steps[axis][n] *= spacing[axis];
     }
   }
-  return PlacementOfSteps(steps, origin);
+  std::optional<std::array<double, 3>> stated;
+  if (spacing.size() >= 3) stated = {spacing[0], spacing[1], spacing[2]};
+  return PlacementOfSteps(steps, origin, stated);
 }
 
 absl::StatusOr<std::optional<uint64_t>> SkipOf(const HeaderFields& fields) {
