@@ -153,7 +153,7 @@ absl::StatusOr<StoredImage> ParseMetaImage(const ImageFront& front, const ImageL
     image.byte_order = std::endian::big;
   }
   BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields, sizes.size()));
-  image.info.unit = fields.Find({"DistanceUnits"}).value_or("").substr(0, 32);
+  image.info.unit = UnitNamed(fields.Find({"DistanceUnits"}).value_or(""));
   image.info.world = WorldOf(fields);
   BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));
   return image;

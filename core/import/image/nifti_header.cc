@@ -146,6 +146,8 @@ absl::StatusOr<Placement> PlacementOf(const Fields& fields) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (static_cast<int64_t>(axis) >= fields.Dim(0)) break;
     spacing[axis] = std::abs(fields.Float(fields.layout().pixdim, axis + 1));
+    // A single slice has no next one, so some writers leave 0.
+    if (spacing[axis] == 0 && fields.Dim(axis + 1) == 1) spacing[axis] = 1;
   }
   if (fields.Code(fields.layout().sform) > 0) return PlacementOfSform(fields, spacing);
   if (fields.Code(fields.layout().qform) > 0) return PlacementOfQform(fields, spacing);

@@ -184,7 +184,7 @@ std::string UnitOf(const HeaderFields& fields) {
     if (!unit.empty() && unit != word) return "";
     unit = word;
   }
-  return unit.substr(0, 32);
+  return UnitNamed(unit);
 }
 
 HeaderLine Classify(std::string_view line) {

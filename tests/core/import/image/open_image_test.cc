@@ -97,6 +97,15 @@ TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
   }
 }
 
+TEST(OpenImage, ReadsNiftiOfOneSliceWithoutADistanceToTheNext) {
+  std::string header = testing::Nifti1Header();
+  header.replace(46, 2, Bytes<int16_t>(1));
+  header.replace(88, 4, Bytes(0.0F));
+  const auto image = ReadBytes(header + Counting<uint8_t>(6));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 1));
+}
+
 TEST(OpenImage, ReadsMetaImageWhoseRowsAreTheAxes) {
   // Axis 0 points along y, axis 1 against x.
   const auto image = ReadBytes(
