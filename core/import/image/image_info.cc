@@ -186,8 +186,9 @@ absl::StatusOr<Placement> PlacementOfSteps(const std::array<WorldPoint, 3>& step
   const Spacing spacing = LengthsOf(steps, stated);
   BCCSKEL_ASSIGN_OR_RETURN(Placement placement, PlacementOfSpacing(spacing, origin));
   for (size_t axis = 0; axis < 3; ++axis) {
+    const double length = std::sqrt(Dot(steps[axis], steps[axis]));
     for (size_t row = 0; row < 3; ++row) {
-      placement.direction[3 * row + axis] = steps[axis][row] / spacing[axis];
+      placement.direction[3 * row + axis] = steps[axis][row] / length;
     }
     const size_t next = (axis + 1) % 3;
     const double lean = std::abs(Dot(steps[axis], steps[next])) / spacing[axis] / spacing[next];

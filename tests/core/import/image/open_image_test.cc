@@ -94,6 +94,11 @@ TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
     ASSERT_TRUE(image.ok()) << image.status();
     const double exact = 0.7F;
     EXPECT_THAT(image->info.placement.spacing, ElementsAre(exact, exact, exact));
+    const auto& direction = image->info.placement.direction;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double x = direction[axis], y = direction[3 + axis], z = direction[6 + axis];
+      EXPECT_NEAR(x * x + y * y + z * z, 1, 1e-15);
+    }
   }
 }
 
