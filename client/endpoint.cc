@@ -1,5 +1,7 @@
 #include "client/endpoint.h"
 
+#include "core/exec/status_macros.h"
+
 namespace bccskel::client {
 namespace {
 
@@ -10,10 +12,33 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]" || (number && host.rfind("127.", 0) == 0);
 }
 
+// gRPC takes port 99999 for 34463, and a URL for the name of a host.
+absl::Status CheckAddress(const std::string& address) {
+  if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
+  const std::string port = address.substr(address.rfind(':') + 1);
+  const bool digits = port.find_first_not_of("0123456789") == std::string::npos;
+  const bool fits = !digits || (!port.empty() && port.size() <= 5 && std::stoi(port) <= 65535);
+  const bool url = address.rfind("http://", 0) == 0 || address.rfind("https://", 0) == 0;
+  if (!address.empty() && !url && fits) return absl::OkStatus();
+  return absl::InvalidArgumentError("'" + address +
+                                    "' is neither HOST:PORT, with a port of 0 to 65535, nor "
+                                    "unix:PATH");
+}
+
+absl::Status CheckPem(const std::string& text, const char* what, const char* mark) {
+  if (text.empty() || text.find(mark) != std::string::npos) return absl::OkStatus();
+  return absl::InvalidArgumentError(std::string(what) + " is not PEM: nothing in it ends with " +
+                                    mark);
+}
+
 }  // namespace
 
 absl::Status CheckEndpoint(const Endpoint& endpoint) {
   const TlsMaterial& tls = endpoint.tls;
+  BCCSKEL_RETURN_IF_ERROR(CheckAddress(endpoint.address));
+  BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.ca, "the file of authorities", "CERTIFICATE-----"));
+  BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.certificate, "the certificate", "CERTIFICATE-----"));
+  BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.key, "the key", "PRIVATE KEY-----"));
   if (tls.certificate.empty() != tls.key.empty()) {
     return absl::InvalidArgumentError("a client's certificate and its key belong together");
   }

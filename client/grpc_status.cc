@@ -13,6 +13,11 @@ absl::Status FromGrpcStatus(const grpc::Status& status) {
       details.code() == static_cast<int>(status.error_code())) {
     return wire::FromRpcStatus(details);
   }
+  // Of calls that end on this side gRPC says no more than the code.
+  if (status.error_message() == "Deadline Exceeded") {
+    return absl::Status(code, "the deadline passed before the server had answered");
+  }
+  if (status.error_message() == "CANCELLED") return absl::Status(code, "the call was cancelled");
   return absl::Status(code, status.error_message());
 }
 

@@ -27,6 +27,8 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad()) return absl::NotFoundError(path + ": cannot be read");
+  // An empty file of authorities would turn TLS off.
+  if (text.empty()) return absl::InvalidArgumentError(path + ": is empty");
   return text;
 }
 

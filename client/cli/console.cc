@@ -10,6 +10,7 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,6 +61,11 @@ bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
          server.tls_ca.empty() && server.address.compare(0, 5, "unix:") != 0;
 }
 
+bool LacksToken(const ServerArguments& server, const absl::Status& error) {
+  return absl::IsUnauthenticated(error) && server.token_file.empty() &&
+         std::getenv("BCCSKEL_TOKEN_FILE") == nullptr;
+}
+
 // Files that may not be read are no question of credentials.
 ExitCode CodeOf(const absl::Status& error) {
   return absl::IsPermissionDenied(error) ? ExitCode::kCredentials : ExitCodeOf(error);
@@ -87,6 +93,7 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
   const std::string message = "server " + server.address + ": " + std::string(error.message());
   const ExitCode code = FailWith(CodeOf(error), absl::Status(error.code(), message));
   if (!hint.empty()) PrintLine("hint", hint);
+  if (LacksToken(server, error)) PrintLine("hint", "name the file of your token with --token-file");
   if (MayWantTls(server, error)) {
     PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
   }

@@ -52,13 +52,15 @@ void AddConvert(CLI::App& command, ConvertArguments& arguments) {
 ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<view::ResultGraph> result = view::ReadResultGraph(arguments.result);
   if (!result.ok()) return Fail(result.status());
+  const std::optional<RootChoice>& root =
+      arguments.root.has_value() ? arguments.root : result->root;
   std::optional<TreeOrder> order;
-  if (arguments.root.has_value()) {
-    const absl::Status fits = CheckRootChoice(*arguments.root, result->graph);
+  if (root.has_value()) {
+    const absl::Status fits = CheckRootChoice(*root, result->graph);
     if (!fits.ok()) return FailWith(ExitCode::kUsage, fits);
-    const std::string outside = RootWarning(*arguments.root, result->graph);
+    const std::string outside = RootWarning(*root, result->graph);
     if (!outside.empty()) Warn(arguments.result + ": " + outside);
-    order = OrderTrees(result->graph, *arguments.root);
+    order = OrderTrees(result->graph, *root);
   }
   const auto files = WriteAll(arguments,
                               {.graph = result->graph,

@@ -154,7 +154,9 @@ class Composer {
 std::string NoteOf(const SkeletonGraph& graph, const World& world) {
   std::string note;
   if (!NanometersOf(world.unit).has_value()) {
-    note = "the input does not say its unit of length; coordinates are taken for nanometers";
+    note = world.unit.empty() ? "the input does not say its unit of length"
+                              : "the unit '" + world.unit + "' is no known length";
+    note += "; coordinates are taken for nanometers";
   }
   if (!graph.sheets.empty()) {
     note += std::string(note.empty() ? "" : "; ") + std::to_string(graph.sheets.size()) +

@@ -212,6 +212,22 @@ absl::Status ReadPreparing(const OrderedJson& json, std::vector<PreparingStep>& 
   return absl::OkStatus();
 }
 
+absl::Status ReadRoot(const OrderedJson& json, ResultGraph& result) {
+  const auto order = json.find("order");
+  if (order == json.end()) return absl::OkStatus();
+  const OrderedJson roots =
+      order->is_object() ? order->value("roots", OrderedJson()) : OrderedJson();
+  if (!roots.is_array()) return NoResult("roots", "a list of nodes");
+  RootChoice choice = {.rule = RootChoice::Rule::kNodes};
+  for (const OrderedJson& root : roots) {
+    const OrderedJson one = {{"roots", root}};
+    BCCSKEL_RETURN_IF_ERROR(ReadCount(one, "roots", choice.nodes.emplace_back()));
+  }
+  if (!CheckRootChoice(choice, result.graph).ok()) return NoResult("roots", "a list of nodes");
+  result.root = std::move(choice);
+  return absl::OkStatus();
+}
+
 std::string PlainText(const OrderedJson& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -238,6 +254,7 @@ absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document) {
     }
   }
   BCCSKEL_RETURN_IF_ERROR(ReadPreparing(json, result.preparing));
+  BCCSKEL_RETURN_IF_ERROR(ReadRoot(json, result));
   result.certificate = document.certificate;
   result.object_points = document.object_points;
   return result;

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/certificate/certificate.h"
 #include "core/prepare/prepare.h"
 #include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/tree_order.h"
 
 namespace bccskel::view {
 
@@ -24,7 +26,8 @@ struct ResultGraph {
   std::vector<std::pair<std::string, std::string>> options;
   std::vector<PreparingStep> preparing;
   Certificate certificate;
-  uint64_t object_points = 0;  // after preparing
+  uint64_t object_points = 0;      // after preparing
+  std::optional<RootChoice> root;  // of a result with an order
 };
 
 // Errors: INVALID_ARGUMENT as ReadResultGraph().

@@ -32,6 +32,10 @@ class Ordering {
     order_.edges.resize(graph.edges.size());
     parent_edge_.resize(graph.nodes.size(), kNoRow);
     reached_.resize(graph.nodes.size());
+    chosen_.resize(graph.nodes.size());
+    if (choice.rule == RootChoice::Rule::kNode) chosen_[choice.node] = 1;
+    if (choice.rule != RootChoice::Rule::kNodes) return;
+    for (const uint32_t node : choice.nodes) chosen_[node] = 1;
   }
 
   TreeOrder Run() && {
@@ -50,7 +54,7 @@ class Ordering {
 
   Worth WorthOf(uint32_t node) const {
     const SkeletonNode& at = graph_.nodes[node];
-    if (choice_.rule == RootChoice::Rule::kNode && node == choice_.node) return {0, 0, 0, node};
+    if (chosen_[node] != 0) return {0, 0, 0, node};
     if (choice_.rule == RootChoice::Rule::kNearestNode) {
       return {1, SquaredDistance(graph_.PositionOf(at.at), choice_.point), 0, node};
     }
@@ -140,6 +144,7 @@ class Ordering {
   std::vector<std::vector<uint32_t>> edges_at_;  // by node; an edge to itself twice
   std::vector<uint32_t> parent_edge_;            // by node
   std::vector<uint8_t> reached_;                 // by node
+  std::vector<uint8_t> chosen_;                  // by node
   std::vector<uint32_t> outward_;                // nodes, each after its parent
   TreeOrder order_;
 };
@@ -147,11 +152,15 @@ class Ordering {
 }  // namespace
 
 absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& graph) {
-  if (choice.rule != RootChoice::Rule::kNode || choice.node < graph.nodes.size()) {
-    return absl::OkStatus();
+  std::vector<uint32_t> nodes;
+  if (choice.rule == RootChoice::Rule::kNode) nodes = {choice.node};
+  if (choice.rule == RootChoice::Rule::kNodes) nodes = choice.nodes;
+  for (const uint32_t node : nodes) {
+    if (node < graph.nodes.size()) continue;
+    return absl::InvalidArgumentError(absl::StrCat("root node ", node, ": the skeleton has ",
+                                                   graph.nodes.size(), " nodes, counted from 0"));
   }
-  return absl::InvalidArgumentError(absl::StrCat("root node ", choice.node, ": the skeleton has ",
-                                                 graph.nodes.size(), " nodes, counted from 0"));
+  return absl::OkStatus();
 }
 
 std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph) {

@@ -23,10 +23,13 @@ struct RootChoice {
     kNode,
     // The deepest node of each component.
     kDeepestNode,
+    // Those of `nodes`, the thickest end in components without one.
+    kNodes,
   };
   Rule rule = Rule::kThickestEnd;
   WorldPoint point = {0, 0, 0};
   uint32_t node = 0;
+  std::vector<uint32_t> nodes = {};
 
   friend bool operator==(const RootChoice&, const RootChoice&) = default;
 };

@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "client/connection.h"
 
 namespace bccskel::client {
 namespace {
+
+const std::string kCertificate = "-----BEGIN CERTIFICATE-----\nMII\n-----END CERTIFICATE-----\n";
+const std::string kKey = "-----BEGIN PRIVATE KEY-----\nMII\n-----END PRIVATE KEY-----\n";
 
 Endpoint WithToken(const std::string& address) {
   Endpoint endpoint;
@@ -22,7 +27,7 @@ TEST(Endpoint, ATokenDoesNotCrossANetworkInTheClear) {
   EXPECT_EQ(refused.code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_EQ(std::string(refused.message()).find(endpoint.token), std::string::npos);
   EXPECT_EQ(Connect(endpoint).status(), refused);
-  endpoint.tls.ca = "PEM";
+  endpoint.tls.ca = kCertificate;
   EXPECT_TRUE(CheckEndpoint(endpoint).ok());
   endpoint.tls.ca.clear();
   endpoint.plaintext_token = Endpoint::PlaintextToken::kAllow;
@@ -40,14 +45,43 @@ TEST(Endpoint, ATokenMayStayOnThisMachine) {
 
 TEST(Endpoint, ACertificateNeedsItsKeyAndTls) {
   Endpoint endpoint;
-  endpoint.tls.certificate = "PEM";
+  endpoint.address = "a:1";
+  endpoint.tls.certificate = kCertificate;
   EXPECT_EQ(CheckEndpoint(endpoint).code(), absl::StatusCode::kInvalidArgument);
-  endpoint.tls.key = "PEM";
+  endpoint.tls.key = kKey;
   EXPECT_EQ(CheckEndpoint(endpoint).code(), absl::StatusCode::kInvalidArgument);
-  endpoint.tls.ca = "PEM";
+  endpoint.tls.ca = kCertificate;
   EXPECT_TRUE(CheckEndpoint(endpoint).ok());
   endpoint.tls.certificate.clear();
   EXPECT_EQ(CheckEndpoint(endpoint).code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Endpoint, AnAddressIsAHostWithAPortOrAPath) {
+  for (const char* address : {"a:1", "a", "[::1]:65535", "unix:/run/x:y", "dns:///a:1"}) {
+    Endpoint endpoint;
+    endpoint.address = address;
+    EXPECT_TRUE(CheckEndpoint(endpoint).ok()) << address;
+  }
+  for (const char* address : {"", ":", "a:", "a:65536", "a:4294967297", "http://a:1"}) {
+    Endpoint endpoint;
+    endpoint.address = address;
+    EXPECT_EQ(
+        CheckEndpoint(endpoint),
+        absl::InvalidArgumentError(absl::StrCat(
+            "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH")));
+  }
+}
+
+TEST(Endpoint, FilesThatAreNoPemAreRefused) {
+  Endpoint endpoint;
+  endpoint.address = "a:1";
+  endpoint.tls = {.ca = kCertificate, .certificate = kCertificate, .key = kKey};
+  EXPECT_TRUE(CheckEndpoint(endpoint).ok());
+  for (std::string* text : {&endpoint.tls.ca, &endpoint.tls.certificate, &endpoint.tls.key}) {
+    const std::string good = std::exchange(*text, "PEM");
+    EXPECT_EQ(CheckEndpoint(endpoint).code(), absl::StatusCode::kInvalidArgument);
+    *text = good;
+  }
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class ExitCodesTest(harness.TestCase):
         volume = self.long_job()
         self.fail_with(5, "deadline", *self.skeletonize(volume, "--local", "--timeout", 0.001))
         with harness.Server(self.folder) as server:
-            self.fail_with(5, "eadline", *self.skeletonize(
+            self.fail_with(5, "the deadline passed before", *self.skeletonize(
                 volume, "--server", server.address, "--timeout", 0.01))
         self.assert_no_output()
 
@@ -123,6 +123,14 @@ class ExitCodesTest(harness.TestCase):
         with harness.Server(self.folder, "--tokens", tokens) as server:
             self.fail_with(9, "token", *words, server.address)
             self.fail_with(9, "token", *words, server.address, "--token-file", token)
+
+    def test_3_for_tls_files_that_hold_no_pem(self):
+        words = self.skeletonize(self.generate("ball"), "--server", "localhost:1", "--tls-ca")
+        authorities = pathlib.Path(self.path("ca.pem"))
+        # Empty, it would turn TLS off.
+        for text, message in (("", "ca.pem: is empty"), ("text", "authorities is not PEM")):
+            authorities.write_text(text)
+            self.fail_with(3, message, *words, authorities)
 
     def triangle_block(self):
         pathlib.Path(self.path("a.off")).write_text(

@@ -42,6 +42,8 @@ class ArgumentsTest(harness.TestCase):
         refuse("origin must be 3 finite numbers or one for all axes, got nan",
                origin=float("nan"))
         refuse("axes must be 'zyx', 'xyz' or another order of them, got 'zzx'", axes="zzx")
+        refuse("axes must be 'zyx', 'xyz' or another order of them, got None", axes=None)
+        refuse("spacing must be 3 finite numbers or one for all axes, got 'wide'", spacing="wide")
         refuse("direction must be 3 perpendicular unit vectors, shape (3, 3)",
                direction=2 * numpy.eye(3))
 
@@ -59,6 +61,7 @@ class ArgumentsTest(harness.TestCase):
         refuse(TypeError, "method must be a number or a text, got True", method=True)
         refuse(ValueError, "threads must be a whole number from 0 to 1024, got -1", threads=-1)
         refuse(ValueError, "timeout must be a positive number of seconds, got 0", timeout=0)
+        refuse(ValueError, "timeout must be a positive number of seconds, got '5'", timeout="5")
         refuse(TypeError, "progress must be a function of (done, total) or None, got bool",
                progress=True)
         refuse(ValueError, "no voxel has the label 7", label=7)

@@ -114,8 +114,17 @@ class ReadTest(harness.TestCase):
             for ending in (".json", ".svg", ".html", ".exr"):
                 with self.assertRaises((ValueError, NotImplementedError)):
                     skeleton.save(self.path("mine" + ending))
-            with self.assertRaises(ValueError):
+            with self.assertRaisesRegex(ValueError, "read from a file does not know the voxels"):
                 skeleton.curve_image()
+
+    def test_it_has_the_roots_of_the_result(self):
+        for root in ("thickest-node", "node:2"):
+            skeleton = self.result("--root", root)
+            theirs = bccskel.skeletonize(crossing_bars(), root=root)
+            for again in (skeleton, pickle.loads(pickle.dumps(skeleton))):
+                self.assertEqual(again.order.keys(), theirs.order.keys())
+                for name, values in theirs.order.items():
+                    numpy.testing.assert_array_equal(again.order[name], values)
 
     def test_a_lattice_is_an_object(self):
         self.succeed("voxelize", self.image, "-o", self.path("object.exr"))

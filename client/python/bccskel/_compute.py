@@ -22,7 +22,7 @@ def _call(server: Any, threads: int, timeout: Optional[float],
           progress: Optional[Callable[[int, int], Any]]) -> Any:
     if not isinstance(threads, numbers.Integral) or not 0 <= threads <= 1024:
         raise ValueError(f"threads must be a whole number from 0 to 1024, got {threads!r}")
-    if timeout is not None and not 0 < timeout <= 1e7:
+    if timeout is not None and not (isinstance(timeout, numbers.Real) and 0 < timeout <= 1e7):
         raise ValueError(f"timeout must be a positive number of seconds, got {timeout!r}")
     if progress is not None and not callable(progress):
         raise TypeError("progress must be a function of (done, total) or None, got "

@@ -84,7 +84,7 @@ class Frame:
 
     def __init__(self, axes: str, spacing: Any = None, origin: Any = None,
                  direction: Any = None) -> None:
-        if sorted(axes) != ["x", "y", "z"]:
+        if not isinstance(axes, str) or sorted(axes) != ["x", "y", "z"]:
             raise ValueError(f"axes must be 'zyx', 'xyz' or another order of them, got {axes!r}")
         self.axes = axes
         self.spacing = _three("spacing", 1.0 if spacing is None else spacing)
@@ -121,9 +121,12 @@ class Frame:
 
 def _three(name: str, value: Any) -> np.ndarray:
     """Three finite numbers from three or one."""
-    array = np.asarray(value, float)
+    try:
+        array = np.asarray(value, float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
     if array.shape not in ((), (3,)) or not np.isfinite(array).all():
-        raise ValueError(f"{name} must be 3 finite numbers or one for all axes, got {value}")
+        raise ValueError(f"{name} must be 3 finite numbers or one for all axes, got {value!r}")
     return np.broadcast_to(array, 3).copy()
 
 

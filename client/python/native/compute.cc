@@ -206,6 +206,7 @@ absl::StatusOr<Outcome> ReadResult(const std::string& path) {
   outcome.result.method = read.method;
   outcome.result.algorithm_version = read.algorithm_version;
   BCCSKEL_ASSIGN_OR_RETURN(outcome.result.sha256, SkeletonDigest(outcome.result.graph));
+  outcome.root = read.root;
   outcome.read = std::move(read);
   return outcome;
 }

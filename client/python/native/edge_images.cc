@@ -11,6 +11,10 @@ namespace bccskel::python {
 namespace {
 
 absl::Status CheckVoxels(const Outcome& outcome) {
+  if (outcome.read.has_value()) {
+    return absl::InvalidArgumentError(
+        "a result that was read from a file does not know the voxels; make it again from the mask");
+  }
   if (!outcome.grid.has_value()) return absl::InvalidArgumentError("a mesh has no voxels to draw");
   if (outcome.mask.sampling.has_value()) {
     return absl::InvalidArgumentError("a sampling has no voxels of its own to draw");

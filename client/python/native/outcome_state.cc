@@ -34,17 +34,17 @@ std::shared_ptr<const Volume> VolumeOfState(const py::object& state) {
       Value(DecodeVolume(VolumeEncoding::kBricks, std::string_view(bytes))));
 }
 
-using RootState = std::tuple<int, WorldPoint, uint32_t>;
+using RootState = std::tuple<int, WorldPoint, uint32_t, std::vector<uint32_t>>;
 
 py::object StateOfRoot(const std::optional<RootChoice>& root) {
   if (!root.has_value()) return py::none();
-  return py::cast(RootState(static_cast<int>(root->rule), root->point, root->node));
+  return py::cast(RootState(static_cast<int>(root->rule), root->point, root->node, root->nodes));
 }
 
 std::optional<RootChoice> RootOfState(const py::object& state) {
   if (state.is_none()) return std::nullopt;
-  const auto [rule, point, node] = state.cast<RootState>();
-  return RootChoice{static_cast<RootChoice::Rule>(rule), point, node};
+  const auto [rule, point, node, nodes] = state.cast<RootState>();
+  return RootChoice{static_cast<RootChoice::Rule>(rule), point, node, nodes};
 }
 
 using GridState = std::tuple<int32_t, int32_t, int32_t, std::array<double, 3>,
@@ -138,7 +138,8 @@ std::optional<view::ResultGraph> ReadOfState(const py::object& state,
                            .options = std::move(options),
                            .preparing = result.preparing,
                            .certificate = result.certificate,
-                           .object_points = result.object_points};
+                           .object_points = result.object_points,
+                           .root = {}};
 }
 
 }  // namespace

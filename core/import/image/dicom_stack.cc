@@ -171,7 +171,7 @@ absl::StatusOr<DicomStack> StackFrames(std::vector<DicomFrame> unsorted, DicomGa
       stack.placement,
       PlacementOfSteps({Sum({0, 0, 0}, first.spacing[0], first.along_row),
                         Sum({0, 0, 0}, first.spacing[1], first.along_column), along_z},
-                       first.position));
+                       first.position, std::array{first.spacing[0], first.spacing[1], step}));
   stack.slices.resize(static_cast<size_t>(stack.size.nz));
   for (Placed& placed : frames) {
     const double z = std::round((placed.along - frames.front().along) / step);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "absl/strings/ascii.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 
@@ -35,6 +37,33 @@ const TypeEntry& EntryOf(VoxelType type) { return kTypes[static_cast<size_t>(typ
 
 // Rounded numbers in a header make axes lean by about 1e-6; a real shear is larger than this.
 constexpr double kMaxLean = 1e-3;
+
+// Of a step in single precision, or in text of as many digits.
+constexpr double kMaxRounding = 2e-6;
+
+// Steps in double precision are off in the last digits.
+double WithoutLastDigits(double length) {
+  double number = length;
+  return absl::SimpleAtod(absl::StrFormat("%.13g", length), &number) ? number : length;
+}
+
+using Spacing = std::array<double, 3>;
+
+Spacing LengthsOf(const std::array<WorldPoint, 3>& steps, const std::optional<Spacing>& stated) {
+  const bool oblique = std::ranges::any_of(
+      steps, [](const WorldPoint& step) { return std::ranges::count(step, 0.0) < 2; });
+  Spacing lengths;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    lengths[axis] = std::sqrt(Dot(steps[axis], steps[axis]));
+    const double other = stated.has_value() ? (*stated)[axis] : 0;
+    if (std::abs(lengths[axis] - other) <= kMaxRounding * other) {
+      lengths[axis] = other;
+    } else if (oblique) {
+      lengths[axis] = WithoutLastDigits(lengths[axis]);
+    }
+  }
+  return lengths;
+}
 
 bool IsFinite(const WorldPoint& p) {
   return std::ranges::all_of(p, [](double c) { return std::isfinite(c); });
@@ -113,6 +142,33 @@ absl::StatusOr<ImageSize> SizeOfAxes(std::span<const int64_t> lengths, const Ima
   return size;
 }
 
+std::string UnitNamed(std::string_view name) {
+  struct Names {
+    const char* unit;
+    std::string_view names;  // between bars
+  };
+  // Micro and angstrom also have signs: in UTF-8 two of each, in Latin-1, in XML and as ImageJ's.
+  constexpr std::array<Names, 6> kUnits = {{
+      {"um",
+       "|um|micron|microns|micrometer|micrometers|micrometre|micrometres|\xc2\xb5m|\xce\xbcm|\xb5m|"
+       "\\u00B5m|\\u00b5m|\\u03BCm|\\u03bcm|&#181;m|&#xb5;m|&#xB5;m|"},
+      {"nm", "|nm|nanometer|nanometers|nanometre|nanometres|"},
+      {"mm", "|mm|millimeter|millimeters|millimetre|millimetres|"},
+      {"cm", "|cm|centimeter|centimeters|centimetre|centimetres|"},
+      {"m", "|m|meter|meters|metre|metres|"},
+      {"angstrom", "|angstrom|angstroms|\xc3\x85|\xe2\x84\xab|\xc5|\\u00C5|\\u212B|"},
+  }};
+  const std::string wanted = absl::StrFormat("|%s|", name);
+  for (const Names& entry : kUnits) {
+    if (entry.names.find(wanted) != entry.names.npos) return entry.unit;
+  }
+  const bool plain = std::ranges::all_of(name, [](const char c) {
+    return absl::ascii_isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '_' || c == '-';
+  });
+  constexpr size_t kLongest = 32;
+  return plain && name.size() <= kLongest ? std::string(name) : std::string();
+}
+
 absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacing,
                                              const WorldPoint& origin) {
   for (const double step : spacing) {
@@ -125,13 +181,14 @@ absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacin
 }
 
 absl::StatusOr<Placement> PlacementOfSteps(const std::array<WorldPoint, 3>& steps,
-                                           const WorldPoint& origin) {
-  std::array<double, 3> spacing;
-  for (size_t axis = 0; axis < 3; ++axis) spacing[axis] = std::sqrt(Dot(steps[axis], steps[axis]));
+                                           const WorldPoint& origin,
+                                           const std::optional<std::array<double, 3>>& stated) {
+  const Spacing spacing = LengthsOf(steps, stated);
   BCCSKEL_ASSIGN_OR_RETURN(Placement placement, PlacementOfSpacing(spacing, origin));
   for (size_t axis = 0; axis < 3; ++axis) {
+    const double length = std::sqrt(Dot(steps[axis], steps[axis]));
     for (size_t row = 0; row < 3; ++row) {
-      placement.direction[3 * row + axis] = steps[axis][row] / spacing[axis];
+      placement.direction[3 * row + axis] = steps[axis][row] / length;
     }
     const size_t next = (axis + 1) % 3;
     const double lean = std::abs(Dot(steps[axis], steps[next])) / spacing[axis] / spacing[next];

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,15 +66,23 @@ struct ImageInfo {
 //         RESOURCE_EXHAUSTED for an axis, a slice or an image over its limit.
 absl::StatusOr<ImageSize> SizeOfAxes(std::span<const int64_t> lengths, const ImageLimits& limits);
 
+// The short name of a unit of length that a file may write in many ways: "um" for "\u00B5m" as
+// ImageJ escapes it, for "micron", ... Other names stay if they are plain words, since results of
+// every format repeat them; the rest is unknown.
+std::string UnitNamed(std::string_view name);
+
 // Errors: INVALID_ARGUMENT for a spacing that is not positive or numbers that are not finite.
 absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacing,
                                              const WorldPoint& origin);
 
-// `steps[n]` leads from a voxel to the next one along axis n.
-// Errors: INVALID_ARGUMENT for numbers that are not finite, steps of length zero, and axes that are
+// `steps[n]` leads from a voxel to the next one along axis n. Steps along an oblique axis are
+// rounded, so their lengths are, too. Lengths that the file states replace those that differ by
+// rounding alone: equal spacings must not seem to differ. Errors: INVALID_ARGUMENT for numbers that
+// are not finite, steps of length zero, and axes that are
 //         not perpendicular: distances in a sheared image are not those of the lattice.
-absl::StatusOr<Placement> PlacementOfSteps(const std::array<WorldPoint, 3>& steps,
-                                           const WorldPoint& origin);
+absl::StatusOr<Placement> PlacementOfSteps(
+    const std::array<WorldPoint, 3>& steps, const WorldPoint& origin,
+    const std::optional<std::array<double, 3>>& stated = std::nullopt);
 
 // The same place with another spacing. Errors: as PlacementOfSpacing().
 absl::StatusOr<Placement> WithSpacing(const Placement& placement,

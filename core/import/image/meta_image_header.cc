@@ -94,7 +94,9 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, size_t dimensi
       if (!spacing.empty()) steps[axis][n] *= spacing[axis];
     }
   }
-  return PlacementOfSteps(steps, origin);
+  std::optional<std::array<double, 3>> stated;
+  if (spacing.size() >= 3) stated = {spacing[0], spacing[1], spacing[2]};
+  return PlacementOfSteps(steps, origin, stated);
 }
 
 absl::StatusOr<std::optional<uint64_t>> SkipOf(const HeaderFields& fields) {
@@ -151,7 +153,7 @@ absl::StatusOr<StoredImage> ParseMetaImage(const ImageFront& front, const ImageL
     image.byte_order = std::endian::big;
   }
   BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields, sizes.size()));
-  image.info.unit = fields.Find({"DistanceUnits"}).value_or("").substr(0, 32);
+  image.info.unit = UnitNamed(fields.Find({"DistanceUnits"}).value_or(""));
   image.info.world = WorldOf(fields);
   BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));
   return image;

@@ -109,7 +109,8 @@ absl::StatusOr<ImageSize> SizeOf(const Fields& fields, const ImageLimits& limits
   return SizeOfAxes(std::span(lengths).first(static_cast<size_t>(axes)), limits);
 }
 
-absl::StatusOr<Placement> PlacementOfSform(const Fields& fields) {
+absl::StatusOr<Placement> PlacementOfSform(const Fields& fields,
+                                           const std::array<double, 3>& spacing) {
   std::array<WorldPoint, 3> steps;
   WorldPoint origin;
   for (size_t row = 0; row < 3; ++row) {
@@ -118,7 +119,7 @@ absl::StatusOr<Placement> PlacementOfSform(const Fields& fields) {
     }
     origin[row] = fields.Float(fields.layout().srow, 4 * row + 3);
   }
-  return PlacementOfSteps(steps, origin);
+  return PlacementOfSteps(steps, origin, spacing);
 }
 
 // The standard's formula for the rotation of the unit quaternion (a, b, c, d).
@@ -137,16 +138,18 @@ absl::StatusOr<Placement> PlacementOfQform(const Fields& fields,
   for (size_t axis = 0; axis < 3; ++axis) {
     for (double& step : steps[axis]) step *= spacing[axis] * (axis == 2 ? handedness : 1);
   }
-  return PlacementOfSteps(steps, {at(0), at(1), at(2)});
+  return PlacementOfSteps(steps, {at(0), at(1), at(2)}, spacing);
 }
 
 absl::StatusOr<Placement> PlacementOf(const Fields& fields) {
-  if (fields.Code(fields.layout().sform) > 0) return PlacementOfSform(fields);
   std::array<double, 3> spacing = {1, 1, 1};
   for (size_t axis = 0; axis < 3; ++axis) {
     if (static_cast<int64_t>(axis) >= fields.Dim(0)) break;
     spacing[axis] = std::abs(fields.Float(fields.layout().pixdim, axis + 1));
+    // A single slice has no next one, so some writers leave 0.
+    if (spacing[axis] == 0 && fields.Dim(axis + 1) == 1) spacing[axis] = 1;
   }
+  if (fields.Code(fields.layout().sform) > 0) return PlacementOfSform(fields, spacing);
   if (fields.Code(fields.layout().qform) > 0) return PlacementOfQform(fields, spacing);
   return PlacementOfSpacing(spacing, {0, 0, 0});
 }

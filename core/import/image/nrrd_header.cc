@@ -118,35 +118,55 @@ absl::StatusOr<std::vector<std::optional<WorldPoint>>> VectorsOf(std::string_vie
   return vectors;
 }
 
-absl::StatusOr<Placement> PlacementOfDirections(std::string_view text, const WorldPoint& origin) {
-  BCCSKEL_ASSIGN_OR_RETURN(const auto vectors, VectorsOf("space directions", text));
-  std::array<WorldPoint, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (size_t axis = 0; axis < std::min<size_t>(3, vectors.size()); ++axis) {
-    if (!vectors[axis].has_value()) {
-      return BadField("space directions", text, "has no direction for one of the first three axes");
-    }
-    steps[axis] = *vectors[axis];
+// What the header says of each axis. Axes of values, as of components, have neither step nor
+// spacing.
+struct AxisFields {
+  std::vector<std::optional<WorldPoint>> steps;  // empty without "space directions"
+  std::vector<double> spacings;                  // NaN where nobody knows; empty if not stated
+
+  bool IsOfValues(size_t axis) const {
+    if (axis < steps.size()) return !steps[axis].has_value();
+    return axis < spacings.size() && std::isnan(spacings[axis]);
   }
-  return PlacementOfSteps(steps, origin);
+};
+
+absl::StatusOr<AxisFields> AxisFieldsOf(const HeaderFields& fields) {
+  AxisFields axes;
+  if (const auto text = fields.Find({"space directions"}); text.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(axes.steps, VectorsOf("space directions", *text));
+  } else if (const auto spacings = fields.Find({"spacings"}); spacings.has_value()) {
+    BCCSKEL_ASSIGN_OR_RETURN(axes.spacings, ParseNumbers<double>("spacings", *spacings));
+  }
+  return axes;
 }
 
-absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields) {
+// An axis of one value in front of more than three, such as that of a single component, is dropped.
+void DropAxisOfOneValue(std::vector<int64_t>& sizes, AxisFields& axes) {
+  if (sizes.size() <= 3 || sizes.front() != 1 || !axes.IsOfValues(0)) return;
+  sizes.erase(sizes.begin());
+  if (!axes.steps.empty()) axes.steps.erase(axes.steps.begin());
+  if (!axes.spacings.empty()) axes.spacings.erase(axes.spacings.begin());
+}
+
+absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, const AxisFields& axes) {
   WorldPoint origin = {0, 0, 0};
   if (const auto text = fields.Find({"space origin"}); text.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(origin, VectorOf("space origin", *text));
   }
-  if (const auto text = fields.Find({"space directions"}); text.has_value()) {
-    return PlacementOfDirections(*text, origin);
-  }
   std::array<double, 3> spacing = {1, 1, 1};
-  if (const auto text = fields.Find({"spacings"}); text.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto spacings, ParseNumbers<double>("spacings", *text));
-    for (size_t axis = 0; axis < std::min<size_t>(3, spacings.size()); ++axis) {
-      // NaN is the format's way to say that nobody knows.
-      if (!std::isnan(spacings[axis])) spacing[axis] = spacings[axis];
-    }
+  for (size_t axis = 0; axis < std::min<size_t>(3, axes.spacings.size()); ++axis) {
+    if (!std::isnan(axes.spacings[axis])) spacing[axis] = axes.spacings[axis];
   }
-  return PlacementOfSpacing(spacing, origin);
+  if (axes.steps.empty()) return PlacementOfSpacing(spacing, origin);
+  std::array<WorldPoint, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (size_t axis = 0; axis < std::min<size_t>(3, axes.steps.size()); ++axis) {
+    if (!axes.steps[axis].has_value()) {
+      return BadField("space directions", fields.Find({"space directions"}).value_or(""),
+                      "has no direction for one of the first three axes");
+    }
+    steps[axis] = *axes.steps[axis];
+  }
+  return PlacementOfSteps(steps, origin);
 }
 
 std::string WorldOf(const HeaderFields& fields) {
@@ -164,7 +184,7 @@ std::string UnitOf(const HeaderFields& fields) {
     if (!unit.empty() && unit != word) return "";
     unit = word;
   }
-  return unit.substr(0, 32);
+  return UnitNamed(unit);
 }
 
 HeaderLine Classify(std::string_view line) {
@@ -210,11 +230,13 @@ absl::StatusOr<StoredImage> ParseNrrd(const ImageFront& front, const ImageLimits
                            HeaderFields::Read(front.bytes, {": ", Classify}));
   StoredImage image;
   image.info.format = "NRRD";
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<int64_t> sizes, SizesOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, SizesOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(AxisFields axes, AxisFieldsOf(fields));
+  DropAxisOfOneValue(sizes, axes);
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(sizes, limits));
   BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, TypeOf(fields));
   BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, ByteOrderOf(fields, image.stored_type));
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields, axes));
   image.info.unit = UnitOf(fields);
   image.info.world = WorldOf(fields);
   BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));

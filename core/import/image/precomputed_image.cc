@@ -163,7 +163,9 @@ class PrecomputedStore : public ChunkStore {
     BCCSKEL_RETURN_IF_ERROR(file->ReadAt(0, magic).status());
     const bool gzip = SniffGzip(magic) != Compression::kNone;
     if (!scale_.block.has_value()) {
-      // Raw voxels may begin as gzip does; then their length tells.
+      // Raw voxels may begin as gzip does; but they do not expand to a chunk.
+      const bool expands = gzip && ExpandChunk(ChunkCodec::kDeflate, file, bytes_).ok();
+      if (expands) return absl::OkStatus();
       const bool raw = !gzip || file->size() == bytes_.size();
       return ExpandChunk(raw ? ChunkCodec::kNone : ChunkCodec::kDeflate, file, bytes_);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,7 +88,8 @@ std::string_view DescriptionOf(TIFF* tiff) {
 // Without a unit the resolution is that of a printer, mostly by accident; so it is with an inch, by
 // which ImageJ means dots per inch.
 absl::StatusOr<Placement> PlacementOf(TIFF* tiff, const TiffStack& stack) {
-  if (stack.unit.empty()) return Placement{};
+  const auto stated = [](const std::optional<double>& spacing) { return spacing.has_value(); };
+  if (std::ranges::none_of(stack.spacing, stated)) return Placement{};
   const auto per_unit = [tiff](uint32_t tag) {
     const float resolution = TagOr<float>(tiff, tag, 1.0F);
     return resolution > 0 ? 1 / static_cast<double>(resolution) : 1.0;

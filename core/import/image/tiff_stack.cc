@@ -7,6 +7,7 @@
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_choice.h"
+#include "core/import/image/image_info.h"
 
 namespace bccskel {
 namespace {
@@ -53,7 +54,7 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
                                       const ImageOptions& options) {
   int64_t images = 1, channels = 1, slices = 0, frames = 1;
   double spacing = 1;
-  std::string unit;
+  std::string_view unit;
   for (const std::string_view line : Words(description)) {
     const auto field = SplitAt(line, "=");
     if (!field.has_value()) continue;
@@ -63,7 +64,7 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
     if (key == "slices") slices = CountOr(value, 0);
     if (key == "frames") frames = CountOr(value, 0);
     if (key == "spacing") spacing = ParseNumber<double>(value).value_or(1);
-    if (key == "unit" && value != "inch") unit = value.substr(0, 32);
+    if (key == "unit" && value != "inch") unit = value;
   }
   if (pages == 1 && images > 1) {
     return absl::UnimplementedError(absl::StrFormat(
@@ -75,7 +76,7 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
   if (slices == 0) slices = 1;
   BCCSKEL_ASSIGN_OR_RETURN(TiffStack stack,
                            Select({{'C', channels}, {'Z', slices}, {'T', frames}}, pages, options));
-  stack.unit = unit;
+  stack.unit = UnitNamed(unit);
   if (!unit.empty()) stack.spacing[2] = spacing;
   return stack;
 }
@@ -99,14 +100,6 @@ std::optional<std::string_view> TagOf(std::string_view xml, std::string_view nam
   return tag.substr(0, tag.find('>'));
 }
 
-// "µm" in the ways that it is written, as other formats name it.
-std::string UnitOf(std::string_view name) {
-  for (const std::string_view micro : {"\xc2\xb5m", "\xce\xbcm", "&#181;m", "&#xb5;m", "&#xB5;m"}) {
-    if (name == micro) return "um";
-  }
-  return std::string(name.substr(0, 32));
-}
-
 // Only what states one size for a unit is taken; Z may be unknown where there is one slice.
 absl::Status TakePhysicalSize(std::string_view pixels, TiffStack& stack) {
   std::optional<std::string> unit;
@@ -115,7 +108,7 @@ absl::Status TakePhysicalSize(std::string_view pixels, TiffStack& stack) {
     const auto size = Attribute(pixels, name);
     if (!size.has_value()) continue;
     BCCSKEL_ASSIGN_OR_RETURN(stack.spacing[axis], RequireNumber<double>(name, *size));
-    const std::string of_axis = UnitOf(Attribute(pixels, name + "Unit").value_or("\xc2\xb5m"));
+    const std::string of_axis = UnitNamed(Attribute(pixels, name + "Unit").value_or("\xc2\xb5m"));
     if (unit.has_value() && *unit != of_axis) {
       return absl::UnimplementedError(absl::StrFormat(
           "PhysicalSize is in %s along one axis and in %s along another", *unit, of_axis));

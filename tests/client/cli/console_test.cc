@@ -60,6 +60,18 @@ TEST(ConsoleTest, APlainConnectionThatFailsMayWantTls) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("hint")));
 }
 
+TEST(ConsoleTest, AServerThatWantsATokenLeadsToTheOption) {
+  testing::internal::CaptureStderr();
+  FailOnServer(ServerAt("a:1"), absl::UnauthenticatedError("wants one"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("hint: name the file of your token "
+                                                                "with --token-file"));
+  testing::internal::CaptureStderr();
+  ServerArguments with_token = ServerAt("a:1");
+  with_token.token_file = "wrong";
+  FailOnServer(with_token, absl::UnauthenticatedError("not accepted"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("hint")));
+}
+
 TEST(JsonStringTest, EscapesQuotesAndControlCharactersAndKeepsUtf8) {
   EXPECT_EQ(JsonString("a\"b\\c\n\x01"), "\"a\\\"b\\\\c\\u000a\\u0001\"");
   EXPECT_EQ(JsonString("né\xF0\x9F\xA6\xB4"), "\"né\xF0\x9F\xA6\xB4\"");

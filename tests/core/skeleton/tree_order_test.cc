@@ -59,6 +59,16 @@ SkeletonGraph Tree() {
   return GraphOf(6, {{0, 1, 8, 4}, {1, 2, 3}, {1, 3, 4, 2}, {3, 4, 2}, {3, 5, 5}});
 }
 
+TEST(TreeOrderTest, NodesMayBeTheRootsOfTheirComponents) {
+  const RootChoice nodes = {.rule = Rule::kNodes, .nodes = {4}};
+  EXPECT_TRUE(CheckRootChoice(nodes, Tree()).ok());
+  const TreeOrder order = OrderTrees(Tree(), nodes);
+  EXPECT_EQ(order.roots, Numbers{4});
+  const TreeOrder same = OrderTrees(Tree(), Node(4));
+  EXPECT_EQ(Column(order.nodes, &NodeOrder::parent), Column(same.nodes, &NodeOrder::parent));
+  EXPECT_FALSE(CheckRootChoice({.rule = Rule::kNodes, .nodes = {4, 6}}, Tree()).ok());
+}
+
 TEST(TreeOrderTest, TheDeepestNodeMayBeTheRoot) {
   SkeletonGraph graph = Tree();
   graph.nodes[3].at.radius = 7;

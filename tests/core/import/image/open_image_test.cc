@@ -43,6 +43,74 @@ TEST(OpenImage, ReadsNrrdWithDirectionsAndUnits) {
   EXPECT_THAT(image->info.placement.ToWorld(2 * 2, 2 * 1, 2 * 1), ElementsAre(8, 18, -27));
 }
 
+TEST(OpenImage, ReadsNrrdWithAnAxisOfOneComponentInFront) {
+  for (const std::string place :
+       {"space directions: none (2,0,0) (0,3,0) (0,0,4)\nspace origin: (1,2,3)\nspace: RAS\n",
+        "spacings: nan 2 3 4\n"}) {
+    const auto image = ReadBytes("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 1 3 2 2\n" + place +
+                                 "encoding: raw\n\n" + Counting<uint8_t>(12));
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->values, CountedTo(12));
+    EXPECT_EQ(image->info.size, (ImageSize{3, 2, 2}));
+    EXPECT_THAT(image->info.placement.spacing, ElementsAre(2, 3, 4));
+  }
+}
+
+// (0.36, 0.48, 0.8) has the length 1, in doubles 0.99999999999999989.
+TEST(OpenImage, GivesObliqueAxesTheSpacingThatIsStated) {
+  const auto meta = ReadBytes(
+      "ObjectType = Image\nNDims = 3\nTransformMatrix = 0.36 0.48 0.8 -0.8 0.6 0 -0.48 -0.64 0.6\n"
+      "Offset = 5 6 7\nElementSpacing = 0.7 0.7 0.7\nDimSize = 3 2 2\nElementType = MET_UCHAR\n"
+      "ElementDataFile = LOCAL\n" +
+      Counting<uint8_t>(12));
+  ASSERT_TRUE(meta.ok()) << meta.status();
+  EXPECT_THAT(meta->info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
+  const auto nrrd = ReadBytes(
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nspace: RAS\nencoding: raw\n"
+      "space directions: (0.252,0.336,0.56) (-0.56,0.42,0) (-0.336,-0.448,0.42)\n\n" +
+      Counting<uint8_t>(12));
+  ASSERT_TRUE(nrrd.ok()) << nrrd.status();
+  EXPECT_THAT(nrrd->info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
+}
+
+TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
+  const auto header = [](int16_t qform, int16_t sform) {
+    std::string bytes = testing::Nifti1Header();
+    const auto put = [&bytes](size_t at, const std::string& value) {
+      bytes.replace(at, value.size(), value);
+    };
+    put(76, Bytes(1.0F) + Bytes(0.7F) + Bytes(0.7F) + Bytes(0.7F));
+    put(252, Bytes(qform) + Bytes(sform));
+    put(256, Bytes(0.1F) + Bytes(0.2F) + Bytes(0.3F));
+    const auto row = [](double x, double y, double z) {
+      const auto entry = [](double c) { return Bytes(static_cast<float>(0.7F * c)); };
+      return entry(x) + entry(y) + entry(z) + Bytes(1.0F);
+    };
+    put(280, row(0.36, -0.8, -0.48) + row(0.48, 0.6, -0.64) + row(0.8, 0, 0.6));
+    return bytes;
+  };
+  for (const std::string& bytes : {header(1, 0), header(0, 1)}) {
+    const auto image = ReadBytes(bytes + Counting<uint8_t>(12));
+    ASSERT_TRUE(image.ok()) << image.status();
+    const double exact = 0.7F;
+    EXPECT_THAT(image->info.placement.spacing, ElementsAre(exact, exact, exact));
+    const auto& direction = image->info.placement.direction;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double x = direction[axis], y = direction[3 + axis], z = direction[6 + axis];
+      EXPECT_NEAR(x * x + y * y + z * z, 1, 1e-15);
+    }
+  }
+}
+
+TEST(OpenImage, ReadsNiftiOfOneSliceWithoutADistanceToTheNext) {
+  std::string header = testing::Nifti1Header();
+  header.replace(46, 2, Bytes<int16_t>(1));
+  header.replace(88, 4, Bytes(0.0F));
+  const auto image = ReadBytes(header + Counting<uint8_t>(6));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 1));
+}
+
 TEST(OpenImage, ReadsMetaImageWhoseRowsAreTheAxes) {
   // Axis 0 points along y, axis 1 against x.
   const auto image = ReadBytes(

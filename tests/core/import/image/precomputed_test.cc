@@ -130,6 +130,25 @@ TEST(Precomputed, IsReadRawAndCompressed) {
   }
 }
 
+TEST(Precomputed, IsExpandedThoughTheStreamIsAsLongAsAChunk) {
+  std::string voxels(100, '\0');
+  std::string stream;
+  for (size_t n = 0; n < voxels.size() && stream.size() != voxels.size(); ++n) {
+    voxels[n] = static_cast<char>(n * n * n + 7 * n);
+    stream = testing::Deflated(voxels, testing::Wrapping::kGzip);
+  }
+  ASSERT_EQ(stream.size(), voxels.size());
+  const ImageFolder folder("as_long");
+  folder.Write("info", R"({"type":"segmentation","data_type":"uint8","num_channels":1,"scales":[
+      {"key":"s","size":[100,1,1],"resolution":[1,1,1],"chunk_sizes":[[100,1,1]],
+       "encoding":"raw"}]})");
+  folder.Write("s/0-100_0-1_0-1", stream);
+  const auto image = folder.Read();
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(image->values[0], 0);
+  EXPECT_EQ(image->values[1], 8);
+}
+
 TEST(Precomputed, IsEmptyWhereChunksAreMissing) {
   const ImageFolder folder("gaps");
   folder.Write("info", Info(kRaw));

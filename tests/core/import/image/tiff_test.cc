@@ -193,7 +193,23 @@ TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
       {.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=micron\nspacing=1.5\nloop=false\n"}));
   ASSERT_TRUE(stack.ok()) << stack.status();
   EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
-  EXPECT_EQ(stack->info.unit, "micron");
+  EXPECT_EQ(stack->info.unit, "um");
+}
+
+// ImageJ writes the sign of micro in three ways; other bytes than words would end up in results.
+TEST(Tiff, KnowsTheUnitsOfImageJ) {
+  const std::pair<const char*, const char*> units[] = {
+      {"\\u00B5m", "um"}, {"\xb5m", "um"},    {"\xc2\xb5m", "um"}, {"um", "um"},
+      {"nm", "nm"},       {"pixel", "pixel"}, {"\\u5149", ""},     {"a\"b", ""},
+  };
+  for (const auto& [written, read] : units) {
+    const std::string description =
+        std::string("ImageJ=1.53\nimages=2\nslices=2\nunit=") + written + "\nspacing=1.5\n";
+    const auto stack = ReadBytes(Tiff({.description = description.c_str()}));
+    ASSERT_TRUE(stack.ok()) << stack.status();
+    EXPECT_EQ(stack->info.unit, read);
+    EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
+  }
 }
 
 TEST(Tiff, RefusesWhatIsNoStackOfNumbers) {
