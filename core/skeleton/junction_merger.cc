@@ -24,8 +24,8 @@ using Path = std::vector<SkeletonPoint>;
 constexpr size_t kMostJoined = 16;
 // Of the radius: so near to each other, junctions are one for limbs of any width.
 constexpr double kOneBall = 0.5;
-// In lattice units, added to the reach: by so much sampling moves the junctions of thin tubes, whose
-// radius is a few units.
+// In lattice units, added to the reach: by so much sampling moves the junctions of thin tubes,
+// whose radius is a few units.
 constexpr double kSampling = 1;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
@@ -147,7 +147,8 @@ class Merger {
   }
 
   // Whether the edge to `to` runs inside the node at `center`: within reach of its ball and of the
-  // limbs that leave it at `to`, give or take what sampling moves. Thin limbs that leave a thick body side by side are no one node.
+  // limbs that leave it at `to`, give or take what sampling moves. Thin limbs that leave a thick
+  // body side by side are no one node.
   bool IsWithin(uint32_t e, uint32_t to, uint32_t center) const {
     const SkeletonPoint& at = graph_.nodes[center].at;
     const double ball = reach_ * at.radius + kSampling;

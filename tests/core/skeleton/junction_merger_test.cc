@@ -57,7 +57,8 @@ TEST(MergeJunctions, LeavesThoseFartherApart) {
   EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 4, kDefaultJunctionReach)), 2);
 }
 
-// Sampling moves junctions by a lattice unit; of a ball of radius 6 that decides, of 60 it does not.
+// Sampling moves junctions by a lattice unit; of a ball of radius 6 that decides, of 60 it does
+// not.
 TEST(MergeJunctions, AllowsForSampling) {
   EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 5.7f, kDefaultJunctionReach)), 1);
   EXPECT_EQ(JunctionsOf(Merged(Comb({30, 38}), 5.5f, kDefaultJunctionReach)), 2);
