@@ -54,7 +54,11 @@ BorderBricks::BorderBricks(const Volume& object) {
   }
   first_of_.push_back(static_cast<uint32_t>(places_.size()));
   Pad(boxes_);
-  Group();
+  size_t count = places_.size();
+  do {
+    groups_.push_back(Grouped(groups_.empty() ? boxes_ : groups_.back(), count));
+    count = (count + kBoxGroup - 1) / kBoxGroup;
+  } while (count > kBoxGroup);
 }
 
 // Needs: some bits are set.
@@ -104,17 +108,20 @@ void BorderBricks::Add(const Place& place, const CellBox& box) {
   Append(AxesOf(box.low), AxesOf(box.high), boxes_);
 }
 
-void BorderBricks::Group() {
-  for (size_t n = 0; n < places_.size(); n += kBoxGroup) {
-    const size_t count = std::min(kBoxGroup, places_.size() - n);
+// Those of `count` boxes, which are not padded.
+Boxes BorderBricks::Grouped(const Boxes& boxes, size_t count) {
+  Boxes groups;
+  for (size_t n = 0; n < count; n += kBoxGroup) {
+    const size_t in_group = std::min(kBoxGroup, count - n);
     std::array<float, 3> low, high;
     for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::ranges::min(std::span(boxes_.low[axis]).subspan(n, count));
-      high[axis] = std::ranges::max(std::span(boxes_.high[axis]).subspan(n, count));
+      low[axis] = std::ranges::min(std::span(boxes.low[axis]).subspan(n, in_group));
+      high[axis] = std::ranges::max(std::span(boxes.high[axis]).subspan(n, in_group));
     }
-    Append(low, high, groups_);
+    Append(low, high, groups);
   }
-  Pad(groups_);
+  Pad(groups);
+  return groups;
 }
 
 }  // namespace bccskel

@@ -53,8 +53,9 @@ class BorderBricks {
     return places().subspan(first_of_[brick], first_of_[brick + 1] - first_of_[brick]);
   }
   const Boxes& boxes() const { return boxes_; }
-  // Box n is around the boxes from n * kBoxGroup on.
-  const Boxes& groups() const { return groups_; }
+  // Box n of a level is around the boxes from n * kBoxGroup on of the level before, the first level
+  // around boxes(); the last level has few.
+  std::span<const Boxes> groups() const { return groups_; }
 
  private:
   struct CellBox {
@@ -64,12 +65,12 @@ class BorderBricks {
   void AddBackgroundOf(const Volume& object, BrickIndex n);
   void AddBackgroundBeside(const Volume& object, const BrickNeighborhood& near, BrickIndex n);
   void Add(const Place& place, const CellBox& box);
-  void Group();
+  static Boxes Grouped(const Boxes& boxes, size_t count);
 
   std::vector<Place> places_;
   std::vector<uint32_t> first_of_;  // by brick, and the end
   Boxes boxes_;
-  Boxes groups_;
+  std::vector<Boxes> groups_;
 };
 
 }  // namespace bccskel

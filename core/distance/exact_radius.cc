@@ -60,7 +60,7 @@ ExactRadius::ExactRadius(const Volume& object, const DistanceField* field)
       squared_z_(scale_[2]) {
   if (!searches()) return;
   border_ = std::make_shared<const BorderBricks>(object);
-  near_groups_.resize(border_->groups().size());
+  near_groups_.resize(border_->groups().front().size());
 }
 
 std::span<const BrickBits> ExactRadius::Bricks() const {

@@ -85,20 +85,32 @@ HWY_INLINE uint32_t LanesBelow(hn::Vec<Floats> values, float limit) {
   return BitsOf(hn::Lt(values, hn::Set(Floats(), limit)));
 }
 
-size_t FindNearBoxesTarget(const Boxes& boxes, const PointSearch& search, float below,
-                           NearBox* found) {
+// Of the boxes [first, last) of the highest level. A box comes as near as any that lies in it, with
+// rounding, too.
+NearBox* FindNearBoxesIn(std::span<const Boxes> levels, size_t first, size_t last,
+                         const PointSearch& search, float below, NearBox* found) {
   const Floats f32;
   alignas(64) float squares[16];
-  size_t count = 0;
-  for (size_t n = 0; n < boxes.size(); n += hn::Lanes(f32)) {
-    const auto squared = SquaresToBoxes(boxes, n, search);
+  for (size_t n = first; n < last; n += hn::Lanes(f32)) {
+    const auto squared = SquaresToBoxes(levels.back(), n, search);
     hn::Store(squared, f32, squares);
     for (uint32_t near = LanesBelow(squared, below); near != 0; near &= near - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(near));
-      found[count++] = {static_cast<uint32_t>(n) + lane, squares[lane]};
+      const size_t lane = static_cast<size_t>(std::countr_zero(near)), box = n + lane;
+      if (levels.size() == 1) {
+        *found++ = {static_cast<uint32_t>(box), squares[lane]};
+      } else {
+        found = FindNearBoxesIn(levels.first(levels.size() - 1), box * kBoxGroup,
+                                (box + 1) * kBoxGroup, search, below, found);
+      }
     }
   }
-  return count;
+  return found;
+}
+
+size_t FindNearBoxesTarget(std::span<const Boxes> levels, const PointSearch& search, float below,
+                           NearBox* found) {
+  return static_cast<size_t>(
+      FindNearBoxesIn(levels, 0, levels.back().size(), search, below, found) - found);
 }
 
 // Where a point is, seen from a brick.
@@ -228,8 +240,9 @@ HWY_EXPORT(FindNearestTarget);
 HWY_EXPORT(FindAllInGroupTarget);
 HWY_EXPORT(FindAllTarget);
 
-size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found) {
-  return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(boxes, search, below, found);
+size_t FindNearBoxes(std::span<const Boxes> levels, const PointSearch& search, float below,
+                     NearBox* found) {
+  return HWY_DYNAMIC_DISPATCH(FindNearBoxesTarget)(levels, search, below, found);
 }
 
 void FindNearestBackground(std::span<const BorderBricks::Place> places, const Boxes& boxes,

@@ -67,9 +67,11 @@ struct NearestPoint {
   float squared = 0;
 };
 
-// The boxes that may hold something nearer. Shapes: `found` has room for all boxes.
-// Returns: how many were found.
-size_t FindNearBoxes(const Boxes& boxes, const PointSearch& search, float below, NearBox* found);
+// The boxes of the first level that may hold something nearer, in their order. Levels as
+// BorderBricks::groups(): only boxes in near ones of the level above are looked at.
+// Shapes: `found` has room for all boxes of the first level. Returns: how many were found.
+size_t FindNearBoxes(std::span<const Boxes> levels, const PointSearch& search, float below,
+                     NearBox* found);
 
 // Looks for a nearer background point in a group of bricks. The square of a distance is
 // x * x * squares[0] + y + z in this order, with a rounding after each step.

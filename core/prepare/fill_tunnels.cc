@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,16 +37,30 @@ constexpr double kNarrowest = 2;
 // A ball of at most this radius is compared point by point: distance fields take up to five times
 // as long.
 constexpr double kFewPoints = 5;
+// So is a larger one if it has so few points for each brick of the distance fields: the bricks
+// around dust are many times those that it lies in.
+constexpr double kVisitsPerBrick = 32;
+
+// As distance fields have it.
+double RoundedLength(LatticePoint way, const AxisScale& scale) {
+  const auto square = [](double length) { return static_cast<float>(length * length); };
+  const auto x = static_cast<float>(std::abs(way.x));
+  const float squared =
+      x * x * square(scale[0]) + square(scale[1] * way.y) + square(scale[2] * way.z);
+  return std::sqrt(static_cast<double>(squared));
+}
 
 // The way from the middle of the ball to each other point in it, the farthest first: most points
 // near an object have background there.
 std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
   std::vector<std::pair<double, LatticePoint>> ways;
   const auto reach = static_cast<int32_t>(radius);
+  const bool few = radius <= kFewPoints;
   for (int32_t z = -reach; z <= reach; ++z) {
     for (int32_t y = -reach; y <= reach; ++y) {
       for (int32_t x = -reach; x <= reach; ++x) {
-        const double length = std::hypot(scale[0] * x, scale[1] * y, scale[2] * z);
+        const double length = few ? std::hypot(scale[0] * x, scale[1] * y, scale[2] * z)
+                                  : RoundedLength({x, y, z}, scale);
         if (IsOnLattice({x, y, z}) && length > 0 && length < radius) {
           ways.push_back({length, {x, y, z}});
         }
@@ -96,13 +111,52 @@ int EulerOfJoining(NeighborMask mask) {
   return 1 - (ComponentsIn(mask) - (ComponentsIn(rest) - 1));
 }
 
+// How a ball is compared with the object, and how far around it one has to look.
+struct Closing {
+  bool by_points = false;
+  BrickCoordinates room;
+};
+
+// Nothing is known of what lies beyond the bricks that are looked at, and they count as background.
+// That is wrong by up to two radii from there, and matters to the closing up to two radii from the
+// object.
+Closing ClosingOf(const Volume& object, double radius) {
+  const BrickCoordinates room = RoomFor(4 * radius);
+  const AxisScale scale = AxisScaleOf(object.placement());
+  constexpr double kPointsPerUnit = 0.25, kBall = 4 * std::numbers::pi / 3;
+  const double ball =
+      kPointsPerUnit * kBall * radius * radius * radius / (scale[0] * scale[1] * scale[2]);
+  const double visits = ball * static_cast<double>(object.PointCount());
+  const bool is_dust =
+      visits <= kVisitsPerBrick * static_cast<double>(MostBricksAround(object, room));
+  if (radius <= kFewPoints || is_dust) return {true, RoomFor(radius)};
+  return {false, room};
+}
+
+// Reserves and lists the bricks to look at.
+absl::StatusOr<std::vector<BrickKey>> BricksToLookAt(const Volume& object, BrickCoordinates room,
+                                                     exec::MemoryBudget& memory) {
+  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(MostBricksAround(object, room), kBytesPerListedBrick,
+                                         "bricks to list around the object"));
+  std::vector<BrickKey> keys = BricksAround(object, room);
+  BCCSKEL_RETURN_IF_ERROR(
+      memory.TakeFor(keys.size(), kBytesPerRoomBrick, "bricks to look for tunnels in"));
+  return keys;
+}
+
+Volume WithRoomAround(const Volume& object, BrickCoordinates room) {
+  return ShiftedBy(object, room, 1, WithRoom(object.extent(), room));
+}
+
+double RadiusOf(double width) { return width / 2 + 1; }
+
 class TunnelFiller {
  public:
   // Distances go from center to center of points that are half a cell's edge, one unit, thick.
   TunnelFiller(const Volume& object, double width, exec::MemoryBudget& memory,
                const exec::Context& context)
       : object_(object),
-        radius_(width / 2 + 1),
+        radius_(RadiusOf(width)),
         memory_(memory),
         context_(context),
         for_cavities_(memory) {}
@@ -127,29 +181,19 @@ class TunnelFiller {
 
   // Sets pieces_: what the ball does not reach, without the object.
   absl::Status CloseObject() {
-    // Nothing is known of what lies beyond the bricks that are looked at, and they count as
-    // background. That is wrong by up to two radii from there, and matters to the closing up to two
-    // radii from the object.
-    const bool few = radius_ <= kFewPoints;
-    const BrickCoordinates room = RoomFor(few ? radius_ : 4 * radius_);
-    const LatticeExtent& given = object_.extent();
-    const LatticeExtent extent = WithRoom(given, room);
-    const Volume object = ShiftedBy(object_, room, 1, extent);
+    const auto [by_points, room] = ClosingOf(object_, radius_);
+    const Volume object = WithRoomAround(object_, room);
     exec::MemoryShare share(memory_);
-    BCCSKEL_RETURN_IF_ERROR(share.TakeFor(MostBricksAround(object, room), kBytesPerListedBrick,
-                                          "bricks to list around the object"));
-    std::vector<BrickKey> keys = BricksAround(object, room);
-    BCCSKEL_RETURN_IF_ERROR(
-        share.TakeFor(keys.size(), kBytesPerRoomBrick, "bricks to look for tunnels in"));
+    BCCSKEL_ASSIGN_OR_RETURN(std::vector<BrickKey> keys, BricksToLookAt(object, room, share));
     BrickBits all;
     all.words.fill(~uint64_t{0});
     std::vector<BrickBits> whole(keys.size(), all);
-    const Volume bricks =
-        Volume::FromSortedBricks(extent, object.placement(), std::move(keys), std::move(whole));
-    BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, few ? ClosedByPoints(object, bricks)
-                                                      : ClosedByDistances(object, bricks));
+    const Volume bricks = Volume::FromSortedBricks(object.extent(), object.placement(),
+                                                   std::move(keys), std::move(whole));
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, by_points ? ClosedByPoints(object, bricks)
+                                                            : ClosedByDistances(object, bricks));
     // The builder drops what lies outside the extent.
-    VolumeBuilder pieces(given, object_.placement());
+    VolumeBuilder pieces(object_.extent(), object_.placement());
     Difference(closed, object).ForEachPoint([&](LatticePoint p) {
       pieces.Add(p -
                  LatticePoint{2 * kBrickX * room.bx, 2 * kBrickY * room.by, 2 * kBrickZ * room.bz});
@@ -307,6 +351,13 @@ class TunnelFiller {
   std::vector<Piece> judged_;           // by name
 };
 
+// The widest ball needs most, and no less once narrower ones have filled something.
+absl::Status CheckRoomFor(const Volume& object, double radius, exec::MemoryBudget& memory) {
+  exec::MemoryShare share(memory);
+  const BrickCoordinates room = ClosingOf(object, radius).room;
+  return BricksToLookAt(WithRoomAround(object, room), room, share).status();
+}
+
 }  // namespace
 
 absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
@@ -314,6 +365,9 @@ absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           const exec::Context& context) {
   ChangedVolume all{object};
   if (object.empty()) return all;
+  if (width > kNarrowest) {
+    BCCSKEL_RETURN_IF_ERROR(CheckRoomFor(object, RadiusOf(width), memory));
+  }
   for (double now = std::min(width, kNarrowest);; now = std::min(2 * now, width)) {
     BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume filled,
                              TunnelFiller(all.object, now, memory, context).Run());

@@ -4,12 +4,16 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace bccskel::exporting {
 namespace {
 
+// So often a picture may be covered before it pays to find out what is hidden.
+constexpr double kMostLayers = 8;
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
 
 // The nearest depth at every pixel.
@@ -183,10 +187,39 @@ RgbaImage Shade(const DepthMap& depth, const Coverage& coverage, float largest_s
 
 }  // namespace
 
+std::vector<PanelPoint> NearestOfEachPlace(std::span<const PanelPoint> points) {
+  constexpr double kPlaces = 4096;  // in a pixel: what differs by less was rounded
+  struct Place {
+    int64_t x, y;
+    double behind;
+    size_t point;
+
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> places;
+  places.reserve(points.size());
+  for (const PanelPoint& p : points) {
+    places.push_back(
+        {std::llround(p.x * kPlaces), std::llround(p.y * kPlaces), -p.depth, places.size()});
+  }
+  std::ranges::sort(places);
+  const auto [end, last] = std::ranges::unique(
+      places, [](const Place& a, const Place& b) { return a.x == b.x && a.y == b.y; });
+  std::vector<PanelPoint> nearest;
+  for (auto place = places.begin(); place != end; ++place) nearest.push_back(points[place->point]);
+  return nearest;
+}
+
 RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius, uint32_t width,
                         uint32_t height) {
   DepthMap depth(static_cast<int>(width), static_cast<int>(height));
   const double radius = std::max(point_radius, 0.8);
+  std::vector<PanelPoint> nearest;
+  const double pixels = static_cast<double>(width) * height;
+  if (radius * radius * static_cast<double>(surface.size()) > kMostLayers * pixels) {
+    nearest = NearestOfEachPlace(surface);
+    surface = nearest;
+  }
   for (const PanelPoint& p : surface) depth.AddSphere(p, radius);
   // Averaging over about three point radii hides the lattice. Wide strides leave steps beside
   // outlines, so narrow ones come last, and often.

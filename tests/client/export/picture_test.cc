@@ -76,6 +76,21 @@ TEST(SurfaceImageTest, PaintsWhereThePointsAreAndNothingElse) {
   EXPECT_EQ(image.pixels.size(), 4 * 60 * 40);
 }
 
+// A line seen from its end: half a million pixels for each of its points. Rounding moves them.
+TEST(SurfaceImageTest, LaysOnlyTheNearestOfPointsBehindEachOther) {
+  std::vector<PanelPoint> line;
+  for (int n = 0; n < 75512; ++n) {
+    const double rounding = 1e-9 * (n % 7);
+    line.push_back({300 + 200.0 * (n % 2) + rounding, 200 - rounding, 100.0 * ((n * 31) % 75512)});
+  }
+  const std::vector<PanelPoint> nearest = NearestOfEachPlace(line);
+  ASSERT_EQ(nearest.size(), 2u);
+  for (const PanelPoint& p : nearest) EXPECT_GT(p.depth, 100.0 * (75512 - 3));
+  const std::vector<PanelPoint> few(line.begin(), line.begin() + 60);
+  const std::vector<PanelPoint> seen = NearestOfEachPlace(few);
+  EXPECT_EQ(RenderSurface(few, 100, 600, 400).pixels, RenderSurface(seen, 100, 600, 400).pixels);
+}
+
 TEST(ProjectionTest, FillsThePanelUpToTheMargin) {
   const std::vector<WorldPoint> points = {{0, 0, 0}, {4, 1, 0}, {4, 3, 9}};
   const View front = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -138,5 +138,26 @@ TEST(ExactRadii, StopWhenAsked) {
             absl::StatusCode::kCancelled);
 }
 
+// Some 10^5 places, of which a search looks at few groups: those in near groups of groups.
+TEST(BorderBricks, HaveLevelsOfGroupsUpToAFew) {
+  const Volume object = VolumeOfPoints(test::RandomCloud(1, {260, 260, 260}, 0.003));
+  const BorderBricks border(object);
+  ASSERT_GT(border.places().size(), 10 * kBoxGroup * kBoxGroup);
+  EXPECT_EQ(border.groups().back().size(), kBoxGroup);
+  const SquaredWays<1> y(1);
+  const SquaredWays<kBrickY> z(1);
+  std::vector<NearBox> in_levels(border.groups().front().size()), all = in_levels;
+  for (int32_t n = 0; n < 20; ++n) {
+    const PointSearch search = {.at = {25 * n, 510 - 25 * n, 20 * n}, .y = y, .z = z};
+    const float below = 40.0f * static_cast<float>(n * n);
+    const size_t found = FindNearBoxes(border.groups(), search, below, in_levels.data());
+    ASSERT_EQ(found, FindNearBoxes(border.groups().first(1), search, below, all.data()));
+    for (size_t box = 0; box < found; ++box) {
+      ASSERT_EQ(in_levels[box].box, all[box].box);
+      ASSERT_EQ(in_levels[box].squared, all[box].squared);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bccskel

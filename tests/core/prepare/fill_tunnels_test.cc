@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "core/exec/worker_team.h"
 #include "tests/core/prepare/reference_prepare.h"
@@ -159,6 +160,48 @@ TEST(FillTunnels, AsksForMemory) {
   NoMemory memory;
   const auto filled = FillTunnels(test::VolumeWhere(41, PlateWithHole(9)), 12, memory, {});
   EXPECT_EQ(filled.status().code(), absl::StatusCode::kResourceExhausted);
+}
+
+// Remembers what is asked for, up to a limit.
+class CountedMemory final : public exec::MemoryBudget {
+ public:
+  explicit CountedMemory(uint64_t limit) : limit_(limit) {}
+  absl::Status Take(uint64_t bytes, const std::string& what_for) override {
+    ++requests_;
+    if (held_ + bytes > limit_) return absl::ResourceExhaustedError(what_for);
+    held_ += bytes;
+    most_ = std::max(most_, held_);
+    return absl::OkStatus();
+  }
+  void GiveBack(uint64_t bytes) override { held_ -= bytes; }
+  uint64_t most() const { return most_; }
+  int requests() const { return requests_; }
+
+ private:
+  uint64_t limit_, held_ = 0, most_ = 0;
+  int requests_ = 0;
+};
+
+Volume Dust() {
+  VolumeBuilder builder({400, 400, 400});
+  for (int32_t n = 0; n < 216; ++n) {
+    builder.Add({60 + 120 * (n % 6), 60 + 120 * (n / 6 % 6), 60 + 120 * (n / 36)});
+  }
+  return *std::move(builder).Build();
+}
+
+// A distance field around a point would have 270 bricks.
+TEST(FillTunnels, LooksAtFewBricksAroundDust) {
+  CountedMemory memory(uint64_t{1} << 40);
+  ASSERT_TRUE(FillTunnels(Dust(), 12, memory, {}).ok());
+  EXPECT_LE(memory.most(), 216 * 100 * uint64_t{5120});
+}
+
+TEST(FillTunnels, KnowsAtOnceThatTheWidestTakesTooMuch) {
+  CountedMemory memory(uint64_t{64} << 20);
+  EXPECT_EQ(FillTunnels(Dust(), 64, memory, {}).status().code(),
+            absl::StatusCode::kResourceExhausted);
+  EXPECT_LE(memory.requests(), 2);
 }
 
 }  // namespace
