@@ -88,7 +88,8 @@ TEST(SurfaceImageTest, LaysOnlyTheNearestOfPointsBehindEachOther) {
   for (const PanelPoint& p : nearest) EXPECT_GT(p.depth, 100.0 * (75512 - 3));
   const std::vector<PanelPoint> few(line.begin(), line.begin() + 60);
   const std::vector<PanelPoint> seen = NearestOfEachPlace(few);
-  EXPECT_EQ(RenderSurface(few, 100, 600, 400).pixels, RenderSurface(seen, 100, 600, 400).pixels);
+  // No middle of a pixel lies on the rim, where rounding decides.
+  EXPECT_EQ(RenderSurface(few, 99.7, 600, 400).pixels, RenderSurface(seen, 99.7, 600, 400).pixels);
 }
 
 TEST(ProjectionTest, FillsThePanelUpToTheMargin) {
