@@ -77,8 +77,8 @@ absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacin
 
 // `steps[n]` leads from a voxel to the next one along axis n. Steps along an oblique axis are
 // rounded, so their lengths are, too. Lengths that the file states replace those that differ by
-// rounding alone: equal spacings must not seem to differ. Errors: INVALID_ARGUMENT for numbers that
-// are not finite, steps of length zero, and axes that are
+// rounding alone: equal spacings must not seem to differ.
+// Errors: INVALID_ARGUMENT for numbers that are not finite, steps of length zero, and axes that are
 //         not perpendicular: distances in a sheared image are not those of the lattice.
 absl::StatusOr<Placement> PlacementOfSteps(
     const std::array<WorldPoint, 3>& steps, const WorldPoint& origin,
