@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Communication of bccskel-mpi and its cost on networks: counts, delayed runs, a model.
 
   ranks_report.py counts BCCSKEL_MPI    runs shapes on 1, 2, 4 and 8 ranks and prints what they sent
