@@ -57,6 +57,17 @@ absl::StatusOr<Descriptor> ListenTo(const sockaddr* name, socklen_t size,
   return listener;
 }
 
+// A crash leaves its socket. Anything else of this name is not ours to remove.
+absl::Status RemoveSocket(const std::string& path) {
+  struct stat there = {};
+  if (lstat(path.c_str(), &there) != 0) return absl::OkStatus();
+  if (!S_ISSOCK(there.st_mode)) {
+    return CannotListen("unix:" + path, "the path exists and is not a socket");
+  }
+  unlink(path.c_str());
+  return absl::OkStatus();
+}
+
 int PortOf(const Descriptor& listener) {
   sockaddr_storage name = {};
   socklen_t size = sizeof(name);
@@ -159,7 +170,7 @@ absl::Status ConnectionAcceptor::ListenToPath(const std::string& path) {
                                            sizeof(name.sun_path) - 1));
   }
   path.copy(name.sun_path, path.size());
-  unlink(path.c_str());
+  BCCSKEL_RETURN_IF_ERROR(RemoveSocket(path));
   BCCSKEL_ASSIGN_OR_RETURN(Descriptor listener, ListenTo(reinterpret_cast<const sockaddr*>(&name),
                                                          sizeof(name), "unix:" + path));
   listeners_.push_back(std::move(listener));

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -130,6 +131,17 @@ TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
   const auto replies =
       test::Converse(test::ConnectTo(first->address()), RequestsFor(test::SmallTorusPlanes()));
   EXPECT_TRUE(replies.status.ok()) << replies.status;
+}
+
+TEST(Server, AFileInPlaceOfItsSocketStays) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.File("model.stl");
+  std::ofstream(path) << "precious";
+  ServerConfig config = test::SmallServer();
+  config.listen = {"unix:" + path};
+  const absl::Status status = Server::Start(config).status();
+  EXPECT_THAT(status.message(), testing::HasSubstr("the path exists and is not a socket"));
+  EXPECT_EQ(std::filesystem::file_size(path), 8U);
 }
 
 TEST(Server, RemovesItsSocketAtTheEnd) {
