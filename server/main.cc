@@ -24,6 +24,7 @@ namespace bccskel::server {
 namespace {
 
 constexpr int kCannotListen = 1;
+constexpr int kCannotPrint = 1;
 
 // Blocked in every thread, and taken by ServeUntilStopped() alone: nothing ever runs in a signal
 // handler.
@@ -82,9 +83,11 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
 }
 
 int Print(const ExitRequest& exit) {
-  std::fputs(exit.out.c_str(), stdout);
+  const bool written = std::fputs(exit.out.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
   std::fputs(exit.err.c_str(), stderr);
-  return exit.code;
+  if (written) return exit.code;
+  std::fputs("bccskel-server: cannot write to standard output\n", stderr);
+  return kCannotPrint;
 }
 
 void Greet(const Server& server) {

@@ -60,7 +60,10 @@ std::variant<CommandLine, ExitRequest> ReadCommandLine(const Program& program,
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int code = app.exit(error, out, err);
-    return ExitRequest{code == 0 ? 0 : kUsageError, out.str(), err.str()};
+    if (code == 0) return ExitRequest{0, out.str(), ""};
+    return ExitRequest{
+        kUsageError, "",
+        absl::StrCat(program.name, ": ", error.what(), "\n", program.name, ": see --help\n")};
   }
   return line;
 }

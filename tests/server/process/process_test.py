@@ -69,6 +69,14 @@ class FlagsTest(unittest.TestCase):
             self.assertEqual(ended.returncode, 0)
             self.assertIn("bccskel-server", ended.stdout)
 
+    def test_a_token_that_cannot_be_printed_gives_code_1(self):
+        for flags in (["--new-token", "acme"], ["--check-config"], ["--help"]):
+            with open("/dev/full", "w") as full:
+                ended = subprocess.run([server_process.BINARY, *flags], stdout=full, stderr=subprocess.PIPE,
+                                       text=True, timeout=60)
+            self.assertEqual(ended.returncode, 1, flags)
+            self.assertIn("bccskel-server: cannot write to standard output", ended.stderr)
+
     def test_an_address_that_cannot_be_listened_on_gives_code_1(self):
         for address in ("203.0.113.1:1", "unix:/no/such/folder/socket"):
             ended = run_to_end("--listen", address)
