@@ -13,6 +13,7 @@
 #include "server/identity/token.h"
 #include "server/identity/token_table.h"
 #include "server/settings/values.h"
+#include "server/store/job_store.h"
 
 namespace bccskel::server {
 namespace {
@@ -179,8 +180,14 @@ absl::Status CheckTokens(const ServerConfig& config) {
 
 absl::Status CheckJobStore(const ServerConfig& config) {
   const DurableOptions& durable = config.durable;
-  if (durable.job_store.empty() || !durable.data_directory.empty()) return absl::OkStatus();
-  return absl::InvalidArgumentError("--job-store needs --data-dir, the folder that servers share");
+  if (durable.job_store.empty()) return absl::OkStatus();
+  if (durable.data_directory.empty()) {
+    return absl::InvalidArgumentError(
+        "--job-store needs --data-dir, the folder that servers share");
+  }
+  const absl::Status name = CheckPostgresName(durable.job_store);
+  return name.ok() ? name
+                   : absl::InvalidArgumentError(absl::StrCat("--job-store: ", name.message()));
 }
 
 absl::Status CheckMetricsAddress(const ServerConfig& config) {

@@ -184,6 +184,8 @@ absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& 
 //         FAILED_PRECONDITION for tables of a newer version; UNAVAILABLE; UNIMPLEMENTED in a
 //         program that was built without libpq.
 absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& database);
+// Errors: INVALID_ARGUMENT for a URL that cannot be read or holds a password.
+absl::Status CheckPostgresName(const std::string& database);
 
 }  // namespace bccskel::server
 

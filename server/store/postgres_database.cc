@@ -9,6 +9,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "server/store/job_store.h"
 #include "server/store/sql_database.h"
 
 namespace bccskel::server {
@@ -61,26 +62,6 @@ absl::StatusCode CodeOf(const std::string& state) {
   return state.empty() ? StatusCode::kUnavailable : StatusCode::kInternal;
 }
 
-absl::Status CheckName(const std::string& name) {
-  char* message = nullptr;
-  PQconninfoOption* const options = PQconninfoParse(name.c_str(), &message);
-  if (options == nullptr) {
-    const std::string why = message == nullptr ? "out of memory" : message;
-    PQfreemem(message);
-    return absl::InvalidArgumentError(absl::StrCat("the name of the database: ", why));
-  }
-  bool password = false;
-  for (const PQconninfoOption* option = options; option->keyword != nullptr; ++option) {
-    password =
-        password || (std::strcmp(option->keyword, "password") == 0 && option->val != nullptr);
-  }
-  PQconninfoFree(options);
-  if (!password) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      "a password in the name of the database can be read in the list of processes: use PGPASSFILE "
-      "or PGPASSWORD");
-}
-
 class PostgresDatabase final : public SqlDatabase {
  public:
   static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& name);
@@ -121,7 +102,7 @@ class PostgresDatabase final : public SqlDatabase {
 };
 
 absl::StatusOr<std::unique_ptr<SqlDatabase>> PostgresDatabase::Open(const std::string& name) {
-  BCCSKEL_RETURN_IF_ERROR(CheckName(name));
+  BCCSKEL_RETURN_IF_ERROR(CheckPostgresName(name));
   std::unique_ptr<PostgresDatabase> database(new PostgresDatabase(name));
   BCCSKEL_RETURN_IF_ERROR(database->Connect());
   return database;
@@ -271,6 +252,25 @@ absl::Status PostgresDatabase::Forget() {
 }
 
 }  // namespace
+
+absl::Status CheckPostgresName(const std::string& name) {
+  char* message = nullptr;
+  PQconninfoOption* const options = PQconninfoParse(name.c_str(), &message);
+  if (options == nullptr) {
+    const std::string why = message == nullptr ? "out of memory" : message;
+    PQfreemem(message);
+    return absl::InvalidArgumentError(absl::StrCat("the URL of the database: ", why));
+  }
+  bool password = false;
+  for (const PQconninfoOption* option = options; option->keyword != nullptr; ++option) {
+    password =
+        password || (std::strcmp(option->keyword, "password") == 0 && option->val != nullptr);
+  }
+  PQconninfoFree(options);
+  if (!password) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "everybody on this machine can read a password in the URL: use PGPASSFILE or PGPASSWORD");
+}
 
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name) {
   return PostgresDatabase::Open(name);

@@ -61,6 +61,7 @@ TEST_P(BadFlagTest, EndsWithCodeTwoAndNamesTheFlag) {
   const auto& exit = std::get<ExitRequest>(parsed);
   EXPECT_EQ(exit.code, 2);
   EXPECT_THAT(exit.err, testing::HasSubstr(GetParam()[0]));
+  EXPECT_THAT(exit.err, testing::StartsWith("bccskel-server: "));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -77,7 +78,9 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<const char*>{"--listen", "unix:"},
         std::vector<const char*>{"--listen", "127.0.0.1:99999"},
         std::vector<const char*>{"--listen", "127.0.0.1:http"},
-        std::vector<const char*>{"--listen", ":80"}, std::vector<const char*>{"surplus"}));
+        std::vector<const char*>{"--listen", ":80"}, std::vector<const char*>{"--new-token"},
+        std::vector<const char*>{"--job-store", "postgresql://a:secret@b/c", "--data-dir", "d"},
+        std::vector<const char*>{"surplus"}));
 
 TEST(ServerConfig, VersionAndHelpGoToStandardOutputAndAreNoError) {
   for (const char* flag : {"--version", "--help"}) {
