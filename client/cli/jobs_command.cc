@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <ctime>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
@@ -129,6 +130,11 @@ absl::Status CheckFetched(const FetchArguments& arguments, const Volume& object,
                                                  "submit --detach --thin-volume keeps it"));
 }
 
+std::string FetchSummary(const JobArguments& arguments, const std::vector<WrittenFile>& files) {
+  if (arguments.common.summary == SummaryStyle::kText) return FilesText(files);
+  return "{\"job\":" + JsonString(arguments.job) + ",\"outputs\":" + FilesJson(files) + "}\n";
+}
+
 ExitCode Finish(const JobArguments& arguments, const absl::StatusOr<DurableJob>& job) {
   if (!job.ok()) return FailOnServer(arguments.server, job.status());
   return Print(JobSummary(arguments.common, *job));
@@ -171,12 +177,13 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
                                       .context = team.context(),
                                       .swc = arguments.swc,
                                       .draw = view::DrawSubject};
+  std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
-    const absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
+    absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());
-    if (!note->empty()) Warn(path + ": " + *note);
+    files.push_back({path, *std::move(note)});
   }
-  return ExitCode::kOk;
+  return Print(FetchSummary(arguments.job, files));
 }
 
 namespace {

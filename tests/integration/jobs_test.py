@@ -36,7 +36,11 @@ class JobsTest(harness.TestCase):
             self.assertTrue(job.startswith("jobs/"), job)
             self.assertEqual(self.succeed("watch", job, "--server", server.address),
                              f"{job} succeeded\n")
-            self.succeed("fetch", job, "--server", server.address, "-o", self.path("f.json"))
+            fetch = ("fetch", job, "--server", server.address, "-o", self.path("f.json"))
+            self.assertEqual(self.succeed(*fetch), f"written:   {self.path('f.json')}\n")
+            self.assertEqual(
+                json.loads(self.succeed(*fetch, "--json")),
+                {"job": job, "outputs": [{"path": self.path("f.json"), "note": ""}]})
             self.succeed("skeletonize", self.path("object.bccb"), "--local", "--json",
                          "-o", self.path("l.json"))
             fetched, local = (json.loads(pathlib.Path(self.path(name)).read_text())
