@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -88,7 +90,8 @@ absl::Status CheckVolumes(const view::ResultDocument& result, const Volume& obje
 absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& object) {
   if (object.empty() && result.object_points == 0) return absl::OkStatus();
   if (object.empty()) {
-    return absl::InvalidArgumentError("is empty; what the result was made from is not");
+    return absl::InvalidArgumentError(
+        "is not what the result was made from: it has no point on that grid");
   }
   BCCSKEL_RETURN_IF_ERROR(CheckBoxes(result, object));
   return CheckVolumes(result, object);
@@ -173,6 +176,10 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   if (HasMeshFileName(name)) return InputKind::kMesh;
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
   if (IsImagePath(path)) return InputKind::kImage;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    return absl::NotFoundError("cannot open '" + path + "': No such file or directory");
+  }
   return absl::InvalidArgumentError(
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, each also with .gz), "
