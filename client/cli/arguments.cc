@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,7 +17,9 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/console.h"
 #include "client/cli/option_values.h"
 #include "core/version/version.h"
 
@@ -69,20 +72,33 @@ void AddOptionNames(const CLI::App& command, std::vector<std::string>& names) {
   }
 }
 
-// What is said of a command or an option that does not exist; empty: all do. CLI11 would rather
-// tell what is missing beside it.
+// The commands that the words of a command are followed by: of bench, core and server.
+std::vector<std::string> CommandsOf(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!inner->get_name().empty()) names.push_back(inner->get_name());
+  }
+  return names;
+}
+
+std::string CommandRequired(const CLI::App& app) {
+  return "a command is required: " + absl::StrJoin(CommandsOf(app), ", ");
+}
+
+// What is said of a command or an option that does not exist, or of a nested command that is
+// missing; empty: neither. CLI11 would rather tell what is missing beside it.
 std::string UnknownWord(const CLI::App& app) {
   const std::vector<std::string> rest = app.remaining(true);
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  std::vector<std::string> known;
-  if (command == &app) {
-    if (rest.empty() || rest.front().starts_with("-")) return "";
-    for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) {
-      known.push_back(one->get_name());
-    }
-    return "there is no command " + rest.front() + Suggestion(rest.front(), known);
+  std::vector<std::string> known = CommandsOf(*command);
+  if (!known.empty() && !rest.empty() && !rest.front().starts_with("-")) {
+    const std::string before = command == &app ? "" : command->get_name() + " ";
+    return "there is no command " + before + rest.front() + Suggestion(rest.front(), known);
   }
+  if (command == &app) return "";
+  if (!known.empty() && rest.empty()) return CommandRequired(*command);
+  known.clear();
   const auto found = std::ranges::find_if(
       rest, [](const std::string& word) { return word.starts_with("--") && word.size() > 2; });
   if (found == rest.end()) return "";
@@ -177,14 +193,6 @@ class CommandLine {
   std::list<Arguments> given_;  // by the options of each command given, the last one's behind
 };
 
-std::string CommandRequired(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  return "a command is required: " + names;
-}
-
 // ---- Completion ----
 
 // "word<tab>description" for each of `words` that begins with `prefix`.
@@ -274,7 +282,10 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
   try {
     line.app().parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return line.app().exit(error) == 0 ? ExitCode::kOk : ExitCode::kUsage;
+    std::ostringstream out, err;
+    if (line.app().exit(error, out, err) == 0) return Print(out.str());
+    std::fputs(err.str().c_str(), stderr);
+    return ExitCode::kUsage;
   }
   if (line.app().get_subcommands().empty()) return Refuse(CommandRequired(line.app()));
   Arguments arguments = line.given();

@@ -23,9 +23,14 @@ namespace bccskel::cli {
 
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   CLI::Option* points = AddCount<uint64_t>(
-      command, "--points", [&grid](uint64_t count) { grid.points = count; },
+      command, "--points",
+      [&grid](uint64_t count) {
+        if (count == 0) throw CLI::ValidationError("--points 0: must be at least 1");
+        grid.points = count;
+      },
       "Number of lattice points inside the solid");
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
+      ->check(Positive())
       ->excludes(points)
       ->option_text("LENGTH");
   AddChoice<FillRule>(
@@ -56,13 +61,16 @@ CLI::Option* AddTriple(CLI::App& command, const char* name, const char* descript
 // "7" or "3-9".
 void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
   constexpr uint64_t kMostOfRange = 1'000'000;
-  const size_t dash = given.find('-', 1);
-  const auto low = ReadCount<uint64_t>("--label", given.substr(0, dash));
-  const auto high =
-      dash == given.npos ? low : ReadCount<uint64_t>("--label", given.substr(dash + 1));
   const auto refuse = [&](const std::string& why) {
     throw CLI::ValidationError("--label " + given + ": " + why);
   };
+  const size_t dash = given.find('-', 1);
+  const std::optional<uint64_t> first = ParseCount(given.substr(0, dash));
+  const auto last = dash == given.npos ? first : ParseCount(given.substr(dash + 1));
+  if (!first.has_value() || !last.has_value()) {
+    refuse("must be a whole number from 1 on or a range, such as 3,7 or 1-85");
+  }
+  const uint64_t low = *first, high = *last;
   if (low > high) refuse("the first label is above the last");
   if (low == 0 && dash != given.npos) {
     refuse("0 is the background; labels are counted from 1, so write 1-" + std::to_string(high));

@@ -56,6 +56,15 @@ CLI::Validator Within(double low, double high) {
   return {check, ""};
 }
 
+CLI::Validator Positive() {
+  const auto check = [](const std::string& text) -> std::string {
+    double value = 0;
+    if (absl::SimpleAtod(text, &value) && value > 0 && std::isfinite(value)) return "";
+    return "must be finite and positive, not " + text;
+  };
+  return {check, ""};
+}
+
 std::string InWords(const std::string& error) {
   const std::vector<std::string> words = absl::StrSplit(error, ' ');
   if (error.starts_with("Could not convert: ") && words.size() >= 5) {

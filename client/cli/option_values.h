@@ -62,6 +62,9 @@ auto Choices(const Table& table) {
 // Checks for a number from `low` to `high`. CLI::Range() takes NaN for one.
 CLI::Validator Within(double low, double high);
 
+// Checks for a finite number above 0.
+CLI::Validator Positive();
+
 // What CLI11 says of a wrong value, with the value and what is wanted.
 std::string InWords(const std::string& error);
 

@@ -13,7 +13,7 @@
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 
-// What is wrong with arguments of which each alone is right.
+// Checks arguments against each other. The parser has checked each alone.
 
 namespace bccskel::cli {
 namespace {

@@ -34,7 +34,10 @@ class ExitCodesTest(harness.TestCase):
             pathlib.Path(self.path(name)).write_text("nonsense " * 20)
             self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
             self.fail_with(3, name, "info", self.path(name))
-        self.fail_with(3, "format not supported", *self.skeletonize("a.docx", "--local"))
+        pathlib.Path(self.path("a.docx")).touch()
+        self.fail_with(3, "format not supported", *self.skeletonize(self.path("a.docx"), "--local"))
+        self.fail_with(3, "cannot open 'none': No such file", *self.skeletonize("none", "--local"))
+        self.fail_with(3, "cannot open 'none': No such file", "info", "none")
         self.fail_with(3, "No such file", *self.skeletonize("a.nrrd", "--local"))
         self.fail_with(3, "submit takes volumes", "submit", "a.off", "-o", self.path("a.swc"))
         self.fail_with(3, "is a volume already", "voxelize", "a.exr", "-o", "b.exr")
@@ -81,11 +84,12 @@ class ExitCodesTest(harness.TestCase):
         self.fail_with(8, "a.exr", "voxelize", self.triangle_block(), "--points", 9999, "-o",
                        self.path("no/a.exr"))
         self.fail_with(8, "a.exr", "generate", "ball", "-o", self.path("no/a.exr"))
-        with open("/dev/full", "w") as full:
-            done = subprocess.run([harness.CLIENT, "info", volume], stdout=full, timeout=60,
-                                  stderr=subprocess.PIPE, text=True)
-        self.assertEqual((done.returncode, done.stderr),
-                         (8, "bccskel: error: cannot write to standard output\n"))
+        for words in (("info", volume), ("--help",), ("--version",), ("info", "--help")):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([harness.CLIENT, *words], stdout=full, timeout=60,
+                                      stderr=subprocess.PIPE, text=True)
+            self.assertEqual((done.returncode, done.stderr),
+                             (8, "bccskel: error: cannot write to standard output\n"), words)
 
     def test_8_comes_before_the_work(self):
         good, bad = self.path("a.swc"), self.path("no/{label}.swc")
