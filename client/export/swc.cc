@@ -51,8 +51,11 @@ std::string NoteOf(const SkeletonGraph& graph, const PointForest& forest) {
   }
   if (const uint64_t surfaces = ClosedSurfaces(graph); surfaces > 0) {
     note.Add(forest.loops_cut > 0 ? "; " : trees, surfaces,
-             " closed surface(s) shown as a point each, with ", LoopsStatedByNodes(graph),
-             " loop(s) of their own");
+             surfaces == 1 ? " closed surface shown as a point"
+                           : " closed surfaces shown as a point each");
+    if (const uint64_t loops = LoopsStatedByNodes(graph); loops > 0) {
+      note.Add(", with ", loops, loops == 1 ? " loop" : " loops", " of their own");
+    }
   }
   return std::move(note).Take();
 }

@@ -216,7 +216,7 @@ TEST(SwcTest, SaysNothingWhereNothingIsLost) {
 
 TEST(SwcTest, SaysThatAClosedSurfaceIsShownAsAPoint) {
   EXPECT_THAT(WriteSwc(SampleOf(Shape::kHollowBall).result.graph).note,
-              HasSubstr("closed surface(s) shown as a point"));
+              HasSubstr("1 closed surface shown as a point"));
 }
 
 TEST(SwcTest, MarksEndsAndForksAndGivesWorldUnits) {
