@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -19,6 +20,7 @@
 #include "client/mpi/mpi_exchange.h"
 #include "client/mpi/rank_command.h"
 #include "client/mpi/rank_options.h"
+#include "core/version/version.h"
 
 namespace {
 
@@ -60,6 +62,17 @@ struct Command {
 };
 
 std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
+  static char command[] = "skeletonize";
+  const std::string_view first = words.size() > 1 ? words[1] : "";
+  if (first == "--version") {
+    return bccskel::cli::Print("bccskel-mpi " + std::string(bccskel::Version()) + "\n");
+  }
+  if (first == "--help" || first == "-h") words.insert(words.begin() + 1, command);
+  if (first.empty()) {
+    return bccskel::cli::FailWith(
+        ExitCode::kUsage, absl::InvalidArgumentError(
+                              "the command is missing: bccskel-mpi skeletonize INPUT -o OUTPUT"));
+  }
   const auto options = bccskel::cli::TakeRankOptions(words);
   if (!options.ok()) return bccskel::cli::FailWith(ExitCode::kUsage, options.status());
   auto parsed = bccskel::cli::ParseArguments(static_cast<int>(words.size()), words.data());

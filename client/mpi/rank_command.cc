@@ -22,7 +22,7 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
     return absl::InvalidArgumentError(
         path +
         ": ranks do not record the shells that a page shows; write .json, "
-        "then `bccskel view RESULT.json OBJECT -o PAGE.html`");
+        "then `bccskel view RESULT.json --object OBJECT -o PAGE.html`");
   }
   return absl::OkStatus();
 }

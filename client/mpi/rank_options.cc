@@ -74,6 +74,10 @@ absl::Status TakeShape(Words& words, std::vector<char*>& given, RankOptions& opt
   if (option == given.end()) return absl::OkStatus();
   if (option + 1 == given.end()) return absl::InvalidArgumentError("--generate: needs a shape");
   BCCSKEL_ASSIGN_OR_RETURN(options.shape, ParseShapeName(*(option + 1)));
+  if (const std::string_view first = given.size() > 2 ? given[2] : "-"; !first.starts_with('-')) {
+    return absl::InvalidArgumentError("--generate SHAPE takes the place of INPUT: omit " +
+                                      std::string(first));
+  }
   given.erase(option);
   BCCSKEL_RETURN_IF_ERROR(TakeNumber(words, "--seed", options.shape_options.seed));
   return TakeNumber(words, "--noise", options.shape_options.noise);

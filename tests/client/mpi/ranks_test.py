@@ -184,7 +184,14 @@ class Refusals(TestCase):
         self.expect_refused(2, "--server", "skeletonize", source, "-o", out, "--server",
                             "localhost:1")
         self.expect_refused(2, "skeletonize", "info", source)
+        self.expect_refused(2, "bccskel-mpi skeletonize INPUT")
+        self.expect_refused(2, f"takes the place of INPUT: omit {source}", "skeletonize", source,
+                            "-o", out, "--generate", "ball")
         self.expect_refused(2, "--checkpoint FOLDER", "skeletonize", source, "-o", out, "--resume")
+
+    def test_version_and_help(self):
+        self.assertRegex(run_ranks(1, "--version").stdout, r"^bccskel-mpi [0-9.]+\n$")
+        self.assertIn("--swc-step", run_ranks(1, "--help").stdout)
 
     def test_input_that_is_not_there(self):
         self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",
