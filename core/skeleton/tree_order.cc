@@ -173,7 +173,7 @@ std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph) {
   if (std::ranges::any_of(graph.points, reaches)) return "";
   const auto nearest = std::ranges::min_element(
       graph.nodes, {}, [&](const SkeletonNode& n) { return distance(n.at); });
-  return absl::StrCat("the root lies outside the object, ", distance(nearest->at),
+  return absl::StrCat("the root is far from the skeleton, ", distance(nearest->at),
                       " from the nearest node, ", nearest - graph.nodes.begin(),
                       "; its coordinates are those of the world, as results state them");
 }

@@ -37,8 +37,8 @@ struct RootChoice {
 // Errors: INVALID_ARGUMENT for a node that the graph does not have.
 absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& graph);
 
-// A warning if the chosen point lies outside the object: more than two radii away from the nearest
-// point of the skeleton. Otherwise empty.
+// A warning if the chosen point is probably not in the object: more than two radii away from the
+// nearest point of the skeleton. Otherwise empty.
 std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph);
 
 inline constexpr uint32_t kNoRow = std::numeric_limits<uint32_t>::max();

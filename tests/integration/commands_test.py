@@ -104,9 +104,9 @@ class CommandsTest(harness.TestCase):
         self.fail_with(2, "root node 999: the skeleton has ", "skeletonize", volume, "--local",
                        "-o", self.path("s.swc"), "--root", "node:999")
 
-    def test_a_root_outside_the_object_is_warned_of(self):
+    def test_a_root_far_from_the_skeleton_is_warned_of(self):
         volume, far = self.generate("ball", 5000), ("--root", "1e6,0,0")
-        outside = ": the root lies outside the object, "
+        outside = ": the root is far from the skeleton, "
         done = harness.bccskel("skeletonize", volume, "--local", "-o", self.path("s.json"), *far)
         self.assertEqual(done.returncode, 0)
         self.assertIn(volume + outside, done.stderr)

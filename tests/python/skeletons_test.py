@@ -78,7 +78,7 @@ class SkeletonsTest(harness.TestCase):
         self.assertIn("root_distance", ordered.to_networkx().nodes[0])
 
     def test_a_root_outside_the_object_is_warned_of(self):
-        with self.assertWarnsRegex(UserWarning, "the root lies outside the object, .* from the "
+        with self.assertWarnsRegex(UserWarning, "the root is far from the skeleton, .* from the "
                                                 "nearest node"):
             bccskel.skeletonize(self.mask, root=(1000, 0, 0))
 

@@ -163,7 +163,7 @@ TEST(TreeOrder, RefusesANodeThatIsNotThere) {
   EXPECT_TRUE(CheckRootChoice({}, SkeletonGraph()).ok());
 }
 
-TEST(TreeOrder, WarnsOfARootOutsideTheObject) {
+TEST(TreeOrder, WarnsOfARootFarFromTheSkeleton) {
   const auto warning = [](double x, double z) {
     const RootChoice near = {.rule = Rule::kNearestNode, .point = {x, 0, z}};
     return RootWarning(near, GraphOf(2, {{0, 1, 8, 3}}));
@@ -173,7 +173,7 @@ TEST(TreeOrder, WarnsOfARootOutsideTheObject) {
   EXPECT_NE(warning(11.5, 0), "");
   EXPECT_NE(warning(0, 11.5), "");
   EXPECT_TRUE(warning(1010, 0).starts_with(
-      "the root lies outside the object, 1000 from the nearest node, 1;"))
+      "the root is far from the skeleton, 1000 from the nearest node, 1;"))
       << warning(1010, 0);
   EXPECT_EQ(RootWarning(Node(1), Tree()), "");
   EXPECT_EQ(RootWarning({.rule = Rule::kNearestNode}, SkeletonGraph()), "");
