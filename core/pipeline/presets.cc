@@ -14,18 +14,18 @@ namespace {
 // each does to real masks.
 constexpr std::array kPresets = {
     Preset{"neuron",
-           "traced or segmented neurons: hollow spots and small tunnels go, and specks",
+           "traced or segmented neurons: removes cavities, small tunnels and specks",
            {.cavities = CavityFilling::kOn, .tunnel_cells = 4, .min_component_points = 200}},
     Preset{"vessels",
-           "blood vessels: hollow spots and pinholes go, and specks; rings of vessels stay",
+           "blood vessels: removes cavities, pinholes and specks; keeps rings of vessels",
            {.cavities = CavityFilling::kOn, .tunnel_cells = 2, .min_component_points = 200}},
     Preset{"airway",
-           "one tree of airways or ducts: hollow spots and small tunnels go, and all but the tree",
+           "one tree of airways or ducts: removes cavities, small tunnels and all but the tree",
            {.cavities = CavityFilling::kOn,
             .tunnel_cells = 4,
             .components = KeptComponents::kLargest}},
     Preset{"materials",
-           "fibers, foams and pores: hollow spots and specks go; all tunnels stay",
+           "fibers, foams and pores: removes cavities and specks; keeps all tunnels",
            {.cavities = CavityFilling::kOn, .min_component_points = 200}},
     Preset{"cad", "machine parts: chamfers, fillets and corners get no branch", {}, 0.8},
 };
