@@ -91,8 +91,10 @@ class ArgumentsTest(harness.TestCase):
     def test_files(self):
         self.refuse(FileNotFoundError, "cannot open '/nowhere.npy': No such file or directory",
                     bccskel.read, "/nowhere.npy")
+        self.refuse(FileNotFoundError, "cannot open '/nowhere': No such file or directory",
+                    bccskel.read, "/nowhere")
         with self.assertRaisesRegex(ValueError, r"read\(\) takes images"):
-            bccskel.read("mask.xyz")
+            bccskel.read(__file__)
         with self.assertRaisesRegex(ValueError, "there are .swc, "):
             bccskel.skeletonize(MASK).save(self.path("ball.xyz"))
         with self.assertRaises(FileNotFoundError):

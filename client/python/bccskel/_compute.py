@@ -195,7 +195,7 @@ def read(path: Union[str, os.PathLike],
         series (of DICOM), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
         without a header.
 
-    Raises FileNotFoundError, PermissionError; ValueError for what is no such file.
+    Raises FileNotFoundError, PermissionError; ValueError for a file of another kind.
 
     >>> import os, tempfile
     >>> import numpy as np
@@ -217,9 +217,12 @@ def read(path: Union[str, os.PathLike],
         return Skeleton(outcome, Frame("xyz"), pathlib.Path(name).stem, unit=unit, world=world)
     if ending in (".exr", ".bccb") and not texts:
         return Lattice(_native.read_lattice(name), pathlib.Path(name).name)
+    if not os.path.exists(name):
+        raise FileNotFoundError(f"cannot open '{name}': No such file or directory")
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
-                         ".raw, ...), folders of OME-Zarr, meshes (.obj, .stl, .ply, .off), "
+                         ".raw, ...), folders of OME-Zarr and precomputed, meshes (.obj, .stl, .ply, "
+                         ".off), "
                          "results (.json) and lattices (.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]

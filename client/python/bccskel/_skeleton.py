@@ -358,6 +358,7 @@ class Page:
                 f'srcdoc="{html.escape(self.html)}"></iframe>')
 
     def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the page as one .html file."""
         pathlib.Path(path).write_text(self.html, encoding="utf-8")
 
     def open(self) -> str:
