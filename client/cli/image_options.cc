@@ -214,7 +214,8 @@ absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
 void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
   AddTriple<double>(command, "--voxel-size",
                     "Spacing of the voxels, instead of the one in the file",
-                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; });
+                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; })
+      ->check(Positive());
   const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
                                  const char* description) {
     AddCount<uint32_t>(
