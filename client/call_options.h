@@ -29,7 +29,7 @@ struct CallTimes {
 // Everything about one call but the volume. The defaults suit a program without a user waiting.
 struct CallOptions {
   SkeletonizeOptions skeletonize = {};
-  // Threads wanted on the server; 0 leaves the number to it. The result is the same for any.
+  // Threads requested from the server; 0 lets it choose. The result is the same for any number.
   int threads = 0;
   ThinVolume thin_volume = ThinVolume::kOmit;
   // For all attempts together.
@@ -38,9 +38,9 @@ struct CallOptions {
   std::stop_token stop = {};
   // Called between reads on the calling thread; after a retry the shells start again.
   std::function<void(const exec::ShellProgress&)> on_shell = {};
-  // Where given, the server sends the points that go with each shell, as the core tells them: the
-  // shells in order, a large one in several parts; then, as shell `last_shell + 1`, what cleaning
-  // up and pruning take. Lossless; called as on_shell is.
+  // If set, the server streams the points removed with each shell: the shells in order, a large one
+  // in several parts; then, as shell `last_shell + 1`, the points removed by clean-up and pruning.
+  // No point is left out. Called like on_shell.
   std::function<void(int32_t shell, std::span<const LatticePoint>)> on_shell_points = {};
   // Called once, at the end of an attempt that succeeds on one stream.
   std::function<void(const CallTimes&)> on_times = {};
@@ -61,7 +61,7 @@ struct LabelsCallOptions {
   std::function<void(uint64_t done, uint64_t total)> on_progress = {};
 };
 
-// What became of all labels.
+// Counts over all labels.
 struct LabelsReport {
   uint64_t labels = 0;   // handed out
   uint64_t skipped = 0;  // below min_voxels

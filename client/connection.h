@@ -13,18 +13,18 @@
 #include "client/retry_policy.h"
 #include "core/labels/skeletonize_labels.h"
 
-// The layers of the client: SkeletonizeClient -> Connection (tries again) -> Stub (one attempt).
-// Tests of programs that use the client replace the Connection; tests of the client the Stub.
+// The layers of the client: SkeletonizeClient -> Connection (retries) -> Stub (one attempt).
+// Tests of programs that use the client replace the Connection, tests of the client the Stub.
 
 namespace bccskel::client {
 
-// What a server says about itself.
+// The versions that a server reports.
 struct ServerDescription {
   std::string server_version;
   std::string algorithm_version;
 };
 
-// Calls to a server, made to succeed where trying again can help.
+// Calls to a server, retried where that can help.
 // Threads: safe.
 class Connection {
  public:
@@ -37,8 +37,7 @@ class Connection {
                                                         const CallOptions& options) = 0;
   // Hands each label to `consume`, by ascending label, while the server computes the next ones; the
   // server waits for a slow consumer. An error of the consumer ends the call and is its result.
-  // Errors: as Skeletonize(). After the first label nothing is tried again, so that no label comes
-  //         twice.
+  // Errors: as Skeletonize(). It does not retry after the first label, so no label comes twice.
   virtual absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
                                                          const LabelsCallOptions& options,
                                                          const LabelConsumer& consume) = 0;

@@ -16,10 +16,10 @@
 
 namespace bccskel::client {
 
-// How far a skeleton has been read. An attempt that broke is gone on with.
+// How much of a skeleton has been read, so that the next attempt resumes there.
 class SkeletonReading;
 
-// One attempt at each call about things that the server keeps.
+// One attempt at each call about stored volumes, jobs and results.
 // Threads: safe.
 class DurableStub {
  public:
@@ -30,8 +30,8 @@ class DurableStub {
   // The volume's name on the server; empty where it is missing.
   virtual absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
                                                  Deadline deadline) = 0;
-  // Sends what the server does not have of the upload yet, and yields the volume's name. Of a new
-  // upload it has nothing, which need not be asked.
+  // Sends the bytes of the upload that the server lacks and returns the volume's name. Begun::kNo
+  // saves the query for a new upload.
   enum class Begun { kMaybe, kNo };
   virtual absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,
                                              const EncodedVolume& volume,
@@ -46,7 +46,7 @@ class DurableStub {
   virtual absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
                                 const EventConsumer& consume, const std::stop_token& stop,
                                 Deadline deadline) = 0;
-  // Reads on from where `reading` is.
+  // Resumes at the end of `reading`.
   virtual absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
                                     const std::stop_token& stop, Deadline deadline) = 0;
 };
@@ -63,7 +63,7 @@ class DurableStub {
 // Threads: safe; calls run concurrently.
 class DurableClient {
  public:
-  // What every call has.
+  // Common options of all calls.
   struct Calls {
     std::chrono::milliseconds timeout = std::chrono::hours(1);  // for all attempts of a call
     std::stop_token stop = {};
@@ -73,9 +73,9 @@ class DurableClient {
                          Pause pause = PauseFor)
       : stub_(std::move(stub)), policy_(policy), pause_(std::move(pause)) {}
 
-  // Sends the volume unless the server has it. Yields its name.
+  // Sends the volume unless the server has it. Returns its name.
   absl::StatusOr<std::string> Upload(const EncodedVolume& volume, const Calls& calls);
-  // Goes on with an upload of this name, or begins it.
+  // Resumes the upload of this name, or starts it.
   absl::StatusOr<std::string> FinishUpload(const std::string& upload, const EncodedVolume& volume,
                                            const Calls& calls);
   absl::StatusOr<DurableJob> CreateJob(NewJob job, const Calls& calls);
@@ -84,10 +84,10 @@ class DurableClient {
                                    const Calls& calls);
   absl::StatusOr<DurableJob> CancelJob(const std::string& job, const Calls& calls);
   absl::Status DeleteJob(const std::string& job, const Calls& calls);
-  // Tells each event once, until the job has ended, and yields how. `consume` may be empty.
+  // Passes each event to `consume`, which may be empty, once; returns the job's final state.
   absl::StatusOr<JobState> Watch(const std::string& job, const DurableStub::EventConsumer& consume,
                                  const Calls& calls);
-  // The result of a job that succeeded. `thin` only where it was asked for.
+  // The result of a job that succeeded; with `thin` only if the job asked for it.
   absl::StatusOr<SkeletonizeResult> Fetch(const std::string& job, const Calls& calls);
 
  private:
@@ -101,7 +101,7 @@ class DurableClient {
   const Pause pause_;
 };
 
-// For jobs that are known to be kept: outlasts a restart of the server, two minutes and more.
+// For stored jobs: retries for two minutes or more, long enough for a restart of the server.
 inline constexpr RetryPolicy kOutlastRestart = {.max_attempts = 30};
 
 // Over gRPC. Errors: as CheckEndpoint().

@@ -32,7 +32,7 @@ struct ServerStatus {
   uint64_t jobs = 0;
   uint64_t failed_jobs = 0;
   uint64_t object_points = 0;
-  // What it keeps on disk; nothing where it keeps nothing.
+  // What is on disk; empty without a data directory.
   struct Stored {
     uint64_t disk_used_bytes = 0;
     uint64_t disk_available_bytes = 0;
@@ -43,7 +43,7 @@ struct ServerStatus {
   std::optional<Stored> stored;
 };
 
-// What those ask who run a server. One attempt at each call.
+// Queries of a server's operator. One attempt at each call.
 // Threads: safe.
 class Operations {
  public:
@@ -53,7 +53,7 @@ class Operations {
 
   // Whether the server, or one service of it ("bccskel.v1.JobService"), takes calls
   // (grpc.health.v1).
-  // Errors: UNAVAILABLE where it does not or cannot be reached; NOT_FOUND for an unknown service;
+  // Errors: UNAVAILABLE if it does not or cannot be reached; NOT_FOUND for an unknown service;
   //         DEADLINE_EXCEEDED.
   absl::Status CheckHealth(const std::string& service, std::chrono::milliseconds timeout);
 

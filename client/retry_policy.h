@@ -11,9 +11,8 @@
 
 namespace bccskel::client {
 
-// When a call that failed is tried again: only for UNAVAILABLE, after an exponentially growing
-// pause. A server that names a delay itself (RetryInfo) is alive, so it is asked again until the
-// deadline; one that does not is asked `max_attempts` times.
+// Retries only UNAVAILABLE, with exponential backoff. A server that names a delay (RetryInfo) is
+// alive, so retries go on until the deadline; otherwise there are `max_attempts` attempts.
 struct RetryPolicy {
   int max_attempts = 5;
   std::chrono::milliseconds first_pause{100};
@@ -27,9 +26,9 @@ class RetryPauses {
  public:
   explicit RetryPauses(const RetryPolicy& policy, uint32_t seed = std::random_device{}());
 
-  // How long to wait after `error` before the next attempt; nothing when it is final. A pause is
+  // How long to wait after `error` before the next attempt; empty if the error is final. A pause is
   // at least the server's delay; jitter spreads it over the upper half of its length, so that
-  // clients that failed together do not return together.
+  // clients that failed together do not retry together.
   std::optional<std::chrono::milliseconds> Next(const absl::Status& error);
 
  private:

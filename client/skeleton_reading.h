@@ -13,7 +13,7 @@
 
 namespace bccskel::client {
 
-// Puts a result together from its pieces.
+// Assembles a result from its pieces.
 class SkeletonReading {
  public:
   // Errors: DATA_LOSS for what is damaged, repeated or out of order.
@@ -23,7 +23,7 @@ class SkeletonReading {
   // Whichever of these it is; takes the summary out of `piece`.
   absl::Status Add(v1::ReadSkeletonResponse& piece);
 
-  // So many came: the next one has this index.
+  // The number of pieces so far, which is the index of the next one.
   uint32_t pieces() const { return pieces_; }
 
   // Errors: DATA_LOSS where the summary is missing, and for a result that does not agree with it.

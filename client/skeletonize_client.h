@@ -26,7 +26,7 @@ class SkeletonizeClient {
   absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object, const CallOptions& options);
 
   // The skeleton of every label of a segmented image, as core/labels makes them on this machine
-  // (without `thin`), each handed to `consume` as soon as it is there.
+  // (without `thin`), each passed to `consume` as soon as it arrives.
   // Errors: INVALID_ARGUMENT (volume); see Connection::SkeletonizeLabels().
   absl::StatusOr<LabelsReport> SkeletonizeLabels(const LabelVolume& volume,
                                                  const LabelsCallOptions& options,

@@ -37,13 +37,13 @@ class SocketLock {
 // good when it meets the limit of open files once; here connections wait until there is room.
 class ConnectionAcceptor {
  public:
-  // Takes over the connection, which was accepted from `listener`. Called on a thread of the
-  // acceptor's; must not wait.
+  // Receives a connection accepted from `listener`, and owns it from then on. Called on a thread of
+  // the acceptor; must not block.
   using Take = std::function<void(int listener, int connection)>;
 
-  // Listens when it returns: HOST:PORT, at every address of the host, or unix:PATH, where a socket
-  // that is there is replaced.
-  // Errors: INVALID_ARGUMENT with the system's reason.
+  // Listens when it returns: HOST:PORT, at every address of the host, or unix:PATH, where it
+  // replaces an existing socket.
+  // Errors: INVALID_ARGUMENT with the system's reason, or if PATH exists and is not a socket.
   static absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> Listen(const std::string& address);
 
   ~ConnectionAcceptor();  // as Stop()

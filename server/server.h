@@ -35,20 +35,19 @@ class Server {
   // Where Prometheus finds the metrics, HOST:PORT; empty: nowhere.
   std::string metrics_address() const;
 
-  // Takes in changes of the file of tokens; the log says how that went. Certificates are taken in
-  // without it.
+  // Reloads the tokens file and logs the outcome. Certificates reload by themselves.
   void ReloadIfChanged();
   void ReloadNow();
-  // Ends calls whose token is accepted no longer, and those of callers who do not send. Called once
-  // a second.
+  // Ends calls with a removed token, and calls that have exceeded a timeout for sending or reading.
+  // Needs: called once a second.
   void LookAfterCalls();
-  // Health of the services that need the data directory follows its own. Called once a second.
+  // Updates the health of the services that need the data directory. Needs: called once a second.
   void LookAfterData();
 
-  // Stops in good order: health says NOT_SERVING; after the lame-duck time new jobs are refused as
-  // UNAVAILABLE, and those that were let in have the drain time to finish and to be read; then the
-  // listener closes and what calls are left are cut off, which clients see as UNAVAILABLE.
-  // Returns when all calls are over, at once where there are none. Needs: called once.
+  // Shuts down: health reports NOT_SERVING; after the lame-duck time new jobs are refused as
+  // UNAVAILABLE, and admitted jobs have the drain time to finish and to be read; then the listener
+  // closes and the remaining calls are aborted, which clients see as UNAVAILABLE.
+  // Returns when all calls have ended, immediately if there are none. Needs: called once.
   void Drain();
 
   const JobPool& jobs() const { return jobs_; }

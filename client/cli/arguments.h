@@ -43,7 +43,7 @@ struct ServerArguments {
   std::string tls_ca;
   std::string tls_certificate;
   std::string tls_key;
-  std::string token_file;  // empty: as BCCSKEL_TOKEN_FILE says
+  std::string token_file;  // empty: BCCSKEL_TOKEN_FILE names it
   client::Endpoint::PlaintextToken plaintext_token = client::Endpoint::PlaintextToken::kRefuse;
 };
 

@@ -67,7 +67,7 @@ struct SkeletonizeResult {
   uint64_t skeleton_points = 0;
   int32_t last_shell = 0;
   std::string method;             // MethodInWords()
-  std::string algorithm_version;  // AlgorithmVersionOf() of whoever made this
+  std::string algorithm_version;  // AlgorithmVersionOf() of the program that made this
   std::string sha256;             // SkeletonDigest(graph)
 };
 
