@@ -21,7 +21,8 @@
 //   first the steps within a layer of constant z (D6 along x and y), then those that raise z, then
 //   those that lower it. All points of a shortest path to the nearest background point are object
 //   points, so bricks that are not stored count as background and nothing else is ever needed of
-//   them.
+//   them. In a window, where steps that all go up at first may lead out, those up are followed by
+//   those down in pairs: pairs are taken within layers, then what is left goes only up or down.
 // Cost:  one pass within layers, one up, one down; 2 bytes per point read and written in each.
 
 namespace bccskel {
@@ -32,11 +33,54 @@ std::vector<BrickSlab> SlabsOf(const Volume& object) {
   const std::span<const BrickKey> keys = object.keys();
   for (BrickIndex n = 0; n < keys.size(); ++n) {
     const BrickCoordinates brick = keys[n].coordinates();
-    if (n == 0 || brick.bz != keys[n - 1].coordinates().bz) slabs.push_back({n, n, {}});
+    const BrickCoordinates before =
+        n == 0 ? BrickCoordinates{-1, -1, -1} : keys[n - 1].coordinates();
+    if (brick.bz != before.bz) slabs.push_back({n, n, {}, {}});
+    if (brick.bz != before.bz || brick.by != before.by) slabs.back().lines.push_back(n);
     slabs.back().last = n + 1;
     slabs.back().bricks[static_cast<size_t>(brick.sublattice)].push_back(n);
   }
   return slabs;
+}
+
+// Takes distances of a row from that beside it along y, where a step up and one down lead to the
+// columns on either side.
+template <typename T>
+void TakeInPairs(const DistanceView<T>& view, BrickIndex brick, int row, int way) {
+  const auto row_of = [&](BrickIndex at, int n) {
+    return view.values + size_t{at} * kBrickPoints + static_cast<size_t>(kBrickX * n);
+  };
+  const int beside_row = row % kBrickY + way;
+  const bool is_same = beside_row >= 0 && beside_row < kBrickY;
+  const BrickIndex beside = is_same ? brick : view.neighbors[brick][way < 0 ? 11 : 10];
+  const int n = is_same ? row + way : row - way * (kBrickY - 1);
+  const T* from = row_of(beside, n);
+  std::array<T, kBrickX + 2> nearest;
+  std::copy_n(from, kBrickX, nearest.begin() + 1);
+  const bool is_stored = beside + 1 < *view.unknown;
+  nearest.front() = is_stored ? row_of(view.neighbors[beside][9], n)[kBrickX - 1] : from[0];
+  nearest.back() = is_stored ? row_of(view.neighbors[beside][8], n)[0] : from[kBrickX - 1];
+  T* to = row_of(brick, row);
+  for (size_t i = 0; i < kBrickX; ++i) {
+    const uint64_t pair =
+        uint64_t{std::min(nearest[i], nearest[i + 2])} + 2 * view.weights.diagonal;
+    to[i] = static_cast<T>(std::min(uint64_t{to[i]}, pair));
+  }
+}
+
+template <typename T>
+void SpreadInPairs(const DistanceView<T>& view, const BrickSlab& slab) {
+  constexpr int kRows = kBrickPoints / kBrickX;
+  const auto take = [&](size_t line, int row, int way) {
+    const BrickIndex end = line + 1 < slab.lines.size() ? slab.lines[line + 1] : slab.last;
+    for (BrickIndex n = slab.lines[line]; n < end; ++n) TakeInPairs(view, n, row, way);
+  };
+  for (size_t line = 0; line < slab.lines.size(); ++line) {
+    for (int row = 0; row < kRows; ++row) take(line, row, -1);
+  }
+  for (size_t line = slab.lines.size(); line-- > 0;) {
+    for (int row = kRows; row-- > 0;) take(line, row, 1);
+  }
 }
 
 // Both scans over a section.
@@ -58,7 +102,7 @@ class SectionScan {
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
         // A slab is still in the cache when it is raised.
-        if (alone) SweepWithinLayers(view_, slab.first, slab.last);
+        if (alone) Sweep(slab);
         Raise(slab, worker, team);
         if (!team.GoOn(worker)) return;
       }
@@ -99,9 +143,14 @@ class SectionScan {
     context_.Offer(workers, [&](int) {
       for (exec::Share next = portions.Take(); next.begin < next.end && !context_.ShouldStop();
            next = portions.Take()) {
-        SweepWithinLayers(view_, slabs_[next.begin].first, slabs_[next.begin].last);
+        Sweep(slabs_[next.begin]);
       }
     });
+  }
+
+  void Sweep(const BrickSlab& slab) const {
+    SweepWithinLayers(view_, slab.first, slab.last);
+    if (view_.unknown.has_value()) SpreadInPairs(view_, slab);
   }
 
   void Raise(const BrickSlab& slab, int worker, exec::MeetingTeam& team) const {

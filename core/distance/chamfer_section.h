@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@ struct BrickSlab {
   BrickIndex first = 0;
   BrickIndex last = 0;
   std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
+  std::vector<BrickIndex> lines;                  // where those of one by begin
 
   size_t size() const { return last - first; }
 };
@@ -48,16 +51,20 @@ class ChamferSection {
     if (padding_ != object.brick_count()) Renumber();
     values_.resize((size_t{padding_} + 1) * kBrickPoints);
     std::fill(values_.end() - kBrickPoints, values_.end(), T{0});
+    if (object.window().has_value()) AddUnknown(object);
   }
 
   std::span<const BrickSlab> slabs() const { return slabs_; }
   // What to add to a brick's number for its number in the volume.
   BrickIndex start() const { return start_; }
   DistanceView<T> View(const ChamferWeights& weights, const RunTables* runs) {
-    return {bricks_, neighbors_.data(), values_.data(), weights, runs};
+    return {bricks_, neighbors_.data(), values_.data(), weights, runs, unknown_};
   }
   const T* Of(BrickIndex brick) const { return values_.data() + size_t{brick} * kBrickPoints; }
-  exec::UninitializedVector<T> TakeValues() && { return std::move(values_); }
+  exec::UninitializedVector<T> TakeValues() && {
+    values_.resize((size_t{padding_} + 1) * kBrickPoints);
+    return std::move(values_);
+  }
 
   // The layers at the section's sides, and those beside it: what one section takes from the next.
   Layer TopLayer() const { return LayerOf(slabs_.back().first, slabs_.back().size(), kBrickZ - 1); }
@@ -74,6 +81,7 @@ class ChamferSection {
     for (std::vector<BrickIndex>& bricks : slab.bricks) {
       for (BrickIndex& n : bricks) n -= start_;
     }
+    for (BrickIndex& n : slab.lines) n -= start_;
     return slab;
   }
 
@@ -81,6 +89,24 @@ class ChamferSection {
     own_neighbors_.assign(neighbors_.begin() + start_, neighbors_.begin() + start_ + padding_);
     for (BrickNeighborhood& near : own_neighbors_) {
       for (BrickIndex& n : near) n = n >= start_ && n - start_ < padding_ ? n - start_ : padding_;
+    }
+    neighbors_ = own_neighbors_;
+  }
+
+  // Needs: all of the object.
+  void AddUnknown(const Volume& object) {
+    unknown_ = padding_ + 1;
+    values_.insert(values_.end(), kBrickPoints, std::numeric_limits<T>::max());
+    own_neighbors_.assign(neighbors_.begin(), neighbors_.end());
+    for (BrickIndex n = 0; n < padding_; ++n) {
+      const BrickCoordinates brick = object.keys()[n].coordinates();
+      for (size_t side = 0; side < own_neighbors_[n].size(); ++side) {
+        BrickIndex& near = own_neighbors_[n][side];
+        const bool is_stored = near != padding_;
+        if (!is_stored && object.IsUnknown(NeighborBrick(brick, static_cast<int>(side)))) {
+          near = *unknown_;
+        }
+      }
     }
     neighbors_ = own_neighbors_;
   }
@@ -107,6 +133,7 @@ class ChamferSection {
   size_t above_;
   BrickIndex start_;
   BrickIndex padding_ = 0;
+  std::optional<BrickIndex> unknown_;
   std::vector<BrickSlab> slabs_;
   const BrickBits* bricks_ = nullptr;
   std::span<const BrickNeighborhood> neighbors_;
