@@ -43,46 +43,6 @@ std::vector<BrickSlab> SlabsOf(const Volume& object) {
   return slabs;
 }
 
-// Takes distances of a row from that beside it along y, where a step up and one down lead to the
-// columns on either side.
-template <typename T>
-void TakeInPairs(const DistanceView<T>& view, BrickIndex brick, int row, int way) {
-  const auto row_of = [&](BrickIndex at, int n) {
-    return view.values + size_t{at} * kBrickPoints + static_cast<size_t>(kBrickX * n);
-  };
-  const int beside_row = row % kBrickY + way;
-  const bool is_same = beside_row >= 0 && beside_row < kBrickY;
-  const BrickIndex beside = is_same ? brick : view.neighbors[brick][way < 0 ? 11 : 10];
-  const int n = is_same ? row + way : row - way * (kBrickY - 1);
-  const T* from = row_of(beside, n);
-  std::array<T, kBrickX + 2> nearest;
-  std::copy_n(from, kBrickX, nearest.begin() + 1);
-  const bool is_stored = beside + 1 < *view.unknown;
-  nearest.front() = is_stored ? row_of(view.neighbors[beside][9], n)[kBrickX - 1] : from[0];
-  nearest.back() = is_stored ? row_of(view.neighbors[beside][8], n)[0] : from[kBrickX - 1];
-  T* to = row_of(brick, row);
-  for (size_t i = 0; i < kBrickX; ++i) {
-    const uint64_t pair =
-        uint64_t{std::min(nearest[i], nearest[i + 2])} + 2 * view.weights.diagonal;
-    to[i] = static_cast<T>(std::min(uint64_t{to[i]}, pair));
-  }
-}
-
-template <typename T>
-void SpreadInPairs(const DistanceView<T>& view, const BrickSlab& slab) {
-  constexpr int kRows = kBrickPoints / kBrickX;
-  const auto take = [&](size_t line, int row, int way) {
-    const BrickIndex end = line + 1 < slab.lines.size() ? slab.lines[line + 1] : slab.last;
-    for (BrickIndex n = slab.lines[line]; n < end; ++n) TakeInPairs(view, n, row, way);
-  };
-  for (size_t line = 0; line < slab.lines.size(); ++line) {
-    for (int row = 0; row < kRows; ++row) take(line, row, -1);
-  }
-  for (size_t line = slab.lines.size(); line-- > 0;) {
-    for (int row = kRows; row-- > 0;) take(line, row, 1);
-  }
-}
-
 // Both scans over a section.
 template <typename T>
 class SectionScan {
