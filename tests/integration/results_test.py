@@ -96,10 +96,10 @@ class ResultsTest(harness.TestCase):
         voxels[((y - 20) ** 2 + (x - 20) ** 2 < 14 ** 2) & (z >= 0)] = 1
         np.save(self.folder / "rod.npy", voxels)
         rod = self.path("rod.npy")
-        here = self.skeletonize(rod, "--border", "continues")
         with harness.Server(self.folder) as server:
-            for command in ("skeletonize", "submit"):
-                self.succeed(command, rod, "--border", "continues", "--server", server.address,
+            for command, source in (("submit", self.generate("box")), ("skeletonize", rod)):
+                here = self.skeletonize(source, "--border", "continues")
+                self.succeed(command, source, "--border", "continues", "--server", server.address,
                              "-o", self.path("there.json"))
                 there = json.loads((self.folder / "there.json").read_text())
                 self.assertEqual(harness.without_times(there), harness.without_times(here))
