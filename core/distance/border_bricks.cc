@@ -96,6 +96,7 @@ void BorderBricks::AddBackgroundBeside(const Volume& object, const BrickNeighbor
   for (int position = 0; position < kNeighborCount; ++position) {
     if (near[static_cast<size_t>(position)] != none) continue;
     const BrickCoordinates other = NeighborBrick(brick, position);
+    if (object.IsUnknown(other)) continue;
     const LatticePoint first = PointOf(other, 0), last = PointOf(other, kBrickPoints - 1);
     const CellBox box = {Upper(points.low - kOneCell, first), Lower(points.high + kOneCell, last)};
     if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) continue;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/distance/chamfer_weights.h"
@@ -38,7 +39,8 @@ RunTables RunTablesFor(const ChamferWeights& weights);
 bool FitShortRows(const ChamferWeights& weights);
 
 // What the loops work on. Shapes: values holds kBrickPoints per brick of the object and as many
-// zeros for the padding brick, in bit order.
+// zeros for the padding brick, in bit order; if a window has bricks beside it, the largest number
+// as often for the brick that stands for those.
 template <typename T>
 struct DistanceView {
   const BrickBits* object = nullptr;
@@ -46,6 +48,7 @@ struct DistanceView {
   T* values = nullptr;
   ChamferWeights weights;
   const RunTables* runs = nullptr;  // 16 bits only
+  std::optional<BrickIndex> unknown = std::nullopt;
 };
 
 // Which adjacent layers a scan takes distances from.

@@ -155,9 +155,21 @@ HWY_INLINE void SweepBrickBackward(const DistanceView<uint16_t>& view, BrickInde
   }
 }
 
+// Beside the window nothing ends a run.
+void FillUnknown(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last,
+                 SideRuns<uint16_t>& runs) {
+  const auto longest = static_cast<uint16_t>(view.runs->longest_run);
+  for (BrickIndex brick = first; brick < last; ++brick) {
+    const BrickNeighborhood& near = view.neighbors[brick];
+    if (near[9] == view.unknown) runs.left[brick - first].fill(longest);
+    if (near[8] == view.unknown) runs.right[brick - first].fill(longest);
+  }
+}
+
 void SweepWithinLayersTarget(const DistanceView<uint16_t>& view, BrickIndex first,
                              BrickIndex last) {
   SideRuns<uint16_t> runs(last - first);
+  if (view.unknown.has_value()) FillUnknown(view, first, last, runs);
   FindSideRuns(view.object, view.neighbors, first, last, view.runs->longest_run, first, runs);
   for (BrickIndex brick = first; brick < last; ++brick) {
     SweepBrickForward(view, brick, runs.left[brick - first], runs.right[brick - first]);

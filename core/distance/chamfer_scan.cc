@@ -21,7 +21,8 @@
 //   first the steps within a layer of constant z (D6 along x and y), then those that raise z, then
 //   those that lower it. All points of a shortest path to the nearest background point are object
 //   points, so bricks that are not stored count as background and nothing else is ever needed of
-//   them.
+//   them. In a window, where steps that all go up at first may lead out, those up are followed by
+//   those down in pairs: pairs are taken within layers, then what is left goes only up or down.
 // Cost:  one pass within layers, one up, one down; 2 bytes per point read and written in each.
 
 namespace bccskel {
@@ -32,7 +33,10 @@ std::vector<BrickSlab> SlabsOf(const Volume& object) {
   const std::span<const BrickKey> keys = object.keys();
   for (BrickIndex n = 0; n < keys.size(); ++n) {
     const BrickCoordinates brick = keys[n].coordinates();
-    if (n == 0 || brick.bz != keys[n - 1].coordinates().bz) slabs.push_back({n, n, {}});
+    const BrickCoordinates before =
+        n == 0 ? BrickCoordinates{-1, -1, -1} : keys[n - 1].coordinates();
+    if (brick.bz != before.bz) slabs.push_back({n, n, {}, {}});
+    if (brick.bz != before.bz || brick.by != before.by) slabs.back().lines.push_back(n);
     slabs.back().last = n + 1;
     slabs.back().bricks[static_cast<size_t>(brick.sublattice)].push_back(n);
   }
@@ -58,7 +62,7 @@ class SectionScan {
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
         // A slab is still in the cache when it is raised.
-        if (alone) SweepWithinLayers(view_, slab.first, slab.last);
+        if (alone) Sweep(slab);
         Raise(slab, worker, team);
         if (!team.GoOn(worker)) return;
       }
@@ -99,9 +103,14 @@ class SectionScan {
     context_.Offer(workers, [&](int) {
       for (exec::Share next = portions.Take(); next.begin < next.end && !context_.ShouldStop();
            next = portions.Take()) {
-        SweepWithinLayers(view_, slabs_[next.begin].first, slabs_[next.begin].last);
+        Sweep(slabs_[next.begin]);
       }
     });
+  }
+
+  void Sweep(const BrickSlab& slab) const {
+    SweepWithinLayers(view_, slab.first, slab.last);
+    if (view_.unknown.has_value()) SpreadInPairs(view_, slab);
   }
 
   void Raise(const BrickSlab& slab, int worker, exec::MeetingTeam& team) const {

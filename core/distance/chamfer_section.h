@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@ struct BrickSlab {
   BrickIndex first = 0;
   BrickIndex last = 0;
   std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
+  std::vector<BrickIndex> lines;                  // where those of one by begin
 
   size_t size() const { return last - first; }
 };
@@ -48,16 +51,20 @@ class ChamferSection {
     if (padding_ != object.brick_count()) Renumber();
     values_.resize((size_t{padding_} + 1) * kBrickPoints);
     std::fill(values_.end() - kBrickPoints, values_.end(), T{0});
+    if (object.window().has_value()) AddUnknown(object);
   }
 
   std::span<const BrickSlab> slabs() const { return slabs_; }
   // What to add to a brick's number for its number in the volume.
   BrickIndex start() const { return start_; }
   DistanceView<T> View(const ChamferWeights& weights, const RunTables* runs) {
-    return {bricks_, neighbors_.data(), values_.data(), weights, runs};
+    return {bricks_, neighbors_.data(), values_.data(), weights, runs, unknown_};
   }
   const T* Of(BrickIndex brick) const { return values_.data() + size_t{brick} * kBrickPoints; }
-  exec::UninitializedVector<T> TakeValues() && { return std::move(values_); }
+  exec::UninitializedVector<T> TakeValues() && {
+    values_.resize((size_t{padding_} + 1) * kBrickPoints);
+    return std::move(values_);
+  }
 
   // The layers at the section's sides, and those beside it: what one section takes from the next.
   Layer TopLayer() const { return LayerOf(slabs_.back().first, slabs_.back().size(), kBrickZ - 1); }
@@ -74,6 +81,7 @@ class ChamferSection {
     for (std::vector<BrickIndex>& bricks : slab.bricks) {
       for (BrickIndex& n : bricks) n -= start_;
     }
+    for (BrickIndex& n : slab.lines) n -= start_;
     return slab;
   }
 
@@ -81,6 +89,24 @@ class ChamferSection {
     own_neighbors_.assign(neighbors_.begin() + start_, neighbors_.begin() + start_ + padding_);
     for (BrickNeighborhood& near : own_neighbors_) {
       for (BrickIndex& n : near) n = n >= start_ && n - start_ < padding_ ? n - start_ : padding_;
+    }
+    neighbors_ = own_neighbors_;
+  }
+
+  // Needs: all of the object.
+  void AddUnknown(const Volume& object) {
+    unknown_ = padding_ + 1;
+    values_.insert(values_.end(), kBrickPoints, std::numeric_limits<T>::max());
+    own_neighbors_.assign(neighbors_.begin(), neighbors_.end());
+    for (BrickIndex n = 0; n < padding_; ++n) {
+      const BrickCoordinates brick = object.keys()[n].coordinates();
+      for (size_t side = 0; side < own_neighbors_[n].size(); ++side) {
+        BrickIndex& near = own_neighbors_[n][side];
+        const bool is_stored = near != padding_;
+        if (!is_stored && object.IsUnknown(NeighborBrick(brick, static_cast<int>(side)))) {
+          near = *unknown_;
+        }
+      }
     }
     neighbors_ = own_neighbors_;
   }
@@ -107,12 +133,53 @@ class ChamferSection {
   size_t above_;
   BrickIndex start_;
   BrickIndex padding_ = 0;
+  std::optional<BrickIndex> unknown_;
   std::vector<BrickSlab> slabs_;
   const BrickBits* bricks_ = nullptr;
   std::span<const BrickNeighborhood> neighbors_;
   std::vector<BrickNeighborhood> own_neighbors_;
   exec::UninitializedVector<T> values_;
 };
+
+// Takes distances of a row from that beside it along y, where a step up and one down lead to the
+// columns on either side.
+template <typename T>
+void TakeInPairs(const DistanceView<T>& view, BrickIndex brick, int row, int way) {
+  const auto row_of = [&](BrickIndex at, int n) {
+    return view.values + size_t{at} * kBrickPoints + static_cast<size_t>(kBrickX * n);
+  };
+  const int beside_row = row % kBrickY + way;
+  const bool is_same = beside_row >= 0 && beside_row < kBrickY;
+  const BrickIndex beside = is_same ? brick : view.neighbors[brick][way < 0 ? 11 : 10];
+  const int n = is_same ? row + way : row - way * (kBrickY - 1);
+  const T* from = row_of(beside, n);
+  std::array<T, kBrickX + 2> nearest;
+  std::copy_n(from, kBrickX, nearest.begin() + 1);
+  const bool is_stored = beside + 1 < *view.unknown;
+  nearest.front() = is_stored ? row_of(view.neighbors[beside][9], n)[kBrickX - 1] : from[0];
+  nearest.back() = is_stored ? row_of(view.neighbors[beside][8], n)[0] : from[kBrickX - 1];
+  T* to = row_of(brick, row);
+  for (size_t i = 0; i < kBrickX; ++i) {
+    const uint64_t pair =
+        uint64_t{std::min(nearest[i], nearest[i + 2])} + 2 * view.weights.diagonal;
+    to[i] = static_cast<T>(std::min(uint64_t{to[i]}, pair));
+  }
+}
+
+template <typename T>
+void SpreadInPairs(const DistanceView<T>& view, const BrickSlab& slab) {
+  constexpr int kRows = kBrickPoints / kBrickX;
+  const auto take = [&](size_t line, int row, int way) {
+    const BrickIndex end = line + 1 < slab.lines.size() ? slab.lines[line + 1] : slab.last;
+    for (BrickIndex n = slab.lines[line]; n < end; ++n) TakeInPairs(view, n, row, way);
+  };
+  for (size_t line = 0; line < slab.lines.size(); ++line) {
+    for (int row = 0; row < kRows; ++row) take(line, row, -1);
+  }
+  for (size_t line = slab.lines.size(); line-- > 0;) {
+    for (int row = kRows; row-- > 0;) take(line, row, 1);
+  }
+}
 
 }  // namespace bccskel
 

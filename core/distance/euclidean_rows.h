@@ -52,6 +52,19 @@ struct SquaredLengths {
 // A stack of stored bricks of one sublattice, each the next one's neighbor along an axis.
 using BrickStack = std::span<const BrickIndex>;
 
+// What follows before and after a stack: background, or points outside the window, from which there
+// is no distance to take. Only for floats.
+struct StackEnds {
+  bool unknown_before = false;
+  bool unknown_after = false;
+
+  constexpr bool AreKnown() const { return !unknown_before && !unknown_after; }
+};
+// The run beside a row with no background before the end of the window: longer than any other.
+inline constexpr uint32_t kUnknownRun = uint32_t{1} << 26;
+// Rows that loops may look past the ends of a stack.
+inline constexpr size_t kMostEndRows = 20;
+
 // Some of the kBrickZ layers of points that each brick of a stack along y has.
 struct LayersOfBrick {
   size_t first = 0;
@@ -62,18 +75,18 @@ struct LayersOfBrick {
 // the other sublattice that lie at the same place.
 // Shapes: `runs` of all bricks.
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                 const SideRuns<uint32_t>& runs);
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                 const SideRuns<uint32_t>& runs);
 
 // From distances within layers to distances in space: `own` of a stack along z.
 // Needs: ScanLayers() for all stacks.
 void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                      Sublattice sublattice, BrickStack stack);
+                      Sublattice sublattice, BrickStack stack, StackEnds ends);
 void ScanAcrossLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                      Sublattice sublattice, BrickStack stack);
+                      Sublattice sublattice, BrickStack stack, StackEnds ends);
 
 }  // namespace bccskel
 

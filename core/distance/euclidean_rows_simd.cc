@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "core/distance/euclidean_rows.h"
 
@@ -28,8 +29,16 @@ template <typename T>
 inline constexpr size_t kBandPoints = 64 / sizeof(T);
 
 // Rows of background on either side of a stack. Two rows look outward together, two steps at a
-// time: one of them may look three rows past the first of background.
-inline constexpr size_t kBorderRows = 4;
+// time: one of them may look three rows past the first of background. Rows of unknown points stop
+// nothing: so many are passed as there are steps, and three.
+constexpr size_t EndRows(StackEnds ends) { return ends.AreKnown() ? 4 : kMostEndRows; }
+
+// Far from all background.
+template <typename T>
+constexpr T Far() {
+  return std::numeric_limits<T>::has_infinity ? std::numeric_limits<T>::infinity()
+                                              : std::numeric_limits<T>::max();
+}
 
 HWY_INLINE Vector<float> Sum(Vector<float> a, Vector<float> b) { return hn::Add(a, b); }
 HWY_INLINE Vector<uint16_t> Sum(Vector<uint16_t> a, Vector<uint16_t> b) {
@@ -42,6 +51,7 @@ template <typename T>
 inline constexpr size_t kMostSteps = 512;
 template <>
 inline constexpr size_t kMostSteps<float> = 16;
+static_assert(kMostSteps<float> + 3 < kMostEndRows);
 
 // Lowers `best` to what rows ever farther to both sides add to the squares of their distances: the
 // n-th pair of rows, kPitch values apart, lies squares[n * kStride] away. Rows hold at least
@@ -68,9 +78,16 @@ HWY_INLINE bool LookOutward(Vector<T>& best, const T* before, const T* after, co
 // The rows of one layer of a stack along y, with rows of background before and after.
 template <typename T>
 struct LayerRows {
-  LayerRows(size_t bricks, T unit_square)
-      : own((kBrickY * bricks + 2 * kBorderRows) * kBrickX),
-        between((kBrickY * bricks + 2 * kBorderRows) * kBrickX, unit_square) {}
+  LayerRows(size_t bricks, StackEnds ends, T unit_square)
+      : end_rows(EndRows(ends)),
+        own((kBrickY * bricks + 2 * end_rows) * kBrickX),
+        between((kBrickY * bricks + 2 * end_rows) * kBrickX, unit_square) {
+    for (std::vector<T>* rows : {&own, &between}) {
+      if (ends.unknown_before) std::fill_n(rows->begin(), end_rows * kBrickX, Far<T>());
+      if (ends.unknown_after) std::fill_n(rows->rbegin(), end_rows * kBrickX, Far<T>());
+    }
+  }
+  size_t end_rows;
   std::vector<T> own;
   std::vector<T> between;
 };
@@ -79,13 +96,21 @@ template <typename T>
 HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStack stack, size_t k,
                           const SideRuns<uint32_t>& runs, Sublattice sublattice,
                           LayerRows<T>& rows) {
-  size_t at = kBorderRows * kBrickX;
+  size_t at = rows.end_rows * kBrickX;
+  const auto fill = [&](T own, T between) {
+    std::fill_n(rows.own.begin() + static_cast<ptrdiff_t>(at), kBrickX, own);
+    std::fill_n(rows.between.begin() + static_cast<ptrdiff_t>(at), kBrickX, between);
+  };
   for (BrickIndex brick : stack) {
     for (size_t row = 4 * k; row < 4 * k + 4; ++row, at += kBrickX) {
       const uint16_t bits = RowBits(view.object[brick], row);
       if (bits == 0) {
-        std::fill_n(rows.own.begin() + static_cast<ptrdiff_t>(at), kBrickX, T{0});
-        std::fill_n(rows.between.begin() + static_cast<ptrdiff_t>(at), kBrickX, unit_square);
+        fill(T{0}, unit_square);
+        continue;
+      }
+      if (bits == 0xffff &&
+          std::min(runs.left[brick][row], runs.right[brick][row]) >= kUnknownRun) {
+        fill(Far<T>(), Far<T>());
         continue;
       }
       const RowEnds ends = {bits ^ 0xffff, static_cast<int32_t>(runs.left[brick][row]),
@@ -204,11 +229,12 @@ class Column {
     const Tag<T> tag;
     const size_t place = first_place_ + 2 * n;
     const T* squares = squares_.data();
-    const auto one = hn::Set(tag, T{1});
+    const auto one = hn::Set(tag, T{1}), none = hn::Set(tag, hwy::HighestValue<T>());
+    const auto first_row = hn::Set(tag, static_cast<T>(rows.first));
+    const auto last_row = hn::Set(tag, static_cast<T>(rows.last));
     RowRange nearest = {rows.last, rows.first};
     for (size_t i = 0; i < kBandPoints<T>; i += hn::Lanes(tag)) {
-      auto best = hn::Set(tag, hwy::HighestValue<T>());
-      auto at = hn::Set(tag, static_cast<T>(rows.first)), from = at;
+      auto best = none, at = first_row, from = at;
       const T* values = rows_.data() + rows.first * kBandPoints<T> + i;
       for (size_t row = rows.first; row <= rows.last; ++row, values += kBandPoints<T>) {
         const size_t foot = row * step_;
@@ -219,8 +245,12 @@ class Column {
         at = hn::Add(at, one);
       }
       hn::StoreU(best, tag, settled_.data() + n * kBandPoints<T> + i);
-      const auto first = static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, from)));
-      const auto last = static_cast<size_t>(hn::GetLane(hn::MaxOfLanes(tag, from)));
+      // Points that are far from all background take their distances from no row.
+      const auto is_far = hn::Eq(best, none);
+      const auto least = hn::IfThenElse(is_far, last_row, from);
+      const auto most = hn::IfThenElse(is_far, first_row, from);
+      const auto first = static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, least)));
+      const auto last = static_cast<size_t>(hn::GetLane(hn::MaxOfLanes(tag, most)));
       nearest = {std::min(nearest.first, first), std::max(nearest.last, last)};
     }
     return nearest;
@@ -235,27 +265,27 @@ class Column {
 
 template <typename T>
 HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
-                             Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
-                             const SideRuns<uint32_t>& runs) {
-  LayerRows<T> rows(stack.size(), lengths.x);
+                             Sublattice sublattice, BrickStack stack, StackEnds ends,
+                             LayersOfBrick layers, const SideRuns<uint32_t>& runs) {
+  LayerRows<T> rows(stack.size(), ends, lengths.x);
   // The place that belongs to a row lies after it for even points, before it for odd ones.
   const size_t back = sublattice == Sublattice::kEven ? 0 : 1;
   const size_t count = kBrickY * stack.size();
   for (size_t k = layers.first; k < layers.end; ++k) {
     ReadLayer(view, lengths.x, stack, k, runs, sublattice, rows);
     Column<T> own(rows.own, 2, lengths.y), between(rows.between, 2, lengths.y);
-    size_t at = kBorderRows * kBrickX;
+    size_t at = rows.end_rows * kBrickX;
     for (size_t n = 0; n < stack.size(); ++n, at += kLayerPoints) {
       T* to = view.own + size_t{stack[n]} * kBrickPoints + k * kLayerPoints;
       if (!own.is_settled() && !WriteOwnRows(lengths, rows.own.data() + at, to)) {
-        own.Settle(2 * kBorderRows, count);
+        own.Settle(2 * rows.end_rows, count);
       }
       if (own.is_settled()) own.Write(n * kBrickY, kBrickY, kBrickX, to);
       T* beside = BesideLayer(view, stack[n], sublattice, k);
       if (beside == nullptr) continue;
       const T* places = rows.between.data() + at - back * kBrickX;
       if (!between.is_settled() && !WriteBetween(lengths, places, beside)) {
-        between.Settle(2 * (kBorderRows - back) + 1, count);
+        between.Settle(2 * (rows.end_rows - back) + 1, count);
       }
       if (between.is_settled()) between.Write(n * kBrickY, kBrickY, kBrickX, beside);
     }
@@ -266,13 +296,13 @@ HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<
 // background below and above.
 template <typename T>
 HWY_INLINE void ReadColumn(const EuclideanView<T>& view, BrickStack stack, Sublattice sublattice,
-                           size_t first, std::vector<T>& column) {
+                           size_t first, size_t end_rows, std::vector<T>& column) {
   constexpr size_t kBand = kBandPoints<T>;
   const bool even = sublattice == Sublattice::kEven;
   const auto beside = [&](BrickIndex brick, size_t layer) {
     return view.beside + (size_t{brick} * kLayersBeside + layer) * kLayerPoints + first;
   };
-  T* to = column.data() + (kBorderRows - 1) * kBand;
+  T* to = column.data() + (end_rows - 1) * kBand;
   const auto add = [&to](const T* rows) { to = std::copy_n(rows, kBand, to); };
   if (even) add(beside(stack.front(), kBrickZ));
   for (BrickIndex brick : stack) {
@@ -292,17 +322,20 @@ HWY_INLINE void ReadColumn(const EuclideanView<T>& view, BrickStack stack, Subla
 
 template <typename T>
 HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
-                                   Sublattice sublattice, BrickStack stack) {
+                                   Sublattice sublattice, BrickStack stack, StackEnds ends) {
   constexpr size_t kBand = kBandPoints<T>;
-  std::vector<T> rows((2 * kBrickZ * stack.size() + 2 * kBorderRows) * kBand);
+  const size_t end_rows = EndRows(ends);
+  std::vector<T> rows((2 * kBrickZ * stack.size() + 2 * end_rows) * kBand);
+  if (ends.unknown_before) std::fill_n(rows.begin(), end_rows * kBand, Far<T>());
+  if (ends.unknown_after) std::fill_n(rows.rbegin(), end_rows * kBand, Far<T>());
   for (size_t first = 0; first < kLayerPoints; first += kBand) {
-    ReadColumn(view, stack, sublattice, first, rows);
+    ReadColumn(view, stack, sublattice, first, end_rows, rows);
     Column<T> column(rows, 1, lengths.z);
-    const T* row = rows.data() + kBorderRows * kBand;
+    const T* row = rows.data() + end_rows * kBand;
     for (size_t n = 0; n < stack.size(); ++n, row += 2 * kBrickZ * kBand) {
       T* to = view.own + size_t{stack[n]} * kBrickPoints + first;
       if (!column.is_settled() && !WriteAcross(lengths, row, to)) {
-        column.Settle(kBorderRows, kBrickZ * stack.size());
+        column.Settle(end_rows, kBrickZ * stack.size());
       }
       if (column.is_settled()) column.Write(n * kBrickZ, kBrickZ, kLayerPoints, to);
     }
@@ -310,23 +343,23 @@ HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLe
 }
 
 void ScanLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                     Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                     Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                      const SideRuns<uint32_t>& runs) {
-  ScanLayersOf(view, lengths, sublattice, stack, layers, runs);
+  ScanLayersOf(view, lengths, sublattice, stack, ends, layers, runs);
 }
 void ScanLayersWhole(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                     Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                     Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                      const SideRuns<uint32_t>& runs) {
-  ScanLayersOf(view, lengths, sublattice, stack, layers, runs);
+  ScanLayersOf(view, lengths, sublattice, stack, ends, layers, runs);
 }
 void ScanAcrossLayersFloat(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                           Sublattice sublattice, BrickStack stack) {
-  ScanAcrossLayersOf(view, lengths, sublattice, stack);
+                           Sublattice sublattice, BrickStack stack, StackEnds ends) {
+  ScanAcrossLayersOf(view, lengths, sublattice, stack, ends);
 }
 void ScanAcrossLayersWhole(const EuclideanView<uint16_t>& view,
                            const SquaredLengths<uint16_t>& lengths, Sublattice sublattice,
-                           BrickStack stack) {
-  ScanAcrossLayersOf(view, lengths, sublattice, stack);
+                           BrickStack stack, StackEnds ends) {
+  ScanAcrossLayersOf(view, lengths, sublattice, stack, ends);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -341,22 +374,22 @@ HWY_EXPORT(ScanAcrossLayersFloat);
 HWY_EXPORT(ScanAcrossLayersWhole);
 
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                 const SideRuns<uint32_t>& runs) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, layers, runs);
+  HWY_DYNAMIC_DISPATCH(ScanLayersFloat)(view, lengths, sublattice, stack, ends, layers, runs);
 }
 void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                Sublattice sublattice, BrickStack stack, LayersOfBrick layers,
+                Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                 const SideRuns<uint32_t>& runs) {
-  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, layers, runs);
+  HWY_DYNAMIC_DISPATCH(ScanLayersWhole)(view, lengths, sublattice, stack, ends, layers, runs);
 }
 void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
-                      Sublattice sublattice, BrickStack stack) {
-  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersFloat)(view, lengths, sublattice, stack);
+                      Sublattice sublattice, BrickStack stack, StackEnds ends) {
+  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersFloat)(view, lengths, sublattice, stack, ends);
 }
 void ScanAcrossLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16_t>& lengths,
-                      Sublattice sublattice, BrickStack stack) {
-  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersWhole)(view, lengths, sublattice, stack);
+                      Sublattice sublattice, BrickStack stack, StackEnds ends) {
+  HWY_DYNAMIC_DISPATCH(ScanAcrossLayersWhole)(view, lengths, sublattice, stack, ends);
 }
 
 }  // namespace bccskel

@@ -11,6 +11,7 @@
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/euclidean_parts.h"
 #include "core/distance/euclidean_rows.h"
+#include "core/volume/brick_neighbors.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
 // Paper: goes beyond it; section 4 takes chamfer distances.
@@ -21,7 +22,8 @@
 //   of layer distance plus squared height, over layers of both kinds.
 //   Bricks that are not stored are background: beside them the nearest background of a layer is one
 //   step away along both axes. A scan ends at the first background point of its own column, where
-//   everything farther is farther.
+//   everything farther is farther. In a window it also ends with that: what is nearest lies in the
+//   window, as all places on the way do.
 // Cost:  as much memory again as the squares, and an eighth. One or two rows of 16 points look
 //   outward together, until no point can find anything nearer: about a step per lattice unit of
 //   distance, each two or three cycles for all of them. Columns of floats, which objects deeper
@@ -46,6 +48,12 @@ void RaiseTo(float value, std::atomic<float>& largest) {
   }
 }
 
+bool IsUnknownBeside(const Volume& object, BrickIndex n, size_t position) {
+  return object.neighbors()[n][position] == object.brick_count() &&
+         object.IsUnknown(
+             NeighborBrick(object.keys()[n].coordinates(), static_cast<int>(position)));
+}
+
 template <typename T>
 class EuclideanScan {
  public:
@@ -67,7 +75,8 @@ class EuclideanScan {
     });
     Share(context, feet.size(), 1, [&](size_t n) {
       const BrickIndex foot = feet[n];
-      ScanLayers(view_, lengths_, SublatticeOf(foot), StackFrom(foot, kAboveY),
+      const std::vector<BrickIndex> stack = StackFrom(foot, kAboveY);
+      ScanLayers(view_, lengths_, SublatticeOf(foot), stack, EndsOf(stack, kBelowY, kAboveY),
                  LayersFor(wanted, foot), runs);
     });
   }
@@ -78,7 +87,7 @@ class EuclideanScan {
     Share(context, feet.size(), 1, [&](size_t n) {
       const BrickIndex foot = feet[n];
       const std::vector<BrickIndex> stack = StackFrom(foot, kAboveZ);
-      ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), stack);
+      ScanAcrossLayers(view_, lengths_, SublatticeOf(foot), stack, EndsOf(stack, kBelowZ, kAboveZ));
       RaiseTo(LargestOfStack(stack), largest);
       done(stack);
     });
@@ -88,8 +97,8 @@ class EuclideanScan {
  private:
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
   static constexpr size_t kScanWork = 16;  // in the unit of Context::WorkersFor()
-  // Some steps more than to the end of a stack: see kBorderRows of the loops.
-  static constexpr size_t kFartherThanStack = 16;
+  // Some steps more than to the end of a stack: rows along y are two apart.
+  static constexpr size_t kFartherThanStack = 4 * kMostEndRows;
 
   // Hands out the items to the workers, who ask before every `at_once` of them whether to stop.
   template <typename Work>
@@ -118,6 +127,12 @@ class EuclideanScan {
       stack.push_back(n);
     }
     return stack;
+  }
+
+  StackEnds EndsOf(BrickStack stack, size_t back, size_t onward) const {
+    if (!object_.window().has_value()) return {};
+    return {IsUnknownBeside(object_, stack.front(), back),
+            IsUnknownBeside(object_, stack.back(), onward)};
   }
 
   Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
@@ -171,13 +186,18 @@ class EuclideanScan {
 
   // Places beside which no brick of the other sublattice will write.
   void FillBeside(size_t brick) const {
-    const T nearest = static_cast<T>(lengths_.x + lengths_.y[1]);
+    const T one_step = static_cast<T>(lengths_.x + lengths_.y[1]);
+    const auto nearest = [&](size_t position) {
+      const bool is_unknown = object_.window().has_value() &&
+                              IsUnknownBeside(object_, static_cast<BrickIndex>(brick), position);
+      return is_unknown ? std::numeric_limits<T>::max() : one_step;
+    };
     T* layers = view_.beside + brick * kLayersBeside * kLayerPoints;
     if (view_.neighbors[brick][kSamePlace] == view_.padding) {
-      std::fill_n(layers, kBrickZ * kLayerPoints, nearest);
+      std::fill_n(layers, kBrickZ * kLayerPoints, nearest(kSamePlace));
     }
     if (view_.neighbors[brick][kAcrossZ] == view_.padding) {
-      std::fill_n(layers + kBrickZ * kLayerPoints, kLayerPoints, nearest);
+      std::fill_n(layers + kBrickZ * kLayerPoints, kLayerPoints, nearest(kAcrossZ));
     }
   }
 
@@ -185,6 +205,14 @@ class EuclideanScan {
   const EuclideanView<T> view_;
   SquaredLengths<T> lengths_;
 };
+
+// Beside the window nothing ends a run.
+void FillUnknown(const Volume& object, SideRuns<uint32_t>& runs) {
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    if (IsUnknownBeside(object, n, kBelowX)) runs.left[n].fill(kUnknownRun);
+    if (IsUnknownBeside(object, n, kAboveX)) runs.right[n].fill(kUnknownRun);
+  }
+}
 
 // Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
 // tells what to try first.
@@ -218,6 +246,7 @@ bool IsDeep(const Volume& object) {
 
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context) {
   SideRuns<uint32_t> runs(object.brick_count());
+  if (object.window().has_value()) FillUnknown(object, runs);
   std::vector<BrickIndex> slabs;  // where those of one bz begin
   const std::span<const BrickKey> keys = object.keys();
   for (BrickIndex n = 0; n < keys.size(); ++n) {
@@ -228,7 +257,7 @@ SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context
   context.Offer(context.WorkersFor(keys.size()), [&](int) {
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       FindSideRuns<uint32_t>(object.padded_bricks().data(), object.neighbors().data(),
-                             slabs[mine.begin], slabs[mine.end], kMaxExtentCells, 0, runs);
+                             slabs[mine.begin], slabs[mine.end], kUnknownRun, 0, runs);
     }
   });
   return runs;
@@ -283,9 +312,10 @@ ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
     keys.push_back(object.keys()[n]);
     bits.push_back(object.bricks()[n]);
   }
-  return {Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
-                                   std::move(bits)),
-          std::move(own_runs)};
+  Volume volume = Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                           std::move(bits));
+  volume.SetWindow(object.window());
+  return {std::move(volume), std::move(own_runs)};
 }
 
 template void MeasureWithinLayers(const Volume&, exec::Share, const SideRuns<uint32_t>&,

@@ -33,7 +33,8 @@ class EuclideanStream {
       : object_(object),
         context_(context),
         sink_(sink),
-        may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic),
+        may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic &&
+                      !object.window().has_value()),
         groups_(ColumnsOf(object, BricksAtX(object), BricksAtOnce(object, at_once))),
         keeps_floats_(keep == KeepField::kAlways ||
                       object.brick_count() * kBrickPoints <= kMostFloatsKept),

@@ -82,7 +82,17 @@ float ExactRadius::SquaredAt(LatticePoint p) {
     return field_->SquareAt(near_bricks_.Find(address.brick), address.bit);
   }
   float reach = std::max(kFirstReach, kReachFactor * std::sqrt(last_.squared));
-  while (!SearchWithin(reach, p)) reach *= 2;
+  const LatticeExtent& extent = object_.extent();
+  const float farthest = 4 * static_cast<float>(std::ranges::max(scale_)) *
+                         (static_cast<float>(extent.nx) + static_cast<float>(extent.ny) +
+                          static_cast<float>(extent.nz));
+  while (!SearchWithin(reach, p)) {
+    if (reach > farthest) {
+      last_ = {kOutside.at, farthest * farthest};
+      break;
+    }
+    reach *= 2;
+  }
   return last_.squared;
 }
 
@@ -96,7 +106,7 @@ PointSearch ExactRadius::SearchFrom(LatticePoint p, int32_t most) {
 bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
   const PointSearch search = SearchFrom(p, most);
-  last_.squared = std::min(SquareOf(last_.at - p, most), reach * reach);
+  last_.squared = std::min(SquareTo(last_.at, p, most), reach * reach);
   const size_t count = FindNearBoxes(border_->groups(), search, last_.squared, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   PutNearestFirst(groups);
@@ -138,6 +148,7 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
         for (int32_t bx = cell(p.x - most) >> 4; bx <= cell(p.x + most) >> 4; ++bx) {
           if (zy + to_brick(0, p.x, 2 * kBrickX * bx + odd, kBrickX) > squared) continue;
           const BrickCoordinates at = {bx, by, bz, sublattice};
+          if (object_.IsUnknown(at)) continue;
           bricks_around_.push_back({near_bricks_.Find(at), PointOf(at, 0)});
         }
       }
@@ -184,7 +195,7 @@ bool ExactRadius::SearchFar(LatticePoint p, float radius) {
   const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
   const PointSearch search = SearchFrom(p, most);
   // At() begins with these groups in this order.
-  const float begin = std::min(SquareOf(kOutside.at - p, most), reach * reach);
+  const float begin = std::min(SquareTo(kOutside.at, p, most), reach * reach);
   const size_t count = FindNearBoxes(border_->groups(), search, begin, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   PutNearestFirst(groups);
@@ -218,7 +229,7 @@ bool ExactRadius::SearchFar(LatticePoint p, float radius) {
 NearestInPlace ExactRadius::FirstSearched(std::span<const NearestInPlace> around,
                                           const PointSearch& search) {
   const float below =
-      std::min(SquareOf(kOutside.at - search.at, kFirstWays), kFirstReach * kFirstReach);
+      std::min(SquareTo(kOutside.at, search.at, kFirstWays), kFirstReach * kFirstReach);
   const size_t count = FindNearBoxes(border_->groups(), search, below, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   const size_t nearest = std::ranges::min_element(groups, {}, &NearBox::squared)->box;
@@ -231,9 +242,11 @@ NearestInPlace ExactRadius::FirstSearched(std::span<const NearestInPlace> around
   });
 }
 
-// Infinite where a way along y or z is longer than `most`.
-float ExactRadius::SquareOf(LatticePoint way, int32_t most) const {
-  if (std::max(std::abs(way.y), std::abs(way.z)) > most) {
+// Infinite where a way along y or z is longer than `most`, and to what a window does not show.
+float ExactRadius::SquareTo(LatticePoint background, LatticePoint p, int32_t most) const {
+  const LatticePoint way = background - p;
+  const bool is_unknown = object_.window().has_value() && background == kOutside.at;
+  if (is_unknown || std::max(std::abs(way.y), std::abs(way.z)) > most) {
     return std::numeric_limits<float>::infinity();
   }
   const auto x = static_cast<float>(std::abs(way.x));

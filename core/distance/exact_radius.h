@@ -39,6 +39,9 @@ class ExactRadius {
   // A background point as far away as At() said last.
   // Needs: this searches, and At() was asked for an object point.
   LatticePoint nearest() const { return last_.at; }
+  // Whether there is one: in a window all may be taken. Then At() says more than the extent is
+  // long.
+  bool has_nearest() const { return last_.at != kOutside.at; }
   // Afterwards, which of equally near points nearest() says depends on the next point alone, not on
   // those asked for before.
   void ForgetNearest() { last_ = kOutside; }
@@ -67,7 +70,7 @@ class ExactRadius {
   std::span<const NearestInPlace> KeepNearest(size_t count, float radius);
   BrickIndex ChangedBrick(const BrickCoordinates& brick);
   NearestInPlace FirstSearched(std::span<const NearestInPlace> around, const PointSearch& search);
-  float SquareOf(LatticePoint way, int32_t most) const;
+  float SquareTo(LatticePoint background, LatticePoint p, int32_t most) const;
 
   const Volume& object_;
   const DistanceField* field_;                  // null where background is searched for

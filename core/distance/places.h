@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
@@ -73,6 +74,7 @@ class NearbyBricks {
   // Needs: `object` outlives this.
   explicit NearbyBricks(const Volume& object)
       : object_(object),
+        window_(object.window()),
         bits_(BitsFor(object)),
         found_(size_t{1} << bits_.All(), Found{BrickKey(), none()}) {}
 
@@ -89,8 +91,10 @@ class NearbyBricks {
   }
 
   // As Volume::Contains(): beside the extent there are no bricks, and no points in those at its
-  // end. Needs: a lattice point that lies less than 2^20 units outside of the extent.
+  // end. True outside the object's window, where it has one.
+  // Needs: a lattice point that lies less than 2^20 units outside of the extent.
   bool Contains(LatticePoint p) {
+    if (window_.has_value() && !window_->Contains(p)) return true;
     const BrickAddress address = AddressOf(p);
     return object_.padded_bricks()[Find(address.brick)].Test(address.bit);
   }
@@ -131,6 +135,7 @@ class NearbyBricks {
   }
 
   const Volume& object_;
+  const std::optional<LatticeBox> window_;
   const Bits bits_;
   std::vector<Found> found_;
 };

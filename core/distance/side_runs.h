@@ -45,7 +45,8 @@ void ContinueRuns(const BrickBits& brick, uint32_t longest, const RowRuns<T>& ne
 }
 
 // The runs beside the bricks [first, last), none longer than `longest`.
-// Shapes: runs[0] is of brick `origin`; all are 0.
+// Shapes: runs[0] is of brick `origin`; all are 0, but where a brick has none beside it and another
+//         run shall begin.
 // Needs: the bricks are whole layers of bricks (all of one bz), in the order of a Volume.
 template <typename T>
 void FindSideRuns(const BrickBits* object, const BrickNeighborhood* neighbors, BrickIndex first,

@@ -74,6 +74,22 @@ struct LatticeExtent {
   }
 };
 
+// Ends included.
+struct LatticeBox {
+  LatticePoint low;
+  LatticePoint high;
+
+  friend constexpr bool operator==(const LatticeBox&, const LatticeBox&) = default;
+  constexpr bool Contains(LatticePoint p) const {
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
+           p.z <= high.z;
+  }
+  constexpr bool Meets(const LatticeBox& other) const {
+    return other.low.x <= high.x && other.low.y <= high.y && other.low.z <= high.z &&
+           other.high.x >= low.x && other.high.y >= low.y && other.high.z >= low.z;
+  }
+};
+
 // Largest number of cells along an axis: lattice coordinates stay exact in a float and brick
 // coordinates fit their 21-bit fields.
 inline constexpr int32_t kMaxExtentCells = 1 << 22;

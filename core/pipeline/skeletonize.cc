@@ -94,7 +94,6 @@ class Pipeline {
   Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
            const exec::Context& context, const OnShellPoints& on_points, const Peeler* peeler)
       : options_(options),
-        thinning_(options.thinning),
         memory_(memory),
         context_(context),
         on_points_(on_points),
@@ -145,38 +144,19 @@ class Pipeline {
     return RunIn(object);
   }
 
-  // All stages work on the shifted object; what they made goes back.
   absl::Status RunBeyondBorder(const Volume& object) {
     // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
     // points beyond them.
     const BorderPoints last =
         IsConverted(options_.source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
-    BCCSKEL_ASSIGN_OR_RETURN(ContinuedObject continued,
-                             ContinueBeyondBorder(object, last, memory_, context_));
-    continued_.emplace(std::move(continued));
-    const LatticePoint shift = ShiftOf(continued_->room);
-    for (LatticePoint& p : thinning_.keep) p = p + shift;
-    extent_ = object.extent();
-    BCCSKEL_RETURN_IF_ERROR(RunIn(continued_->object));
-    result_.thin = ShiftedBack(result_.thin);
-    return absl::OkStatus();
-  }
-
-  Volume ShiftedBack(const Volume& volume) const {
-    return ShiftedBy(volume, continued_->room, -1, extent_);
-  }
-
-  void ShiftGraphBack() {
-    const LatticePoint shift = ShiftOf(continued_->room);
-    SkeletonGraph& graph = result_.graph;
-    for (SkeletonNode& node : graph.nodes) node.at.point = node.at.point - shift;
-    for (SkeletonPoint& p : graph.points) p.point = p.point - shift;
-    for (SkeletonPoint& p : graph.sheets) p.point = p.point - shift;
+    BCCSKEL_ASSIGN_OR_RETURN(Volume space, ContinueBeyondBorder(object, last, memory_));
+    if (space.window().has_value()) space_.emplace(std::move(space));
+    return RunIn(object);
   }
 
   // Where widths and distances are measured.
   const Volume& SpaceOf(const Volume& object) const {
-    return continued_.has_value() ? continued_->space : object;
+    return space_.has_value() ? *space_ : object;
   }
 
   absl::Status RunIn(const Volume& object) {
@@ -187,7 +167,7 @@ class Pipeline {
 
   // Those who peel elsewhere keep the distances, so radii are searched for.
   absl::Status PeelAndRun(Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, thinning_));
+    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, options_.thinning));
     TakeOver(std::move(peeled.thinned));
     result_.object_points = peeled.points;
     result_.certificate.input = peeled.topology;
@@ -202,8 +182,9 @@ class Pipeline {
       BCCSKEL_ASSIGN_OR_RETURN(result_.certificate.input, CountBettiNumbers(object, context_));
     }
     BCCSKEL_RETURN_IF_ERROR(Certify(skeleton_.points, context_, result_.certificate));
-    result_.certificate.simple_points_left = CountSimplePoints(
-        skeleton_.points, ThatMayGo(options_), SparedPoints(skeleton_, thinning_), context_);
+    result_.certificate.simple_points_left =
+        CountSimplePoints(skeleton_.points, ThatMayGo(options_),
+                          SparedPoints(skeleton_, options_.thinning), context_);
     result_.timings.certificate = clock_.Lap();
     const std::vector<float> exact = skeleton_.radii;
     BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, StatedRadii(SpaceOf(object), exact));
@@ -212,7 +193,6 @@ class Pipeline {
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
     BCCSKEL_RETURN_IF_ERROR(Center(object, distance, exact));
     result_.thin = std::move(skeleton_.points);
-    if (continued_.has_value()) ShiftGraphBack();
     BCCSKEL_ASSIGN_OR_RETURN(result_.sha256, SkeletonDigest(result_.graph, context_));
     result_.timings.graph = clock_.Lap();
     result_.timings.total = clock_.Total();
@@ -242,16 +222,13 @@ class Pipeline {
 
   // Shells are made of chamfer distances while those are measured, of Euclidean ones depths, too.
   bool NeedsField() const {
-    const bool depths = DepthsOf(thinning_.method) == Depths::kWanted;
-    return continued_.has_value() || (depths && options_.distance != DistanceKind::kEuclidean);
+    const bool depths = DepthsOf(options_.thinning.method) == Depths::kWanted;
+    return space_.has_value() || (depths && options_.distance != DistanceKind::kEuclidean);
   }
 
   absl::StatusOr<DistanceField> MeasureDistances(const Volume& object, DistanceKind kind) {
-    if (!continued_.has_value()) return ComputeDistance(object, kind, context_);
-    if (kind == DistanceKind::kEuclidean) return std::move(continued_->distance);
-    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field,
-                             ComputeDistance(continued_->space, kind, context_));
-    return FieldOfPart(object, continued_->space, field);
+    return space_.has_value() ? MeasureIn(*space_, object, kind, context_)
+                              : ComputeDistance(object, kind, context_);
   }
 
   absl::Status Thin(const Volume& object, DistanceField& distance) {
@@ -262,7 +239,7 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
     result_.timings.distance = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                             ThinObject(object, distance, thinning_, context_, PointsTeller()));
+                             ThinObject(object, distance, options_.thinning, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
@@ -270,9 +247,9 @@ class Pipeline {
   absl::Status ThinInShells(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(const EuclideanShells measured, MeasureShells(object, distance));
     result_.timings.distance = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(
-        ThinningResult thinned,
-        ThinByShells(object, measured.shells, measured.depths, thinning_, context_, on_points_));
+    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
+                             ThinByShells(object, measured.shells, measured.depths,
+                                          options_.thinning, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
@@ -280,24 +257,21 @@ class Pipeline {
   absl::StatusOr<EuclideanShells> MeasureShells(const Volume& object, DistanceField& distance) {
     EuclideanShells measured;
     if (options_.distance != DistanceKind::kEuclidean) {
-      BCCSKEL_ASSIGN_OR_RETURN(measured.shells, StreamShells(object, options_.distance,
-                                                             thinning_.shell_width, context_));
+      BCCSKEL_ASSIGN_OR_RETURN(
+          measured.shells,
+          StreamShells(object, options_.distance, options_.thinning.shell_width, context_));
       return measured;
     }
-    BCCSKEL_ASSIGN_OR_RETURN(measured, StreamEuclideanShells(object, thinning_.shell_width,
-                                                             DepthsOf(thinning_.method), context_));
+    BCCSKEL_ASSIGN_OR_RETURN(measured,
+                             StreamEuclideanShells(object, options_.thinning.shell_width,
+                                                   DepthsOf(options_.thinning.method), context_));
     distance = measured.distance.has_value() ? *std::exchange(measured.distance, {})
                                              : NoDistances(DistanceKind::kChamfer);
     return measured;
   }
 
-  OnShellPoints PointsTeller() const {
-    if (!on_points_ || !continued_.has_value()) return on_points_;
-    return [this](int32_t shell, const Volume& points) { on_points_(shell, ShiftedBack(points)); };
-  }
-
   void TakeOver(ThinningResult thinned) {
-    const SkeletonKind kind = thinning_.kind;
+    const SkeletonKind kind = options_.thinning.kind;
     if (kind == SkeletonKind::kSurface || kind == SkeletonKind::kIsthmusCurve) {
       skeleton_.births = BirthsOf(thinned);
     }
@@ -310,29 +284,29 @@ class Pipeline {
   }
 
   absl::Status MeasureAndPrune(const Volume& object, DistanceField& distance) {
-    if (peeler_ == nullptr && !continued_.has_value()) {
+    if (peeler_ == nullptr && !space_.has_value()) {
       const uint64_t searches =
           skeleton_.points.PointCount() *
           (options_.distance == DistanceKind::kEuclidean ? kMostDistancesOfPoint : 1);
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
     } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
-      distance = std::move(continued_->distance);
+      BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, DistanceKind::kEuclidean));
     }
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, ExactRadii(skeleton_.points, radius, context_));
-    if (IsConverted(options_.source) && !continued_.has_value()) search_.emplace(object);
+    if (IsConverted(options_.source) && !space_.has_value()) search_.emplace(object);
     if (HasCurves(options_.thinning)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
       BCCSKEL_ASSIGN_OR_RETURN(
           ThinSkeleton pruned,
           Prune(skeleton_, {object, single, SurfaceStepOf(options_.source), &SpaceOf(object)},
-                thinning_.keep, options_.pruning, context_));
+                options_.thinning.keep, options_.pruning, context_));
       TakeOver(std::move(pruned));
     }
     const PruningOptions& pruning = result_.options.pruning;
     if (HasSheets(options_.thinning) && pruning.rule != PruningRule::kNone) {
-      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
-                               PruneSheets(skeleton_, pruning.threshold, thinning_.keep, context_));
+      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned, PruneSheets(skeleton_, pruning.threshold,
+                                                                options_.thinning.keep, context_));
       TakeOver(std::move(pruned));
     }
     result_.skeleton_points = skeleton_.points.PointCount();
@@ -342,22 +316,20 @@ class Pipeline {
 
   void TakeOver(ThinSkeleton pruned) {
     if (on_points_) {
-      PointsTeller()(result_.last_shell + 1, PointsOnlyIn(skeleton_.points, pruned.points));
+      on_points_(result_.last_shell + 1, PointsOnlyIn(skeleton_.points, pruned.points));
     }
     skeleton_ = std::move(pruned);
   }
 
   const SkeletonizeOptions& options_;
-  ThinningOptions thinning_;  // the points to keep where the object is
   exec::MemoryBudget& memory_;
   const exec::Context& context_;
   const OnShellPoints& on_points_;
   const Peeler* const peeler_;
   exec::StageClock clock_;
   ThinSkeleton skeleton_;
-  std::optional<ContinuedObject> continued_;
+  std::optional<Volume> space_;  // the object in a window, where it continues beyond the border
   std::optional<ExactRadius> search_;  // where radii of voxels are measured
-  LatticeExtent extent_;               // of the object as it was given, where that is continued
   SkeletonizeResult result_;
 };
 

@@ -4,31 +4,22 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/lattice/directions.h"
+#include "core/prepare/brick_sets.h"
+#include "core/volume/brick_neighbors.h"
 
 namespace bccskel {
 namespace {
 
-// In lattice units, for a start: deeper than most vessels and neurites.
-constexpr double kFirstDepth = 24;
-// Of the bricks with points beyond: a distance field while it is made, and bits.
+// Of the bricks with points beyond: bits and neighbors, and distances while they are measured.
 constexpr uint64_t kBytesPerBrick = 5120;
+// Of the others bits and neighbors: their distances the object has anyway.
+constexpr uint64_t kBytesPerCopiedBrick = 256;
 
-// A box of lattice points, ends included.
-struct Box {
-  LatticePoint low, high;
-
-  bool Contains(LatticePoint p) const {
-    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
-           p.z <= high.z;
-  }
-};
-
-Box BoxWithin(const LatticeExtent& extent, BorderPoints border, LatticePoint shift) {
+LatticeBox BoxWithin(const LatticeExtent& extent, BorderPoints border) {
   const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
-  return {shift,
-          shift + LatticePoint{2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
+  return {{0, 0, 0}, {2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
 }
 
 uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
@@ -37,57 +28,35 @@ uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
   return (corners.PointCount() + voxels.PointCount()) / 2;
 }
 
-BrickBits PointsBeyond(const Box& box, BrickCoordinates brick) {
-  BrickBits bits;
-  const LatticePoint first = PointOf(brick, 0), last = PointOf(brick, kBrickPoints - 1);
-  if (box.Contains(first) && box.Contains(last)) return bits;
-  for (int bit = 0; bit < kBrickPoints; ++bit) {
-    if (!box.Contains(PointOf(brick, bit))) bits.Set(bit);
-  }
-  return bits;
-}
-
-// The bricks from which the points beyond the box are at most `room` away.
-Volume BricksNearSides(const Volume& object, const Box& box, BrickCoordinates room) {
+// The points beyond the window in the object's bricks and those beside them.
+Volume PointsBeyond(const Volume& object, const LatticeBox& window) {
   std::vector<BrickKey> keys;
-  std::vector<BrickBits> bricks;
-  const LatticePoint reach = ShiftOf(room) + LatticePoint{1, 1, 1};  // of the other sublattice
+  const auto add = [&](BrickCoordinates brick) {
+    const bool exists = std::min({brick.bx, brick.by, brick.bz}) >= 0;
+    const bool is_within =
+        window.Contains(PointOf(brick, 0)) && window.Contains(PointOf(brick, kBrickPoints - 1));
+    if (exists && !is_within) keys.push_back(BrickKey(brick));
+  };
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    const BrickCoordinates at = object.keys()[n].coordinates();
-    if (box.Contains(PointOf(at, 0) - reach) && box.Contains(PointOf(at, kBrickPoints - 1) + reach))
-      continue;
-    keys.push_back(object.keys()[n]);
-    bricks.push_back(object.bricks()[n]);
+    const BrickCoordinates brick = object.keys()[n].coordinates();
+    add(brick);
+    for (int position = 0; position < kNeighborCount; ++position) {
+      const bool is_stored =
+          object.neighbors()[n][static_cast<size_t>(position)] != object.brick_count();
+      if (!is_stored) add(NeighborBrick(brick, position));
+    }
   }
-  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
-                                  std::move(bricks));
-}
-
-// The points beyond the box in bricks up to `room` away from the object.
-absl::StatusOr<Volume> Beyond(const Volume& object, const Box& box, BrickCoordinates room,
-                              exec::MemoryBudget& memory) {
-  const Volume near = BricksNearSides(object, box, room);
-  exec::MemoryShare share(memory);
-  BCCSKEL_RETURN_IF_ERROR(share.TakeFor(MostBricksAround(near, room), kBytesPerListedBrick,
-                                        "bricks to look beyond the border in"));
-  std::vector<BrickKey> keys;
-  std::vector<BrickBits> bricks;
-  for (BrickKey key : BricksAround(near, room)) {
-    const BrickBits bits = PointsBeyond(box, key.coordinates());
-    if (bits.Empty()) continue;
-    keys.push_back(key);
-    bricks.push_back(bits);
+  std::ranges::sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<BrickBits> bricks(keys.size());
+  for (size_t n = 0; n < keys.size(); ++n) {
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      if (!window.Contains(PointOf(keys[n].coordinates(), bit))) bricks[n].Set(bit);
+    }
   }
-  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
-                                  std::move(bricks));
-}
-
-absl::Status CheckRoom(const LatticeExtent& extent) {
-  if (std::max({extent.nx, extent.ny, extent.nz}) <= kMaxExtentCells) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrFormat(
-      "extent of %d x %d x %d cells with room for what continues beyond the border: each axis must "
-      "have at most %d",
-      extent.nx, extent.ny, extent.nz, kMaxExtentCells));
+  const LatticeExtent& inside = object.extent();
+  return Volume::FromSortedBricks({inside.nx + kBrickX, inside.ny + kBrickY, inside.nz + kBrickZ},
+                                  object.placement(), std::move(keys), std::move(bricks));
 }
 
 template <typename Value>
@@ -109,37 +78,25 @@ DistanceField CopyPart(const Volume& part, const Volume& whole, const DistanceFi
 
 }  // namespace
 
-DistanceField FieldOfPart(const Volume& part, const Volume& whole, const DistanceField& field) {
-  return std::visit([&](const auto& values) { return CopyPart(part, whole, field, values); },
+absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& object,
+                                        DistanceKind kind, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field, ComputeDistance(space, kind, context));
+  return std::visit([&](const auto& values) { return CopyPart(object, space, field, values); },
                     field.values());
 }
 
-absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                                     exec::MemoryBudget& memory,
-                                                     const exec::Context& context) {
-  const LatticeExtent& given = object.extent();
-  // What has no background is equally deep wherever one stops looking for it.
-  const bool full = object.PointCount() == PointCountOf(given, border);
-  const double most = full ? kFirstDepth : 2.0 * std::max({given.nx, given.ny, given.nz});
-  for (double depth = kFirstDepth;; depth *= 2) {
-    const BrickCoordinates room = RoomFor(depth);
-    const LatticeExtent extent = WithRoom(given, room);
-    BCCSKEL_RETURN_IF_ERROR(CheckRoom(extent));
-    Volume shifted = ShiftedBy(object, room, 1, extent);
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const Volume beyond,
-        Beyond(shifted, BoxWithin(given, border, ShiftOf(room)), room, memory));
-    exec::MemoryShare share(memory);
-    BCCSKEL_RETURN_IF_ERROR(
-        share.TakeFor(beyond.brick_count(), kBytesPerBrick, "bricks beyond the border"));
-    Volume space = Union(shifted, beyond);
-    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field,
-                             ComputeDistance(space, DistanceKind::kEuclidean, context));
-    DistanceField distance = FieldOfPart(shifted, space, field);
-    if (distance.ToLatticeUnits(distance.largest()) > depth && depth < most) continue;
-    share.Keep();
-    return ContinuedObject{room, std::move(shifted), std::move(space), std::move(distance)};
-  }
+absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
+                                            exec::MemoryBudget& memory) {
+  const LatticeExtent& extent = object.extent();
+  if (object.PointCount() == PointCountOf(extent, border)) return object;
+  const LatticeBox window = BoxWithin(extent, border);
+  Volume space = Union(PointsBeyond(object, window), object);
+  space.SetWindow(window);
+  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(object.brick_count(), kBytesPerCopiedBrick,
+                                         "bricks with what is beyond the border"));
+  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(space.brick_count() - object.brick_count(), kBytesPerBrick,
+                                         "bricks beyond the border"));
+  return space;
 }
 
 }  // namespace bccskel

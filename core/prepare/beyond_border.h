@@ -5,33 +5,25 @@
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
 #include "core/exec/memory_budget.h"
-#include "core/prepare/brick_sets.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
 
-// An object that is cut off at the border of its image, and what may lie beyond.
-struct ContinuedObject {
-  BrickCoordinates room;   // on all sides of the object, so that there are points beyond
-  Volume object;           // shifted by that
-  Volume space;            // with all points beyond the border that distances may need
-  DistanceField distance;  // Euclidean, of the object's points to background within the border
-};
-
-// Distances without background beyond the border: that of the lattice, or of the image that it was
-// made from, whose last corner points lie on its faces.
-// Does:  adds the points beyond, farther and farther out, until no point of the object is deeper
-//        than they reach. Of an object without background all is deeper than that.
-// Cost:  a distance field of object and points beyond, up to three for thick objects.
-// Errors: of the budget; INVALID_ARGUMENT where an axis has no room for the points beyond;
-//         CANCELLED, DEADLINE_EXCEEDED.
+// The border of an image: that of the lattice, or of the image that it was made from, whose last
+// corner points lie on its faces.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
-absl::StatusOr<ContinuedObject> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                                     exec::MemoryBudget& memory,
-                                                     const exec::Context& context);
 
-// The distances of `part`, a subset of `whole`, from the `field` of `whole`.
-DistanceField FieldOfPart(const Volume& part, const Volume& whole, const DistanceField& field);
+// The object in the window of its image, with the points beyond in its own bricks and those beside
+// them. An image without background would be infinitely deep, so the object ends at its border:
+// then the result has no window.
+// Errors: of the budget.
+absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
+                                            exec::MemoryBudget& memory);
+
+// The distances of the object's points, a subset of `space`, there.
+// Errors: CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& object,
+                                        DistanceKind kind, const exec::Context& context);
 
 }  // namespace bccskel
 

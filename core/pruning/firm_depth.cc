@@ -28,17 +28,19 @@ float FirmDepth::At(LatticePoint p) {
 float FirmDepth::AtMost(LatticePoint p) const {
   if (const float* known = known_.Find(p); known != nullptr) return *known;
   float least = std::numeric_limits<float>::infinity();
-  for (LatticePoint q : lately_) least = std::min(least, radius_.Between(p, q));
+  for (LatticePoint q : lately_) {
+    if (q != kOutside) least = std::min(least, radius_.Between(p, q));
+  }
   return least;
 }
 
 float FirmDepth::Search(LatticePoint p) {
   float depth = radius_.At(p);
-  while (IsPit(radius_.nearest())) {
+  while (radius_.has_nearest() && IsPit(radius_.nearest())) {
     radius_.TakeFromBackground(radius_.nearest());
     depth = radius_.At(p);
   }
-  Remember(radius_.nearest());
+  if (radius_.has_nearest()) Remember(radius_.nearest());
   return depth;
 }
 

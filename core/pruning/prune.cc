@@ -63,7 +63,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   const PointSet kept(keep.begin(), keep.end());
   if (!curves.births.empty()) RemoveSimplePoints(set, kept);
   const Volume& space = in.space != nullptr ? *in.space : in.object;
-  const SurfaceNoise noise = SurfaceNoiseOf(space, in.surface_step);
+  const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step);
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
   std::optional<WayOn> way_on;
   std::optional<FirmDepth> firm_depth;

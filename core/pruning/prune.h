@@ -52,8 +52,7 @@ struct PrunedObject {
   const ExactRadius& radius;  // of the object
   // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
   double surface_step = 1;
-  // Where widths and depths are measured, if not in the object: the same with points beyond the
-  // border.
+  // Where widths and depths are measured, if not in the object: the same in a window.
   const Volume* space = nullptr;
 };
 

@@ -47,6 +47,16 @@ class Volume {
   // asks for them.
   std::span<const BrickNeighborhood> neighbors() const { return neighbors_.Of(keys_); }
 
+  // What is known, where not all is: whoever measures distances then takes no point outside for
+  // background. Needs: in a stored brick the points outside are set.
+  const std::optional<LatticeBox>& window() const { return window_; }
+  void SetWindow(const std::optional<LatticeBox>& window) { window_ = window; }
+  // Whether all of the brick lies outside the window.
+  bool IsUnknown(const BrickCoordinates& brick) const {
+    return window_.has_value() &&
+           !window_->Meets({PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)});
+  }
+
   std::optional<BrickIndex> Find(BrickKey key) const;
   // False for points off the lattice or outside the extent.
   bool Contains(LatticePoint p) const;
@@ -68,6 +78,7 @@ class Volume {
  private:
   LatticeExtent extent_;
   Placement placement_;
+  std::optional<LatticeBox> window_;
   std::vector<BrickKey> keys_;
   std::vector<BrickBits> bricks_;  // keys_.size() + 1, the last one empty
   LazyBrickNeighbors neighbors_;

@@ -90,13 +90,19 @@ class ResultsTest(harness.TestCase):
             summary = self.reconstruct("--object", mesh)  # which would warn of another number
             self.assertEqual(summary["points"], summary["common_points"])
 
-    def test_balls_may_reach_beyond_a_border_that_continues(self):
+    def test_balls_may_reach_beyond_a_border_that_continues_as_on_a_server(self):
         voxels = np.zeros((30, 40, 40), np.uint8)
         z, y, x = np.ogrid[:30, :40, :40]
         voxels[((y - 20) ** 2 + (x - 20) ** 2 < 14 ** 2) & (z >= 0)] = 1
         np.save(self.folder / "rod.npy", voxels)
         rod = self.path("rod.npy")
-        self.skeletonize(rod, "--border", "continues")
+        with harness.Server(self.folder) as server:
+            for command, source in (("submit", self.generate("box")), ("skeletonize", rod)):
+                here = self.skeletonize(source, "--border", "continues")
+                self.succeed(command, source, "--border", "continues", "--server", server.address,
+                             "-o", self.path("there.json"))
+                there = json.loads((self.folder / "there.json").read_text())
+                self.assertEqual(harness.without_times(there), harness.without_times(here))
         summary = self.reconstruct("--object", rod)
         self.assertGreater(summary["jaccard"], 0.9)
         self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))

@@ -28,6 +28,7 @@ class MasksTest(harness.TestCase):
             "--voxel-points 16": dict(voxel_points=16),
             "--adjacency 6,26 --fill-cavities": dict(adjacency="6,26", fill_cavities=True),
             "--threshold 1 --min-component 2": dict(threshold=1, min_component=2),
+            "--border continues": dict(border="continues"),
         }
         digests = set()
         for words, names in options.items():

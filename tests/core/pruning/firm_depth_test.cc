@@ -62,5 +62,21 @@ TEST(FirmDepth, PassesOverPitsInsideOfTheBody) {
   ExpectDepths(object, ExactRadius(object));
 }
 
+// All background in the window is taken, and no more is found beyond.
+TEST(FirmDepth, IsMoreThanTheExtentIsLongWhereTheWindowShowsPitsOnly) {
+  std::vector<LatticePoint> points = test::RandomCloud(1, {64, 12, 16}, 1);
+  for (LatticePoint pit : {LatticePoint{0, 0, 0}, {60, 12, 20}, {61, 3, 21}, {127, 23, 31}}) {
+    std::erase(points, pit);
+  }
+  Volume object = VolumeOfPoints(points);
+  object.SetWindow(LatticeBox{{0, 0, 0}, {127, 23, 31}});
+  const ExactRadius radius(object);
+  FirmDepth depth(object, radius);
+  for (LatticePoint p : {LatticePoint{2, 2, 2}, {1, 1, 1}, {62, 12, 20}, {125, 21, 29}}) {
+    ASSERT_GE(depth.AtMost(p), 128);
+    ASSERT_GE(depth.At(p), 128);
+  }
+}
+
 }  // namespace
 }  // namespace bccskel
