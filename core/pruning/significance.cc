@@ -112,15 +112,13 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return last->value * UncoveredShare(set, branch, last->run);
 }
 
-// A look takes as long as a few hundred bricks of other stages.
 void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
                              const exec::Context& context) {
-  constexpr size_t kLookWork = 256;
   std::vector<const FreeBranch*> unknown;
   for (const FreeBranch& branch : branches) {
     if (Known(branch) == nullptr) unknown.push_back(&branch);
   }
-  const int workers = context.WorkersFor(unknown.size(), kLookWork);
+  const int workers = context.WorkersFor(unknown.size(), kWork);
   if (workers == 1) return;  // Of() looks as well
   std::vector<Verdict> found(unknown.size());
   exec::Portions portions(unknown.size(), 1);
