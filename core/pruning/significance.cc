@@ -23,6 +23,9 @@ constexpr size_t kRoots = 7;     // of the places, the first: there the limb may
 constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
+// Half-width by radius: a plate is wider along one of eight lines, as these are 22.5 degrees apart.
+constexpr double kRoundness = 1.5;
+constexpr double kRoundMargin = 1;
 constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
 constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
 constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
@@ -194,8 +197,9 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
     for (Section& section : sections) {
-      TurnFinely(reach, section);
       section.inscribed = section.radius;
+      if (section.half_width <= kRoundness * section.radius + kRoundMargin) continue;
+      TurnFinely(reach, section);
       if (section.half_width < kWallFlatness * section.radius + kWallMargin) continue;
       FollowWall(reach, section);
       FindInscribed(section);
