@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/lattice/directions.h"
@@ -117,11 +118,25 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   return last_.squared < reach * reach;
 }
 
-LatticePoint ExactRadius::NearestAt(LatticePoint p, float radius) {
-  ForgetNearest();
-  const bool found = radius > kFewBricks ? SearchFar(p, radius) : SearchAround(p, radius);
-  if (!found) At(p);
-  return last_.at;
+LatticePoint ExactRadius::FirstNearestAt(LatticePoint p, float radius) {
+  std::optional<LatticePoint> first = FirstAtDistance(p, radius);
+  if (!first.has_value()) first = FirstAtDistance(p, At(p));
+  return *first;
+}
+
+// None if the nearest background points are not as far away as that.
+std::optional<LatticePoint> ExactRadius::FirstAtDistance(LatticePoint p, float radius) {
+  const size_t count =
+      radius > kFewBricks ? FindInGroups(p, radius) : FindInBricksAround(p, radius);
+  const auto order = [](const NearestInPlace& found) {
+    const auto& [at, squared] = found.nearest;
+    return std::tuple(squared, at.z, at.y, at.x);
+  };
+  const auto found = std::span(found_).first(count);
+  if (found.empty()) return std::nullopt;
+  const auto& [at, squared] = std::ranges::min_element(found, {}, order)->nearest;
+  const bool is_known = static_cast<float>(std::sqrt(double{squared})) == radius;
+  return is_known ? std::optional(at) : std::nullopt;
 }
 
 // With the same spacing along all axes, squares to points of the same sublattice are multiples of
@@ -148,98 +163,35 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
         for (int32_t bx = cell(p.x - most) >> 4; bx <= cell(p.x + most) >> 4; ++bx) {
           if (zy + to_brick(0, p.x, 2 * kBrickX * bx + odd, kBrickX) > squared) continue;
           const BrickCoordinates at = {bx, by, bz, sublattice};
-          if (object_.IsUnknown(at)) continue;
-          bricks_around_.push_back({near_bricks_.Find(at), PointOf(at, 0)});
+          const BrickIndex index = near_bricks_.Find(at);
+          if (index == near_bricks_.none() && object_.IsPartlyUnknown(at)) continue;
+          bricks_around_.push_back({index, PointOf(at, 0)});
         }
       }
     }
   }
 }
 
-// Whether it is certain to which of equally near points At() would come first. It searches a brick
-// that is not stored when it comes to the first object brick beside it.
-bool ExactRadius::SearchAround(LatticePoint p, float radius) {
+size_t ExactRadius::FindInBricksAround(LatticePoint p, float radius) {
   FindBricksAround(p, radius);
   if (found_.size() < bricks_around_.size()) found_.resize(2 * bricks_around_.size());
-  const PointSearch search = SearchFrom(p, kFirstWays);
-  const size_t count = FindAllNearest(bricks_around_, Bricks(), search,
-                                      kRoundingUp * radius * radius, found_.data());
-  const std::span<const NearestInPlace> nearest = KeepNearest(count, radius);
-  if (nearest.empty()) return false;
-  const auto is_stored = [&](const NearestInPlace& found) {
-    return bricks_around_[found.place].index < object_.brick_count();
-  };
-  if (nearest.size() > 1 && !std::ranges::all_of(nearest, is_stored)) return false;
-  last_ = (nearest.size() > 1 ? FirstSearched(nearest, search) : nearest[0]).nearest;
-  return true;
+  return FindAllNearest(bricks_around_, Bricks(), SearchFrom(p, kFirstWays),
+                        kRoundingUp * radius * radius, found_.data());
 }
 
-// Those at the distance `radius`, if that is the least.
-std::span<const NearestInPlace> ExactRadius::KeepNearest(size_t count, float radius) {
-  const auto found = std::span(found_).first(count);
-  if (found.empty()) return {};
-  const auto square_of = [](const NearestInPlace& f) { return f.nearest.squared; };
-  const float least = std::ranges::min(found, {}, square_of).nearest.squared;
-  if (static_cast<float>(std::sqrt(double{least})) != radius) return {};  // another point's
-  const auto end = std::remove_if(found.begin(), found.end(), [&](const NearestInPlace& f) {
-    return f.nearest.squared != least;
-  });
-  return found.first(static_cast<size_t>(end - found.begin()));
-}
-
-// The same among all bricks, of which only those count that are not farther away than `radius`: a
-// third of those that At() looks into before it knows that.
-bool ExactRadius::SearchFar(LatticePoint p, float radius) {
-  float below = kRoundingUp * radius * radius, reach = kFirstReach;
-  while (below >= reach * reach) reach *= 2;
-  const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
+size_t ExactRadius::FindInGroups(LatticePoint p, float radius) {
+  const auto most = static_cast<int32_t>(kRoundingSlack * radius) + kBrickLength;
   const PointSearch search = SearchFrom(p, most);
-  // At() begins with these groups in this order.
-  const float begin = std::min(SquareTo(kOutside.at, p, most), reach * reach);
-  const size_t count = FindNearBoxes(border_->groups(), search, begin, near_groups_.data());
-  const auto groups = std::span(near_groups_).first(count);
-  PutNearestFirst(groups);
-  const std::span<const BrickBits> bricks = Bricks();
+  float below = kRoundingUp * radius * radius;
+  const size_t count = FindNearBoxes(border_->groups(), search, below, near_groups_.data());
   size_t found = 0;
-  for (const NearBox& group : groups) {
+  for (const NearBox& group : std::span(near_groups_).first(count)) {
     if (group.squared >= below) continue;
     if (found_.size() < found + kBoxGroup) found_.resize(2 * (found + kBoxGroup));
-    found += FindAllNearest(border_->places(), border_->boxes(), group.box, bricks, search, below,
+    found += FindAllNearest(border_->places(), border_->boxes(), group.box, Bricks(), search, below,
                             found_.data() + found);
   }
-  const std::span<const NearestInPlace> nearest = KeepNearest(found, radius);
-  // At() ends where it knows of background within reach.
-  if (nearest.empty() || (reach > kFirstReach && nearest[0].nearest.squared < reach * reach / 4)) {
-    return false;
-  }
-  const NearestPoint& first = nearest[0].nearest;
-  const auto is_stored = [&](const NearestInPlace& f) {
-    return border_->places()[f.place].index < object_.brick_count();
-  };
-  const auto is_first = [&](const NearestInPlace& f) { return f.nearest.at == first.at; };
-  if (!std::ranges::all_of(nearest, is_stored) && !std::ranges::all_of(nearest, is_first)) {
-    return false;
-  }
-  last_ = first;
-  return true;
-}
-
-// To which of stored bricks around At() comes first: it begins with the nearest group, in place of
-// which comes the first.
-NearestInPlace ExactRadius::FirstSearched(std::span<const NearestInPlace> around,
-                                          const PointSearch& search) {
-  const float below =
-      std::min(SquareTo(kOutside.at, search.at, kFirstWays), kFirstReach * kFirstReach);
-  const size_t count = FindNearBoxes(border_->groups(), search, below, near_groups_.data());
-  const auto groups = std::span(near_groups_).first(count);
-  const size_t nearest = std::ranges::min_element(groups, {}, &NearBox::squared)->box;
-  return *std::ranges::min_element(around, {}, [&](const NearestInPlace& found) {
-    const auto places = border_->PlacesOf(bricks_around_[found.place].index);
-    const auto place = static_cast<size_t>(places.data() - border_->places().data());
-    const size_t group = place / kBoxGroup;
-    const size_t turn = group == nearest ? 0 : 1 + (group == groups[0].box ? nearest : group);
-    return std::pair(turn, place);
-  });
+  return found;
 }
 
 // Infinite where a way along y or z is longer than `most`, and to what a window does not show.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,18 +37,16 @@ class ExactRadius {
   float At(LatticePoint p);
   // Its square, which At() takes the root of.
   float SquaredAt(LatticePoint p);
-  // A background point as far away as At() said last.
-  // Needs: this searches, and At() was asked for an object point.
+  // A background point as far away as At() said last; which, depends on the points asked for
+  // before. Needs: this searches, and At() was asked for an object point.
   LatticePoint nearest() const { return last_.at; }
   // Whether there is one: in a window all may be taken. Then At() says more than the extent is
   // long.
   bool has_nearest() const { return last_.at != kOutside.at; }
-  // Afterwards, which of equally near points nearest() says depends on the next point alone, not on
-  // those asked for before.
-  void ForgetNearest() { last_ = kOutside; }
-  // What nearest() says after ForgetNearest() and At(p), which is `radius`: mostly found in the few
-  // bricks that are about as far away. Needs: this searches and nothing was taken; an object point.
-  LatticePoint NearestAt(LatticePoint p, float radius);
+  // Of the background points that are nearest to p, the first by z, y and x.
+  // Needs: this searches and nothing was taken; an object point; `radius`, At(p) or less. If it is
+  //        At(p), only the few bricks that are about as far away are looked into.
+  LatticePoint FirstNearestAt(LatticePoint p, float radius);
   // From p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 
@@ -65,11 +64,10 @@ class ExactRadius {
   PointSearch SearchFrom(LatticePoint p, int32_t most);
   bool SearchWithin(float reach, LatticePoint p);
   void FindBricksAround(LatticePoint p, float radius);
-  bool SearchAround(LatticePoint p, float radius);
-  bool SearchFar(LatticePoint p, float radius);
-  std::span<const NearestInPlace> KeepNearest(size_t count, float radius);
+  std::optional<LatticePoint> FirstAtDistance(LatticePoint p, float radius);
+  size_t FindInBricksAround(LatticePoint p, float radius);
+  size_t FindInGroups(LatticePoint p, float radius);
   BrickIndex ChangedBrick(const BrickCoordinates& brick);
-  NearestInPlace FirstSearched(std::span<const NearestInPlace> around, const PointSearch& search);
   float SquareTo(LatticePoint background, LatticePoint p, int32_t most) const;
 
   const Volume& object_;

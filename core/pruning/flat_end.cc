@@ -184,7 +184,8 @@ Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t 
                                      const ThinSet& set) {
   std::optional<Coordinates>& way = ways_[position];
   if (!way.has_value()) {
-    const LatticePoint p = path[position], background = radius_.NearestAt(p, set.RadiusOf(p));
+    const LatticePoint p = path[position];
+    const LatticePoint background = radius_.FirstNearestAt(p, set.RadiusOf(p));
     way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
   }
   return *way;

@@ -98,9 +98,8 @@ std::optional<Coordinates> FlatSheet::MiddleNear(const Coordinates& place,
 Coordinates FlatSheet::NormalNear(const Coordinates& place, const Coordinates& normal) {
   const LatticePoint p = PointNear(place, scale_);
   if (!bricks_.Contains(p)) return normal;
-  radius_.ForgetNearest();
-  radius_.At(p);
-  const Coordinates way = Unit(Sum(PlaceOf(radius_.nearest(), scale_), -1, PlaceOf(p, scale_)));
+  const LatticePoint background = radius_.FirstNearestAt(p, radius_.At(p));
+  const Coordinates way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
   const double cosine = Dot(normal, way);
   if (std::abs(cosine) < kLeastCosine) return normal;
   return Unit(Sum(normal, kNormalWeight * std::copysign(cosine * cosine, cosine), way));

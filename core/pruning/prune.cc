@@ -1,5 +1,6 @@
 #include "core/pruning/prune.h"
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -36,6 +37,25 @@ absl::Status CheckCurves(const ThinSkeleton& curves, const PruningOptions& optio
   }
   return absl::InvalidArgumentError(
       "pruning by persistence: needs to know when each point became an isthmus");
+}
+
+// Levels and tips need nothing of each other: on two workers, if there are as many.
+void RunBoth(const std::function<void(const exec::Context&)>& first,
+             const std::function<void(const exec::Context&)>& second, int workers,
+             const exec::Context& context) {
+  if (workers == 1) {
+    first(context);
+    second(context);
+    return;
+  }
+  exec::Context alone = context;
+  alone.team = nullptr;
+  exec::Portions parts(2, 1);
+  context.Offer(2, [&](int) {
+    for (exec::Share mine = parts.Take(); mine.begin < mine.end; mine = parts.Take()) {
+      (mine.begin == 0 ? first : second)(alone);
+    }
+  });
 }
 
 }  // namespace
@@ -78,11 +98,18 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     const double threshold = ThresholdOf(options, curves.points.placement());
     BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
   }
-  const PruningLevels levels =
-      PruningLevelsOf(set, significance, RuleOfLevels(options, curves), kept, context);
-  if (options.tips == TipPlacement::kRidge) {
-    BCCSKEL_RETURN_IF_ERROR(PlaceTips(set, in.object, space, in.radius, kept, noise, context));
-  }
+  PruningLevels levels;
+  const auto find_levels = [&, before = set](const exec::Context& own) {
+    levels = PruningLevelsOf(before, significance, RuleOfLevels(options, curves), kept, own);
+  };
+  absl::Status placed;
+  const auto place_tips = [&](const exec::Context& own) {
+    if (options.tips != TipPlacement::kRidge) return;
+    placed = PlaceTips(set, in.object, space, in.radius, kept, noise, own);
+  };
+  RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
+          context);
+  if (!placed.ok()) return placed;
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   ThinSkeleton pruned = set.ToSkeleton(curves);
   pruned.levels.reserve(pruned.radii.size());

@@ -23,6 +23,9 @@ constexpr size_t kRoots = 7;     // of the places, the first: there the limb may
 constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
+// Half-width by radius: a plate is wider along one of eight lines, as these are 22.5 degrees apart.
+constexpr double kRoundness = 1.5;
+constexpr double kRoundMargin = 1;
 constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
 constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
 constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
@@ -112,15 +115,13 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return last->value * UncoveredShare(set, branch, last->run);
 }
 
-// A look takes as long as a few hundred bricks of other stages.
 void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
                              const exec::Context& context) {
-  constexpr size_t kLookWork = 256;
   std::vector<const FreeBranch*> unknown;
   for (const FreeBranch& branch : branches) {
     if (Known(branch) == nullptr) unknown.push_back(&branch);
   }
-  const int workers = context.WorkersFor(unknown.size(), kLookWork);
+  const int workers = context.WorkersFor(unknown.size(), kWork);
   if (workers == 1) return;  // Of() looks as well
   std::vector<Verdict> found(unknown.size());
   exec::Portions portions(unknown.size(), 1);
@@ -196,8 +197,9 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
     for (Section& section : sections) {
-      TurnFinely(reach, section);
       section.inscribed = section.radius;
+      if (section.half_width <= kRoundness * section.radius + kRoundMargin) continue;
+      TurnFinely(reach, section);
       if (section.half_width < kWallFlatness * section.radius + kWallMargin) continue;
       FollowWall(reach, section);
       FindInscribed(section);

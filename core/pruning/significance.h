@@ -63,6 +63,7 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& n
 class Significance {
  public:
   static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
+  static constexpr size_t kWork = 256;   // a branch takes as long as this many bricks elsewhere
 
   // Needs: `object` outlives this; `noise` is that of its surface; `way_on` in the same object,
   //        none for branches that end where thinning ended them; `firm_depth` in the same object,

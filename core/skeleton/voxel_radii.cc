@@ -40,7 +40,7 @@ class VoxelRadii {
   // `radius` is the distance of p to the nearest background point.
   float At(LatticePoint p, float radius) {
     if (radius == 0) return 0;
-    const Vector way = WayTo(p, search_.NearestAt(p, radius));
+    const Vector way = WayTo(p, search_.FirstNearestAt(p, radius));
     const double near = NearSide(p, way);
     const double far = FarSide(p, way, near);
     // Where voxels meet in an edge or a corner there is no thickness; no mask shows thinner parts.

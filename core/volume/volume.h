@@ -57,6 +57,12 @@ class Volume {
            !window_->Meets({PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)});
   }
 
+  // Whether some of it does.
+  bool IsPartlyUnknown(const BrickCoordinates& brick) const {
+    return window_.has_value() && !(window_->Contains(PointOf(brick, 0)) &&
+                                    window_->Contains(PointOf(brick, kBrickPoints - 1)));
+  }
+
   std::optional<BrickIndex> Find(BrickKey key) const;
   // False for points off the lattice or outside the extent.
   bool Contains(LatticePoint p) const;

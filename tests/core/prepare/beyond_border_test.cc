@@ -129,8 +129,9 @@ TEST(BeyondBorderLaw, RadiiAreThoseToBackgroundOfTheImage) {
       ASSERT_NEAR(radius.SquaredAt(p) / least, 1, 1e-6) << seed;
       ASSERT_EQ(std::ranges::count(background, radius.nearest()), 1) << seed;
       if (!object.Contains(p)) return;
-      const LatticePoint nearest = radius.NearestAt(p, radius.At(p));
-      ASSERT_EQ(std::ranges::count(background, nearest), 1) << seed;
+      const LatticePoint first = radius.FirstNearestAt(p, radius.At(p));
+      ASSERT_EQ(std::ranges::count(background, first), 1) << seed;
+      ASSERT_EQ(radius.Between(p, first), radius.At(p)) << seed;
     });
   }
 }
