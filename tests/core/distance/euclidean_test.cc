@@ -126,7 +126,7 @@ Volume Slab(int32_t height) {
 
 TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {
   for (const int32_t height : {252, 256}) {
-    if (test::kSanitized && height == 252) continue;  // a minute
+    if (test::kSanitized && height == 252) continue;  // slow there
     const Volume slab = Slab(height);
     const auto field = ComputeDistance(slab, DistanceKind::kEuclidean, exec::Context());
     ASSERT_TRUE(field.ok()) << field.status();
@@ -144,7 +144,7 @@ TEST(Euclidean, IsKeptWhereItTakesTwoBytesAPointOrIsSmall) {
   const auto is_kept = [](const Volume& object) {
     return StreamEuclidean(object, exec::Context(), nullptr, KeepField::kIfSmall)->has_value();
   };
-  if (!test::kSanitized) {  // half a minute
+  if (!test::kSanitized) {  // slow there, and only figures
     EXPECT_TRUE(is_kept(Slab(200)));
     EXPECT_FALSE(is_kept(Slab(256)));
   }
