@@ -35,7 +35,8 @@ class Browser:
             # It reads from 3 and writes to 4.
             ["sh", "-c", f'exec "$@" 3<&{command_in} 4>&{reply_out}', "sh",
              CHROMIUM, "--headless=new", "--no-sandbox", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND",
+             "--enable-unsafe-swiftshader", "--webgl-antialiasing-mode=none",
+             "--host-resolver-rules=MAP * ~NOTFOUND",
              "--user-data-dir=" + self.profile, "--remote-debugging-pipe", "--no-first-run",
              *self.options, "about:blank"],
             pass_fds=(command_in, reply_out), stderr=subprocess.DEVNULL)
@@ -101,6 +102,11 @@ class Browser:
         self.send("Page.navigate", url="about:blank")  # another address alone loads nothing
         self.send("Page.navigate", url=f"file://{path}{address}")
         self.wait("['ready', 'failed'].includes(document.documentElement?.dataset.state)")
+
+    def follow(self, address):
+        """A link to the page that is open, which needs no loading."""
+        self.run(f"new Promise((done) => {{ addEventListener('hashchange', done); "
+                 f"location.hash = {json.dumps(address)}; }})")
 
     def run(self, script):
         """The value of an expression in the page."""

@@ -4,6 +4,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -34,7 +35,7 @@ TEST(EulerCharacteristic, OfAPointsFourteenNeighborsIsThatOfASphere) {
 }
 
 TEST(EulerCharacteristicLaw, EqualsPointsMinusPairsPlusTriplesMinusQuadruples) {
-  for (uint64_t seed = 0; seed < 60; ++seed) {
+  for (uint64_t seed = 0; seed < 60; seed += test::kStride) {
     const auto points = RandomCloud(seed, {19, 6, 11}, static_cast<double>(seed % 20) / 19.0);
     const int64_t expected = ReferenceEulerCharacteristic(ReferencePointSet(points));
     ASSERT_EQ(Chi(points), expected) << "seed " << seed;

@@ -11,6 +11,7 @@
 #include "core/import/shapes/shapes.h"
 #include "core/lattice/directions.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -93,7 +94,7 @@ TEST_P(EuclideanLaw, IsTheDistanceToTheNearestBackgroundPoint) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, EuclideanLaw, testing::Range<uint64_t>(0, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, EuclideanLaw, testing::Range<uint64_t>(0, 4, test::kStride));
 
 // Bricks whose neighbors are not stored are the borders of the scans.
 TEST(Euclidean, IsExactWhereBricksEnd) {
@@ -125,6 +126,7 @@ Volume Slab(int32_t height) {
 
 TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {
   for (const int32_t height : {252, 256}) {
+    if (test::kSanitized && height == 252) continue;  // slow there
     const Volume slab = Slab(height);
     const auto field = ComputeDistance(slab, DistanceKind::kEuclidean, exec::Context());
     ASSERT_TRUE(field.ok()) << field.status();
@@ -142,8 +144,10 @@ TEST(Euclidean, IsKeptWhereItTakesTwoBytesAPointOrIsSmall) {
   const auto is_kept = [](const Volume& object) {
     return StreamEuclidean(object, exec::Context(), nullptr, KeepField::kIfSmall)->has_value();
   };
-  EXPECT_TRUE(is_kept(Slab(200)));
-  EXPECT_FALSE(is_kept(Slab(256)));
+  if (!test::kSanitized) {  // slow there, and only figures
+    EXPECT_TRUE(is_kept(Slab(200)));
+    EXPECT_FALSE(is_kept(Slab(256)));
+  }
   EXPECT_TRUE(is_kept(Placed(test::RandomBlob(7, {40, 30, 30}, 6, 18), {1.0, 1.3, 3.7})));
 }
 

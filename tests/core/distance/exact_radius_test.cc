@@ -8,6 +8,7 @@
 
 #include "core/exec/instruction_sets.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -40,7 +41,7 @@ TEST_P(ExactRadiusLaw, IsFoundWithTheSameBitsWhateverTheField) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, ExactRadiusLaw, testing::Range<uint64_t>(0, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, ExactRadiusLaw, testing::Range<uint64_t>(0, 3, test::kStride));
 
 TEST(ExactRadii, AreTheSameForEveryInstructionSetAndWithoutTheFieldsValues) {
   const Volume object = Placed(test::RandomBlob(5, {40, 30, 30}, 3, 20), {0.3, 0.7, 1.5});

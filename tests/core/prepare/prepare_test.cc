@@ -15,6 +15,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -43,11 +44,11 @@ Points PointsAfter(const Points& points, const PreparingOptions& options) {
 
 std::vector<Points> RandomObjects() {
   std::vector<Points> objects;
-  for (uint64_t seed = 0; seed < 60; ++seed) {
+  for (uint64_t seed = 0; seed < 60; seed += test::kStride) {
     const double density = 0.05 + 0.9 * static_cast<double>(seed % 20) / 19;
     objects.push_back(test::Sorted(RandomCloud(seed, {35, 9, 10}, density)));
   }
-  for (uint64_t seed = 0; seed < 6; ++seed) {
+  for (uint64_t seed = 0; seed < 6; seed += test::kStride) {
     const Points blob = test::RandomBlob(seed, {60, 30, 30}, 4, 30);
     const ReferencePointSet solid(blob);
     Points border;
@@ -61,7 +62,7 @@ std::vector<Points> RandomObjects() {
 
 TEST(BricksAroundLaw, AreThoseUpToTheReachAndNoMoreThanStated) {
   for (const BrickCoordinates reach : {BrickCoordinates{0, 0, 0}, {1, 2, 3}, {5, 1, 0}}) {
-    for (uint64_t seed = 0; seed < 12; ++seed) {
+    for (uint64_t seed = 0; seed < 12; seed += test::kStride) {
       VolumeBuilder builder({1000, 300, 400});
       for (LatticePoint p : RandomCloud(seed, {24, 24, 12}, seed % 2 == 0 ? 0.003 : 0.1)) {
         builder.Add(
@@ -236,7 +237,7 @@ TEST(PrepareLaw, DoesAllStepsInTheirOrderForAnyNumberOfThreads) {
                                 .cavities = CavityFilling::kOn,
                                 .min_component_points = 4,
                                 .components = KeptComponents::kLargest};
-  for (uint64_t seed = 0; seed < 12; ++seed) {
+  for (uint64_t seed = 0; seed < 12; seed += test::kStride) {
     const Points points = test::Sorted(RandomCloud(seed, {40, 16, 16}, 0.42 + 0.01 * double(seed)));
     Points expected = test::ReferenceDenoised(test::ReferenceDenoised(points));
     expected = test::ReferenceFilled(expected);

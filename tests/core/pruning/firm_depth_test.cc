@@ -8,6 +8,7 @@
 #include "core/exec/instruction_sets.h"
 #include "core/prepare/denoise.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -48,7 +49,7 @@ TEST_P(FirmDepthLaw, IsTheDistanceToTheBackgroundOfTheObjectWithoutPits) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, FirmDepthLaw, testing::Range<uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Seeds, FirmDepthLaw, testing::Range<uint64_t>(0, 10, test::kStride));
 
 // Single pits in the middle of stored bricks are taken one by one.
 TEST(FirmDepth, PassesOverPitsInsideOfTheBody) {

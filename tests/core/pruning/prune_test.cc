@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "core/thinning/thinning.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel {
 namespace {
@@ -35,13 +38,16 @@ struct ShapeCase {
   size_t most;
 };
 
+constexpr std::array kAllNoises = {0.05, 0.0, 0.02, 0.1};
+constexpr auto kNoises = std::span(kAllNoises).first(test::kSanitized ? 1 : 4);
+
 class PrunedShapes : public testing::TestWithParam<ShapeCase> {};
 
 TEST_P(PrunedShapes, HaveTheirTrueEndsWithAndWithoutNoise) {
   const auto& [shape, fewest, most] = GetParam();
   const Volume clean = *GenerateShape(shape, {.points = 100'000});
   for (ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
-    for (double noise : {0.0, 0.02, 0.05, 0.1}) {
+    for (double noise : kNoises) {
       SCOPED_TRACE(noise);
       const Volume object = noise == 0 ? clean : test::WithSimpleNoise(clean, noise, 1);
       const auto result = Skeletonize(object, WithPruning({}, method), {});
@@ -165,7 +171,7 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4, test::kStride));
 
 }  // namespace
 }  // namespace bccskel

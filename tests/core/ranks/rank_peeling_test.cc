@@ -94,11 +94,14 @@ void ExpectSame(const ThinningResult& got, const ThinningResult& wanted) {
 
 class Peeling : public testing::TestWithParam<uint64_t> {};
 
-void ExpectSameForAllRanks(const ThinningOptions& options, uint64_t seed,
-                           DistanceKind kind = DistanceKind::kEuclidean) {
+// Two numbers of ranks an object, in turns: over the seeds each kind of object meets all of them.
+void ExpectSameOnRanks(const ThinningOptions& options, uint64_t seed,
+                       DistanceKind kind = DistanceKind::kEuclidean) {
+  size_t turn = seed;
   for (const Named& object : ObjectsOf(seed)) {
     const ThinningResult wanted = OnOneMachine(object.volume, options, kind);
-    for (const int ranks : kRanks) {
+    ++turn;
+    for (const int ranks : {kRanks[turn % 5], kRanks[(turn + 2) % 5]}) {
       SCOPED_TRACE(object.name + " on " + std::to_string(ranks) + " ranks");
       ExpectSame(OnRanks(object.volume, options, ranks, 1, kind), wanted);
     }
@@ -109,7 +112,7 @@ TEST_P(Peeling, SymmetricKindsAreThoseOfOneMachine) {
   for (const SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kSurface,
                                   SkeletonKind::kKernel, SkeletonKind::kIsthmusCurve}) {
     SCOPED_TRACE(static_cast<int>(kind));
-    ExpectSameForAllRanks({.method = ThinningMethod::kSymmetric, .kind = kind}, GetParam());
+    ExpectSameOnRanks({.method = ThinningMethod::kSymmetric, .kind = kind}, GetParam());
   }
 }
 
@@ -117,26 +120,26 @@ TEST_P(Peeling, DirectionalMethodsAreThoseOfOneMachine) {
   for (const ThinningMethod method :
        {ThinningMethod::kDirectional, ThinningMethod::kDirectionalAlternating}) {
     SCOPED_TRACE(static_cast<int>(method));
-    ExpectSameForAllRanks({.method = method}, GetParam());
+    ExpectSameOnRanks({.method = method}, GetParam());
   }
 }
 
 TEST_P(Peeling, ChamferDistancesAreThoseOfOneMachine) {
   for (const ThinningMethod method : {ThinningMethod::kSymmetric, ThinningMethod::kDirectional}) {
-    ExpectSameForAllRanks({.method = method}, GetParam(), DistanceKind::kChamfer);
+    ExpectSameOnRanks({.method = method}, GetParam(), DistanceKind::kChamfer);
   }
-  ExpectSameForAllRanks({}, GetParam(), DistanceKind::kChamferOptimal);
+  ExpectSameOnRanks({}, GetParam(), DistanceKind::kChamferOptimal);
 }
 
 TEST_P(Peeling, OptionsAreThoseOfOneMachine) {
   std::vector<LatticePoint> keep = {{0, 0, 0}};
   for (const LatticePoint p : test::RandomCloud(GetParam(), {40, 40, 40}, 0.001)) keep.push_back(p);
   for (const ThinningMethod method : {ThinningMethod::kSymmetric, ThinningMethod::kDirectional}) {
-    ExpectSameForAllRanks({.method = method, .stubble = StubblePolicy::kLiteral, .shell_width = 2},
-                          GetParam());
-    ExpectSameForAllRanks({.method = method, .stubble = StubblePolicy::kNone, .last_shell = 2},
-                          GetParam());
-    ExpectSameForAllRanks({.method = method, .keep = keep}, GetParam());
+    ExpectSameOnRanks({.method = method, .stubble = StubblePolicy::kLiteral, .shell_width = 2},
+                      GetParam());
+    ExpectSameOnRanks({.method = method, .stubble = StubblePolicy::kNone, .last_shell = 2},
+                      GetParam());
+    ExpectSameOnRanks({.method = method, .keep = keep}, GetParam());
   }
 }
 

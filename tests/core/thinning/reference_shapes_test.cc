@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/certificate/certificate.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/worker_team.h"
 #include "core/import/shapes/shapes.h"
@@ -55,9 +56,9 @@ TEST_P(ShapesAgreement, EngineAndReferenceGiveTheSamePoints) {
 
 TEST_P(ShapesAgreement, ThinningKeepsTheTopologyAndLeavesNoSimpleNonEndPoint) {
   const Volume object = Generate(0);
-  const test::ReferencePointSet thin(Thin(object, {}, 2).thin);
-  EXPECT_EQ(test::ReferenceBetti(thin), test::ReferenceBetti(test::ReferencePointSet(object)));
-  EXPECT_EQ(test::ReferenceSimpleNonEndPoints(thin), 0u);
+  const Volume thin = Thin(object, {}, 2).thin;
+  EXPECT_EQ(*CountBettiNumbers(thin, {}), *CountBettiNumbers(object, {}));  // without flood fills
+  EXPECT_EQ(test::ReferenceSimpleNonEndPoints(test::ReferencePointSet(thin)), 0u);
 }
 
 // The paper's unit of shells, and shells wider than a brick is thick.
