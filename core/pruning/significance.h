@@ -43,10 +43,11 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& n
 //        begins, at one of the first seven of 11 places of the run, whichever makes the most of
 //        it: the run may begin in something flat that the limb leaves. H is the half-width of the
 //        object across the branch, the median of the places from there on, each the widest of
-//        eight lines and, where S by these is 0.35 or more, of up to ten more beside the widest:
-//        lines that do not lie in a thin plate leave it soon. In a wall, where H > 2.5 D + 3, the
-//        widest line goes on where the wall bends, round or with an edge; so do 16 lines in the
-//        wall, of which the third shortest is W, the radius of the circle inscribed in the wall.
+//        eight lines and, where S by these is 0.35 or more and H more than 1.5 D + 1, of up to ten
+//        more beside the widest: lines that do not lie in a thin plate leave it soon. In a wall,
+//        where H > 2.5 D + 3, the widest line goes on where the wall bends, round or with an edge;
+//        so do 16 lines in the wall, of which the third shortest is W, the radius of the circle
+//        inscribed in the wall.
 //        Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the place of that in the
 //        elongation: in a wall W is what D is in space. `uncovered` is the share of the run that
 //        lies outside 0.9 of the balls of other branches. In a limb H is D; a rib lies in
@@ -57,8 +58,8 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& n
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
 // Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it
-//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay, and in a
-//        wall up to 198 more that follow it.
+//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay and is not
+//        round, and in a wall up to 198 more that follow it.
 // Threads: one thread per instance; LookAhead() uses the context's.
 class Significance {
  public:
