@@ -12,12 +12,15 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]" || (number && host.rfind("127.", 0) == 0);
 }
 
-// gRPC takes port 99999 for 34463, and a URL for the name of a host.
-absl::Status CheckAddress(const std::string& address) {
+// gRPC takes port 99999 for 34463, a URL for the name of a host, and a name alone for port 443,
+// where servers with TLS are.
+absl::Status CheckAddress(const std::string& address, bool tls) {
   if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
-  const std::string port = address.substr(address.rfind(':') + 1);
+  const size_t colon = address.rfind(':');
+  const std::string alone = tls ? "443" : "";
+  const std::string port = colon == std::string::npos ? alone : address.substr(colon + 1);
   const bool digits = port.find_first_not_of("0123456789") == std::string::npos;
-  const bool fits = !digits || (!port.empty() && port.size() <= 5 && std::stoi(port) <= 65535);
+  const bool fits = digits && !port.empty() && port.size() <= 5 && std::stoi(port) <= 65535;
   const bool url = address.rfind("http://", 0) == 0 || address.rfind("https://", 0) == 0;
   if (!address.empty() && !url && fits) return absl::OkStatus();
   return absl::InvalidArgumentError("'" + address +
@@ -35,7 +38,7 @@ absl::Status CheckPem(const std::string& text, const char* what, const char* mar
 
 absl::Status CheckEndpoint(const Endpoint& endpoint) {
   const TlsMaterial& tls = endpoint.tls;
-  BCCSKEL_RETURN_IF_ERROR(CheckAddress(endpoint.address));
+  BCCSKEL_RETURN_IF_ERROR(CheckAddress(endpoint.address, !tls.ca.empty()));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.ca, "the file of authorities", "CERTIFICATE-----"));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.certificate, "the certificate", "CERTIFICATE-----"));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.key, "the key", "PRIVATE KEY-----"));

@@ -23,8 +23,7 @@ constexpr size_t kRoots = 7;     // of the places, the first: there the limb may
 constexpr size_t kNearTip = 9;   // of the places
 constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
-// Half-width by radius: a plate is wider along one of eight lines, as these are 22.5 degrees apart.
-constexpr double kRoundness = 1.5;
+constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
 constexpr double kRoundMargin = 1;
 constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
 constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface

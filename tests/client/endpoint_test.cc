@@ -57,12 +57,13 @@ TEST(Endpoint, ACertificateNeedsItsKeyAndTls) {
 }
 
 TEST(Endpoint, AnAddressIsAHostWithAPortOrAPath) {
-  for (const char* address : {"a:1", "a", "[::1]:65535", "unix:/run/x:y", "dns:///a:1"}) {
+  for (const char* address : {"a:1", "[::1]:65535", "unix:/run/x:y", "dns:///a:1"}) {
     Endpoint endpoint;
     endpoint.address = address;
     EXPECT_TRUE(CheckEndpoint(endpoint).ok()) << address;
   }
-  for (const char* address : {"", ":", "a:", "a:65536", "a:4294967297", "http://a:1"}) {
+  for (const char* address :
+       {"", ":", "a", "localhost", "[::1]", "a:", "a:b", "a:65536", "a:4294967297", "http://a:1"}) {
     Endpoint endpoint;
     endpoint.address = address;
     EXPECT_EQ(
@@ -70,6 +71,14 @@ TEST(Endpoint, AnAddressIsAHostWithAPortOrAPath) {
         absl::InvalidArgumentError(absl::StrCat(
             "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH")));
   }
+}
+
+TEST(Endpoint, AHostAloneIsThatOfAServerWithTls) {
+  Endpoint endpoint;
+  endpoint.address = "skeletons.example.org";
+  EXPECT_FALSE(CheckEndpoint(endpoint).ok());
+  endpoint.tls.ca = kCertificate;
+  EXPECT_TRUE(CheckEndpoint(endpoint).ok());
 }
 
 TEST(Endpoint, FilesThatAreNoPemAreRefused) {

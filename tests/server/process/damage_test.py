@@ -174,7 +174,7 @@ class AlertTest(DurableTest):
         labels = yaml.safe_load(re.sub(r"(\w+)=", r"\1: ", series[0][series[0].index("{"):]))
         alert = {"exp_labels": {"severity": "critical", **labels}, "exp_annotations": {
             "summary": ": a stored file does not match its checksum", "description":
-            "Look at the disk below --data-dir. The jobs concerned have to be sent again."}}
+            "Look at the disk below --data-dir. Submit the affected jobs again."}}
         test = {"rule_files": [str(SOURCE / "docker/prometheus/alerts.yml")], "tests": [{
             "interval": "10s",
             "input_series": [{"series": name, "values":
