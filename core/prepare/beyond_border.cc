@@ -28,8 +28,8 @@ uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
   return (corners.PointCount() + voxels.PointCount()) / 2;
 }
 
-// The points beyond the window in the object's bricks and those beside them.
-Volume PointsBeyond(const Volume& object, const LatticeBox& window) {
+// Of the object's bricks and those beside them, those with points beyond the window.
+std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& window) {
   std::vector<BrickKey> keys;
   const auto add = [&](BrickCoordinates brick) {
     const bool exists = std::min({brick.bx, brick.by, brick.bz}) >= 0;
@@ -48,6 +48,11 @@ Volume PointsBeyond(const Volume& object, const LatticeBox& window) {
   }
   std::ranges::sort(keys);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+// The points beyond the window in these bricks.
+Volume PointsBeyond(const Volume& object, const LatticeBox& window, std::vector<BrickKey> keys) {
   std::vector<BrickBits> bricks(keys.size());
   for (size_t n = 0; n < keys.size(); ++n) {
     for (int bit = 0; bit < kBrickPoints; ++bit) {
@@ -90,12 +95,14 @@ absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints b
   const LatticeExtent& extent = object.extent();
   if (object.PointCount() == PointCountOf(extent, border)) return object;
   const LatticeBox window = BoxWithin(extent, border);
-  Volume space = Union(PointsBeyond(object, window), object);
-  space.SetWindow(window);
+  std::vector<BrickKey> keys = BricksBeyond(object, window);
+  const auto added = static_cast<uint64_t>(
+      std::ranges::count_if(keys, [&](BrickKey key) { return !object.Find(key).has_value(); }));
   BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(object.brick_count(), kBytesPerCopiedBrick,
                                          "bricks with what is beyond the border"));
-  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(space.brick_count() - object.brick_count(), kBytesPerBrick,
-                                         "bricks beyond the border"));
+  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(added, kBytesPerBrick, "bricks beyond the border"));
+  Volume space = Union(PointsBeyond(object, window, std::move(keys)), object);
+  space.SetWindow(window);
   return space;
 }
 
