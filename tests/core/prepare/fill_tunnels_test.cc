@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/exec/worker_team.h"
+#include "core/lattice/directions.h"
 #include "tests/core/prepare/reference_prepare.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
