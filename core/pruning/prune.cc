@@ -99,8 +99,10 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
   }
   PruningLevels levels;
-  const auto find_levels = [&, before = set](const exec::Context& own) {
-    levels = PruningLevelsOf(before, significance, RuleOfLevels(options, curves), kept, own);
+  ThinSet before_tips = set;
+  const auto find_levels = [&](const exec::Context& own) {
+    levels = PruningLevelsOf(std::move(before_tips), significance, RuleOfLevels(options, curves),
+                             kept, own);
   };
   absl::Status placed;
   const auto place_tips = [&](const exec::Context& own) {
