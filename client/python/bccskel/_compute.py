@@ -222,8 +222,7 @@ def read(path: Union[str, os.PathLike],
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, "
                          ".raw, ...), folders of OME-Zarr and precomputed, meshes (.obj, .stl, .ply, "
-                         ".off), "
-                         "results (.json) and lattices (.exr, .bccb)")
+                         ".off), results (.json) and lattices (.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
     return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,
