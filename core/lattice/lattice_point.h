@@ -84,6 +84,9 @@ struct LatticeBox {
     return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
            p.z <= high.z;
   }
+  constexpr bool Contains(const LatticeBox& other) const {
+    return Contains(other.low) && Contains(other.high);
+  }
   constexpr bool Meets(const LatticeBox& other) const {
     return other.low.x <= high.x && other.low.y <= high.y && other.low.z <= high.z &&
            other.high.x >= low.x && other.high.y >= low.y && other.high.z >= low.z;

@@ -33,9 +33,7 @@ std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& windo
   std::vector<BrickKey> keys;
   const auto add = [&](BrickCoordinates brick) {
     const bool exists = std::min({brick.bx, brick.by, brick.bz}) >= 0;
-    const bool is_within =
-        window.Contains(PointOf(brick, 0)) && window.Contains(PointOf(brick, kBrickPoints - 1));
-    if (exists && !is_within) keys.push_back(BrickKey(brick));
+    if (exists && !window.Contains(BoxOf(brick))) keys.push_back(BrickKey(brick));
   };
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     const BrickCoordinates brick = object.keys()[n].coordinates();

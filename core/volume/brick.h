@@ -103,6 +103,11 @@ constexpr LatticePoint PointOf(BrickCoordinates brick, int bit) {
                  brick.by * kBrickY + ((bit >> 4) & 3), brick.bz * kBrickZ + (bit >> 6));
 }
 
+// That of its points.
+constexpr LatticeBox BoxOf(BrickCoordinates brick) {
+  return {PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)};
+}
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_VOLUME_BRICK_H_

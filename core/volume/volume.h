@@ -53,14 +53,11 @@ class Volume {
   void SetWindow(const std::optional<LatticeBox>& window) { window_ = window; }
   // Whether all of the brick lies outside the window.
   bool IsUnknown(const BrickCoordinates& brick) const {
-    return window_.has_value() &&
-           !window_->Meets({PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)});
+    return window_.has_value() && !window_->Meets(BoxOf(brick));
   }
-
   // Whether some of it does.
   bool IsPartlyUnknown(const BrickCoordinates& brick) const {
-    return window_.has_value() && !(window_->Contains(PointOf(brick, 0)) &&
-                                    window_->Contains(PointOf(brick, kBrickPoints - 1)));
+    return window_.has_value() && !window_->Contains(BoxOf(brick));
   }
 
   std::optional<BrickIndex> Find(BrickKey key) const;
