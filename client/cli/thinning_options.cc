@@ -44,11 +44,6 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
       "Fill the cavities of the object; each leaves a closed surface in the skeleton");
-  command
-      .add_option("--cut-loops", preparing.tunnel_width,
-                  "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
-                  "(default 0: none)")
-      ->option_text("X");
   AddCount(command, "--min-component", preparing.min_component_points,
            "Drop components of fewer than N points (default 0)");
   command
@@ -58,6 +53,11 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
       "Drop all components but the largest");
+  command
+      .add_option("--cut-loops", preparing.tunnel_width,
+                  "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
+                  "(default 0: none)")
+      ->option_text("X");
 }
 
 void AddDistance(CLI::App& command, DistanceKind& distance) {
@@ -76,6 +76,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
           "Significance: how far a branch sticks out, in half-widths of the object beside it "
           "(default 0.45); length: world units; relative-length: radii of the junction "
           "(default 1); persistence: thinning passes (default 6)")
+      ->check(Positive())  // 0 would stand for the default
       ->option_text("X");
   AddChoice<TipPlacement>(
       command, "--tips", pruning.tips,

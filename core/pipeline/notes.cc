@@ -31,16 +31,25 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   constexpr double kVoxels = 2;
   const SkeletonizeOptions& options = result.options;
   const double edge = SurfaceStepOf(options.source);  // of the shortest, in lattice units
-  if (edge == 1 || !MakesCurves(options.thinning.kind) || options.preparing.tunnel_width > 0) {
-    return;
-  }
+  if (edge == 1 || !MakesCurves(options.thinning.kind)) return;
+  const PreparingOptions& preparing = options.preparing;
+  const bool cut = preparing.tunnel_width > 0 || preparing.tunnel_cells > 0;
+  const bool dust = result.certificate.input.components > 1 &&
+                    preparing.min_component_points == 0 && preparing.min_component_volume == 0;
+  if (cut && !dust) return;
   const double width = kVoxels * edge * WorldUnitsPerLatticeUnit(result.graph.placement);
   const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
   if (loops == 0) return;
-  notes.push_back(Counted(loops, "loop is", "loops are") +
-                  absl::StrFormat(" narrower than %g voxels, as noise makes them; --cut-loops %g "
-                                  "closes such tunnels before thinning",
-                                  kVoxels, width));
+  const std::string what = Counted(loops, "loop is", "loops are") +
+                           absl::StrFormat(" narrower than %g voxels", kVoxels);
+  if (cut) {
+    notes.push_back(what + "; tunnels with another component in them stay open: --min-component "
+                           "200 drops specks before");
+    return;
+  }
+  notes.push_back(what + absl::StrFormat(", as noise makes them; --cut-loops %g closes such "
+                                         "tunnels before thinning",
+                                         width));
 }
 
 void AddEmpty(const SkeletonizeResult& result, Notes& notes) {

@@ -15,15 +15,15 @@ namespace {
 constexpr std::array kPresets = {
     Preset{"neuron",
            "traced or segmented neurons: removes cavities, small tunnels and specks",
-           {.cavities = CavityFilling::kOn, .tunnel_cells = 4, .min_component_points = 200}},
+           {.cavities = CavityFilling::kOn, .min_component_points = 200, .tunnel_cells = 4}},
     Preset{"vessels",
            "blood vessels: removes cavities, pinholes and specks; keeps rings of vessels",
-           {.cavities = CavityFilling::kOn, .tunnel_cells = 2, .min_component_points = 200}},
+           {.cavities = CavityFilling::kOn, .min_component_points = 200, .tunnel_cells = 2}},
     Preset{"airway",
            "one tree of airways or ducts: removes cavities, small tunnels and all but the tree",
            {.cavities = CavityFilling::kOn,
-            .tunnel_cells = 4,
-            .components = KeptComponents::kLargest}},
+            .components = KeptComponents::kLargest,
+            .tunnel_cells = 4}},
     Preset{"materials",
            "fibers, foams and pores: removes cavities and specks; keeps all tunnels",
            {.cavities = CavityFilling::kOn, .min_component_points = 200}},
@@ -53,13 +53,13 @@ std::string OptionsOf(const Preset& preset) {
   const PreparingOptions& preparing = preset.preparing;
   std::vector<std::string> words;
   if (preparing.cavities == CavityFilling::kOn) words.push_back("--fill-cavities");
-  if (preparing.tunnel_cells > 0) {
-    words.push_back(absl::StrCat("--cut-loops for ", preparing.tunnel_cells, " voxels"));
-  }
   if (preparing.min_component_points > 0) {
     words.push_back(absl::StrCat("--min-component ", preparing.min_component_points));
   }
   if (preparing.components == KeptComponents::kLargest) words.push_back("--keep-largest");
+  if (preparing.tunnel_cells > 0) {
+    words.push_back(absl::StrCat("--cut-loops for ", preparing.tunnel_cells, " voxels"));
+  }
   if (preset.pruning_threshold > 0) {
     words.push_back(absl::StrCat("--pruning-threshold ", preset.pruning_threshold));
   }

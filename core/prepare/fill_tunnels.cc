@@ -12,6 +12,7 @@
 
 #include "core/certificate/component_sets.h"
 #include "core/certificate/neighbor_planes.h"
+#include "core/certificate/union_find.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/distance_field.h"
 #include "core/distance/places.h"
@@ -311,20 +312,58 @@ class TunnelFiller {
     return std::move(filled.object);
   }
 
-  // A few pieces together may close the mouths of what then is a cavity.
+  // What a piece that would be filled leads to: background that would be enclosed, or the outside.
+  struct Way {
+    size_t piece = 0;
+    std::vector<size_t> regions;
+  };
+
+  // Pieces may close all mouths of what then is a cavity. As many stay open as connect each such
+  // region with the outside, those first that cost the fewest loops (Kruskal's algorithm). More are
+  // not needed: a piece is connected, and so was the background before.
   absl::Status RefuseNewCavities() {
-    while (true) {
-      filled_ = Filled();
-      BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, CavitiesFilled(filled_));
-      const Volume enclosed = Difference(Difference(closed, filled_), cavities_filled_);
-      if (enclosed.empty()) return context_.StopStatus();
-      enclosed.ForEachPoint([&](LatticePoint p) {
-        for (LatticePoint offset : kDirections14) {
-          if (pieces_.Contains(p + offset)) PieceOf(p + offset).refused = true;
-        }
-      });
-      BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    filled_ = Filled();
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, CavitiesFilled(filled_));
+    const Volume enclosed = Difference(Difference(closed, filled_), cavities_filled_);
+    if (enclosed.empty()) return context_.StopStatus();
+    ComponentSets regions(enclosed, Phase::kObject, context_);
+    BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
+    const size_t outside = regions.name_limit();
+    std::vector<Way> ways = WaysToRegions(closed, enclosed, regions);
+    std::ranges::stable_sort(ways, {}, [&](const Way& way) { return judged_[way.piece].euler; });
+    UnionFind connected(outside + 1);
+    for (const Way& way : ways) {
+      for (size_t region : way.regions) {
+        if (connected.Unite(way.regions.front(), region)) judged_[way.piece].refused = true;
+      }
     }
+    filled_ = Filled();
+    return context_.StopStatus();
+  }
+
+  // In the order of the pieces' first points, since names depend on threads.
+  std::vector<Way> WaysToRegions(const Volume& closed, const Volume& enclosed,
+                                 ComponentSets& regions) {
+    constexpr size_t kNone = std::numeric_limits<size_t>::max();
+    std::vector<size_t> way_of(judged_.size(), kNone);
+    std::vector<Way> ways;
+    pieces_.ForEachPoint([&](LatticePoint p) {
+      const size_t piece = ComponentOf(pieces_, *names_, p);
+      if (!judged_[piece].IsFilled()) return;
+      if (way_of[piece] == kNone) {
+        way_of[piece] = ways.size();
+        ways.push_back({.piece = piece, .regions = {}});
+      }
+      std::vector<size_t>& leads_to = ways[way_of[piece]].regions;
+      for (LatticePoint offset : kDirections14) {
+        const LatticePoint q = p + offset;
+        if (closed.Contains(q) && !enclosed.Contains(q)) continue;
+        const size_t region =
+            closed.Contains(q) ? ComponentOf(enclosed, regions, q) : regions.name_limit();
+        if (leads_to.empty() || leads_to.back() != region) leads_to.push_back(region);
+      }
+    });
+    return ways;
   }
 
   absl::StatusOr<ChangedVolume> Result() {

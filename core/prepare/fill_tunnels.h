@@ -14,14 +14,15 @@ inline constexpr double kMaxTunnelWidth = 256;
 // Does:  fills tunnels through which a ball of diameter `width` (lattice units) does not fit, with
 //        the crevices beside them that it does not enter either; counts the loops that go.
 // How:   a closing by that ball, that is all points that it cannot reach from outside, falls into
-//        connected pieces. A piece is filled if that raises the Euler characteristic, it touches
-//        one component of the object and no cavity and, together with the other filled pieces,
-//        encloses none. So components and cavities stay, and each unit that the characteristic
-//        rises is a loop less. Narrow balls come first, each twice as wide as the last: the pieces
-//        of a wide one join a tunnel to the crevices around it.
+//        connected pieces. A piece is filled if that raises the Euler characteristic and it touches
+//        one component of the object and no cavity. Of the pieces around what they would enclose
+//        together, as many stay open as connect it with the outside. So components and cavities
+//        stay, and each unit that the characteristic rises is a loop less. Narrow balls come first,
+//        each twice as wide as the last: the pieces of a wide one join a tunnel to the crevices
+//        around it.
 // Cost:  for each ball two Euclidean distance fields over the bricks around the object, for a small
-//        one a visit to its points around each point of the surface; and a labeling of the
-//        background for each round in which pieces are refused.
+//        one a visit to its points around each point of the surface; and two labelings of the
+//        background.
 // Errors: of the budget; CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           exec::MemoryBudget& memory, const exec::Context& context);

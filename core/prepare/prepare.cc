@@ -36,8 +36,6 @@ class Preparation {
       BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kFillCavities,
                                    FillCavities(prepared_.object, options_.max_bricks, context_)));
     }
-    if (options_.tunnel_width > 0 || options_.tunnel_cells > 0)
-      BCCSKEL_RETURN_IF_ERROR(RunFillTunnels());
     const uint64_t least =
         std::max(options_.min_component_points,
                  PointsIn(options_.min_component_volume, prepared_.object.placement()));
@@ -48,6 +46,10 @@ class Preparation {
     if (options_.components == KeptComponents::kLargest) {
       BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kKeepLargestComponent,
                                    KeepLargestComponent(prepared_.object, context_)));
+    }
+    // After the components: a tunnel with dust in it stays open.
+    if (options_.tunnel_width > 0 || options_.tunnel_cells > 0) {
+      BCCSKEL_RETURN_IF_ERROR(RunFillTunnels());
     }
     return std::move(prepared_);
   }

@@ -24,17 +24,18 @@ struct PreparingOptions {
   int32_t denoise_passes = 0;
   // Makes object of all background that does not reach the outside.
   CavityFilling cavities = CavityFilling::kOff;
-  // Fills tunnels that are narrower, in world units, up to 256 half edges of the cubic cell; 0
-  // fills none. Components and cavities stay as they are.
-  double tunnel_width = 0;
-  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points.
-  double tunnel_cells = 0;
   // Components of fewer points are dropped.
   uint64_t min_component_points = 0;
   // The same by volume, in cubic world units; 0 drops none.
   double min_component_volume = 0;
   // Of two largest components the one stays that has the first point in brick order.
   KeptComponents components = KeptComponents::kAll;
+  // Fills tunnels that are narrower, in world units, up to 256 half edges of the cubic cell; 0
+  // fills none. Components and cavities stay as they
+  // are, so a tunnel in which another component lies stays, too.
+  double tunnel_width = 0;
+  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points.
+  double tunnel_cells = 0;
 
   // A larger object is not made: cavities may hold far more bricks than the object.
   uint64_t max_bricks = std::numeric_limits<uint32_t>::max() - 1;
@@ -55,9 +56,9 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options);
 enum class PreparingStepKind : uint8_t {
   kDenoise,
   kFillCavities,
-  kFillTunnels,
   kDropSmallComponents,
   kKeepLargestComponent,
+  kFillTunnels,
 };
 
 // What a step did.

@@ -57,11 +57,11 @@ TEST(ResultDocumentTest, KnowsHowTheObjectWasPrepared) {
   exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   sample.result.options.preparing = {.denoise_passes = 2,
                                      .cavities = CavityFilling::kOn,
-                                     .tunnel_width = 0.5,
-                                     .tunnel_cells = 3,
                                      .min_component_points = 7,
                                      .min_component_volume = 0.25,
-                                     .components = KeptComponents::kLargest};
+                                     .components = KeptComponents::kLargest,
+                                     .tunnel_width = 0.5,
+                                     .tunnel_cells = 3};
   const auto document = ParseResultDocument(exporting::JsonText(sample.result));
   ASSERT_TRUE(document.ok()) << document.status();
   EXPECT_EQ(document->preparing, sample.result.options.preparing);

@@ -14,9 +14,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A bar of 40 x 7 x 7 voxels with square holes across it, each as wide as told.
+// A bar of 40 x 7 x 7 voxels with square holes across it, each as wide as told, and a voxel in the
+// middle of the last one if there shall be dust.
 SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double voxel,
-                               double tunnel_width = 0) {
+                               const PreparingOptions& preparing = {}, bool dust = false) {
   test::ReferenceMask mask{44, 20, 9, std::vector<uint8_t>(44 * 20 * 9)};
   const auto set = [&](int32_t x, int32_t y, uint8_t value) {
     for (int32_t z = 1; z < 8; ++z) mask.voxels[mask.Index(x, y, z)] = value;
@@ -33,10 +34,11 @@ SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double vox
     }
     at += width + 9;
   }
+  if (dust) mask.voxels[mask.Index(at - 9 - widths.end()[-1] / 2 - 1, 10, 4)] = 1;
   Placement placement;
   placement.spacing = {voxel, voxel, voxel};
   SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
-  options.preparing.tunnel_width = tunnel_width;
+  options.preparing = preparing;
   return *Skeletonize(Converted(mask, {}, placement).volume, options, {});
 }
 
@@ -54,9 +56,17 @@ TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   EXPECT_THAT(NotesOn(result), ElementsAre("2 loops are narrower than 2 voxels, as noise makes "
                                            "them; --cut-loops 16 closes such tunnels before "
                                            "thinning"));
-  const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, 16);
+  const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, {.tunnel_width = 16});
   EXPECT_EQ(closed.certificate.skeleton.loops, 1);
   EXPECT_THAT(NotesOn(closed), ElementsAre(HasSubstr("loops 3 -> 1")));
+}
+
+TEST(NarrowLoops, StayWithDustInThemUnlessItIsDropped) {
+  const SkeletonizeResult stays = BarWithHoles({1, 3}, 1, {.tunnel_cells = 4}, true);
+  EXPECT_EQ(stays.certificate.input, (BettiNumbers{2, 1, 0}));
+  const SkeletonizeResult closed =
+      BarWithHoles({1, 3}, 1, {.min_component_points = 200, .tunnel_cells = 4}, true);
+  EXPECT_EQ(closed.certificate.input, (BettiNumbers{1, 0, 0}));
 }
 
 TEST(NarrowLoops, AreNotNotedWhereAllAreWide) {

@@ -134,12 +134,26 @@ IsIn Bottle(int mouths) {
   };
 }
 
-TEST(FillTunnels, ClosesNoBottle) {
+TEST(FillTunnels, LeavesABottleOneMouth) {
   for (const int mouths : {1, 2}) {
     const Volume bottle = test::VolumeWhere(41, Bottle(mouths));
     ASSERT_EQ(test::BettiOf(bottle), (BettiNumbers{1, mouths - 1, 0}));
-    EXPECT_EQ(test::BettiOf(Filled(bottle, 14).object).cavities, 0);
+    EXPECT_EQ(test::BettiOf(Filled(bottle, 14).object), (BettiNumbers{1, 0, 0}));
   }
+}
+
+// Pores are wider than the passages between them and from the outer ones to the outside.
+TEST(FillTunnels, TakesAllLoopsOfASponge) {
+  const Volume sponge = test::VolumeWhere(41, [](double x, double y, double z) {
+    const auto to_pore = [](double t) { return std::abs(std::remainder(t - 40, 20)); };
+    const double dx = to_pore(x), dy = to_pore(y), dz = to_pore(z);
+    const double passage = std::min({std::hypot(dx, dy), std::hypot(dy, dz), std::hypot(dx, dz)});
+    return std::max({std::abs(x - 40), std::abs(y - 40), std::abs(z - 40)}) <= 30 &&
+           std::hypot(dx, dy, dz) > 7 && passage > 2.5;
+  });
+  ASSERT_EQ(test::BettiOf(sponge), (BettiNumbers{1, 81, 0}));
+  EXPECT_EQ(test::BettiOf(Filled(sponge, 6).object), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(test::BettiOf(Filled(sponge, 24).object), (BettiNumbers{1, 0, 0}));
 }
 
 TEST(FillTunnels, LeavesCavitiesAndNeighborsAlone) {

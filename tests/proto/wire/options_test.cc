@@ -105,11 +105,11 @@ TEST(OptionsRoundTrip, KeepsPreparing) {
     for (KeptComponents components : {KeptComponents::kAll, KeptComponents::kLargest}) {
       const PreparingOptions preparing = {.denoise_passes = 3,
                                           .cavities = cavities,
-                                          .tunnel_width = 0.5,
-                                          .tunnel_cells = 3,
                                           .min_component_points = uint64_t{1} << 40,
                                           .min_component_volume = 2.5,
-                                          .components = components};
+                                          .components = components,
+                                          .tunnel_width = 0.5,
+                                          .tunnel_cells = 3};
       const auto back =
           FromMessage(ToMessage(SkeletonizeOptions{.preparing = preparing}), "options");
       ASSERT_TRUE(back.ok()) << back.status();
