@@ -40,11 +40,12 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   const double width = kVoxels * edge * WorldUnitsPerLatticeUnit(result.graph.placement);
   const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
   if (loops == 0) return;
-  const std::string what = Counted(loops, "loop is", "loops are") +
-                           absl::StrFormat(" narrower than %g voxels", kVoxels);
+  const std::string what =
+      Counted(loops, "loop is", "loops are") + absl::StrFormat(" narrower than %g voxels", kVoxels);
   if (cut) {
-    notes.push_back(what + "; tunnels with another component in them stay open: --min-component "
-                           "200 drops specks before");
+    notes.push_back(what +
+                    "; tunnels with another component in them stay open: --min-component "
+                    "200 drops specks before");
     return;
   }
   notes.push_back(what + absl::StrFormat(", as noise makes them; --cut-loops %g closes such "

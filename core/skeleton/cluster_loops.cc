@@ -72,24 +72,15 @@ ClusterLoopFinder::ClusterLoopFinder(const ThinPoints& points, const Clusters& c
       masks_(clusters.inner_masks().begin(), clusters.inner_masks().end()),
       trees_(points, masks_) {}
 
-ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster,
-                                     const std::function<bool(PointPath)>& add) {
+ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster) {
   const std::vector<PointIndex> kernel = ThinToKernel(cluster);
   ClusterLoops loops;
   loops.at = points_.DeepestOf(kernel);
   trees_.GrowFrom(loops.at, poll_);
   const std::vector<Chord> chords = FindChords(kernel);
   const std::vector<uint8_t> is_free = FindFreeChords(kernel, chords);
-  size_t room = kPathPointsPerPoint * cluster.points.size();
-  for (size_t n = 0; n < chords.size() && !poll_.StoppedNow(); ++n) {
-    if (is_free[n] == 0) continue;
-    const size_t points = chords[n].steps + 1;
-    if (points > room) {
-      ++loops.without_path;
-      continue;
-    }
-    room -= points;
-    if (!add(CloseLoop(chords[n]))) break;
+  for (size_t n = 0; n < chords.size(); ++n) {
+    if (is_free[n] != 0) loops.chords.push_back(chords[n]);
   }
   return loops;
 }
@@ -125,8 +116,7 @@ void ClusterLoopFinder::Remove(PointIndex p) {
   masks_[p] = 0;
 }
 
-std::vector<ClusterLoopFinder::Chord> ClusterLoopFinder::FindChords(
-    std::span<const PointIndex> kernel) const {
+std::vector<Chord> ClusterLoopFinder::FindChords(std::span<const PointIndex> kernel) const {
   std::vector<Chord> chords;
   for (PointIndex a : kernel) {
     ForEachDirection(masks_[a], [&](Direction d) {

@@ -3,7 +3,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,40 +13,44 @@
 
 namespace bccskel {
 
-// The loops that a cluster encloses: closed paths through its points, one for each loop of its
-// topology, that together make up all of them (a basis of its first homology group). All paths
-// start at one point, so those of a large sponge would be longer the larger it is: the longest are
-// only counted where paths would have more than kPathPointsPerPoint points for each of the cluster.
-struct ClusterLoops {
-  PointIndex at = 0;          // first and last point of every path
-  uint32_t without_path = 0;  // loops beside those of the paths
+// An edge between two points of a cluster, a < b, that closes a loop of `steps` steps with their
+// paths to the middle. Sorted by that.
+struct Chord {
+  uint32_t steps;
+  PointIndex a;
+  PointIndex b;
+  friend auto operator<=>(const Chord&, const Chord&) = default;
 };
-inline constexpr size_t kPathPointsPerPoint = 64;
+
+// The loops that a cluster encloses: one chord for each loop of its topology. With the tree of
+// shortest paths to the middle they make up all of them (a basis of its first homology group).
+struct ClusterLoops {
+  PointIndex at = 0;  // the middle: the root of the tree
+  std::vector<Chord> chords;
+};
 
 // Finds the loops of one cluster after the other.
 class ClusterLoopFinder {
  public:
   ClusterLoopFinder(const ThinPoints& points, const Clusters& clusters, StopPoll& poll);
 
-  // Calls add(path) for each path, in order of length, then of points, as long as it says true.
+  // Chords in order of length, then of points.
   // Needs: one of the clusters, with loops and without cavities, not asked for before.
-  ClusterLoops Find(const Cluster& cluster, const std::function<bool(PointPath)>& add);
+  ClusterLoops Find(const Cluster& cluster);
+
+  // Of a cluster that was asked for: whether the tree reaches p, and p's next point towards the
+  // root.
+  bool IsInTree(PointIndex p) const { return masks_[p] != 0; }
+  PointIndex Parent(PointIndex p) const { return trees_.Parent(p); }
+  // From the root along both paths and the chord.
+  PointPath CloseLoop(const Chord& chord) const;
 
  private:
-  // An edge of a kernel outside its tree, a < b. Sorted by the length of the loop that it closes.
-  struct Chord {
-    uint32_t steps;
-    PointIndex a;
-    PointIndex b;
-    friend auto operator<=>(const Chord&, const Chord&) = default;
-  };
-
   std::vector<PointIndex> ThinToKernel(const Cluster& cluster);
   void Remove(PointIndex p);
   std::vector<Chord> FindChords(std::span<const PointIndex> kernel) const;
   std::vector<uint8_t> FindFreeChords(std::span<const PointIndex> kernel,
                                       std::span<const Chord> chords);
-  PointPath CloseLoop(const Chord& chord) const;
 
   const ThinPoints& points_;
   StopPoll& poll_;

@@ -19,7 +19,8 @@ namespace bccskel {
 // A cluster is a connected set of points that are not on a plain curve: three or more neighbors, or
 // two that are adjacent to each other. A cluster without loops and cavities counts as one point: it
 // is an isolated point, an end, a bend of its branch (no node) or a junction when it has no, one,
-// two or more branches.
+// two or more branches. A large cluster becomes several junctions, so that the points on edges stay
+// as many as the skeleton's, times a constant.
 enum class NodeKind : uint8_t {
   kEnd,            // one branch
   kJunction,       // three or more branches, or a cluster that encloses loops; see MergeJunctions()
@@ -53,8 +54,7 @@ struct SkeletonNode {
   // The point that stands for the node: for a cluster or a closed curve its deepest point, on ties
   // the smallest; for a cluster that encloses loops the deepest point on those loops.
   SkeletonPoint at;
-  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any, and loops
-  // clusters of so many that their paths would not follow the number of points.
+  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any.
   uint32_t loops = 0;
   uint32_t cavities = 0;
 

@@ -1,17 +1,23 @@
 // Does: points -> clusters -> branches -> graph, then brings the graph into its canonical order;
 //       what is on no path of it are sheets.
 // Why it is right: see clusters.h for the topology; a cluster's own loops become edges from
-//       its node to itself, or numbers of the node where a cavity leaves a closed surface.
+//       its node to itself, or numbers of the node where a cavity leaves a closed surface. A large
+//       cluster becomes a tree of nodes, which its loops close: as many loops.
 // Cost: sorting the points and 14 walks over them; the rest follows clusters and branches.
 #include "core/skeleton/trace_skeleton.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/skeleton/branches.h"
 #include "core/skeleton/cluster_loops.h"
+#include "core/skeleton/cluster_tree.h"
 #include "core/skeleton/clusters.h"
 #include "core/skeleton/spanning_trees.h"
 #include "core/skeleton/thin_points.h"
@@ -35,6 +41,10 @@ struct TracedEdge {
   PointPath points;
 };
 
+// Of a cluster whose edges have more points than both inside it, paths share theirs.
+constexpr size_t kPathPointsPerPoint = 4;
+constexpr size_t kFewPathPoints = 4096;
+
 class GraphBuilder {
  public:
   GraphBuilder(const ThinPoints& points, const Clusters& clusters, exec::MemoryBudget& memory,
@@ -49,7 +59,8 @@ class GraphBuilder {
         loops_(points, clusters, poll),
         paths_(points, clusters.inner_masks()) {}
 
-  void AddClusters() {
+  void AddClusters(const Branches& branches) {
+    FindStarts(branches);
     for (ClusterIndex c = 0; c < clusters_.size() && !Stopped(); ++c) {
       if (!clusters_[c].IsBend()) AddCluster(c);
     }
@@ -89,34 +100,104 @@ class GraphBuilder {
     return true;
   }
 
+  // Where branches start in clusters that may be large.
+  void FindStarts(const Branches& branches) {
+    const auto add = [&](ClusterIndex c, PointIndex p) {
+      const Cluster& cluster = clusters_[c];
+      const size_t paths = cluster.branches + 2 * size_t{cluster.topology.loops};
+      if (paths * cluster.points.size() > kFewPathPoints) starts_[c].push_back(p);
+    };
+    for (const Branch& branch : branches.between) {
+      add(branch.source, branch.points.front());
+      add(branch.target, branch.points.back());
+    }
+  }
+
   void AddCluster(ClusterIndex c) {
     const Cluster& cluster = clusters_[c];
     const NodeKind kind = KindOf(cluster);
-    node_of_[c] = static_cast<NodeIndex>(nodes_.size());
     PointIndex at = points_.DeepestOf(cluster.points);
     SkeletonNode node{kind, {}, 0, 0};
+    ClusterLoops loops;
     if (kind == NodeKind::kClosedSurface) {
       node.loops = cluster.topology.loops;
       node.cavities = cluster.topology.cavities;
     } else if (cluster.topology.loops > 0) {
-      const ClusterLoops loops = loops_.Find(
-          cluster, [&](PointPath path) { return AddEdge(node_of_[c], node_of_[c], path); });
+      loops = loops_.Find(cluster);
       at = loops.at;
-      node.loops = loops.without_path;
     }
+    if (cluster.branches > 0) paths_.GrowFrom(at, poll_);
+    if (Stopped()) return;
+    if (IsLarge(c, loops.chords)) {
+      AddTree(c, at, node, loops.chords);
+      return;
+    }
+    node_of_[c] = AddNode(at, node);
+    for (const Chord& chord : loops.chords) {
+      AddEdge(node_of_[c], node_of_[c], loops_.CloseLoop(chord));
+    }
+  }
+
+  bool IsLarge(ClusterIndex c, std::span<const Chord> chords) const {
+    size_t steps = 0;
+    for (const Chord& chord : chords) steps += chord.steps + 1;
+    if (const auto starts = starts_.find(c); starts != starts_.end()) {
+      for (PointIndex p : starts->second) steps += paths_.Depth(p);
+    }
+    return steps > std::max(kPathPointsPerPoint * clusters_[c].points.size(), kFewPathPoints);
+  }
+
+  void AddTree(ClusterIndex c, PointIndex at, const SkeletonNode& node,
+               std::span<const Chord> chords) {
+    PointPath terminals = starts_[c];
+    for (const Chord& chord : chords) terminals.insert(terminals.end(), {chord.a, chord.b});
+    const auto parent = [&](PointIndex p) {
+      return !chords.empty() && loops_.IsInTree(p) ? loops_.Parent(p) : paths_.Parent(p);
+    };
+    const bool stays = node.kind == NodeKind::kClosedSurface;
+    const ClusterTree& tree = trees_.try_emplace(c, at, parent, terminals, stays).first->second;
+    const SkeletonNode junction{NodeKind::kJunction, {}, 0, 0};
+    const PointPath nodes = tree.Nodes();
+    for (PointIndex p : nodes) node_at_[p] = AddNode(p, p == tree.root() ? node : junction);
+    for (PointIndex p : nodes) {
+      if (p == tree.root()) continue;
+      PointPath limb = tree.LimbOf(p);
+      const NodeIndex from = node_at_.at(limb.front());
+      AddEdge(from, node_at_.at(p), std::move(limb));
+    }
+    for (const Chord& chord : chords) AddPath(StemOf(c, chord.a), {}, StemOf(c, chord.b));
+  }
+
+  NodeIndex AddNode(PointIndex at, SkeletonNode node) {
     node.at = points_[at];
     on_graph_[at] = 1;
     nodes_.push_back(node);
-    if (cluster.branches > 0) paths_.GrowFrom(at, poll_);
+    return static_cast<NodeIndex>(nodes_.size() - 1);
   }
 
-  // Inside both clusters the branch goes on to the node's point.
+  // The path inside a cluster to a point of it, and the node where it starts.
+  struct Stem {
+    NodeIndex node;
+    PointPath path;
+  };
+  Stem StemOf(ClusterIndex c, PointIndex p) const {
+    const auto tree = trees_.find(c);
+    if (tree == trees_.end()) return {node_of_[c], paths_.PathTo(p)};
+    PointPath path = tree->second.StemOf(p);
+    return {node_at_.at(path.front()), std::move(path)};
+  }
+
+  void AddPath(Stem source, std::span<const PointIndex> between, const Stem& target) {
+    PointPath path = std::move(source.path);
+    path.insert(path.end(), between.begin(), between.end());
+    path.insert(path.end(), target.path.rbegin(), target.path.rend());
+    AddEdge(source.node, target.node, std::move(path));
+  }
+
   void AddBranch(const Branch& branch) {
-    PointPath path = paths_.PathTo(branch.points.front());
-    path.insert(path.end(), branch.points.begin() + 1, branch.points.end());
-    const PointPath last = paths_.PathTo(branch.points.back());
-    path.insert(path.end(), last.rbegin() + 1, last.rend());
-    AddEdge(node_of_[branch.source], node_of_[branch.target], std::move(path));
+    AddPath(StemOf(branch.source, branch.points.front()),
+            std::span(branch.points).subspan(1, branch.points.size() - 2),
+            StemOf(branch.target, branch.points.back()));
   }
 
   void AddClosedCurve(const PointPath& curve) {
@@ -128,12 +209,10 @@ class GraphBuilder {
     AddEdge(node, node, std::move(turned));
   }
 
-  // False where there is no room for it.
-  bool AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
-    if (!HasRoomFor(path.size())) return false;
+  void AddEdge(NodeIndex source, NodeIndex target, PointPath path) {
+    if (!HasRoomFor(path.size())) return;
     for (PointIndex p : path) on_graph_[p] = 1;
     edges_.push_back({source, target, std::move(path)});
-    return true;
   }
 
   void SortNodes();
@@ -145,8 +224,11 @@ class GraphBuilder {
   StopPoll& poll_;
   size_t room_;  // points on edges for which there is memory
   absl::Status refused_;
-  std::vector<NodeIndex> node_of_;  // by cluster, for those that are no bends
-  std::vector<uint8_t> on_graph_;   // by point, whether it is a node's or on an edge
+  std::vector<NodeIndex> node_of_;  // by cluster, for those that have one node
+  std::map<ClusterIndex, PointPath> starts_;
+  std::map<ClusterIndex, ClusterTree> trees_;  // of large clusters
+  std::map<PointIndex, NodeIndex> node_at_;    // in them
+  std::vector<uint8_t> on_graph_;              // by point, whether it is a node's or on an edge
   ClusterLoopFinder loops_;
   SpanningTrees paths_;
   std::vector<SkeletonNode> nodes_;
@@ -231,7 +313,7 @@ absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
   if (poll.Stopped()) return context.StopStatus();
   const Branches branches = FollowBranches(points, clusters, poll);
   GraphBuilder builder(points, clusters, memory, poll);
-  builder.AddClusters();
+  builder.AddClusters(branches);
   if (poll.Stopped()) return context.StopStatus();
   builder.AddBranches(branches);
   if (!builder.refused().ok()) return builder.refused();

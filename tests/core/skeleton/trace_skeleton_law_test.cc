@@ -247,7 +247,34 @@ TEST(TraceSkeletonLaw, MovingTheObjectMovesTheGraph) {
   }
 }
 
-// A sponge of one cluster: all its loops begin at one point, and the longest are only counted.
+// A layer of a plate that is no thicker: a loop for each square, and one hair beside a triangle.
+TEST(TraceSkeletonLaw, EdgesOfLayersShareTheirPaths) {
+  for (int32_t width : {30, 60, 100}) {
+    std::vector<LatticePoint> points;
+    for (int32_t y = 10; y <= 50; y += 2) {
+      for (int32_t x = 10; x <= 10 + width; x += 2) points.push_back({x, y, 10});
+    }
+    points.push_back({9, 9, 11});
+    for (int32_t n = 1; n < 10; ++n) points.push_back({n, n, n});
+    ExpectInvariants(points);
+    EXPECT_LT(test::Trace(points).points.size(), 5 * points.size());
+  }
+}
+
+// With one node for each cluster, every edge would have a path of its own to the middle.
+TEST(TraceSkeletonLaw, EdgesOfLargeClustersShareTheirPaths) {
+  for (uint64_t seed = 0; seed < 12 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    const double density = 0.35 + 0.05 * static_cast<double>(seed);
+    for (const auto& size : {std::array{20, 20, 3}, {60, 40, 1}, {300, 4, 4}}) {
+      const auto points = RandomCloud(seed, {size[0], size[1], size[2]}, density);
+      ExpectInvariants(points);
+      const SkeletonGraph graph = test::Trace(points);
+      EXPECT_LT(graph.points.size(), 8 * points.size() + 4096);
+    }
+  }
+}
+
 TEST(TraceSkeletonLaw, PathsOfALongSpongeFollowItsPoints) {
   std::mt19937 random(17);
   std::vector<LatticePoint> points;
@@ -260,10 +287,7 @@ TEST(TraceSkeletonLaw, PathsOfALongSpongeFollowItsPoints) {
   }
   const Volume sponge = VolumeOfPoints(points);
   const SkeletonGraph graph = TraceSkeleton({sponge, test::RadiiOf(sponge)}, {}).value();
-  EXPECT_LT(graph.points.size(), 80 * points.size());  // those of branches included
-  const auto longest = std::ranges::max_element(graph.nodes, {}, &SkeletonNode::loops);
-  EXPECT_EQ(longest->kind, NodeKind::kJunction);
-  EXPECT_GT(longest->loops, 0u);
+  EXPECT_LT(graph.points.size(), 4 * points.size());
   EXPECT_EQ(BettiOf(graph), CountBettiNumbers(sponge, {}).value());
 }
 
