@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <concepts>
 #include <filesystem>
 #include <string>
@@ -165,6 +166,11 @@ absl::Status Validate(const Arguments& arguments) {
 
 namespace {
 
+// The folders that a label's number names are made for it, in one that must be there.
+std::string FirstMadeFor(const std::string& path) {
+  return path.substr(0, path.find('/', path.find(kLabelPlace)));
+}
+
 template <typename Chosen>
 std::vector<std::string> OutputsOf(const Chosen& arguments) {
   std::vector<std::string> paths;
@@ -175,6 +181,9 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
       if (!path.empty()) paths.push_back(path);
     }
   }
+  if constexpr (std::same_as<Chosen, LabelsArguments>) {
+    std::ranges::transform(paths, paths.begin(), FirstMadeFor);
+  }
   return paths;
 }
 
@@ -184,8 +193,6 @@ absl::Status CheckOutputs(const Arguments& arguments) {
   const std::vector<std::string> paths =
       std::visit([](const auto& chosen) { return OutputsOf(chosen); }, arguments);
   for (const std::string& path : paths) {
-    // Which folders a label's number names is not known yet.
-    if (path.rfind('/') != path.npos && path.find(kLabelPlace) < path.rfind('/')) continue;
     BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
   }
   return absl::OkStatus();
