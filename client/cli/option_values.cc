@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -64,6 +65,21 @@ CLI::Validator Positive() {
   };
   return {check, ""};
 }
+
+std::string WhyInexact(const std::string& text) {
+  const std::string sign = text.starts_with('-') ? "-" : "";
+  const char* const end = text.data() + text.size();
+  uint64_t whole = 0;
+  const auto [at, error] = std::from_chars(text.data() + sign.size(), end, whole);
+  if (error != std::errc() || at != end) return "";
+  const auto held = static_cast<double>(whole);
+  if (held < 0x1p64 && static_cast<uint64_t>(held) == whole) return "";
+  return absl::StrFormat(
+      "cannot tell %s from %s%.0f: bounds are exact up to 2^53 = 9007199254740992%s", text, sign,
+      held, sign.empty() ? "; --label takes larger values" : "");
+}
+
+CLI::Validator Exact() { return {WhyInexact, ""}; }
 
 std::string InWords(const std::string& error) {
   const std::vector<std::string> words = absl::StrSplit(error, ' ');
