@@ -93,6 +93,9 @@ std::string InWords(const std::string& error) {
     return absl::StrCat(words[0], " needs ", words[3], " numbers with commas between them, not ",
                         words[7]);
   }
+  if (words.size() == 5 && words[2] == "required" && words[4] == "missing") {
+    return words[0].substr(0, words[0].size() - 1) + " needs a value";
+  }
   return error;
 }
 

@@ -50,6 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
               "core has no option --thread; did you mean --threads?"},
         Wrong{"no_input", {"skeletonize", "-o", "a.swc"}, "INPUT is required"},
         Wrong{"no_output", {"skeletonize", "a.off"}, "--output is required"},
+        Wrong{"output_without_a_path", {"skeletonize", "a.off", "-o"}, "--output needs a value\n"},
         Wrong{"unknown_ending", {"skeletonize", "a.off", "-o", "a.docx"}, ".graphml"},
         Wrong{"points_and_spacing",
               {"skeletonize", "a.off", "-o", "a.swc", "--points", "9", "--spacing", "1"},
