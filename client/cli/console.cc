@@ -50,8 +50,11 @@ ExitCode ExitCodeOf(const absl::Status& status) {
 
 namespace {
 
+std::string_view program_name = "bccskel";
+
 void PrintLine(std::string_view kind, std::string_view message) {
-  std::fprintf(stderr, "bccskel: %.*s: %.*s\n", static_cast<int>(kind.size()), kind.data(),
+  std::fprintf(stderr, "%.*s: %.*s: %.*s\n", static_cast<int>(program_name.size()),
+               program_name.data(), static_cast<int>(kind.size()), kind.data(),
                static_cast<int>(message.size()), message.data());
 }
 
@@ -72,6 +75,10 @@ ExitCode CodeOf(const absl::Status& error) {
 }
 
 }  // namespace
+
+void SetProgramName(std::string_view name) { program_name = name; }
+
+std::string_view ProgramName() { return program_name; }
 
 void Warn(std::string_view message) { PrintLine("warning", message); }
 
