@@ -58,10 +58,19 @@ void PrintLine(std::string_view kind, std::string_view message) {
                static_cast<int>(message.size()), message.data());
 }
 
+// Somebody listens, but does not answer as a server does; in gRPC's words.
+bool BreaksOff(std::string_view message) {
+  const auto tells = [message](std::string_view what) {
+    return message.find(what) != message.npos;
+  };
+  return tells("failed to connect") && !tells("to remote host") && !tells("imeout");
+}
+
 // Who speaks plainly to a server with TLS learns from it only that the connection broke.
 bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
   return absl::IsUnavailable(error) && !wire::ErrorInfoOf(error).has_value() &&
-         server.tls_ca.empty() && server.address.compare(0, 5, "unix:") != 0;
+         BreaksOff({error.message().data(), error.message().size()}) && server.tls_ca.empty() &&
+         server.address.compare(0, 5, "unix:") != 0;
 }
 
 bool LacksToken(const ServerArguments& server, const absl::Status& error) {
