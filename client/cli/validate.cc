@@ -11,8 +11,10 @@
 #include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
+#include "client/endpoint.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/open_image.h"
 
 // Checks arguments against each other. The parser has checked each alone.
 
@@ -44,7 +46,8 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
   if (grid_given && *kind != InputKind::kMesh) {
     return absl::InvalidArgumentError("--points, --spacing and --fill are for meshes" + is);
   }
-  if (!image.given || *kind == InputKind::kImage) return absl::OkStatus();
+  if (*kind == InputKind::kImage) return CheckImageChoice(input, image.open);
+  if (!image.given) return absl::OkStatus();
   return absl::InvalidArgumentError("--label, --range, --threshold and the like are for images" +
                                     is);
 }
@@ -127,6 +130,7 @@ absl::Status Validate(const LabelsArguments& arguments) {
     }
     BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, output));
   }
+  BCCSKEL_RETURN_IF_ERROR(CheckImageChoice(arguments.input, arguments.image.open));
   BCCSKEL_RETURN_IF_ERROR(ValidateRootOfLabels(arguments.root));
   return ValidateOptions(arguments.skeletonize);
 }
@@ -153,6 +157,19 @@ absl::Status Validate(const InfoArguments& arguments) {
   return CheckObject(arguments.file, {}, arguments.image);
 }
 
+template <typename Chosen>
+absl::Status CheckServer(const Chosen& arguments) {
+  if constexpr (requires { arguments.server; }) {
+    const ServerArguments& server = arguments.server;
+    const absl::Status status =
+        client::CheckAddress(server.address, server.tls_ca.empty() ? client::Encryption::kNone
+                                                                   : client::Encryption::kTls);
+    if (!status.ok())
+      return absl::Status(status.code(), "--server: " + std::string(status.message()));
+  }
+  return absl::OkStatus();
+}
+
 template <typename Other>
 absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArguments>) {
   return absl::OkStatus();
@@ -161,6 +178,8 @@ absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArg
 }  // namespace
 
 absl::Status Validate(const Arguments& arguments) {
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
   return std::visit([](const auto& chosen) { return Validate(chosen); }, arguments);
 }
 
