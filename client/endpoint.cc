@@ -1,5 +1,7 @@
 #include "client/endpoint.h"
 
+#include <string_view>
+
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
@@ -14,18 +16,17 @@ bool IsOfThisMachine(const std::string& address) {
 
 // gRPC takes port 99999 for 34463, a URL for the name of a host, and a name alone for port 443,
 // where servers with TLS are.
-absl::Status CheckAddress(const std::string& address, bool tls) {
-  if (address.rfind("unix:", 0) == 0) return absl::OkStatus();
+bool IsAddress(const std::string& address, Encryption encryption) {
+  constexpr std::string_view kUnix = "unix:";
+  if (address.starts_with(kUnix)) return address.size() > kUnix.size();
   const size_t colon = address.rfind(':');
-  const std::string alone = tls ? "443" : "";
+  const std::string host = address.substr(0, colon);
+  if (host.empty() || host.find_first_of(" \t\n") != std::string::npos) return false;
+  const std::string alone = encryption == Encryption::kTls ? "443" : "";
   const std::string port = colon == std::string::npos ? alone : address.substr(colon + 1);
   const bool digits = port.find_first_not_of("0123456789") == std::string::npos;
   const bool fits = digits && !port.empty() && port.size() <= 5 && std::stoi(port) <= 65535;
-  const bool url = address.rfind("http://", 0) == 0 || address.rfind("https://", 0) == 0;
-  if (!address.empty() && !url && fits) return absl::OkStatus();
-  return absl::InvalidArgumentError("'" + address +
-                                    "' is neither HOST:PORT, with a port of 0 to 65535, nor "
-                                    "unix:PATH");
+  return fits && !address.starts_with("http://") && !address.starts_with("https://");
 }
 
 absl::Status CheckPem(const std::string& text, const char* what, const char* mark) {
@@ -36,9 +37,17 @@ absl::Status CheckPem(const std::string& text, const char* what, const char* mar
 
 }  // namespace
 
+absl::Status CheckAddress(const std::string& address, Encryption encryption) {
+  if (IsAddress(address, encryption)) return absl::OkStatus();
+  return absl::InvalidArgumentError("'" + address +
+                                    "' is neither HOST:PORT, with a port of 0 to 65535, nor "
+                                    "unix:PATH");
+}
+
 absl::Status CheckEndpoint(const Endpoint& endpoint) {
   const TlsMaterial& tls = endpoint.tls;
-  BCCSKEL_RETURN_IF_ERROR(CheckAddress(endpoint.address, !tls.ca.empty()));
+  BCCSKEL_RETURN_IF_ERROR(
+      CheckAddress(endpoint.address, tls.ca.empty() ? Encryption::kNone : Encryption::kTls));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.ca, "the file of authorities", "CERTIFICATE-----"));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.certificate, "the certificate", "CERTIFICATE-----"));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.key, "the key", "PRIVATE KEY-----"));

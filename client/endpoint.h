@@ -27,7 +27,13 @@ struct Endpoint {
   Sharing sharing = Sharing::kShared;  // of one connection with others to the same address
 };
 
-// Errors: FAILED_PRECONDITION for a token that would cross a network in the clear;
+enum class Encryption { kNone, kTls };
+
+// Errors: INVALID_ARGUMENT for what is neither HOST:PORT nor unix:PATH; with TLS, HOST is enough.
+absl::Status CheckAddress(const std::string& address, Encryption encryption);
+
+// Errors: those of CheckAddress(); FAILED_PRECONDITION for a token that would cross a network in
+// the clear;
 //         INVALID_ARGUMENT for a certificate without a key or TLS, or a key without a certificate.
 absl::Status CheckEndpoint(const Endpoint& endpoint);
 

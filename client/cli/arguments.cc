@@ -121,7 +121,8 @@ class CommandLine {
     app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
       const std::string unknown = UnknownWord(*app);
       const std::string what = unknown.empty() ? InWords(error.what()) : unknown;
-      return "bccskel: error: " + what + "\nbccskel: hint: " + HintFor(what) + "\n";
+      const std::string name(ProgramName());
+      return name + ": error: " + what + "\n" + name + ": hint: " + HintFor(what) + "\n";
     });
     for (CLI::App* command : app_.get_subcommands({})) command->footer(kFooter);
   }
@@ -266,8 +267,7 @@ std::string CompletionsOf(std::span<const std::string> words) {
 }
 
 ExitCode Refuse(const std::string& complaint) {
-  std::fprintf(stderr, "bccskel: error: %s\n", complaint.c_str());
-  return ExitCode::kUsage;
+  return FailWith(ExitCode::kUsage, absl::InvalidArgumentError(complaint));
 }
 
 }  // namespace

@@ -50,15 +50,27 @@ ExitCode ExitCodeOf(const absl::Status& status) {
 
 namespace {
 
+std::string_view program_name = "bccskel";
+
 void PrintLine(std::string_view kind, std::string_view message) {
-  std::fprintf(stderr, "bccskel: %.*s: %.*s\n", static_cast<int>(kind.size()), kind.data(),
+  std::fprintf(stderr, "%.*s: %.*s: %.*s\n", static_cast<int>(program_name.size()),
+               program_name.data(), static_cast<int>(kind.size()), kind.data(),
                static_cast<int>(message.size()), message.data());
+}
+
+// Somebody listens, but does not answer as a server does; in gRPC's words.
+bool BreaksOff(std::string_view message) {
+  const auto tells = [message](std::string_view what) {
+    return message.find(what) != message.npos;
+  };
+  return tells("failed to connect") && !tells("to remote host") && !tells("imeout");
 }
 
 // Who speaks plainly to a server with TLS learns from it only that the connection broke.
 bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
   return absl::IsUnavailable(error) && !wire::ErrorInfoOf(error).has_value() &&
-         server.tls_ca.empty() && server.address.compare(0, 5, "unix:") != 0;
+         BreaksOff({error.message().data(), error.message().size()}) && server.tls_ca.empty() &&
+         server.address.compare(0, 5, "unix:") != 0;
 }
 
 bool LacksToken(const ServerArguments& server, const absl::Status& error) {
@@ -72,6 +84,10 @@ ExitCode CodeOf(const absl::Status& error) {
 }
 
 }  // namespace
+
+void SetProgramName(std::string_view name) { program_name = name; }
+
+std::string_view ProgramName() { return program_name; }
 
 void Warn(std::string_view message) { PrintLine("warning", message); }
 

@@ -44,7 +44,12 @@ enum class ExitCode : int {
 // The exit code for an error of the input or of a job.
 ExitCode ExitCodeOf(const absl::Status& status);
 
-// What a command says. Results go to standard output, everything else to standard error.
+// What a command says. Results go to standard output, everything else to standard error, behind the
+// name of the program.
+
+// "bccskel" unless set. Needs: `name` stays; called before any command runs.
+void SetProgramName(std::string_view name);
+std::string_view ProgramName();
 
 void Warn(std::string_view message);
 void Note(std::string_view message);

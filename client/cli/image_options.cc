@@ -103,9 +103,11 @@ void AddForeground(CLI::App& command, ImageArguments& arguments) {
           ->option_text("LOW,HIGH");
   CLI::Option* threshold =
       command.add_option("--threshold", arguments.threshold, "Voxels of at least this value")
+          ->check(Exact())
           ->option_text("T");
   CLI::Option* below =
       command.add_option("--below", arguments.below, "Voxels below this value (level sets: 0)")
+          ->check(Exact())
           ->option_text("T");
   const std::vector<CLI::Option*> rules = {labels, range, threshold, below};
   for (CLI::Option* rule : rules) {
@@ -187,6 +189,8 @@ absl::StatusOr<double> EndOf(std::string_view text, double open) {
   if (text.empty()) return open;
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string inexact = WhyInexact(std::string(text));
+  if (!inexact.empty()) return absl::InvalidArgumentError("--range: " + inexact);
   if (error == std::errc() && end == text.data() + text.size()) return value;
   return absl::InvalidArgumentError("--range: '" + std::string(text) + "' is not a number");
 }

@@ -2,11 +2,13 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,17 @@ std::string PathFor(std::string path, uint64_t label) {
     at += number.size();
   }
   return path;
+}
+
+// Makes the folder that the label's number names, if it names one.
+absl::Status MakeFolderFor(const std::string& path, uint64_t label) {
+  const size_t slash = path.rfind('/');
+  if (slash == path.npos || path.find(kPlace) > slash) return absl::OkStatus();
+  const std::string folder = PathFor(path.substr(0, slash), label);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  return error ? absl::ErrnoToStatus(error.value(), "cannot make the folder " + folder)
+               : absl::OkStatus();
 }
 
 }  // namespace
@@ -114,6 +127,7 @@ class LabelFiles {
                                         .world = world_,
                                         .swc = swc_};
     for (const std::string& path : paths_of_each_) {
+      BCCSKEL_RETURN_IF_ERROR(MakeFolderFor(path, skeleton.label));
       BCCSKEL_RETURN_IF_ERROR(
           exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
     }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -65,6 +66,21 @@ CLI::Validator Positive() {
   return {check, ""};
 }
 
+std::string WhyInexact(const std::string& text) {
+  const std::string sign = text.starts_with('-') ? "-" : "";
+  const char* const end = text.data() + text.size();
+  uint64_t whole = 0;
+  const auto [at, error] = std::from_chars(text.data() + sign.size(), end, whole);
+  if (error != std::errc() || at != end) return "";
+  const auto held = static_cast<double>(whole);
+  if (held < 0x1p64 && static_cast<uint64_t>(held) == whole) return "";
+  return absl::StrFormat(
+      "cannot tell %s from %s%.0f: bounds are exact up to 2^53 = 9007199254740992%s", text, sign,
+      held, sign.empty() ? "; --label takes larger values" : "");
+}
+
+CLI::Validator Exact() { return {WhyInexact, ""}; }
+
 std::string InWords(const std::string& error) {
   const std::vector<std::string> words = absl::StrSplit(error, ' ');
   if (error.starts_with("Could not convert: ") && words.size() >= 5) {
@@ -76,6 +92,9 @@ std::string InWords(const std::string& error) {
   if (words.size() == 8 && words[1] == "At" && words[4] == "required") {
     return absl::StrCat(words[0], " needs ", words[3], " numbers with commas between them, not ",
                         words[7]);
+  }
+  if (words.size() == 5 && words[2] == "required" && words[4] == "missing") {
+    return words[0].substr(0, words[0].size() - 1) + " needs a value";
   }
   return error;
 }

@@ -65,6 +65,12 @@ CLI::Validator Within(double low, double high);
 // Checks for a finite number above 0.
 CLI::Validator Positive();
 
+// What is wrong with a bound of values: a whole number that a double does not hold exactly would
+// let others in or keep itself out. Empty: nothing; other texts are for the parser.
+std::string WhyInexact(const std::string& text);
+// Checks that nothing is.
+CLI::Validator Exact();
+
 // What CLI11 says of a wrong value, with the value and what is wanted.
 std::string InWords(const std::string& error);
 

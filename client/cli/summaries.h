@@ -8,6 +8,7 @@
 
 #include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
+#include "client/export/picture/escape.h"
 #include "core/certificate/certificate.h"
 #include "core/import/mesh/mesh_report.h"
 #include "core/import/voxelize/voxelize.h"
@@ -16,9 +17,7 @@
 
 namespace bccskel::cli {
 
-// The text as a JSON string with its quotes. Bytes that are not UTF-8, as file names may hold,
-// become U+FFFD.
-std::string JsonString(std::string_view text);
+using exporting::JsonString;
 std::string JsonStrings(const std::vector<std::string>& texts);  // an array
 
 // "2,775 vertices, 5,558 triangles, watertight, genus 3".

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <concepts>
 #include <filesystem>
 #include <string>
@@ -10,8 +11,10 @@
 #include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
+#include "client/endpoint.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/open_image.h"
 
 // Checks arguments against each other. The parser has checked each alone.
 
@@ -43,7 +46,8 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
   if (grid_given && *kind != InputKind::kMesh) {
     return absl::InvalidArgumentError("--points, --spacing and --fill are for meshes" + is);
   }
-  if (!image.given || *kind == InputKind::kImage) return absl::OkStatus();
+  if (*kind == InputKind::kImage) return CheckImageChoice(input, image.open);
+  if (!image.given) return absl::OkStatus();
   return absl::InvalidArgumentError("--label, --range, --threshold and the like are for images" +
                                     is);
 }
@@ -126,6 +130,7 @@ absl::Status Validate(const LabelsArguments& arguments) {
     }
     BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, output));
   }
+  BCCSKEL_RETURN_IF_ERROR(CheckImageChoice(arguments.input, arguments.image.open));
   BCCSKEL_RETURN_IF_ERROR(ValidateRootOfLabels(arguments.root));
   return ValidateOptions(arguments.skeletonize);
 }
@@ -152,6 +157,19 @@ absl::Status Validate(const InfoArguments& arguments) {
   return CheckObject(arguments.file, {}, arguments.image);
 }
 
+template <typename Chosen>
+absl::Status CheckServer(const Chosen& arguments) {
+  if constexpr (requires { arguments.server; }) {
+    const ServerArguments& server = arguments.server;
+    const absl::Status status =
+        client::CheckAddress(server.address, server.tls_ca.empty() ? client::Encryption::kNone
+                                                                   : client::Encryption::kTls);
+    if (!status.ok())
+      return absl::Status(status.code(), "--server: " + std::string(status.message()));
+  }
+  return absl::OkStatus();
+}
+
 template <typename Other>
 absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArguments>) {
   return absl::OkStatus();
@@ -160,10 +178,17 @@ absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArg
 }  // namespace
 
 absl::Status Validate(const Arguments& arguments) {
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
   return std::visit([](const auto& chosen) { return Validate(chosen); }, arguments);
 }
 
 namespace {
+
+// The folders that a label's number names are made for it, in one that must be there.
+std::string FirstMadeFor(const std::string& path) {
+  return path.substr(0, path.find('/', path.find(kLabelPlace)));
+}
 
 template <typename Chosen>
 std::vector<std::string> OutputsOf(const Chosen& arguments) {
@@ -175,6 +200,9 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
       if (!path.empty()) paths.push_back(path);
     }
   }
+  if constexpr (std::same_as<Chosen, LabelsArguments>) {
+    std::ranges::transform(paths, paths.begin(), FirstMadeFor);
+  }
   return paths;
 }
 
@@ -184,8 +212,6 @@ absl::Status CheckOutputs(const Arguments& arguments) {
   const std::vector<std::string> paths =
       std::visit([](const auto& chosen) { return OutputsOf(chosen); }, arguments);
   for (const std::string& path : paths) {
-    // Which folders a label's number names is not known yet.
-    if (path.rfind('/') != path.npos && path.find(kLabelPlace) < path.rfind('/')) continue;
     BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
   }
   return absl::OkStatus();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/picture/escape.h"
 #include "client/export/text.h"
 #include "core/skeleton/node_kind_name.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -64,11 +65,14 @@ void AddLabel(Text& text, const std::vector<uint64_t>& labels, size_t n) {
 void AddContext(Text& text, const GraphContext& context) {
   if (context.order.has_value()) text.Add(kOrderKeys);
   for (const auto& [name, value] : context.facts) {
-    text.Add("<key id=\"graph_", name, "\" for=\"graph\" attr.name=\"", name,
+    const std::string escaped = EscapeMarkup(name);
+    text.Add("<key id=\"graph_", escaped, "\" for=\"graph\" attr.name=\"", escaped,
              "\" attr.type=\"string\"/>\n");
   }
   text.Add("<graph id=\"skeleton\" edgedefault=\"undirected\">\n");
-  for (const auto& [name, value] : context.facts) AddData(text, "graph_" + name, value);
+  for (const auto& [name, value] : context.facts) {
+    AddData(text, "graph_" + EscapeMarkup(name), EscapeMarkup(value));
+  }
   if (!context.facts.empty()) text.Add('\n');
 }
 

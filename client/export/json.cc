@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/export/method_facts.h"
+#include "client/export/picture/escape.h"
 #include "client/export/text.h"
 #include "core/pipeline/notes.h"
 #include "core/skeleton/node_kind_name.h"
@@ -205,17 +206,20 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
   text.Add(",\n\"totals\":");
   AddFigures(text, TotalOf(components));
   if (order.has_value()) AddOrder(text, *order);
-  text.Add(",\n\"certificate\":", CertificateJson(result.certificate), ",\n\"method\":\"",
-           result.method, "\",\n\"algorithm_version\":\"", result.algorithm_version,
-           "\",\n\"options\":", OptionsJson(result.options),
+  text.Add(",\n\"certificate\":", CertificateJson(result.certificate),
+           ",\n\"method\":", JsonString(result.method),
+           ",\n\"algorithm_version\":", JsonString(result.algorithm_version),
+           ",\n\"options\":", OptionsJson(result.options),
            ",\n\"preparing\":", PreparingJson(result.preparing), ",\n\"notes\":");
-  AddList(text, ",\n", NotesOn(result), [&](const std::string& note) { text.Add('"', note, '"'); });
+  AddList(text, ",\n", NotesOn(result),
+          [&](const std::string& note) { text.Add(JsonString(note)); });
   text.Add(",\n\"placement\":");
   AddPlacement(text, graph.placement);
-  text.Add(",\n\"world\":\"", OrUnknown(world.axes), "\",\n\"unit\":\"", OrUnknown(world.unit),
-           "\",\n\"object_points\":", result.object_points, ",\n\"timings\":");
+  text.Add(",\n\"world\":", JsonString(OrUnknown(world.axes)),
+           ",\n\"unit\":", JsonString(OrUnknown(world.unit)),
+           ",\n\"object_points\":", result.object_points, ",\n\"timings\":");
   AddTimings(text, result.timings);
-  text.Add(",\n\"sha256\":\"", result.sha256, "\"\n}\n");
+  text.Add(",\n\"sha256\":", JsonString(result.sha256), "\n}\n");
   return std::move(text).Take();
 }
 

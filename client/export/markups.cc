@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/export/branch_name.h"
+#include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/text.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -19,7 +20,7 @@ constexpr std::string_view kSchema =
 void AddMeasurement(Text& text, std::string_view before, std::string_view name, double value,
                     const World& world) {
   text.Add(before, "{\"name\":\"", name, "\",\"enabled\":false,\"value\":", value);
-  if (!world.unit.empty()) text.Add(",\"units\":\"", world.unit, '"');
+  if (!world.unit.empty()) text.Add(",\"units\":", JsonString(world.unit));
   text.Add('}');
 }
 

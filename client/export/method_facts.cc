@@ -1,5 +1,6 @@
 #include "client/export/method_facts.h"
 
+#include "client/export/picture/escape.h"
 #include "client/export/text.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
@@ -41,11 +42,11 @@ std::string OptionsJson(const SkeletonizeOptions& options) {
   Text text;
   char before = '{';
   for (const OptionFact& fact : FactsOf(options)) {
-    text.Add(before, '"', fact.name, "\":");
+    text.Add(before, JsonString(fact.name), ':');
     if (fact.type == OptionFact::Type::kNumber) {
       text.Add(fact.value);
     } else {
-      text.Add('"', fact.value, '"');
+      text.Add(JsonString(fact.value));
     }
     before = ',';
   }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/export/picture/escape.h"
 #include "client/export/point_forest.h"
 #include "client/export/text.h"
 
@@ -69,7 +70,8 @@ void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
   text.Add("# curve skeleton by bccskel, ", forest.trees,
            forest.trees == 1 ? " tree\n" : " trees\n");
   if (!note.empty()) text.Add("# ", note, '\n');
-  text.Add("# world: ", OrUnknown(options.world.axes), "\n# unit: ", OrUnknown(options.world.unit),
+  text.Add("# world: ", OnOneLine(OrUnknown(options.world.axes)),
+           "\n# unit: ", OnOneLine(OrUnknown(options.world.unit)),
            "\n# curve: ", CurveWord(options.sampling), '\n');
   text.Add("# types: 6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/picture/escape.h"
 #include "client/export/polylines.h"
 #include "client/export/text.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -99,7 +100,7 @@ void AddFacts(Text& text, const MethodFacts& facts) {
   if (facts.empty()) return;
   text.Add("<FieldData>\n");
   for (const auto& [name, value] : facts) {
-    text.Add("<DataArray type=\"String\" Name=\"", name,
+    text.Add("<DataArray type=\"String\" Name=\"", EscapeMarkup(name),
              "\" NumberOfTuples=\"1\" format=\"ascii\">\n");
     for (char c : value) text.Add(static_cast<int>(static_cast<unsigned char>(c)), ' ');
     text.Add("0\n</DataArray>\n");

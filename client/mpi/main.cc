@@ -97,12 +97,12 @@ void Report(MpiExchange& exchange) {
     const bccskel::cli::ExchangeCounts& counts =
         exchange.counts(static_cast<bccskel::ranks::Stage>(n));
     std::fprintf(stderr,
-                 "bccskel-mpi: rank %d of %d: %s: %llu trades, %llu sums, %llu letters, %llu bytes "
-                 "sent, %.3f s in them, %lld MiB so far\n",
+                 "bccskel-mpi: rank %d of %d: %s: %llu trades, %llu sums, %llu messages, %llu "
+                 "bytes sent, %.3f s in them, %lld MiB so far\n",
                  exchange.rank(), exchange.size(), kStages[n],
                  static_cast<unsigned long long>(counts.trades),
                  static_cast<unsigned long long>(counts.sums),
-                 static_cast<unsigned long long>(counts.letters),
+                 static_cast<unsigned long long>(counts.messages),
                  static_cast<unsigned long long>(counts.bytes), counts.waited,
                  static_cast<long long>(counts.peak / 1024));
   }
@@ -136,6 +136,7 @@ ExitCode Main(std::vector<char*> words) {
   mallopt(M_TRIM_THRESHOLD, 8 << 20);
   const bccskel::cli::Interrupt interrupt;  // before MPI's threads
   std::signal(SIGPIPE, SIG_IGN);
+  bccskel::cli::SetProgramName("bccskel-mpi");
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
   ExitCode code = ExitCode::kOk;

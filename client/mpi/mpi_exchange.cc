@@ -50,7 +50,7 @@ class WaitClock {
 };
 
 // Receives a piece of the message if one has arrived. Returns whether it was the last.
-bool TakePiece(int peer, MPI_Comm communicator, Bytes& letter) {
+bool TakePiece(int peer, MPI_Comm communicator, Bytes& bytes) {
   int has_come = 0;
   MPI_Message message;
   MPI_Status status;
@@ -58,9 +58,9 @@ bool TakePiece(int peer, MPI_Comm communicator, Bytes& letter) {
   if (has_come == 0) return false;
   int count = 0;
   MPI_Get_count(&status, MPI_BYTE, &count);
-  const size_t at = letter.size();
-  letter.resize(at + static_cast<size_t>(count));
-  MPI_Mrecv(letter.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+  const size_t at = bytes.size();
+  bytes.resize(at + static_cast<size_t>(count));
+  MPI_Mrecv(bytes.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
   return static_cast<size_t>(count) < kPieceBytes;
 }
 
@@ -81,16 +81,16 @@ void MpiExchange::Enter(ranks::Stage stage) {
   stage_ = stage;
 }
 
-void MpiExchange::Send(int peer, const Bytes& letter, std::vector<MPI_Request>& requests) {
+void MpiExchange::Send(int peer, const Bytes& bytes, std::vector<MPI_Request>& requests) {
   size_t at = 0, piece = 0;
   do {
-    piece = std::min(letter.size() - at, kPieceBytes);
-    MPI_Isend(letter.data() + at, static_cast<int>(piece), MPI_BYTE, peer, kTag, communicator_,
+    piece = std::min(bytes.size() - at, kPieceBytes);
+    MPI_Isend(bytes.data() + at, static_cast<int>(piece), MPI_BYTE, peer, kTag, communicator_,
               &requests.emplace_back());
     at += piece;
   } while (piece == kPieceBytes);
-  ++now().letters;
-  now().bytes += letter.size();
+  ++now().messages;
+  now().bytes += bytes.size();
 }
 
 void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
@@ -99,7 +99,7 @@ void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
   ++now().trades;
   std::vector<MPI_Request> sent;
   for (size_t n = 0; n < peers.size(); ++n) Send(peers[n], out[n], sent);
-  for (Bytes& letter : in) letter.clear();
+  for (Bytes& bytes : in) bytes.clear();
   std::vector<size_t> awaited(peers.size());
   for (size_t n = 0; n < awaited.size(); ++n) awaited[n] = n;
   int all_sent = 0;

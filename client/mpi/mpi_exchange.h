@@ -14,10 +14,10 @@ namespace bccskel::cli {
 struct ExchangeCounts {
   uint64_t trades = 0;
   uint64_t sums = 0;
-  uint64_t letters = 0;  // sent to one other rank
-  uint64_t bytes = 0;    // in these
-  double waited = 0;     // seconds in trades and sums, sending included
-  int64_t peak = 0;      // KiB of memory, the most until the end of the stage; 0: not run
+  uint64_t messages = 0;  // each to one other rank
+  uint64_t bytes = 0;     // in these
+  double waited = 0;      // seconds in trades and sums, sending included
+  int64_t peak = 0;       // KiB of memory, the most until the end of the stage; 0: not run
 };
 
 // The ranks of an MPI job. Waits without occupying the processor: after 100 microseconds of polling
@@ -45,7 +45,7 @@ class MpiExchange : public ranks::Exchange {
 
  private:
   void Reduce(std::span<uint64_t> numbers, MPI_Op operation);
-  void Send(int peer, const ranks::Bytes& letter, std::vector<MPI_Request>& requests);
+  void Send(int peer, const ranks::Bytes& bytes, std::vector<MPI_Request>& requests);
 
   MPI_Comm communicator_ = MPI_COMM_NULL;
   int rank_ = 0;

@@ -44,6 +44,22 @@ void AddAction(CLI::App& app, const Action& action, CommandLine& line) {
       ->option_text(action.argument);
 }
 
+// What CLI11 says, in our words.
+std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string what = error.what();
+  const std::vector<std::string> rest = app.remaining();
+  const auto is = [&error](CLI::ExitCodes code) {
+    return error.get_exit_code() == static_cast<int>(code);
+  };
+  if (is(CLI::ExitCodes::ExtrasError) && !rest.empty()) {
+    return "there is no setting " + rest.front();
+  }
+  const std::string name = what.substr(0, what.find(':'));
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  if (!is(CLI::ExitCodes::ArgumentMismatch) || option == nullptr) return what;
+  return absl::StrCat(name, ": needs a value: ", name, " ", option->get_option_text());
+}
+
 }  // namespace
 
 std::variant<CommandLine, ExitRequest> ReadCommandLine(const Program& program,
@@ -61,9 +77,9 @@ std::variant<CommandLine, ExitRequest> ReadCommandLine(const Program& program,
     std::ostringstream out, err;
     const int code = app.exit(error, out, err);
     if (code == 0) return ExitRequest{0, out.str(), ""};
-    return ExitRequest{
-        kUsageError, "",
-        absl::StrCat(program.name, ": ", error.what(), "\n", program.name, ": see --help\n")};
+    return ExitRequest{kUsageError, "",
+                       absl::StrCat(program.name, ": ", InWords(app, error), "\n", program.name,
+                                    ": see --help\n")};
   }
   return line;
 }

@@ -28,13 +28,13 @@ import time
 
 MPIRUN = ["mpirun", "--oversubscribe"]
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-STAGE = re.compile(r"rank (\d+) of \d+: (\w+): (\d+) trades, (\d+) sums, (\d+) letters, (\d+) bytes "
-                   r"sent, ([\d.]+) s in them")
+STAGE = re.compile(r"rank (\d+) of \d+: (\w+): (\d+) trades, (\d+) sums, (\d+) messages, "
+                   r"(\d+) bytes sent, ([\d.]+) s in them")
 WHOLE = re.compile(r"rank (\d+) of \d+: ([\d.]+) s of processor time, (\d+) MiB")
 DIRECTIONAL = ("--method", "directional", "--distance", "chamfer")
 JOBS = {"symmetric": (), "directional": DIRECTIONAL}
 
-Stage = collections.namedtuple("Stage", "trades sums letters bytes seconds")
+Stage = collections.namedtuple("Stage", "trades sums messages bytes seconds")
 
 
 def run(words):

@@ -62,8 +62,8 @@ TEST(Endpoint, AnAddressIsAHostWithAPortOrAPath) {
     endpoint.address = address;
     EXPECT_TRUE(CheckEndpoint(endpoint).ok()) << address;
   }
-  for (const char* address :
-       {"", ":", "a", "localhost", "[::1]", "a:", "a:b", "a:65536", "a:4294967297", "http://a:1"}) {
+  for (const char* address : {"", ":", ":1", " :1", "unix:", "a", "localhost", "[::1]", "a:", "a:b",
+                              "a:65536", "a:4294967297", "http://a:1", "http://"}) {
     Endpoint endpoint;
     endpoint.address = address;
     EXPECT_EQ(

@@ -120,7 +120,9 @@ class ImagesTest(harness.TestCase):
         values = json.loads(self.succeed("info", volume, "--json"))["image"]["values"]
         self.assertEqual(values["labels"], [{"label": 5, "voxels": int((mask == 5).sum())}])
         self.fail_with(3, "level 1 is not there", "info", zarr, "--level", 1)
-        self.fail_with(3, "--level chooses in OME-Zarr and precomputed folders only", "info",
+        self.fail_with(2, "--channel and --time choose in TIFF and OME-Zarr only", "info", volume,
+                       "--channel", 0)
+        self.fail_with(2, "--level chooses in OME-Zarr and precomputed folders only", "info",
                        self.path("mask.npy"), "--level", 0)
 
     def test_rules_choose_the_object(self):

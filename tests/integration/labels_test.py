@@ -101,6 +101,19 @@ class LabelsTest(harness.TestCase):
             self.assertEqual((rows[:, 6] == -1).sum(), 1)
             self.assertTrue((self.folder / f"{label}.exr").exists())
 
+    def test_folders_that_the_label_names_are_made(self):
+        self.labels("-o", self.path("{label}/skeleton.swc"), "-o", self.path("of-{label}/a/b.json"))
+        for label in (1, 3, 8, 12, HUGE):
+            self.assertTrue((self.folder / f"{label}/skeleton.swc").exists())
+            self.assertTrue((self.folder / f"of-{label}/a/b.json").exists())
+        done = self.fail_with(8, self.path("missing/{label}"), "labels", self.image, "-o",
+                              self.path("missing/{label}/a.swc"))
+        self.assertNotIn("cannot make", done.stderr)  # said before the work
+        self.assertFalse((self.folder / "missing").exists())
+        (self.folder / "cell-3").touch()
+        self.fail_with(8, "cannot make the folder " + self.path("cell-3"), "labels", self.image,
+                       "--label", "3", "-o", self.path("cell-{label}/a.swc"))
+
     def test_the_summary_adds_up_what_preparing_did(self):
         labels = numpy.zeros((9, 9, 30), "u1")
         labels[1:8, 1:8, 1:8] = 1

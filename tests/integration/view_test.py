@@ -189,6 +189,15 @@ class ViewTest(PageTestCase):
         self.assertEqual(page.text("#most"), "2 mm")
         self.assertIn("Mean radius (mm)", page.text("#heads"))
 
+    def test_a_unit_is_text_and_no_markup(self):
+        sample = view_samples.forest(3)
+        sample["unit"] = "<i>mm</i>"
+        page = self.open_sample(sample)
+        page.click("#dock-toggle")
+        self.assertIn("Mean radius (<i>mm</i>)", page.text("#heads"))
+        page.run("tell(aboutNode(0), 9, 9)")
+        self.assertIn("<i>mm</i>", page.text("#tip"))
+
     def test_the_scale_is_as_long_as_it_says(self):
         page = self.open_sample(view_samples.forest(3), "#view=0_0_2_0.5_0.5_0.5")
         for flat in ("false", "true"):

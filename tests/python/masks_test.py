@@ -141,6 +141,14 @@ class LabelsTest(harness.TestCase):
         with self.assertWarnsRegex(UserWarning, "does not say its unit"):
             bccskel.save_labels(self.path("mine.precomputed"), skeletons)
 
+    def test_labels_of_no_voxel_are_named(self):
+        image = numpy.ones((4, 4, 4), "u1")
+        with self.assertRaisesRegex(ValueError, "^no voxel has the label 5 or 7$"):
+            bccskel.skeletonize_labels(image, labels=[5, 7])
+        self.assertEqual(list(bccskel.skeletonize_labels(image, labels=[1, 5])), [1])
+        self.assertEqual(bccskel.skeletonize_labels(image, labels=1, min_voxels=65), {})
+        self.assertEqual(bccskel.skeletonize_labels(0 * image), {})
+
     def test_fractions_and_negative_labels_are_refused(self):
         for value in (1.5, -1.0):
             with self.assertRaisesRegex(ValueError, "whole number"):

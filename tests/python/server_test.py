@@ -46,6 +46,8 @@ class ServerTest(harness.TestCase):
                              {n: (s.sha256, s.voxels) for n, s in here.items()})
         self.assertEqual(sorted(self.client.skeletonize_labels(image, labels=[300])), [300])
         self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
+        with self.assertRaisesRegex(ValueError, "^no voxel has the label 7$"):
+            self.client.skeletonize_labels(image, labels=7)
         there[4].save(self.path("four.swc"))
         for name in ("four.html", "four.exr"):
             with self.assertRaises(NotImplementedError):

@@ -82,6 +82,18 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<const char*>{"--job-store", "postgresql://a:secret@b/c", "--data-dir", "d"},
         std::vector<const char*>{"surplus"}));
 
+TEST(ServerConfig, AValueThatIsMissingAndAFlagThatIsNoneAreExplained) {
+  const auto error_of = [](const std::vector<const char*>& flags) {
+    return std::get<ExitRequest>(Parse(flags)).err;
+  };
+  const std::string hint = "\nbccskel-server: see --help\n";
+  EXPECT_EQ(error_of({"--new-token"}),
+            "bccskel-server: --new-token: needs a value: --new-token TENANT" + hint);
+  EXPECT_EQ(error_of({"--threads"}),
+            "bccskel-server: --threads: needs a value: --threads N" + hint);
+  EXPECT_EQ(error_of({"--bogus", "3"}), "bccskel-server: there is no setting --bogus" + hint);
+}
+
 TEST(ServerConfig, VersionAndHelpGoToStandardOutputAndAreNoError) {
   for (const char* flag : {"--version", "--help"}) {
     const auto parsed = Parse({flag});

@@ -4,29 +4,6 @@
 
 namespace bccskel::exporting {
 
-std::string EscapeMarkup(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
 std::string GroupedDigits(uint64_t number) {
   std::string digits = std::to_string(number);
   for (size_t n = digits.size(); n > 3; n -= 3) digits.insert(n - 3, 1, ',');

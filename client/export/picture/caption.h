@@ -9,9 +9,6 @@
 
 namespace bccskel::exporting {
 
-// Replaces the characters that XML and HTML give a meaning, and control characters.
-std::string EscapeMarkup(const std::string& text);
-
 // "12,345,678".
 std::string GroupedDigits(uint64_t number);
 

@@ -10,6 +10,7 @@
 
 #include "client/export/picture/caption.h"
 #include "client/export/picture/display_curve.h"
+#include "client/export/picture/escape.h"
 #include "client/export/picture/png.h"
 #include "client/export/picture/projection.h"
 #include "client/export/picture/scene.h"

@@ -147,7 +147,8 @@ def skeletonize_labels(image: Any, spacing: Any = None, origin: Any = None, dire
     """The skeletons of the labels of an image, by label; 0 and NaN are background.
 
     As `skeletonize()`, but `progress` is called with (labels done, all labels), and the options are
-    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ...
+    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ... If no voxel has any of the labels
+    given, that is a ValueError.
 
     >>> import numpy as np
     >>> image = np.zeros((8, 16, 30), np.uint16)

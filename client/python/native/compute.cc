@@ -81,6 +81,10 @@ absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, O
   return absl::OkStatus();
 }
 
+absl::Status NoVoxelOf(const std::vector<uint64_t>& labels) {
+  return absl::InvalidArgumentError("no voxel has the label " + absl::StrJoin(labels, " or "));
+}
+
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
@@ -106,8 +110,7 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
       cli::ImageObject image,
       cli::ConvertImage(mask, arguments.image, cli::KeptVoxels::kNone, here.context()));
   if (image.image.voxels == 0 && !arguments.image.labels.empty()) {
-    return absl::InvalidArgumentError("no voxel has the label " +
-                                      absl::StrJoin(arguments.image.labels, " or "));
+    return NoVoxelOf(arguments.image.labels);
   }
   BCCSKEL_ASSIGN_OR_RETURN(
       Outcome outcome, OutcomeOf(std::move(image.volume), ForMask(arguments.skeletonize, options),
@@ -149,6 +152,9 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
       cli::CollectedLabels collected,
       cli::CollectLabels(image, arguments.image, arguments.min_voxels, here.context()));
   const auto labels = std::make_shared<const LabeledObjects>(std::move(collected.objects));
+  if (labels->objects.empty() && collected.left_out == 0 && !arguments.image.labels.empty()) {
+    return NoVoxelOf(arguments.image.labels);
+  }
   LabelOutcomes outcomes;
   const auto take = [&](LabelSkeleton&& skeleton) {
     const auto outcome = std::make_shared<Outcome>();
@@ -192,7 +198,11 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
     outcomes.emplace(skeleton.label, outcome);
     return absl::OkStatus();
   };
-  BCCSKEL_RETURN_IF_ERROR(run.server->SkeletonizeLabels(image, call, take).status());
+  BCCSKEL_ASSIGN_OR_RETURN(const client::LabelsReport report,
+                           run.server->SkeletonizeLabels(image, call, take));
+  if (outcomes.empty() && report.skipped == 0 && !call.labels.empty()) {
+    return NoVoxelOf(call.labels);
+  }
   return outcomes;
 }
 

@@ -104,7 +104,7 @@ function tell(found, x, y) {
   const tip = element("tip");
   tip.hidden = false;
   tip.innerHTML = `<b>${found.title}</b> ${found.detail || ""}<table>${found.rows.map(
-    ([name, value]) => `<tr><th>${name}</th><td>${value}</td></tr>`).join("")}</table>`;
+    ([name, value]) => `<tr><th>${name}</th><td>${escaped(`${value}`)}</td></tr>`).join("")}</table>`;
   const within = (at, size, room) =>
     at + 20 + size + 8 > room ? Math.max(8, at - 20 - size) : at + 20;
   tip.style.left = `${within(x, tip.offsetWidth, drawn.width)}px`;

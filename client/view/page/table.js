@@ -83,7 +83,7 @@ function showHeads() {
   element("heads").innerHTML = columns.map((c) => `<span role="columnheader"
     class="${c.text ? "text" : ""}" aria-sort="${c.key !== key ? "none"
     : sign > 0 ? "ascending" : "descending"}">${c.title &&
-    `<button data-key="${c.key}">${c.title}</button>`}</span>`).join("");
+    `<button data-key="${c.key}">${escaped(c.title)}</button>`}</span>`).join("");
 }
 
 const isOpen = () => !element("dock").classList.contains("closed");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <optional>
@@ -90,9 +91,26 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
   }
 }
 
-absl::Status CheckNoSeries(const ImageOptions& options) {
-  if (!options.series.has_value()) return absl::OkStatus();
-  return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+// What images of a format may have several of.
+struct Choices {
+  bool pages = false;  // channels and time points
+  bool levels = false;
+  bool series = false;
+};
+constexpr Choices kZarrChoices = {.pages = true, .levels = true};
+constexpr Choices kDicomChoices = {.pages = true, .series = true};  // pages: segments
+
+absl::Status CheckChoices(const Choices& there, const ImageOptions& options) {
+  if (options.level.has_value() && !there.levels) {
+    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
+  }
+  if (options.series.has_value() && !there.series) {
+    return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+  }
+  if ((options.channel.has_value() || options.time.has_value()) && !there.pages) {
+    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
+  }
+  return absl::OkStatus();
 }
 
 // What most headers need: what is expanded to look for a longer one is expanded again for voxels.
@@ -110,19 +128,14 @@ absl::StatusOr<StoredImage> ParseFront(const ImageFront& front,
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const ImageFile> file,
                                                       const ImageOptions& options) {
-  if (options.level.has_value()) {
-    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
-  }
-  BCCSKEL_RETURN_IF_ERROR(CheckNoSeries(options));
   ImageLimits limits = options.limits;
   limits.max_header_bytes = std::min(limits.max_header_bytes, kShortFront);
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, limits));
-  if (!options.raw.has_value() && IsTiff(front.bytes)) {
+  const bool tiff = !options.raw.has_value() && IsTiff(front.bytes);
+  BCCSKEL_RETURN_IF_ERROR(CheckChoices({.pages = tiff}, options));
+  if (tiff) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
     return OpenTiff(std::move(file), options);
-  }
-  if (options.channel.has_value() || options.time.has_value()) {
-    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
   }
   BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseFront(front, file, options));
   if (options.spacing.has_value()) {
@@ -139,7 +152,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
   }
   const bool zarr = IsZarrFolder(path);
   if (!zarr && !IsPrecomputedFolder(path) && IsDicomFolder(path)) return OpenDicom(path, options);
-  BCCSKEL_RETURN_IF_ERROR(CheckNoSeries(options));
+  BCCSKEL_RETURN_IF_ERROR(CheckChoices(zarr ? kZarrChoices : Choices{.levels = true}, options));
   if (zarr) return OpenZarr(path, options);
   if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
   return absl::InvalidArgumentError(
@@ -166,6 +179,20 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamedFile(std::shared_ptr<const
   return OpenNamed(file->name(), [&] { return OpenFile(file, options); });
 }
 
+// Whatever its name.
+bool StartsLikeTiff(const std::string& path) {
+  std::string front(8, '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(front.data(), static_cast<std::streamsize>(front.size())) && IsTiff(front);
+}
+
+// "scan.nii.gz" -> "scan.nii", in small letters.
+std::string ExpandedName(std::string_view path) {
+  std::string name = LowerCase(path);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return name;
+}
+
 bool IsFolder(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::is_directory(path, ignored);
@@ -186,10 +213,23 @@ std::optional<std::string> HeaderBeside(const std::string& path) {
 
 bool IsImagePath(std::string_view path) {
   if (IsFolder(std::string(path))) return true;
-  std::string name = LowerCase(path);
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  const std::string name = ExpandedName(path);
   return std::ranges::any_of(kEndings,
                              [&name](std::string_view ending) { return name.ends_with(ending); });
+}
+
+absl::Status CheckImageChoice(const std::string& path, const ImageOptions& options) {
+  if (options.raw.has_value()) return CheckChoices({}, options);
+  if (IsFolder(path)) {
+    if (IsZarrFolder(path)) return CheckChoices(kZarrChoices, options);
+    if (IsPrecomputedFolder(path)) return CheckChoices({.levels = true}, options);
+    return IsDicomFolder(path) ? CheckChoices(kDicomChoices, options) : absl::OkStatus();
+  }
+  const std::string name = ExpandedName(path);
+  if (name.ends_with(".dcm") || IsDicomFile(path)) return CheckChoices(kDicomChoices, options);
+  if (!IsImagePath(path)) return absl::OkStatus();
+  const bool tiff = name.ends_with(".tif") || name.ends_with(".tiff") || StartsLikeTiff(path);
+  return CheckChoices({.pages = tiff}, options);
 }
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,

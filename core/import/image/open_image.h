@@ -26,6 +26,11 @@ bool IsImagePath(std::string_view path);
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options = {});
 
+// Whether images of the format that the path leads to have what `options` choose of it: a channel,
+// a time point, a level, a series. OK where nothing can be told. OpenImage() checks the number.
+// Errors: INVALID_ARGUMENT.
+absl::Status CheckImageChoice(const std::string& path, const ImageOptions& options);
+
 // The same for bytes in memory; `name` is used in messages.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImageBytes(std::string name, std::string bytes,
                                                             const ImageOptions& options = {});

@@ -48,15 +48,23 @@ TEST(ConsoleTest, ATokenThatIsNotForACallIsAQuestionOfCredentials) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "bccskel: error: server a:1: no\n");
 }
 
-TEST(ConsoleTest, APlainConnectionThatFailsMayWantTls) {
+TEST(ConsoleTest, APlainConnectionThatBreaksOffMayWantTls) {
+  const std::string failed = "failed to connect to all addresses; last error: ";
+  const auto broke =
+      absl::UnavailableError(failed + "UNAVAILABLE: ipv4:127.0.0.1:1: Socket closed");
   testing::internal::CaptureStderr();
-  FailOnServer(ServerAt("a:1"), absl::UnavailableError("broke"));
+  FailOnServer(ServerAt("a:1"), broke);
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("--tls-ca"));
   testing::internal::CaptureStderr();
-  FailOnServer(ServerAt("unix:/a"), absl::UnavailableError("broke"));
+  FailOnServer(ServerAt("unix:/a"), broke);
   ServerArguments with_tls = ServerAt("a:1");
   with_tls.tls_ca = "ca";
-  FailOnServer(with_tls, absl::UnavailableError("broke"));
+  FailOnServer(with_tls, broke);
+  FailOnServer(ServerAt("a:1"),
+               absl::UnavailableError(failed + "UNKNOWN: ipv4:127.0.0.1:1: Failed to connect to "
+                                               "remote host: Connection refused"));
+  FailOnServer(ServerAt("a:1"),
+               absl::UnavailableError("DNS resolution failed for a:1: Domain name not found"));
   EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("hint")));
 }
 

@@ -139,6 +139,32 @@ TEST(PruningLevels, AreInEveryFormatOfFigures) {
               HasSubstr("Name=\"pruning_level\" format=\"ascii\">\n-1\n2.5\n-1\n"));
 }
 
+// What a file or a user calls the unit.
+constexpr char kWildUnit[] = "m\"m\\ <&\n\xb5";
+
+TEST(JsonTest, EscapesTheWorldAndTheUnit) {
+  SkeletonizeResult result;
+  result.graph = Lollipop();
+  result.method = "a\"b";
+  const std::string json = JsonText(result, std::nullopt, {.axes = "R\"AS", .unit = kWildUnit});
+  EXPECT_THAT(json, HasSubstr(R"("world":"R\"AS",)"));
+  EXPECT_THAT(json, HasSubstr(R"("unit":"m\"m\\ <&\u000a\ufffd",)"));
+  EXPECT_THAT(json, HasSubstr(R"("method":"a\"b",)"));
+}
+
+TEST(GraphMlTest, EscapesFacts) {
+  const std::string graphml =
+      GraphMlText(Lollipop(), {.facts = {{"unit", kWildUnit}, {"a\"<", "1"}}});
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_unit\">m&quot;m\\ &lt;&amp; \xef\xbf\xbd<"));
+  EXPECT_THAT(graphml, HasSubstr("attr.name=\"a&quot;&lt;\""));
+  EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_a&quot;&lt;\">1<"));
+}
+
+TEST(VtpTest, EscapesTheNamesOfFacts) {
+  const std::string vtp = VtpText(Lollipop(), {.facts = {{"a\"<", "1"}}});
+  EXPECT_THAT(vtp, HasSubstr("Name=\"a&quot;&lt;\""));
+}
+
 TEST(GraphMlTest, StatesTheTopologyOfAClosedSurface) {
   const std::string graphml = GraphMlText(SampleOf(Shape::kHollowBall).result.graph);
   EXPECT_THAT(graphml, HasSubstr("<data key=\"kind\">closed_surface</data>"));

@@ -4,6 +4,7 @@
 
 #include "client/export/picture/caption.h"
 #include "client/export/picture/display_curve.h"
+#include "client/export/picture/escape.h"
 #include "client/export/picture/png.h"
 #include "client/export/picture/projection.h"
 #include "client/export/picture/surface_image.h"
@@ -26,6 +27,7 @@ TEST(CaptionTest, GroupsDigitsAndCountsInEnglish) {
 
 TEST(CaptionTest, EscapesWhatMarkupWouldTakeForItsOwn) {
   EXPECT_EQ(EscapeMarkup("<a href=\"x\">&\n"), "&lt;a href=&quot;x&quot;&gt;&amp; ");
+  EXPECT_EQ(EscapeMarkup("\xc2\xb5m \xb5m"), "\xc2\xb5m \xef\xbf\xbdm");
 }
 
 TEST(PngTest, EncodesBase64AsTheStandardsExamplesDo) {

@@ -107,6 +107,11 @@ TEST(MarkupsTest, ALoopWithoutJunctionIsAClosedCurve) {
   EXPECT_NE(curve["controlPoints"].front()["position"], curve["controlPoints"].back()["position"]);
 }
 
+TEST(MarkupsTest, EscapeTheUnit) {
+  EXPECT_THAT(WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = "a\"b\n"}).text,
+              HasSubstr(R"("units":"a\"b\u000a"})"));
+}
+
 TEST(MarkupsTest, TurnAWorldThatSlicerDoesNotKnow) {
   const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "LAS", .unit = "mm"});
   EXPECT_THAT(document.note, HasSubstr("LAS"));

@@ -199,6 +199,9 @@ TEST(SwcTest, TellsWorldAndUnit) {
   const std::string text =
       WriteSwc(Lollipop(), std::nullopt, {.world = {.axes = "RAS", .unit = "mm"}}).text;
   EXPECT_THAT(text, HasSubstr("# world: RAS\n# unit: mm\n"));
+  const SwcOptions wild = {.world = {.axes = "a\rb", .unit = "mm\n1 0 0 0 0 1 -1"}};
+  EXPECT_THAT(WriteSwc(Lollipop(), std::nullopt, wild).text,
+              HasSubstr("# world: a b\n# unit: mm 1 0 0 0 0 1 -1\n#"));
   EXPECT_THAT(WriteSwc(Lollipop()).text, HasSubstr("# world: unknown\n# unit: unknown\n"));
 }
 

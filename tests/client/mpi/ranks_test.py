@@ -168,11 +168,22 @@ class Results(TestCase):
             self.assertEqual(got.read_bytes(), wanted.read_bytes())
 
 
+class Reports(TestCase):
+    def test_what_each_rank_sent(self):
+        run = run_ranks(2, "skeletonize", self.generate("ball", 20_000), "-o",
+                        self.folder / "out.json", "--report-exchange")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for rank in (0, 1):
+            self.assertRegex(run.stderr, rf"bccskel-mpi: rank {rank} of 2: thinning: [0-9]+ trades, "
+                             "[0-9]+ sums, [1-9][0-9]* messages, [1-9][0-9]* bytes sent, ")
+
+
 class Refusals(TestCase):
     def expect_refused(self, code, told, *words):
         run = run_ranks(3, *words)
         self.assertEqual(run.returncode, code, run.stderr)
-        self.assertEqual(run.stderr.count("bccskel: error:"), 1, run.stderr)
+        self.assertEqual(run.stderr.count("bccskel-mpi: error:"), 1, run.stderr)
+        self.assertNotIn("bccskel: ", run.stderr)
         self.assertIn(told, run.stderr)
 
     def test_what_ranks_cannot_do(self):
@@ -193,6 +204,10 @@ class Refusals(TestCase):
     def test_version_and_help(self):
         self.assertRegex(run_ranks(1, "--version").stdout, r"^bccskel-mpi [0-9.]+\n$")
         self.assertIn("--swc-step", run_ranks(1, "--help").stdout)
+
+    def test_options_that_are_none(self):
+        self.expect_refused(2, "bccskel-mpi: hint: see --help", "skeletonize", "a.exr", "-o",
+                            "a.swc", "--pints", 9)
 
     def test_input_that_is_not_there(self):
         self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",

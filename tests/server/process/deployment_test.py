@@ -91,9 +91,9 @@ class DeploymentTest(unittest.TestCase):
     def test_a_fleet_grows_with_the_jobs_in_its_tables(self):
         """Every server tells their number: an average over pods would count them once a pod."""
         fleet = DOCKER / "kubernetes/fleet"
-        patches = yaml.safe_load((fleet / "kustomization.yaml").read_text())["patchesStrategicMerge"]
+        patches = yaml.safe_load((fleet / "kustomization.yaml").read_text())["patches"]
         scalers = [document for document in map(yaml.safe_load, (
-            (fleet / patch).read_text() for patch in patches))
+            (fleet / patch["path"]).read_text() for patch in patches))
             if document["kind"] == "HorizontalPodAutoscaler"]
         self.assertEqual(len(scalers), 1)
         by_type = {metric["type"]: metric[metric["type"].lower()]
@@ -104,6 +104,15 @@ class DeploymentTest(unittest.TestCase):
         rule = re.search(r"```yaml\nexternalRules:.*?```", (DOCKER / "README.md").read_text(), re.S)
         self.assertIn(f"'{name}{{", rule[0])
         self.assertIn("'max(<<.Series>>", rule[0])
+
+    def test_kustomizations_have_no_deprecated_fields(self):
+        deprecated = {"bases", "commonLabels", "imageTags", "patchesJson6902",
+                      "patchesStrategicMerge", "vars"}
+        files = list((DOCKER / "kubernetes").glob("*/kustomization.yaml"))
+        self.assertGreater(len(files), 2)
+        for path in files:
+            fields = set(yaml.safe_load(path.read_text()))
+            self.assertEqual(fields & deprecated, set(), path)
 
     def test_both_kinds_of_pod_mount_what_nginx_and_server_share(self):
         base = yaml.safe_load((DOCKER / "kubernetes/base/deployment.yaml").read_text())
