@@ -1,24 +1,17 @@
 #include "core/prepare/fill_tunnels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/certificate/component_sets.h"
-#include "core/certificate/neighbor_planes.h"
 #include "core/certificate/union_find.h"
-#include "core/distance/chamfer_weights.h"
-#include "core/distance/distance_field.h"
-#include "core/distance/places.h"
 #include "core/exec/status_macros.h"
-#include "core/exec/stop_poll.h"
 #include "core/lattice/directions.h"
+#include "core/prepare/ball_closing.h"
 #include "core/prepare/brick_sets.h"
 #include "core/prepare/fill_cavities.h"
 #include "core/topology/neighborhood.h"
@@ -26,8 +19,6 @@
 namespace bccskel {
 namespace {
 
-// Of the bricks around the object: a distance field while it is made, and bits.
-constexpr uint64_t kBytesPerRoomBrick = 5120;
 // Of the object with its cavities filled: bits, three times.
 constexpr uint64_t kBytesPerCavityBrick = 256;
 // As much as the pipeline needs for a brick of an object.
@@ -35,72 +26,6 @@ constexpr uint64_t kBytesPerNewBrick = 5120;
 
 // In lattice units: that of a voxel missing in a wall.
 constexpr double kNarrowest = 2;
-// A ball of at most this radius is compared point by point: distance fields take up to five times
-// as long.
-constexpr double kFewPoints = 5;
-// So is a larger one if it has so few points for each brick of the distance fields: the bricks
-// around dust are many times those that it lies in.
-constexpr double kVisitsPerBrick = 32;
-
-// As distance fields have it.
-double RoundedLength(LatticePoint way, const AxisScale& scale) {
-  const auto square = [](double length) { return static_cast<float>(length * length); };
-  const auto x = static_cast<float>(std::abs(way.x));
-  const float squared =
-      x * x * square(scale[0]) + square(scale[1] * way.y) + square(scale[2] * way.z);
-  return std::sqrt(static_cast<double>(squared));
-}
-
-// The way from the middle of the ball to each other point in it, the farthest first: most points
-// near an object have background there.
-std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
-  std::vector<std::pair<double, LatticePoint>> ways;
-  const auto reach = static_cast<int32_t>(radius);
-  const bool few = radius <= kFewPoints;
-  for (int32_t z = -reach; z <= reach; ++z) {
-    for (int32_t y = -reach; y <= reach; ++y) {
-      for (int32_t x = -reach; x <= reach; ++x) {
-        const double length = few ? std::hypot(scale[0] * x, scale[1] * y, scale[2] * z)
-                                  : RoundedLength({x, y, z}, scale);
-        if (IsOnLattice({x, y, z}) && length > 0 && length < radius) {
-          ways.push_back({length, {x, y, z}});
-        }
-      }
-    }
-  }
-  std::ranges::sort(ways, std::greater());
-  std::vector<LatticePoint> sorted;
-  for (const auto& [length, way] : ways) sorted.push_back(way);
-  return sorted;
-}
-
-// The points with background beside them.
-template <typename Visit>
-void ForEachSurfacePoint(const Volume& object, Visit visit) {
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    BrickBits surface;
-    for (const BrickBits& plane : NeighborPlanesOf(object, n)) {
-      for (size_t w = 0; w < plane.words.size(); ++w) surface.words[w] |= ~plane.words[w];
-    }
-    for (size_t w = 0; w < surface.words.size(); ++w) {
-      surface.words[w] &= object.bricks()[n].words[w];
-    }
-    const BrickCoordinates at = object.keys()[n].coordinates();
-    surface.ForEachSetBit([&](int bit) { visit(PointOf(at, bit)); });
-  }
-}
-
-template <typename Passes>
-Volume PointsAt(const Volume& volume, const DistanceField& distance, Passes passes) {
-  std::vector<BrickBits> bricks(volume.brick_count());
-  for (BrickIndex n = 0; n < bricks.size(); ++n) {
-    volume.bricks()[n].ForEachSetBit([&](int bit) {
-      if (passes(distance.ToLatticeUnits(distance.At(n, bit)))) bricks[n].Set(bit);
-    });
-  }
-  return Volume::FromSortedBricks(volume.extent(), volume.placement(),
-                                  {volume.keys().begin(), volume.keys().end()}, std::move(bricks));
-}
 
 // How the Euler characteristic changes when a point with these object neighbors joins them.
 // Source: 1 - chi(link), where chi = b0 - b1, and on a sphere b1 of the object's part is one less
@@ -110,43 +35,6 @@ int EulerOfJoining(NeighborMask mask) {
   if (mask == kAllNeighbors) return -1;
   const auto rest = static_cast<NeighborMask>(kAllNeighbors & ~mask);
   return 1 - (ComponentsIn(mask) - (ComponentsIn(rest) - 1));
-}
-
-// How a ball is compared with the object, and how far around it one has to look.
-struct Closing {
-  bool by_points = false;
-  BrickCoordinates room;
-};
-
-// Nothing is known of what lies beyond the bricks that are looked at, and they count as background.
-// That is wrong by up to two radii from there, and matters to the closing up to two radii from the
-// object.
-Closing ClosingOf(const Volume& object, double radius) {
-  const BrickCoordinates room = RoomFor(4 * radius);
-  const AxisScale scale = AxisScaleOf(object.placement());
-  constexpr double kPointsPerUnit = 0.25, kBall = 4 * std::numbers::pi / 3;
-  const double ball =
-      kPointsPerUnit * kBall * radius * radius * radius / (scale[0] * scale[1] * scale[2]);
-  const double visits = ball * static_cast<double>(object.PointCount());
-  const bool is_dust =
-      visits <= kVisitsPerBrick * static_cast<double>(MostBricksAround(object, room));
-  if (radius <= kFewPoints || is_dust) return {true, RoomFor(radius)};
-  return {false, room};
-}
-
-// Reserves and lists the bricks to look at.
-absl::StatusOr<std::vector<BrickKey>> BricksToLookAt(const Volume& object, BrickCoordinates room,
-                                                     exec::MemoryBudget& memory) {
-  BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(MostBricksAround(object, room), kBytesPerListedBrick,
-                                         "bricks to list around the object"));
-  std::vector<BrickKey> keys = BricksAround(object, room);
-  BCCSKEL_RETURN_IF_ERROR(
-      memory.TakeFor(keys.size(), kBytesPerRoomBrick, "bricks to look for tunnels in"));
-  return keys;
-}
-
-Volume WithRoomAround(const Volume& object, BrickCoordinates room) {
-  return ShiftedBy(object, room, 1, WithRoom(object.extent(), room));
 }
 
 double RadiusOf(double width) { return width / 2 + 1; }
@@ -163,7 +51,7 @@ class TunnelFiller {
         for_cavities_(memory) {}
 
   absl::StatusOr<ChangedVolume> Run() && {
-    BCCSKEL_RETURN_IF_ERROR(CloseObject());
+    BCCSKEL_ASSIGN_OR_RETURN(pieces_, OutOfReach(object_, radius_, memory_, context_));
     if (pieces_.empty()) return ChangedVolume{object_};
     BCCSKEL_RETURN_IF_ERROR(JudgePieces());
     BCCSKEL_RETURN_IF_ERROR(RefuseNewCavities());
@@ -179,72 +67,6 @@ class TunnelFiller {
 
     bool IsFilled() const { return !refused && touches != kNone && euler > 0; }
   };
-
-  // Sets pieces_: what the ball does not reach, without the object.
-  absl::Status CloseObject() {
-    const auto [by_points, room] = ClosingOf(object_, radius_);
-    const Volume object = WithRoomAround(object_, room);
-    exec::MemoryShare share(memory_);
-    BCCSKEL_ASSIGN_OR_RETURN(std::vector<BrickKey> keys, BricksToLookAt(object, room, share));
-    BrickBits all;
-    all.words.fill(~uint64_t{0});
-    std::vector<BrickBits> whole(keys.size(), all);
-    const Volume bricks = Volume::FromSortedBricks(object.extent(), object.placement(),
-                                                   std::move(keys), std::move(whole));
-    BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, by_points ? ClosedByPoints(object, bricks)
-                                                            : ClosedByDistances(object, bricks));
-    // The builder drops what lies outside the extent.
-    VolumeBuilder pieces(object_.extent(), object_.placement());
-    Difference(closed, object).ForEachPoint([&](LatticePoint p) {
-      pieces.Add(p -
-                 LatticePoint{2 * kBrickX * room.bx, 2 * kBrickY * room.by, 2 * kBrickZ * room.bz});
-    });
-    BCCSKEL_ASSIGN_OR_RETURN(pieces_, std::move(pieces).Build());
-    return context_.StopStatus();
-  }
-
-  absl::StatusOr<Volume> ClosedByDistances(const Volume& object, const Volume& bricks) const {
-    const Volume around = Difference(bricks, object);
-    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField distance,
-                             ComputeDistance(around, DistanceKind::kEuclidean, context_));
-    const Volume near = PointsAt(around, distance, [&](double far) { return far < radius_; });
-    const Volume grown = Union(object, near);
-    BCCSKEL_ASSIGN_OR_RETURN(const DistanceField depth,
-                             ComputeDistance(grown, DistanceKind::kEuclidean, context_));
-    return PointsAt(grown, depth, [&](double deep) { return deep >= radius_; });
-  }
-
-  // The nearest point of the object is one of its surface: one of its neighbors would be nearer.
-  absl::StatusOr<Volume> ClosedByPoints(const Volume& object, const Volume& bricks) const {
-    const std::vector<LatticePoint> ways = WaysInBall(radius_, AxisScaleOf(object.placement()));
-    const auto volume_of = [&](std::vector<BrickBits> bits) {
-      return Volume::FromSortedBricks(object.extent(), object.placement(),
-                                      {bricks.keys().begin(), bricks.keys().end()},
-                                      std::move(bits));
-    };
-    StopPoll poll(context_);
-    NearbyBricks nearby(bricks);
-    std::vector<BrickBits> near(bricks.brick_count()), closed(bricks.brick_count());
-    ForEachSurfacePoint(object, [&](LatticePoint p) {
-      if (poll.Stopped()) return;
-      for (LatticePoint way : ways) {
-        const BrickAddress at = AddressOf(p + way);
-        near[nearby.Find(at.brick)].Set(at.bit);
-      }
-    });
-    const Volume around = Difference(volume_of(std::move(near)), object);
-    const Volume grown = Union(object, around);
-    NearbyBricks in_grown(grown);
-    around.ForEachPoint([&](LatticePoint p) {
-      if (poll.Stopped()) return;
-      const auto is_grown = [&](LatticePoint way) { return in_grown.Contains(p + way); };
-      if (!std::ranges::all_of(ways, is_grown)) return;
-      const BrickAddress at = AddressOf(p);
-      closed[nearby.Find(at.brick)].Set(at.bit);
-    });
-    if (poll.StoppedNow()) return context_.StopStatus();
-    return volume_of(std::move(closed));
-  }
 
   // Sets judged_.
   absl::Status JudgePieces() {
@@ -390,13 +212,6 @@ class TunnelFiller {
   std::vector<Piece> judged_;           // by name
 };
 
-// The widest ball needs most, and no less once narrower ones have filled something.
-absl::Status CheckRoomFor(const Volume& object, double radius, exec::MemoryBudget& memory) {
-  exec::MemoryShare share(memory);
-  const BrickCoordinates room = ClosingOf(object, radius).room;
-  return BricksToLookAt(WithRoomAround(object, room), room, share).status();
-}
-
 }  // namespace
 
 absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
@@ -404,8 +219,8 @@ absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           const exec::Context& context) {
   ChangedVolume all{object};
   if (object.empty()) return all;
-  if (width > kNarrowest) {
-    BCCSKEL_RETURN_IF_ERROR(CheckRoomFor(object, RadiusOf(width), memory));
+  if (width > kNarrowest) {  // the widest ball needs most, and no less once others have filled some
+    BCCSKEL_RETURN_IF_ERROR(CheckRoomForBall(object, RadiusOf(width), memory));
   }
   for (double now = std::min(width, kNarrowest);; now = std::min(2 * now, width)) {
     BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume filled,

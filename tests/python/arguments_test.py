@@ -67,7 +67,8 @@ class ArgumentsTest(harness.TestCase):
         refuse(ValueError, "no voxel has the label 7", label=7)
         refuse(ValueError, "root must be 3 numbers, one per axis, got (1, 2)", root=(1, 2))
         refuse(ValueError, "root must be 3 numbers, one per axis, got 7", root=7)
-        refuse(ValueError, "pruning_threshold wide: must be a number", pruning_threshold="wide")
+        refuse(ValueError, "pruning_threshold: must be finite and positive, not wide",
+               pruning_threshold="wide")
         refuse(ValueError, "denoise 2.5: must be a whole number", denoise=2.5)
         self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",
                     bccskel.skeletonize_labels, MASK, root="node:1")

@@ -68,7 +68,7 @@ class HeartbeatTest(DurableTest):
 
 def thicket():
     """A volume whose skeleton takes megabytes: noise, of which nothing is pruned."""
-    cells = np.random.default_rng(1).random((2, 40, 40, 40)) < 0.45
+    cells = np.random.default_rng(1).random((2, 64, 64, 64)) < 0.45
     return example.declare(cells, 1.0, (0, 0, 0), np.eye(3))
 
 
