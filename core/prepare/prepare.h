@@ -31,8 +31,8 @@ struct PreparingOptions {
   // Of two largest components the one stays that has the first point in brick order.
   KeptComponents components = KeptComponents::kAll;
   // Fills tunnels that are narrower, in world units, up to 256 half edges of the cubic cell; 0
-  // fills none. Components and cavities stay as they
-  // are, so a tunnel in which another component lies stays, too.
+  // fills none. Components and cavities stay as they are, so a tunnel in which another component
+  // lies stays, too.
   double tunnel_width = 0;
   // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points.
   double tunnel_cells = 0;

@@ -20,11 +20,11 @@ ClusterTree::ClusterTree(PointIndex root, const std::function<PointIndex(PointIn
       p = above;
     }
   }
-  if (!stays && spots_[root].fan < 3) MoveRoot(terminals);
+  while (!stays && spots_[root_].fan < 3) MoveRoot(terminals);
 }
 
 // To the first fork below. The way there has none, so it turns around, or goes if nothing else
-// starts at the old root.
+// starts at the old root; then the fork may have two ways only, and the next move turns.
 void ClusterTree::MoveRoot(std::span<const PointIndex> terminals) {
   PointPath way;
   for (PointIndex p : terminals) {
@@ -34,7 +34,6 @@ void ClusterTree::MoveRoot(std::span<const PointIndex> terminals) {
     }
     if (way.front() != root_) break;
   }
-  if (way.front() == root_) return;
   way.push_back(root_);
   const bool turns = --spots_[root_].fan > 0;
   root_ = way.front();

@@ -20,8 +20,7 @@ class ClusterTree {
   // Shapes: parent(p) is a neighbor of p, nearer to the root; `terminals` are the points where
   // edges
   //         start, each as often as edges do.
-  // Needs:  three terminals. The root may become another point unless it `stays`: one of the tree's
-  //         nodes.
+  // Needs:  five terminals. Unless the root `stays`, it moves to where three paths or edges meet.
   ClusterTree(PointIndex root, const std::function<PointIndex(PointIndex)>& parent,
               std::span<const PointIndex> terminals, bool stays);
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
@@ -258,6 +260,29 @@ TEST(TraceSkeletonLaw, EdgesOfLayersShareTheirPaths) {
     for (int32_t n = 1; n < 10; ++n) points.push_back({n, n, n});
     ExpectInvariants(points);
     EXPECT_LT(test::Trace(points).points.size(), 5 * points.size());
+  }
+}
+
+// A solid plate with hairs at one end and its deepest points at the other, where nothing starts.
+TEST(TraceSkeletonLaw, TheDeepestPointOfALargeClusterMayBeNoNode) {
+  for (int32_t deepest = 0; deepest < 30; deepest += 2) {
+    SCOPED_TRACE(deepest);
+    std::vector<LatticePoint> points;
+    for (int32_t y = 0; y < 24; y += 2) {
+      for (int32_t x = 0; x < 240; x += 2) {
+        points.push_back({x, y, 0});
+        points.push_back({x + 1, y + 1, 1});
+        if (x < 60 || x % 4 != 0 || y % 4 != 0) continue;
+        for (int32_t z = 2; z < 8; z += 2) points.push_back({x, y, z});
+      }
+    }
+    const test::Depth depth = [&](LatticePoint p) {
+      return static_cast<float>(300 - std::abs(p.x) - std::abs(p.y - deepest));
+    };
+    const Volume plate = VolumeOfPoints(points);
+    const SkeletonGraph graph = test::Trace(points, depth);
+    ExpectGraphOf(plate, CountBettiNumbers(plate, {}).value(), graph, depth);
+    EXPECT_GT(std::ranges::count(graph.nodes, NodeKind::kJunction, &SkeletonNode::kind), 10);
   }
 }
 
