@@ -1,5 +1,7 @@
 #include "core/pipeline/notes.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_format.h"
 #include "core/certificate/describe_changes.h"
 #include "core/distance/chamfer_weights.h"
@@ -32,17 +34,18 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   const SkeletonizeOptions& options = result.options;
   const double edge = SurfaceStepOf(options.source);  // of the shortest, in lattice units
   if (edge == 1 || !MakesCurves(options.thinning.kind)) return;
+  const double unit = WorldUnitsPerLatticeUnit(result.graph.placement);
+  const double width = kVoxels * edge * unit;
   const PreparingOptions& preparing = options.preparing;
-  const bool cut = preparing.tunnel_width > 0 || preparing.tunnel_cells > 0;
+  const double cut = std::max(preparing.tunnel_width, 2 * preparing.tunnel_cells * unit);
   const bool dust = result.certificate.input.components > 1 &&
                     preparing.min_component_points == 0 && preparing.min_component_volume == 0;
-  if (cut && !dust) return;
-  const double width = kVoxels * edge * WorldUnitsPerLatticeUnit(result.graph.placement);
+  if (cut > 0 && (cut < width || !dust)) return;
   const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
   if (loops == 0) return;
   const std::string what =
       Counted(loops, "loop is", "loops are") + absl::StrFormat(" narrower than %g voxels", kVoxels);
-  if (cut) {
+  if (cut > 0) {
     notes.push_back(what +
                     "; tunnels with another component in them stay open: --min-component "
                     "200 drops specks before");

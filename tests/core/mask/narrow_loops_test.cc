@@ -15,10 +15,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // A bar of 40 x 7 x 7 voxels with square holes across it, each as wide as told, and a voxel in the
-// middle of the last one if there shall be dust.
+// middle of the last one, or just above if it is that narrow, if there shall be dust.
 SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double voxel,
                                const PreparingOptions& preparing = {}, bool dust = false) {
-  test::ReferenceMask mask{44, 20, 9, std::vector<uint8_t>(44 * 20 * 9)};
+  test::ReferenceMask mask{44, 20, 11, std::vector<uint8_t>(44 * 20 * 11)};
   const auto set = [&](int32_t x, int32_t y, uint8_t value) {
     for (int32_t z = 1; z < 8; ++z) mask.voxels[mask.Index(x, y, z)] = value;
   };
@@ -34,7 +34,8 @@ SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double vox
     }
     at += width + 9;
   }
-  if (dust) mask.voxels[mask.Index(at - 9 - widths.end()[-1] / 2 - 1, 10, 4)] = 1;
+  const int32_t width = widths.end()[-1];
+  if (dust) mask.voxels[mask.Index(at - 9 - width + width / 2, 10, width > 1 ? 4 : 9)] = 1;
   Placement placement;
   placement.spacing = {voxel, voxel, voxel};
   SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
@@ -67,6 +68,12 @@ TEST(NarrowLoops, StayWithDustInThemUnlessItIsDropped) {
   const SkeletonizeResult closed =
       BarWithHoles({1, 3}, 1, {.min_component_points = 200, .tunnel_cells = 4}, true);
   EXPECT_EQ(closed.certificate.input, (BettiNumbers{1, 0, 0}));
+}
+
+TEST(NarrowLoops, AreNotedWithTheDustThatKeepsThem) {
+  const SkeletonizeResult stays = BarWithHoles({1}, 1, {.tunnel_cells = 4}, true);
+  EXPECT_EQ(stays.certificate.input, (BettiNumbers{2, 1, 0}));
+  EXPECT_THAT(NotesOn(stays), ElementsAre(HasSubstr("--min-component 200 drops specks before")));
 }
 
 TEST(NarrowLoops, AreNotNotedWhereAllAreWide) {
