@@ -41,6 +41,12 @@ inline Coordinates PlaceOf(LatticePoint p, const AxisScale& scale) {
   return {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
 }
 
+// Straight, in lattice units.
+inline double StraightDistance(LatticePoint a, LatticePoint b, const AxisScale& scale) {
+  const double x = scale[0] * (a.x - b.x), y = scale[1] * (a.y - b.y), z = scale[2] * (a.z - b.z);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
 // The nearest whole number. Needs: more than -1024. No call of the library, which has to ask how to
 // round.
 inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }

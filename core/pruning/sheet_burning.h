@@ -1,12 +1,14 @@
 #ifndef BCCSKEL_CORE_PRUNING_SHEET_BURNING_H_
 #define BCCSKEL_CORE_PRUNING_SHEET_BURNING_H_
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "core/exec/context.h"
-#include "core/lattice/lattice_point.h"
-#include "core/pruning/point_table.h"
-#include "core/pruning/thin_set.h"
+#include "core/distance/chamfer_weights.h"
+#include "core/exec/stop_poll.h"
+#include "core/pruning/sheet_set.h"
+#include "core/skeleton/thin_points.h"
 
 namespace bccskel {
 
@@ -28,32 +30,34 @@ namespace bccskel {
 //         (2016), with straight distances for those along the sheet, which the lattice overstates.
 class SheetBurning {
  public:
-  // Points of `keep` do not burn.
-  SheetBurning(const ThinSet& sheets, const PointSet& keep, const exec::Context& context);
+  // Both outlive this. Points p with kept[p] other than 0 do not burn.
+  SheetBurning(const ThinPoints& points, const AxisScale& scale, std::span<const uint8_t> kept,
+               StopPoll& poll);
 
   // Those that burned, the first first.
-  const std::vector<LatticePoint>& burned() const { return burned_; }
+  const std::vector<PointIndex>& burned() const { return burned_; }
   // Of a point that burned; lattice units.
-  double WorthOf(LatticePoint p) const { return fires_.Find(p)->worth; }
+  double WorthOf(PointIndex p) const { return fires_[p].worth; }
 
  private:
   struct Fire {
-    LatticePoint origin = {0, 0, 0};
+    PointIndex origin = 0;
+    bool is_out = false;
+    bool waits = false;  // it is simple
     double arrival = 0;  // of the fire that comes first since the point last became simple
     double time = 0;     // when it burns
     double exposed = 0;  // when it became simple
     double worth = 0;
-    bool is_out = false;
-    bool waits = false;  // it is simple
   };
-  double ArrivalFrom(LatticePoint origin, LatticePoint p) const;
-  void Burn(const PointSet& keep, const exec::Context& context);
+  double ArrivalFrom(PointIndex origin, PointIndex p) const;
+  void Burn(std::span<const uint8_t> kept, StopPoll& poll);
   void Rate();
 
-  const ThinSet& sheets_;
-  ThinSet rest_;
-  PointTable<Fire> fires_;
-  std::vector<LatticePoint> burned_;
+  const ThinPoints& points_;
+  const AxisScale scale_;
+  SheetSet rest_;
+  std::vector<Fire> fires_;
+  std::vector<PointIndex> burned_;
 };
 
 }  // namespace bccskel

@@ -1,12 +1,15 @@
 #include "core/pruning/sheet_pruner.h"
 
 #include <algorithm>
-#include <set>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
+#include "core/distance/places.h"
 #include "core/exec/stop_poll.h"
 #include "core/pruning/sheet_burning.h"
-#include "core/pruning/simple_points.h"
+#include "core/pruning/sheet_set.h"
+#include "core/pruning/thin_set.h"
 #include "core/skeleton/branches.h"
 #include "core/skeleton/clusters.h"
 #include "core/skeleton/thin_points.h"
@@ -17,46 +20,22 @@ namespace {
 
 constexpr double kTwigSlope = 0.5;
 
-// What is worth less than the margin, in the order in which it burned, each point once it is
-// simple.
-void RemoveInTurn(ThinSet& set, const SheetBurning& burning, double margin,
-                  const exec::Context& context) {
-  StopPoll poll(context);
-  PointTable<size_t> place;
-  std::set<std::pair<size_t, LatticePoint>> turns;
-  for (size_t n = 0; n < burning.burned().size(); ++n) {
-    const LatticePoint p = burning.burned()[n];
-    if (burning.WorthOf(p) >= margin) continue;
-    place.Set(p, n);
-    turns.emplace(n, p);
-  }
-  while (!turns.empty() && !poll.Stopped()) {
-    const LatticePoint p = turns.begin()->second;
-    turns.erase(turns.begin());
-    const NeighborMask neighbors = set.NeighborsOf(p);
-    if (!IsSimple(neighbors)) continue;
-    set.Remove(p);
-    place.Remove(p);
-    ForEachNeighbor(p, neighbors, [&](LatticePoint q) {
-      const size_t* n = place.Find(q);
-      if (n != nullptr) turns.emplace(*n, q);
-    });
-  }
-}
-
 // What hangs on the rest by a curve: the curve's points and the patch that it ends in, or its end.
 struct Twig {
-  std::vector<LatticePoint> points;
-  LatticePoint foot;  // the point of the rest where the curve begins
+  std::vector<PointIndex> points;
+  PointIndex foot;  // the point of the rest where the curve begins
 };
 
 class TwigFinder {
  public:
-  TwigFinder(const ThinSet& set, const ThinSkeleton& grid, StopPoll& poll)
-      : points_(set.ToSkeleton(grid), poll),
+  // Of the points of `all` that are in `some`, which increases.
+  TwigFinder(const ThinPoints& all, std::vector<PointIndex> some, StopPoll& poll)
+      : some_(std::move(some)),
+        points_(all, some_, poll),
         clusters_(points_, poll),
         branches_(FollowBranches(points_, clusters_, poll)) {}
 
+  // With the indices of `all`.
   std::vector<Twig> Find() const {
     std::vector<Twig> twigs;
     for (const Branch& branch : branches_.between) {
@@ -79,8 +58,8 @@ class TwigFinder {
   }
 
   Twig TwigOf(ClusterIndex end, const PointPath& branch, PointIndex foot) const {
-    Twig twig{{}, points_[foot].point};
-    const auto add = [&](PointIndex p) { twig.points.push_back(points_[p].point); };
+    Twig twig{{}, some_[foot]};
+    const auto add = [&](PointIndex p) { twig.points.push_back(some_[p]); };
     std::ranges::for_each(clusters_[end].points, add);
     for (const PointIndex p : branch) {
       if (clusters_.IsPlainCurvePoint(p)) {
@@ -92,72 +71,121 @@ class TwigFinder {
     return twig;
   }
 
+  std::vector<PointIndex> some_;
   ThinPoints points_;
   Clusters clusters_;
   Branches branches_;
 };
 
-// Points of the twig, each once it is simple; a tunnel of the twig stays. Returns whether any went.
-bool RemoveFarthestFirst(ThinSet& set, const Twig& twig) {
-  const PointSet points(twig.points.begin(), twig.points.end());
-  std::set<std::pair<double, LatticePoint>> turns;
-  const auto add = [&](LatticePoint p) {
-    if (points.contains(p)) turns.emplace(-set.Between(p, twig.foot), p);
-  };
-  std::ranges::for_each(twig.points, add);
-  bool any = false;
-  while (!turns.empty()) {
-    const LatticePoint p = turns.begin()->second;
-    turns.erase(turns.begin());
-    const NeighborMask neighbors = set.NeighborsOf(p);
-    if (!IsSimple(neighbors)) continue;
-    set.Remove(p);
-    any = true;
-    ForEachNeighbor(p, neighbors, add);
+class SheetPruner {
+ public:
+  SheetPruner(const ThinSkeleton& sheets, double margin, std::span<const LatticePoint> keep,
+              const exec::Context& context)
+      : scale_(AxisScaleOf(sheets.points.placement())),
+        margin_(margin),
+        poll_(context),
+        points_(sheets, poll_),
+        set_(points_),
+        kept_(points_.size(), 0) {
+    const PointSet kept(keep.begin(), keep.end());
+    for (PointIndex p = 0; p < points_.size() && !kept.empty(); ++p) {
+      kept_[p] = kept.contains(points_[p].point) ? 1 : 0;
+    }
   }
-  return any;
-}
 
-// As the slope rule for curves, with the place where the curve leaves the sheet as the junction.
-// Returns whether any went.
-bool RemoveTwigs(ThinSet& set, const ThinSkeleton& grid, double margin, const PointSet& keep,
-                 StopPoll& poll) {
-  const TwigFinder finder(set, grid, poll);
-  if (poll.StoppedNow()) return false;
-  bool any = false;
-  for (const Twig& twig : finder.Find()) {
-    const double limit = set.RadiusOf(twig.foot) + margin;
-    const bool spurious = std::ranges::all_of(twig.points, [&](LatticePoint p) {
-      return !keep.contains(p) && kTwigSlope * set.Between(p, twig.foot) + set.RadiusOf(p) < limit;
-    });
-    if (spurious) any |= RemoveFarthestFirst(set, twig);
+  // Returns what is left, in lattice order; too much where the context says to stop.
+  std::vector<PointIndex> Prune() {
+    RemoveThin();
+    do {
+      RemoveSimple();
+    } while (!poll_.StoppedNow() && RemoveTwigs());
+    return set_.Points();
   }
-  return any;
-}
+
+  LatticePoint operator[](PointIndex p) const { return points_[p].point; }
+
+ private:
+  // What is worth less than the margin, in the order in which it burned.
+  void RemoveThin() {
+    const SheetBurning burning(points_, scale_, kept_, poll_);
+    std::vector<uint32_t> turn(points_.size(), 0);  // from 1
+    uint32_t turns = 0;
+    for (const PointIndex p : burning.burned()) {
+      ++turns;
+      if (burning.WorthOf(p) < margin_) turn[p] = turns;
+    }
+    set_.RemoveSimple(
+        burning.burned(), [&](PointIndex p) { return turn[p] != 0; },
+        [&](PointIndex p) { return turn[p]; }, poll_);
+  }
+
+  // What is neither an end nor an isthmus, shallow points first.
+  void RemoveSimple() {
+    const auto may_go = [&](PointIndex p) {
+      return IsSimpleNonEnd(set_.mask(p)) && kept_[p] == 0 && points_[p].birth <= 0;
+    };
+    set_.RemoveSimple(
+        set_.Points(), may_go, [&](PointIndex p) { return points_[p].radius; }, poll_);
+  }
+
+  // As the slope rule for curves, with the place where the curve leaves the sheet as the junction.
+  // Returns whether any went. A tunnel of a twig stays.
+  bool RemoveTwigs() {
+    const TwigFinder finder(points_, set_.Points(), poll_);
+    if (poll_.StoppedNow()) return false;
+    bool any = false;
+    std::vector<uint8_t> of_twig(points_.size(), 0);
+    for (const Twig& twig : finder.Find()) {
+      const auto way = [&](PointIndex p) {
+        return StraightDistance(points_[p].point, points_[twig.foot].point, scale_);
+      };
+      const double limit = points_[twig.foot].radius + margin_;
+      const bool spurious = std::ranges::all_of(twig.points, [&](PointIndex p) {
+        return kept_[p] == 0 && kTwigSlope * way(p) + points_[p].radius < limit;
+      });
+      if (!spurious) continue;
+      for (const PointIndex p : twig.points) of_twig[p] = 1;
+      any |= set_.RemoveSimple(
+          twig.points, [&](PointIndex p) { return of_twig[p] != 0; },
+          [&](PointIndex p) { return -way(p); }, poll_);
+      for (const PointIndex p : twig.points) of_twig[p] = 0;
+    }
+    return any;
+  }
+
+  const AxisScale scale_;
+  const double margin_;
+  StopPoll poll_;
+  const ThinPoints points_;
+  SheetSet set_;
+  std::vector<uint8_t> kept_;  // by point
+};
 
 }  // namespace
 
 absl::StatusOr<ThinSkeleton> PruneSheets(const ThinSkeleton& sheets, double margin,
                                          std::span<const LatticePoint> keep,
                                          const exec::Context& context) {
-  ThinSet set(sheets, context);
-  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
-  const PointSet kept(keep.begin(), keep.end());
+  VolumeBuilder builder(sheets.points.extent(), sheets.points.placement());
   {
-    const SheetBurning burning(set, kept, context);
+    SheetPruner pruner(sheets, margin, keep, context);
+    for (const PointIndex p : pruner.Prune()) builder.Add(pruner[p]);
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
-    RemoveInTurn(set, burning, margin, context);
   }
-  PointSet spared = kept;
-  set.ForEachPoint([&](LatticePoint p) {
-    if (set.BirthOf(p) > 0) spared.insert(p);
+  ThinSkeleton pruned{*std::move(builder).Build(), {}};
+  std::vector<LatticePoint> left;
+  pruned.points.ForEachPoint([&](LatticePoint p) { left.push_back(p); });
+  // The same order as before, with gaps.
+  size_t before = 0;
+  sheets.points.ForEachPoint([&](LatticePoint p) {
+    const size_t n = pruned.radii.size();
+    if (n < left.size() && left[n] == p) {
+      pruned.radii.push_back(sheets.radii[before]);
+      if (!sheets.births.empty()) pruned.births.push_back(sheets.births[before]);
+    }
+    ++before;
   });
-  StopPoll poll(context);
-  do {
-    RemoveSimplePoints(set, spared);
-  } while (RemoveTwigs(set, sheets, margin, kept, poll));
-  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
-  return set.ToSkeleton(sheets);
+  return pruned;
 }
 
 }  // namespace bccskel

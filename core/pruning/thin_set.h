@@ -59,11 +59,7 @@ class ThinSet {
   }
 
   // Straight distance in lattice units.
-  double Between(LatticePoint a, LatticePoint b) const {
-    const double x = scale_[0] * (a.x - b.x), y = scale_[1] * (a.y - b.y),
-                 z = scale_[2] * (a.z - b.z);
-    return std::sqrt(x * x + y * y + z * z);
-  }
+  double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }
 
   // The same to a place between points.
   double Between(LatticePoint a, const Coordinates& place) const {

@@ -38,6 +38,24 @@ ThinPoints::ThinPoints(const ThinSkeleton& skeleton, StopPoll& poll) {
   }
 }
 
+ThinPoints::ThinPoints(const ThinPoints& all, std::span<const PointIndex> some, StopPoll& poll)
+    : masks_(some.size(), 0), neighbors_(some.size()) {
+  std::vector<PointIndex> place(all.size(), 0);  // from 1; 0 for the others
+  points_.reserve(some.size());
+  for (const PointIndex p : some) {
+    points_.push_back(all.points_[p]);
+    place[p] = static_cast<PointIndex>(points_.size());
+  }
+  for (PointIndex n = 0; n < size() && !poll.Stopped(); ++n) {
+    ForEachDirection(all.masks_[some[n]], [&](Direction d) {
+      const PointIndex neighbor = place[all.Neighbor(some[n], d)];
+      if (neighbor == 0) return;
+      masks_[n] = static_cast<NeighborMask>(masks_[n] | d.mask());
+      neighbors_[n][static_cast<size_t>(d.bit())] = neighbor - 1;
+    });
+  }
+}
+
 PointIndex ThinPoints::DeepestOf(std::span<const PointIndex> some) const {
   return *std::ranges::min_element(some, [this](PointIndex p, PointIndex q) {
     const float a = points_[p].at.radius, b = points_[q].at.radius;

@@ -23,6 +23,8 @@ class ThinPoints {
  public:
   // Left unfinished when `poll` says stop.
   ThinPoints(const ThinSkeleton& skeleton, StopPoll& poll);
+  // Those of `all` at `some`, which increases.
+  ThinPoints(const ThinPoints& all, std::span<const PointIndex> some, StopPoll& poll);
 
   size_t size() const { return points_.size(); }
   const SkeletonPoint& operator[](PointIndex p) const { return points_[p].at; }

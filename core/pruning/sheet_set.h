@@ -1,0 +1,63 @@
+#ifndef BCCSKEL_CORE_PRUNING_SHEET_SET_H_
+#define BCCSKEL_CORE_PRUNING_SHEET_SET_H_
+
+#include <functional>
+#include <queue>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/exec/stop_poll.h"
+#include "core/lattice/directions.h"
+#include "core/skeleton/thin_points.h"
+#include "core/topology/simple_point_table.h"
+
+namespace bccskel {
+
+// Which points of a surface skeleton are left while points go. By index instead of ThinSet's
+// table, since sheets have many points: neighbors lie close in memory.
+class SheetSet {
+ public:
+  // All of `points`, which must outlive the set.
+  explicit SheetSet(const ThinPoints& points);
+
+  bool Contains(PointIndex p) const { return left_[p] != 0; }
+  // The neighbors that are left; 0 for points that went.
+  NeighborMask mask(PointIndex p) const { return masks_[p]; }
+  void Remove(PointIndex p);
+  // Those left, in lattice order.
+  std::vector<PointIndex> Points() const;
+
+  // Removes points of `from`, then their neighbors, and so on: whoever is simple at its turn and of
+  // whom `may_go(PointIndex)` is true, those with the least `key(PointIndex)` first, of equal ones
+  // in lattice order. Returns whether any went.
+  template <typename MayGo, typename Key>
+  bool RemoveSimple(std::span<const PointIndex> from, MayGo may_go, Key key, StopPoll& poll) {
+    using Turn = std::pair<decltype(key(0)), PointIndex>;
+    std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns;
+    const auto add = [&](PointIndex p) {
+      if (IsSimple(masks_[p]) && may_go(p)) turns.emplace(key(p), p);
+    };
+    for (const PointIndex p : from) add(p);
+    bool any = false;
+    while (!turns.empty() && !poll.Stopped()) {
+      const PointIndex p = turns.top().second;
+      turns.pop();
+      const NeighborMask neighbors = masks_[p];
+      if (!IsSimple(neighbors) || !may_go(p)) continue;
+      Remove(p);
+      any = true;
+      ForEachDirection(neighbors, [&](Direction d) { add(points_.Neighbor(p, d)); });
+    }
+    return any;
+  }
+
+ private:
+  const ThinPoints& points_;
+  std::vector<NeighborMask> masks_;
+  std::vector<uint8_t> left_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_SHEET_SET_H_
