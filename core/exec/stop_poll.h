@@ -7,22 +7,27 @@
 
 namespace bccskel {
 
-// Asks a context once in 1024 calls whether to stop: for loops over single points, well within
+// Asks a context once in 1024 steps whether to stop: for loops over single points, well within
 // 20 ms. Stays true once it is true.
 class StopPoll {
  public:
   explicit StopPoll(const exec::Context& context) : context_(context) {}
 
-  bool Stopped() { return ++calls_ % 1024 == 0 ? StoppedNow() : stopped_; }
+  // `steps`: how many points the work since the last call is worth.
+  bool Stopped(uint64_t steps = 1) {
+    since_ += steps;
+    return since_ >= 1024 ? StoppedNow() : stopped_;
+  }
   // Asks in each call: for steps over many points.
   bool StoppedNow() {
+    since_ = 0;
     stopped_ = stopped_ || context_.ShouldStop();
     return stopped_;
   }
 
  private:
   const exec::Context& context_;
-  uint64_t calls_ = 0;
+  uint64_t since_ = 0;  // steps since the context was asked
   bool stopped_ = false;
 };
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/exec/stop_poll.h"
+
 namespace bccskel {
 namespace {
 
@@ -18,9 +20,12 @@ size_t LevelOf(float radius) {
 
 }  // namespace
 
-BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale) : scale_(scale) {
+BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale, const exec::Context& context)
+    : scale_(scale) {
+  StopPoll poll(context);
   std::vector<std::pair<uint32_t, Ball>> found;  // with the number of its cube
   set.ForEachPoint([&](LatticePoint p) {
+    if (poll.Stopped()) return;
     const float radius = set.RadiusOf(p);
     const size_t level = std::min(LevelOf(radius), kLevels - 1);
     const LatticePoint at = CubeOf(PlaceOf(p, scale_), level);
@@ -42,6 +47,7 @@ BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale) : scale_(scale)
   balls_.resize(found.size());
   ball_at_.Reserve(found.size());
   for (const auto& [cube, ball] : found) {
+    if (poll.Stopped()) return;
     ball_at_.Set(ball.center, cubes_[cube].end);
     balls_[cubes_[cube].end++] = ball;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/exec/context.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/thin_set.h"
 
@@ -20,8 +21,9 @@ namespace bccskel {
 // Threads: one thread per instance.
 class BallIndex {
  public:
-  // The points that `set` has now, with their radii. Points may go from the set later.
-  BallIndex(const ThinSet& set, const AxisScale& scale);
+  // The points that `set` has now, with their radii. Points may go from the set later. Left
+  // unfinished where the context says to stop.
+  BallIndex(const ThinSet& set, const AxisScale& scale, const exec::Context& context = {});
 
   // The branch that IsCovered() is asked about from now on.
   void SetOwn(std::span<const LatticePoint> own);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/exec/stop_poll.h"
 #include "core/pruning/persistence.h"
 #include "core/pruning/simple_points.h"
 
@@ -13,6 +14,8 @@ namespace {
 // A cavity leaves a whole surface as one cluster; what lies this far from the branch says nothing
 // about it.
 constexpr size_t kMostClusterPoints = 64;
+
+constexpr uint64_t kStepsOfABranch = 128;  // in a StopPoll: for the work of judging it
 
 }  // namespace
 
@@ -37,13 +40,18 @@ uint64_t BranchPruner::Run(const OnRemoved& on_removed) {
 }
 
 void BranchPruner::JudgeAll() {
+  StopPoll poll(context_);
   std::vector<FreeBranch> branches;
   for (LatticePoint end : set_.Ends()) {
+    if (poll.Stopped(kStepsOfABranch)) return;
     FreeBranch branch = BranchFrom(set_, end);
     if (MayGo(branch)) branches.push_back(std::move(branch));
   }
   if (rule_ == PruningRule::kSignificance) significance_.LookAhead(set_, branches, context_);
-  for (const FreeBranch& branch : branches) Judge(branch);
+  for (const FreeBranch& branch : branches) {
+    if (poll.Stopped(kStepsOfABranch)) return;
+    Judge(branch);
+  }
 }
 
 void BranchPruner::Judge(const FreeBranch& branch) {

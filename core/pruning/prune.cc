@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
@@ -81,7 +82,10 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   ThinSet set(curves, context);
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   const PointSet kept(keep.begin(), keep.end());
-  if (!curves.births.empty()) RemoveSimplePoints(set, kept);
+  if (!curves.births.empty()) {
+    StopPoll poll(context);
+    RemoveSimplePoints(set, kept, poll);
+  }
   const Volume& space = in.space != nullptr ? *in.space : in.object;
   const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step);
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);

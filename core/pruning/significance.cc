@@ -42,8 +42,7 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                           {-0.92387953, 0.38268343}}};
 
 // Tangents of further turns, to either side of the widest of these.
-constexpr double kFirstTurn = 0.2;
-constexpr double kLeastTurn = 0.01;
+constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path{{*branch.junction}, {}};
@@ -121,18 +120,20 @@ void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> bra
     if (Known(branch) == nullptr) unknown.push_back(&branch);
   }
   const int workers = context.WorkersFor(unknown.size(), kWork);
-  if (workers == 1) return;  // Of() looks as well
-  std::vector<Verdict> found(unknown.size());
-  exec::Portions portions(unknown.size(), 1);
-  context.Offer(workers, [&](int) {
-    Significance own = *this;
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      found[mine.begin] = own.Look(set, *unknown[mine.begin]);
-    }
-  });
-  if (context.ShouldStop()) return;
-  for (size_t n = 0; n < unknown.size(); ++n) verdicts_.Set(unknown[n]->points[0], found[n]);
+  if (workers > 1) {  // else Of() looks as well
+    std::vector<Verdict> found(unknown.size());
+    exec::Portions portions(unknown.size(), 1);
+    context.Offer(workers, [&](int) {
+      Significance own = *this;
+      for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+        if (context.ShouldStop()) return;
+        found[mine.begin] = own.Look(set, *unknown[mine.begin]);
+      }
+    });
+    if (context.ShouldStop()) return;
+    for (size_t n = 0; n < unknown.size(); ++n) verdicts_.Set(unknown[n]->points[0], found[n]);
+  }
+  if (!balls_.has_value()) balls_.emplace(set, scale_, context);  // now: workers need no copies
 }
 
 const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {
@@ -273,8 +274,7 @@ double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch
     const LatticePoint p = branch.points[branch.points.size() - n];
     if (balls_->IsCovered(p, set.Between(p, *branch.junction), set)) ++covered;
   }
-  if (samples == 0) return 1;
-  return 1 - static_cast<double>(covered) / static_cast<double>(samples);
+  return samples == 0 ? 1 : 1 - static_cast<double>(covered) / static_cast<double>(samples);
 }
 
 Significance::Sections Significance::SectionsAcross(const BranchPath& path, const Run& run,

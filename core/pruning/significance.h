@@ -76,7 +76,8 @@ class Significance {
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
-  // Measures branches on the context's threads, so that Of() knows them. Needs: as Of().
+  // Measures branches on the context's threads, so that Of() knows them; not all of them where the
+  // context says to stop. Needs: as Of().
   void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
                  const exec::Context& context);
 

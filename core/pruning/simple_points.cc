@@ -8,12 +8,12 @@
 namespace bccskel {
 
 std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<LatticePoint>& from,
-                                             const PointSet& keep) {
+                                             const PointSet& keep, StopPoll* poll) {
   std::vector<LatticePoint> removed;
   std::set<std::pair<float, LatticePoint>> turns;
   const auto add = [&](LatticePoint p) { turns.emplace(set.RadiusOf(p), p); };
   for (LatticePoint p : from) add(p);
-  while (!turns.empty()) {
+  while (!turns.empty() && (poll == nullptr || !poll->Stopped())) {
     const LatticePoint p = turns.begin()->second;
     turns.erase(turns.begin());
     const NeighborMask neighbors = set.NeighborsOf(p);
@@ -25,12 +25,12 @@ std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<Lattic
   return removed;
 }
 
-void RemoveSimplePoints(ThinSet& set, const PointSet& keep) {
+void RemoveSimplePoints(ThinSet& set, const PointSet& keep, StopPoll& poll) {
   std::set<LatticePoint> simple;
   set.ForEachPoint([&](LatticePoint p) {
-    if (IsSimpleNonEnd(set.NeighborsOf(p))) simple.insert(p);
+    if (!poll.Stopped() && IsSimpleNonEnd(set.NeighborsOf(p))) simple.insert(p);
   });
-  RemoveSimplePoints(set, simple, keep);
+  RemoveSimplePoints(set, simple, keep, &poll);
 }
 
 }  // namespace bccskel

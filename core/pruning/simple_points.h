@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "core/exec/stop_poll.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
@@ -12,10 +13,10 @@ namespace bccskel {
 // order: of those in `from`, then of their neighbors, and so on. Points of `keep` stay.
 // Returns: the points that went, in turn.
 std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<LatticePoint>& from,
-                                             const PointSet& keep);
+                                             const PointSet& keep, StopPoll* poll = nullptr);
 
-// The same for the whole set.
-void RemoveSimplePoints(ThinSet& set, const PointSet& keep);
+// The same for the whole set. Both leave some where `poll` says stop.
+void RemoveSimplePoints(ThinSet& set, const PointSet& keep, StopPoll& poll);
 
 }  // namespace bccskel
 

@@ -14,7 +14,8 @@ ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
   StopPoll poll(context);
   points_.Reserve(skeleton.radii.size());
   size_t n = 0;
-  for (BrickIndex brick = 0; brick < thin.brick_count() && !poll.Stopped(); ++brick) {
+  for (BrickIndex brick = 0; brick < thin.brick_count(); ++brick) {
+    const size_t first = n;
     const BrickCoordinates at = thin.keys()[brick].coordinates();
     const NeighborPlanes planes = NeighborPlanesOf(thin, brick);
     thin.bricks()[brick].ForEachSetBit([&](int bit) {
@@ -22,6 +23,7 @@ ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
       points_.Set(PointOf(at, bit), {skeleton.radii[n], birth, NeighborsAt(bit, planes)});
       ++n;
     });
+    if (poll.Stopped(n - first)) return;
   }
 }
 

@@ -53,7 +53,7 @@ double MedianOf(std::vector<float> values) {  // at least one
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, const SurfaceNoise& noise)
+            const PointSet& keep, const SurfaceNoise& noise, const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
@@ -61,7 +61,7 @@ class TipPlacer {
         depth_(space, searching_),
         flat_(space, searching_, depth_),
         keep_(keep),
-        balls_(set, AxisScaleOf(object.placement())),
+        balls_(set, AxisScaleOf(object.placement()), context),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {}
 
@@ -389,7 +389,7 @@ absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
                        const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, noise);
+  TipPlacer placer(set, object, space, radius, keep, noise, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

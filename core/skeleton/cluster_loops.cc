@@ -78,6 +78,7 @@ ClusterLoops ClusterLoopFinder::Find(const Cluster& cluster) {
   loops.at = points_.DeepestOf(kernel);
   trees_.GrowFrom(loops.at, poll_);
   const std::vector<Chord> chords = FindChords(kernel);
+  if (poll_.StoppedNow()) return loops;
   const std::vector<uint8_t> is_free = FindFreeChords(kernel, chords);
   for (size_t n = 0; n < chords.size(); ++n) {
     if (is_free[n] != 0) loops.chords.push_back(chords[n]);

@@ -229,6 +229,7 @@ std::vector<uint32_t> Merger::KeepNodes() {
 // In canonical order.
 void Merger::SetEdges(std::vector<OpenEdge> edges) {
   for (OpenEdge& edge : edges) {
+    if (poll_.Stopped(edge.points.size())) return;
     Path back = Reversed(edge.points);
     if (std::tie(edge.target, edge.source, back) <
         std::tie(edge.source, edge.target, edge.points)) {
@@ -242,6 +243,7 @@ void Merger::SetEdges(std::vector<OpenEdge> edges) {
   graph_.edges.clear();
   graph_.points.clear();
   for (const OpenEdge& edge : edges) {
+    if (poll_.Stopped(edge.points.size())) return;
     graph_.edges.push_back(
         {edge.source, edge.target, graph_.points.size(), edge.points.size(), edge.level});
     graph_.points.insert(graph_.points.end(), edge.points.begin(), edge.points.end());
@@ -252,7 +254,9 @@ void Merger::SetEdges(std::vector<OpenEdge> edges) {
 void Merger::AddLostPoints(const Path& before) {
   Path now = graph_.points;
   for (const SkeletonNode& node : graph_.nodes) now.push_back(node.at);
+  if (poll_.StoppedNow()) return;
   std::ranges::sort(now);
+  if (poll_.StoppedNow()) return;
   Path lost;
   for (const SkeletonPoint& p : before) {
     if (!std::ranges::binary_search(now, p)) lost.push_back(p);

@@ -158,9 +158,11 @@ class GraphBuilder {
     const ClusterTree& tree = trees_.try_emplace(c, at, parent, terminals, stays).first->second;
     const SkeletonNode junction{NodeKind::kJunction, {}, 0, 0};
     const PointPath nodes = tree.Nodes();
+    if (poll_.StoppedNow()) return;
     for (PointIndex p : nodes) node_at_[p] = AddNode(p, p == tree.root() ? node : junction);
     for (PointIndex p : nodes) {
       if (p == tree.root()) continue;
+      if (Stopped()) return;
       PointPath limb = tree.LimbOf(p);
       const NodeIndex from = node_at_.at(limb.front());
       AddEdge(from, node_at_.at(p), std::move(limb));
