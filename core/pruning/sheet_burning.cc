@@ -41,7 +41,8 @@ void SheetBurning::Burn(std::span<const uint8_t> kept, StopPoll& poll) {
     if (simple && kept[p] == 0) turns.emplace(radius, p);
   }
   while (!turns.empty() && !poll.Stopped()) {
-    const auto [time, p] = turns.top();
+    const double time = turns.top().first;
+    const PointIndex p = turns.top().second;
     turns.pop();
     Fire& fire = fires_[p];
     if (fire.is_out || time != fire.time || !fire.waits) continue;
