@@ -101,6 +101,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
     BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
+    if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   }
   PruningLevels levels;
   ThinSet before_tips = set;

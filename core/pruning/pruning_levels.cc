@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
 
 namespace bccskel {
@@ -11,7 +12,10 @@ PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRu
                               const PointSet& keep, const exec::Context& context) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
-  set.ForEachBranchPoint([&](LatticePoint p) { levels.Set(p, kNever); });
+  StopPoll poll(context);
+  set.ForEachBranchPoint([&](LatticePoint p) {
+    if (!poll.Stopped()) levels.Set(p, kNever);
+  });
   double level = 0;
   const auto record = [&](LatticePoint p, double worth) {
     level = std::max(level, worth);

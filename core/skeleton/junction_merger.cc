@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -60,12 +61,18 @@ class Merger {
         scale_(AxisScaleOf(graph.placement)),
         node_of_(graph.nodes.size(), kNone),
         ways_(graph.nodes.size()),
-        edges_at_(graph.nodes.size()) {
-    for (uint32_t e = 0; e < graph.edges.size(); ++e) {
-      edges_at_[graph.edges[e].source].push_back(e);
-      edges_at_[graph.edges[e].target].push_back(e);
+        first_edge_(graph.nodes.size() + 2),
+        edges_at_(2 * graph.edges.size()),
+        dissolved_(graph.edges.size()) {
+    for (const SkeletonEdge& edge : graph.edges) {
+      ++first_edge_[edge.source + 2];
+      ++first_edge_[edge.target + 2];
     }
-    dissolved_.resize(graph.edges.size());
+    std::partial_sum(first_edge_.begin(), first_edge_.end(), first_edge_.begin());
+    for (uint32_t e = 0; e < graph.edges.size(); ++e) {
+      edges_at_[first_edge_[graph.edges[e].source + 1]++] = e;
+      edges_at_[first_edge_[graph.edges[e].target + 1]++] = e;
+    }
   }
 
   // Returns whether any were joined.
@@ -91,6 +98,11 @@ class Merger {
   using Steps = std::priority_queue<Step, std::vector<Step>, std::greater<>>;
 
   bool IsJunction(uint32_t n) const { return graph_.nodes[n].kind == NodeKind::kJunction; }
+
+  // Those that begin and end at node n, both ends of a loop.
+  std::span<const uint32_t> EdgesAt(uint32_t n) const {
+    return std::span(edges_at_).subspan(first_edge_[n], first_edge_[n + 1] - first_edge_[n]);
+  }
 
   // The nearest along the paths first, so that ways inside the node are short.
   bool TakeIn(uint32_t center) {
@@ -119,7 +131,7 @@ class Merger {
 
   // To the junctions that the node at `center` may take in next, each with the way there.
   void AddStepsFrom(uint32_t from, double way, uint32_t center, Steps& steps) const {
-    for (uint32_t e : edges_at_[from]) {
+    for (uint32_t e : EdgesAt(from)) {
       const SkeletonEdge& edge = graph_.edges[e];
       const uint32_t to = edge.source == from ? edge.target : edge.source;
       if (node_of_[to] != kNone || !IsJunction(to) || !IsWithin(e, to, center)) continue;
@@ -153,7 +165,7 @@ class Merger {
     const SkeletonPoint& at = graph_.nodes[center].at;
     const double ball = reach_ * at.radius + kSampling;
     double radius = ball;
-    for (uint32_t other : edges_at_[to]) {
+    for (uint32_t other : EdgesAt(to)) {
       if (other == e || IsNear(other, at, ball)) continue;
       radius = std::min(radius, reach_ * MedianRadius(other) + kSampling);
     }
@@ -191,8 +203,9 @@ class Merger {
   const AxisScale scale_;
   std::vector<uint32_t> node_of_;  // by junction, the one that it is part of
   std::vector<Path> ways_;         // by junction, from the one that it is part of to it
-  std::vector<std::vector<uint32_t>> edges_at_;
-  std::vector<uint8_t> dissolved_;  // by edge
+  std::vector<uint64_t> first_edge_;  // by node, in edges_at_; and the end
+  std::vector<uint32_t> edges_at_;    // of all nodes, by node
+  std::vector<uint8_t> dissolved_;    // by edge
 };
 
 std::vector<OpenEdge> Merger::RemainingEdges() const {
@@ -269,6 +282,7 @@ void Merger::AddLostPoints(const Path& before) {
 
 void Merger::Rebuild() {
   std::vector<OpenEdge> edges = RemainingEdges();
+  if (poll_.StoppedNow()) return;
   const std::vector<uint32_t> place = KeepNodes();
   for (OpenEdge& edge : edges) {
     edge.source = place[edge.source];
