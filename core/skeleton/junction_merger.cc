@@ -201,8 +201,8 @@ class Merger {
   SkeletonGraph& graph_;
   StopPoll& poll_;
   const AxisScale scale_;
-  std::vector<uint32_t> node_of_;  // by junction, the one that it is part of
-  std::vector<Path> ways_;         // by junction, from the one that it is part of to it
+  std::vector<uint32_t> node_of_;     // by junction, the one that it is part of
+  std::vector<Path> ways_;            // by junction, from the one that it is part of to it
   std::vector<uint64_t> first_edge_;  // by node, in edges_at_; and the end
   std::vector<uint32_t> edges_at_;    // of all nodes, by node
   std::vector<uint8_t> dissolved_;    // by edge
