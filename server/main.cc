@@ -50,14 +50,14 @@ void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
 void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
 
 // Left alone, the allocator raises its thresholds up to 64 MiB with what it sees freed and makes
-// eight arenas a processor, each of which keeps what its largest job has left: 105 of 110 MiB in
-// mixed load. With these limits 17 to 25 are kept, and large blocks go back to the system at once,
-// or to the next job that wants such (core/exec/large_blocks.h).
+// eight arenas a processor, each of which keeps what its largest job has left. With these limits
+// large blocks go back to the system at once, others when an admitted job might need the memory or
+// after half a minute. If blocks of some MiB went back at once, too, a job on a mask would take 1.4
+// times the processor time, for faults.
 void KeepLittleFreeMemory() {
-  constexpr int kLargeBlock = 1 << 20;
   constexpr unsigned kFewestArenas = 4;
-  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLargeBlock);
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 2 << 20);
   const unsigned arenas = std::max(kFewestArenas, std::thread::hardware_concurrency());
   mallopt(M_ARENA_MAX, static_cast<int>(arenas));
 }

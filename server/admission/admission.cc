@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -113,6 +114,10 @@ absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
                           wanted.bytes, free_bytes, part.limit.bytes, part.whose));
     }
   }
+  if (usage_.bytes + wanted.bytes + freed_ > limits_.bytes) {
+    reclaim_();
+    freed_ = 0;
+  }
   for (Usage* usage : {&usage_, &tenants_[tenant]}) {
     usage->bytes += wanted.bytes;
     usage->places += wanted.places;
@@ -162,6 +167,7 @@ int Admission::jobs() const {
 void Admission::GiveBack(const std::string& tenant, const Usage& part, Leaving leaving) {
   std::lock_guard lock(mutex_);
   if (leaving == Leaving::kYes) --jobs_;
+  freed_ = SaturatingAdd(freed_, part.bytes);
   Usage& own = tenants_[tenant];
   for (Usage* usage : {&usage_, &own}) {
     usage->bytes -= part.bytes;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -67,7 +68,12 @@ class Admission {
     friend bool operator==(const Usage&, const Usage&) = default;
   };
 
-  explicit Admission(const Limits& limits) : limits_(limits) {}
+  // The allocator keeps what jobs have freed, each thread's for itself, so that the next job need
+  // not fault in every page. `reclaim` gives it back to the system; it is called where a job might
+  // otherwise lead above the limit of bytes.
+  explicit Admission(
+      const Limits& limits, std::function<void()> reclaim = [] {})
+      : limits_(limits), reclaim_(std::move(reclaim)) {}
 
   // Errors: a CallError: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
   //         or kDraining.
@@ -104,8 +110,10 @@ class Admission {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable empty_;
-  Limits limits_;                         // guarded by mutex_
+  Limits limits_;  // guarded by mutex_
+  const std::function<void()> reclaim_;
   Usage usage_;                           // guarded by mutex_
+  uint64_t freed_ = 0;                    // guarded by mutex_; bytes, since the last reclaim_()
   std::map<std::string, Usage> tenants_;  // guarded by mutex_; those that have something
   int jobs_ = 0;                          // guarded by mutex_
   bool admitting_ = true;                 // guarded by mutex_

@@ -48,11 +48,6 @@ class JobMemory final : public exec::MemoryBudget {
     ticket_.ShrinkTo(base_ + taken_);
   }
 
-  uint64_t taken() const {
-    const std::lock_guard lock(mutex_);
-    return taken_;
-  }
-
   // Ends the budget: what is reserved is the ticket's from now on.
   Ticket Close() {
     const std::lock_guard lock(mutex_);

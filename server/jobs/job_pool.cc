@@ -1,5 +1,7 @@
 #include "server/jobs/job_pool.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -34,7 +36,8 @@ JobPool::JobPool(const Limits& limits, JobObserver observer)
       observer_(std::move(observer)),
       admission_({.bytes = limits.max_bytes,
                   .places = limits.max_jobs + limits.max_queue,
-                  .tenants = limits.tenants}),
+                  .tenants = limits.tenants},
+                 [] { malloc_trim(0); }),
       compute_(limits.threads, limits.max_jobs, limits.tenants),
       children_(limits.decode_in_children == DecodeInChildren::kOpenExr
                     ? std::make_unique<ChildPool>(limits.child_command)

@@ -1,7 +1,5 @@
 #include "server/jobs/pool_job.h"
 
-#include <malloc.h>
-
 #include <new>
 #include <system_error>
 #include <utility>
@@ -25,10 +23,6 @@ auto OrOutOfMemory(Step step) -> decltype(step()) {
     return absl::ResourceExhaustedError(error.what());
   }
 }
-
-// What stages take beside the bricks are many small blocks. The allocator keeps them for its
-// thread; the next job may run on another one. Giving back 100 MiB takes some 10 ms.
-constexpr uint64_t kWorthTrimming = uint64_t{32} << 20;
 
 }  // namespace
 
@@ -178,13 +172,11 @@ void PoolJob::End(absl::Status status) {
     // The last stage may not have seen it in time; stages that have do not know why.
     if (stop_.stop_requested() && (status.ok() || absl::IsCancelled(status))) status = why_;
   }
-  const bool was_large = memory_->taken() > kWorthTrimming;
   facts_.observer.on_end({.tenant = facts_.origin.tenant,
                           .status = status,
                           .times = times_,
                           .object_points = work_->ObjectPoints()});
   work_->End(std::move(status), times_, memory_->Close());
-  if (was_large) malloc_trim(0);
 }
 
 }  // namespace bccskel::server

@@ -30,6 +30,21 @@ TEST(Admission, GivesBackWhenATicketIsDestroyed) {
   EXPECT_EQ(admission.usage(), Usage());
 }
 
+TEST(Admission, ReclaimsFreedMemoryBeforeItCouldExceedTheLimit) {
+  int reclaimed = 0;
+  Admission admission({.bytes = 100, .places = 9}, [&] { ++reclaimed; });
+  { const auto ticket = admission.Admit(40); }  // 40 may be kept
+  { const auto ticket = admission.Admit(60); }  // 40 + 60, then 100
+  EXPECT_EQ(reclaimed, 0);
+  const auto third = admission.Admit(1);
+  EXPECT_EQ(reclaimed, 1);
+  auto fourth = *admission.Admit(99);
+  EXPECT_EQ(reclaimed, 1);
+  fourth.ShrinkTo(49);
+  ASSERT_TRUE(fourth.ResizeTo(50).ok());  // 50 may be kept, and 51 are in use
+  EXPECT_EQ(reclaimed, 2);
+}
+
 TEST(Admission, ATicketMovesWithoutBeingGivenBackTwice) {
   Admission admission({.bytes = 100, .places = 2});
   Ticket ticket = *admission.Admit(70);
