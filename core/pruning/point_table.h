@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
-#include "core/exec/uninitialized.h"
 #include "core/lattice/lattice_point.h"
 
 namespace bccskel {
@@ -100,7 +100,7 @@ class PointTable {
   }
   explicit PointTable(size_t slots) : slots_(slots, kFree) {}
 
-  exec::UninitializedVector<Slot> slots_;  // a power of two, half of them free at least
+  std::vector<Slot> slots_;  // a power of two, half of them free at least
   size_t size_ = 0;
 };
 

@@ -7,7 +7,6 @@
 
 #include "core/distance/chamfer_weights.h"
 #include "core/exec/stop_poll.h"
-#include "core/exec/uninitialized.h"
 #include "core/pruning/sheet_set.h"
 #include "core/skeleton/thin_points.h"
 
@@ -57,7 +56,7 @@ class SheetBurning {
   const ThinPoints& points_;
   const AxisScale scale_;
   SheetSet rest_;
-  exec::UninitializedVector<Fire> fires_;
+  std::vector<Fire> fires_;
   std::vector<PointIndex> burned_;
 };
 

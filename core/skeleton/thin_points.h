@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/exec/stop_poll.h"
-#include "core/exec/uninitialized.h"
 #include "core/lattice/directions.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/thin_skeleton.h"
@@ -56,10 +55,9 @@ class ThinPoints {
   template <typename Key>
   void LinkAlong(Direction d, std::span<const Key> keys, StopPoll& poll);
 
-  exec::UninitializedVector<Point> points_;
+  std::vector<Point> points_;
   std::vector<NeighborMask> masks_;
-  // By direction; those in the mask are known.
-  exec::UninitializedVector<std::array<PointIndex, kNeighborCount>> neighbors_;
+  std::vector<std::array<PointIndex, kNeighborCount>> neighbors_;  // by direction
 };
 
 // Calls visit(Direction) for the directions in `mask`, in order.
