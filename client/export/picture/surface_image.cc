@@ -203,8 +203,10 @@ std::vector<PanelPoint> NearestOfEachPlace(std::span<const PanelPoint> points) {
         {std::llround(p.x * kPlaces), std::llround(p.y * kPlaces), -p.depth, places.size()});
   }
   std::ranges::sort(places);
-  const auto [end, last] = std::ranges::unique(
-      places, [](const Place& a, const Place& b) { return a.x == b.x && a.y == b.y; });
+  // std::ranges::unique does not compile with clang 14 and this standard library.
+  const auto end = std::unique(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.x == b.x && a.y == b.y;
+  });
   std::vector<PanelPoint> nearest;
   for (auto place = places.begin(); place != end; ++place) nearest.push_back(points[place->point]);
   return nearest;
