@@ -52,8 +52,8 @@ void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadloc
 // Left alone, the allocator raises its thresholds up to 64 MiB with what it sees freed and makes
 // eight arenas a processor, each of which keeps what its largest job has left. With these limits
 // large blocks go back to the system at once, others when an admitted job might need the memory or
-// after half a minute. If blocks of some MiB went back at once, too, a job on a mask would take 1.4
-// times the processor time, for faults.
+// after half a minute. If blocks of some MiB went back at once, too, a job on a mask would take a
+// tenth longer, for faults.
 void KeepLittleFreeMemory() {
   constexpr unsigned kFewestArenas = 4;
   mallopt(M_MMAP_THRESHOLD, 32 << 20);

@@ -4,7 +4,6 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -167,7 +166,7 @@ int Admission::jobs() const {
 void Admission::GiveBack(const std::string& tenant, const Usage& part, Leaving leaving) {
   std::lock_guard lock(mutex_);
   if (leaving == Leaving::kYes) --jobs_;
-  freed_ = SaturatingAdd(freed_, part.bytes);
+  freed_ += part.bytes;
   Usage& own = tenants_[tenant];
   for (Usage* usage : {&usage_, &own}) {
     usage->bytes -= part.bytes;
