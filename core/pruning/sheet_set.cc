@@ -8,11 +8,7 @@ SheetSet::SheetSet(const ThinPoints& points)
 }
 
 void SheetSet::Remove(PointIndex p) {
-  ForEachDirection(masks_[p], [&](Direction d) {
-    NeighborMask& mask = masks_[points_.Neighbor(p, d)];
-    mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
-  });
-  masks_[p] = 0;
+  TakeOut(p, points_, masks_);
   left_[p] = 0;
 }
 

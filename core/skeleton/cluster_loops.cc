@@ -97,7 +97,7 @@ std::vector<PointIndex> ClusterLoopFinder::ThinToKernel(const Cluster& cluster) 
     turns.pop();
     const NeighborMask mask = masks_[p];
     if (!IsSimple(mask)) continue;
-    Remove(p);
+    TakeOut(p, points_, masks_);
     ForEachDirection(mask, [&](Direction d) {
       const PointIndex q = points_.Neighbor(p, d);
       turns.emplace(points_[q].radius, q);
@@ -107,14 +107,6 @@ std::vector<PointIndex> ClusterLoopFinder::ThinToKernel(const Cluster& cluster) 
   std::ranges::copy_if(cluster.points, std::back_inserter(kernel),
                        [&](PointIndex p) { return masks_[p] != 0; });
   return kernel;
-}
-
-void ClusterLoopFinder::Remove(PointIndex p) {
-  ForEachDirection(masks_[p], [&](Direction d) {
-    NeighborMask& mask = masks_[points_.Neighbor(p, d)];
-    mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
-  });
-  masks_[p] = 0;
 }
 
 std::vector<Chord> ClusterLoopFinder::FindChords(std::span<const PointIndex> kernel) const {

@@ -47,7 +47,6 @@ class ClusterLoopFinder {
 
  private:
   std::vector<PointIndex> ThinToKernel(const Cluster& cluster);
-  void Remove(PointIndex p);
   std::vector<Chord> FindChords(std::span<const PointIndex> kernel) const;
   std::vector<uint8_t> FindFreeChords(std::span<const PointIndex> kernel,
                                       std::span<const Chord> chords);

@@ -68,6 +68,15 @@ void ForEachDirection(NeighborMask mask, Visit visit) {
   }
 }
 
+// Takes p from the masks of its neighbors and these from its own, by point.
+inline void TakeOut(PointIndex p, const ThinPoints& points, std::span<NeighborMask> masks) {
+  ForEachDirection(masks[p], [&](Direction d) {
+    NeighborMask& mask = masks[points.Neighbor(p, d)];
+    mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
+  });
+  masks[p] = 0;
+}
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_SKELETON_THIN_POINTS_H_
