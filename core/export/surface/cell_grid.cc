@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <span>
+
+#include "core/lattice/directions.h"
 
 namespace bccskel {
 namespace {
@@ -32,16 +35,45 @@ int HalfPlaceOf(int cell, const BrickCoordinates& brick) {
   return (x / 2) * kSteps[0] + (y / 2) * kSteps[1] + (z / 2) * kSteps[2];
 }
 
+// Of the even points of a brick.
+void KeepThoseWithoutOddNeighbors(const Volume& object, const BrickCoordinates& brick,
+                                  BrickBits& points) {
+  // Most have the one in the same cell; the others are looked up one by one.
+  const BrickKey odd({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
+  if (const auto found = object.Find(odd)) {
+    const BrickBits& beside = object.bricks()[*found];
+    for (size_t w = 0; w < points.words.size(); ++w) points.words[w] &= ~beside.words[w];
+  }
+  const BrickBits candidates = points;
+  candidates.ForEachSetBit([&](int bit) {
+    const LatticePoint p = PointOf(brick, bit);
+    for (const LatticePoint& step : std::span(kDirections14).first(8)) {
+      if (object.Contains({p.x + step.x, p.y + step.y, p.z + step.z})) return points.Clear(bit);
+    }
+  });
+}
+
 }  // namespace
 
 CellGrid CellGrid::Of(const Volume& object) {
-  CellGrid grid;
+  std::map<BrickKey, Fills> cells;
   for (size_t n = 0; n < object.brick_count(); ++n) {
-    if (object.keys()[n].coordinates().sublattice == Sublattice::kEven) continue;
-    grid.keys_.push_back(object.keys()[n]);
-    Fills& fills = grid.fills_.emplace_back();
-    fills.fill(0);
-    object.bricks()[n].ForEachSetBit([&](int bit) { fills[static_cast<size_t>(bit)] = 255; });
+    const BrickCoordinates brick = object.keys()[n].coordinates();
+    const BrickKey key({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
+    BrickBits points = object.bricks()[n];
+    if (brick.sublattice == Sublattice::kEven) {
+      KeepThoseWithoutOddNeighbors(object, brick, points);
+      if (points.Empty()) continue;
+    }
+    Fills& fills = cells[key];
+    points.ForEachSetBit([&](int bit) { fills[static_cast<size_t>(bit)] = 255; });
+  }
+  CellGrid grid;
+  grid.keys_.reserve(cells.size());
+  grid.fills_.reserve(cells.size());
+  for (const auto& [key, fills] : cells) {
+    grid.keys_.push_back(key);
+    grid.fills_.push_back(fills);
   }
   return grid;
 }

@@ -19,7 +19,7 @@ class CellGrid {
   // How full the cells of a brick are, 0 to 255, in bit order; 0 only where no point is set.
   using Fills = std::array<uint8_t, kBrickPoints>;
 
-  // Cells of 2 lattice units. Even points without an odd neighbor are not seen.
+  // Cells of 2 lattice units. An even point without an odd neighbor takes the cell above it.
   static CellGrid Of(const Volume& object);
 
   // Cells twice as wide.

@@ -83,10 +83,20 @@ TEST(CellSurfaceTest, PartlyFullCellsAreCutWhereTheObjectEnds) {
 }
 
 TEST(CellSurfaceTest, NothingThinIsLost) {
-  const LatticePoint point[] = {{9, 9, 9}};
+  const LatticePoint odd[] = {{9, 9, 9}}, even[] = {{8, 8, 8}}, both[] = {{8, 8, 8}, {9, 9, 9}};
+  const auto triangles = [](std::span<const LatticePoint> points, int halvings) {
+    return ExtractCellSurface(GridOf(points, halvings), {})->triangles.size();
+  };
   for (int halvings = 0; halvings < 5; ++halvings) {
-    EXPECT_EQ(ExtractCellSurface(GridOf(point, halvings), {})->triangles.size(), 12u) << halvings;
+    EXPECT_EQ(triangles(odd, halvings), 12u) << halvings;
+    EXPECT_EQ(triangles(even, halvings), 12u) << halvings;
+    EXPECT_EQ(triangles(both, halvings), 12u) << halvings;
   }
+}
+
+TEST(CellSurfaceTest, EvenPointsCountOnlyWithoutOddNeighbors) {
+  const LatticePoint below[] = {{16, 8, 8}, {15, 7, 7}};  // neighbors in two bricks
+  EXPECT_EQ(ExtractCellSurface(GridOf(below, 0), {})->triangles.size(), 12u);
 }
 
 TEST(CellSurfaceTest, TheEstimateIsAboutRight) {
