@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "client/view/packed_numbers.h"
 #include "client/view/page_parts.h"
 #include "client/view/pruning_steps.h"
@@ -17,6 +18,7 @@
 namespace bccskel::view {
 namespace {
 
+using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 // The cube that everything lies in, and its 65,535 steps.
@@ -152,16 +154,35 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
   return json;
 }
 
-// What the page shows of a document.
-std::string ShownOf(const ResultDocument& document) {
-  OrderedJson result = OrderedJson::parse(document.text, nullptr, /*allow_exceptions=*/false);
-  result["pruning_steps"] = PruningJson(PruningStepsOf(document));
-  result.erase("timings");
-  result.erase("sheets");  // they come as a surface
-  for (OrderedJson& edge : result["edges"]) {
-    if (edge.contains("curve")) edge.erase("points");
+void AppendMember(std::string& text, std::string_view name, const std::string& value) {
+  absl::StrAppend(&text, text.ends_with('{') ? "" : ",", Json(name).dump(), ":", value);
+}
+
+// The curve stands for the points that it smooths.
+void AppendEdge(std::string& text, const Json& edge) {
+  text += '{';
+  for (const auto& [name, value] : edge.items()) {
+    if (name != "points" || !edge.contains("curve")) AppendMember(text, name, value.dump());
   }
-  return result.dump();
+  text += '}';
+}
+
+// What the page shows of a document. Put together as text: the document is large, and most of it
+// stays as it is.
+std::string ShownOf(const ResultDocument& document) {
+  const Json& json = *document.json;
+  std::string text = "{";
+  for (const auto& [name, value] : json.items()) {
+    const bool shown = name != "timings" && name != "sheets";  // those come as a surface
+    if (shown && name != "edges") AppendMember(text, name, value.dump());
+  }
+  AppendMember(text, "pruning_steps", PruningJson(PruningStepsOf(document)).dump());
+  text += ",\"edges\":[";
+  for (const Json& edge : json["edges"]) {
+    if (!text.ends_with('[')) text += ',';
+    AppendEdge(text, edge);
+  }
+  return text += "]}";
 }
 
 // JSON inside of a script element: no text in it may end the element.

@@ -142,13 +142,31 @@ absl::Status CheckEdges(const ResultDocument& document) {
   return absl::OkStatus();
 }
 
+// In the order in which they stand, which Json forgets. (Objects of ordered_json copy their members
+// whenever they grow: a whole document takes three times as long.)
+std::vector<std::pair<std::string, std::string>> OptionsIn(std::string_view text) {
+  using OrderedJson = nlohmann::ordered_json;
+  const auto only_options = [](int depth, Json::parse_event_t event, OrderedJson& parsed) {
+    return depth != 1 || event != Json::parse_event_t::key || parsed == "options";
+  };
+  const OrderedJson json = OrderedJson::parse(text, only_options, /*allow_exceptions=*/false);
+  std::vector<std::pair<std::string, std::string>> options;
+  if (!json.is_object() || !json.contains("options")) return options;
+  for (const auto& [name, value] : json["options"].items()) {
+    options.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return options;
+}
+
 }  // namespace
 
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text) {
+  ResultDocument document;
+  document.json =
+      std::make_shared<const Json>(Json::parse(text, nullptr, /*allow_exceptions=*/false));
+  const Json& json = *document.json;
   if (json.is_discarded())
     return absl::InvalidArgumentError("not a JSON result of skeletonize or submit");
-  ResultDocument document;
   Reader reader;
   reader.ReadMember(json, "", "nodes", document.nodes);
   reader.ReadMember(json, "", "edges", document.edges);
@@ -166,14 +184,14 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   }
   BCCSKEL_RETURN_IF_ERROR(reader.status());
   BCCSKEL_RETURN_IF_ERROR(CheckEdges(document));
-  document.text = std::move(text);
+  document.options = OptionsIn(text);
   return document;
 }
 
 absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path) {
   constexpr uint64_t kMostBytes = uint64_t{1} << 31;
-  BCCSKEL_ASSIGN_OR_RETURN(std::string text, ReadFileBytes(path, kMostBytes));
-  absl::StatusOr<ResultDocument> document = ParseResultDocument(std::move(text));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(path, kMostBytes));
+  absl::StatusOr<ResultDocument> document = ParseResultDocument(text);
   if (document.ok()) return document;
   return absl::Status(document.status().code(),
                       absl::StrCat(path, ": ", document.status().message()));

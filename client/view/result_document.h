@@ -2,8 +2,12 @@
 #define BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
 
 #include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -40,12 +44,13 @@ struct ResultDocument {
   bool border_continues = false;       // then balls reach beyond it
   Certificate certificate;
   uint64_t object_points = 0;
-  std::string text;  // the document itself
+  std::vector<std::pair<std::string, std::string>> options;  // in the document's order
+  std::shared_ptr<const nlohmann::json> json;                // the document itself
 };
 
 // Errors: INVALID_ARGUMENT with the place of the first thing that is not as the schema says.
 // Members that the schema may gain are ignored, and those that it has gained may be missing.
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text);
 
 // Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED
 //         for a file above 2 GiB.

@@ -14,7 +14,7 @@
 namespace bccskel::view {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;  // facts keep their order
+using Json = nlohmann::json;
 
 constexpr std::array<std::pair<std::string_view, NodeKind>, 5> kKinds = {{
     {"end", NodeKind::kEnd},
@@ -45,7 +45,7 @@ auto FindName(const Names& names, std::string_view name) {
 
 // A whole number of a member; 0 where there is none.
 template <typename Integer>
-absl::Status ReadCount(const OrderedJson& from, const char* name, Integer& to) {
+absl::Status ReadCount(const Json& from, const char* name, Integer& to) {
   const auto member = from.find(name);
   if (member == from.end()) return absl::OkStatus();
   const bool fits =
@@ -101,26 +101,26 @@ class Lattice {
   double determinant_;
 };
 
-absl::Status ReadBirths(const OrderedJson& from, std::span<SkeletonPoint> points) {
+absl::Status ReadBirths(const Json& from, std::span<SkeletonPoint> points) {
   const auto births = from.find("births");
   if (births == from.end()) return absl::OkStatus();
   if (!births->is_array() || births->size() != points.size()) {
     return NoResult("births", "one for each point");
   }
   for (size_t n = 0; n < points.size(); ++n) {
-    const OrderedJson one = {{"birth", (*births)[n]}};
+    const Json one = {{"birth", (*births)[n]}};
     BCCSKEL_RETURN_IF_ERROR(ReadCount(one, "birth", points[n].birth));
   }
   return absl::OkStatus();
 }
 
-absl::Status ReadShifts(const OrderedJson& from, std::span<SkeletonPoint> points) {
+absl::Status ReadShifts(const Json& from, std::span<SkeletonPoint> points) {
   const auto shifts = from.find("shifts");
   if (shifts == from.end()) return absl::OkStatus();
   constexpr const char* kWhat = "three whole numbers for each point";
   if (!shifts->is_array() || shifts->size() != points.size()) return NoResult("shifts", kWhat);
   for (size_t n = 0; n < points.size(); ++n) {
-    const OrderedJson& shift = (*shifts)[n];
+    const Json& shift = (*shifts)[n];
     if (!shift.is_array() || shift.size() != 3) return NoResult("shifts", kWhat);
     for (size_t axis = 0; axis < 3; ++axis) {
       const bool fits =
@@ -134,7 +134,7 @@ absl::Status ReadShifts(const OrderedJson& from, std::span<SkeletonPoint> points
 
 class GraphReader {
  public:
-  GraphReader(const ResultDocument& document, const OrderedJson& json)
+  GraphReader(const ResultDocument& document, const Json& json)
       : document_(document), json_(json), lattice_(*document.placement) {}
 
   absl::StatusOr<SkeletonGraph> Run() && {
@@ -157,7 +157,7 @@ class GraphReader {
     if (!kind.has_value()) return NoResult("kind", "a kind of node");
     node.kind = *kind;
     BCCSKEL_ASSIGN_OR_RETURN(node.at, lattice_.PointAt(from.position, from.radius));
-    const OrderedJson& json = json_["nodes"][n];
+    const Json& json = json_["nodes"][n];
     BCCSKEL_RETURN_IF_ERROR(ReadCount(json, "birth", node.at.birth));
     BCCSKEL_RETURN_IF_ERROR(ReadCount(json, "loops", node.loops));
     return ReadCount(json, "cavities", node.cavities);
@@ -171,7 +171,7 @@ class GraphReader {
                          .point_count = from.points.size()};
     BCCSKEL_RETURN_IF_ERROR(AddPoints(from.points, from.radii, graph_.points));
     const std::span points = std::span(graph_.points).subspan(edge.first_point);
-    const OrderedJson& json = json_["edges"][n];
+    const Json& json = json_["edges"][n];
     BCCSKEL_RETURN_IF_ERROR(ReadBirths(json, points));
     BCCSKEL_RETURN_IF_ERROR(ReadShifts(json, points));
     if (const auto level = json.find("pruning_level"); level != json.end()) {
@@ -191,16 +191,16 @@ class GraphReader {
   }
 
   const ResultDocument& document_;
-  const OrderedJson& json_;
+  const Json& json_;
   const Lattice lattice_;
   SkeletonGraph graph_;
 };
 
-absl::Status ReadPreparing(const OrderedJson& json, std::vector<PreparingStep>& steps) {
+absl::Status ReadPreparing(const Json& json, std::vector<PreparingStep>& steps) {
   const auto list = json.find("preparing");
   if (list == json.end()) return absl::OkStatus();
-  for (const OrderedJson& from : *list) {
-    const OrderedJson name = from.is_object() ? from.value("step", OrderedJson()) : OrderedJson();
+  for (const Json& from : *list) {
+    const Json name = from.is_object() ? from.value("step", Json()) : Json();
     const auto kind = name.is_string() ? FindName(kSteps, name.get<std::string>()) : std::nullopt;
     if (!kind.has_value()) return NoResult("preparing", "a list of steps");
     PreparingStep& step = steps.emplace_back();
@@ -212,15 +212,14 @@ absl::Status ReadPreparing(const OrderedJson& json, std::vector<PreparingStep>& 
   return absl::OkStatus();
 }
 
-absl::Status ReadRoot(const OrderedJson& json, ResultGraph& result) {
+absl::Status ReadRoot(const Json& json, ResultGraph& result) {
   const auto order = json.find("order");
   if (order == json.end()) return absl::OkStatus();
-  const OrderedJson roots =
-      order->is_object() ? order->value("roots", OrderedJson()) : OrderedJson();
+  const Json roots = order->is_object() ? order->value("roots", Json()) : Json();
   if (!roots.is_array()) return NoResult("roots", "a list of nodes");
   RootChoice choice = {.rule = RootChoice::Rule::kNodes};
-  for (const OrderedJson& root : roots) {
-    const OrderedJson one = {{"roots", root}};
+  for (const Json& root : roots) {
+    const Json one = {{"roots", root}};
     BCCSKEL_RETURN_IF_ERROR(ReadCount(one, "roots", choice.nodes.emplace_back()));
   }
   if (!CheckRootChoice(choice, result.graph).ok()) return NoResult("roots", "a list of nodes");
@@ -228,31 +227,24 @@ absl::Status ReadRoot(const OrderedJson& json, ResultGraph& result) {
   return absl::OkStatus();
 }
 
-std::string PlainText(const OrderedJson& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-std::string TextOf(const OrderedJson& json, const char* name) {
+std::string TextOf(const Json& json, const char* name) {
   const auto member = json.find(name);
-  return member == json.end() ? "unknown" : PlainText(*member);
+  if (member == json.end()) return "unknown";
+  return member->is_string() ? member->get<std::string>() : member->dump();
 }
 
 }  // namespace
 
 absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document) {
   if (!document.placement.has_value()) return NoResult("placement", "there");
-  const OrderedJson json = OrderedJson::parse(document.text, nullptr, /*allow_exceptions=*/false);
+  const Json& json = *document.json;
   ResultGraph result;
   BCCSKEL_ASSIGN_OR_RETURN(result.graph, GraphReader(document, json).Run());
   result.method = TextOf(json, "method");
   result.algorithm_version = TextOf(json, "algorithm_version");
   result.world = TextOf(json, "world");
   result.unit = TextOf(json, "unit");
-  if (json.contains("options")) {
-    for (const auto& [name, value] : json["options"].items()) {
-      result.options.emplace_back(name, PlainText(value));
-    }
-  }
+  result.options = document.options;
   BCCSKEL_RETURN_IF_ERROR(ReadPreparing(json, result.preparing));
   BCCSKEL_RETURN_IF_ERROR(ReadRoot(json, result));
   result.certificate = document.certificate;

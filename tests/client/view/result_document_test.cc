@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "client/export/json.h"
 #include "tests/client/export/sample_skeletons.h"
@@ -11,7 +12,10 @@
 namespace bccskel::view {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
 
 constexpr const char* kSmall = R"({
 "nodes":[{"kind":"end","position":[0,0,0],"radius":1},
@@ -80,7 +84,15 @@ TEST(ResultDocumentTest, IgnoresWhatItDoesNotKnow) {
   const auto document = ParseResultDocument(kSmall);
   ASSERT_TRUE(document.ok()) << document.status();
   EXPECT_EQ(document->edges[0].points[1], (WorldPoint{1, 1, 1.5}));
-  EXPECT_EQ(document->text, kSmall);
+  EXPECT_EQ((*document->json)["something_new"].size(), 1u);
+}
+
+TEST(ResultDocumentTest, OptionsKeepTheirOrder) {
+  const auto document = ParseResultDocument(
+      SmallWith("\"something_new\":[null]", R"("options":{"kind":"curve","border":0.5})"));
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_THAT(document->options, ElementsAre(Pair("kind", "curve"), Pair("border", "0.5")));
+  EXPECT_THAT(ParseResultDocument(kSmall)->options, IsEmpty());
 }
 
 TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
