@@ -13,9 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "client/cli/option_values.h"
 #include "core/exec/read_ahead.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/gray_levels.h"
 #include "core/labels/label_collector.h"
 #include "core/mask/mask_converter.h"
 
@@ -310,6 +313,29 @@ absl::Status ReadSlices(ImageSource& source, size_t slice_size, const exec::Cont
       [&](size_t part, Room& room) { return each(part, room, use); });
 }
 
+// Whether the object is everything but 0, since nothing else was said.
+bool IsPlain(const ImageArguments& arguments) {
+  return arguments.labels.empty() && arguments.range.empty() && !arguments.threshold.has_value() &&
+         !arguments.below.has_value() && !arguments.invert;
+}
+
+std::vector<std::string> WarningsOf(const GrayLevels& levels) {
+  const std::optional<double> threshold = levels.Threshold();
+  const bool signs = levels.HasBothSigns();
+  if (!threshold.has_value() && !signs) return {};
+  std::string warning = absl::StrCat("the values look like ",
+                                     threshold.has_value() ? "gray levels" : "those of a level set",
+                                     ", and all but 0 are taken for the object; ");
+  if (threshold.has_value()) {
+    absl::StrAppendFormat(&warning, "--threshold %g (Otsu's) or --range selects it", *threshold);
+  }
+  if (signs) {
+    absl::StrAppend(&warning, threshold.has_value() ? ", " : "",
+                    "--below 0 selects the inside of a level set");
+  }
+  return {warning};
+}
+
 }  // namespace
 
 absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
@@ -318,9 +344,12 @@ absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArgumen
   const MaskGrid grid = GridOf(source.info());
   BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
+  GrayLevels levels(source.info().size);
+  const bool plain = IsPlain(arguments);
   BCCSKEL_RETURN_IF_ERROR(ReadSlices(
       source, grid.WordsPerSlice(), context,
       [&](const ImageSlice& slice, std::span<uint64_t> words) {
+        if (plain) levels.Add(slice);
         ForegroundSlice(slice, rule, words);
         return absl::OkStatus();
       },
@@ -330,7 +359,8 @@ absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArgumen
                                          : collector.AddMaskSlice(words, context);
       }));
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
-  ImageObject object = {std::move(mask.volume), {source.info(), mask.voxels, mask.mask}};
+  ImageObject object = {std::move(mask.volume),
+                        {source.info(), mask.voxels, mask.mask, WarningsOf(levels)}};
   if (kept == KeptVoxels::kAll) {
     BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
   }

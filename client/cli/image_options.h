@@ -67,8 +67,9 @@ absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
 // What an image was before it became an object.
 struct ImageStage {
   ImageInfo info;
-  uint64_t voxels = 0;  // of the foreground
-  BettiNumbers mask;    // counted on the image's own grid
+  uint64_t voxels = 0;                // of the foreground
+  BettiNumbers mask;                  // counted on the image's own grid
+  std::vector<std::string> warnings;  // of what is taken for the object
 };
 
 struct ImageObject {

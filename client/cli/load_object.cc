@@ -156,6 +156,8 @@ absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
                                              const exec::Context& context) {
   absl::StatusOr<ImageObject> object = Convert(path, arguments, kept, context);
   if (!object.ok()) return WithPath(object.status(), path);
+  if (arguments.mask.part.index > 0) return object;  // the first of the ranks that read it warns
+  for (const std::string& warning : object->image.warnings) Warn(path + ": " + warning);
   return object;
 }
 

@@ -275,7 +275,8 @@ std::string ImageJson(const ImageStage& image, const std::string& members) {
            ',', info.size.nz, "],\"type\":", JsonString(VoxelTypeName(info.type)), ',',
            PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
            ",\"world\":", JsonString(info.world), ",\"voxels\":", image.voxels,
-           ",\"topology\":", exporting::BettiJson(image.mask));
+           ",\"topology\":", exporting::BettiJson(image.mask),
+           ",\"warnings\":", JsonStrings(image.warnings));
   text.Add(members);
   return std::move(text.Add('}')).Take();
 }

@@ -65,6 +65,22 @@ class ImagesTest(harness.TestCase):
                 cavities = [note for note in summary["notes"] if "--fill-cavities" in note]
                 self.assertEqual(len(cavities), min(topology[2], 1), summary["notes"])
 
+    def test_gray_levels_and_level_sets_taken_for_masks_are_warned_of(self):
+        grid = numpy.mgrid[:24, :24, :24] - 12.0
+        distance = numpy.sqrt((grid ** 2).sum(0)) - 8.1
+        gray = numpy.random.default_rng(3).normal(80 - 60 * numpy.sign(distance), 5)
+        for name, image, choice in (("gray", gray.astype("u1"), "--threshold"),
+                                    ("band", distance.clip(-2, 2), "--below")):
+            numpy.save(self.path(name + ".npy"), image)
+            words = ("skeletonize", self.path(name + ".npy"), "--local", "-o", self.path("s.swc"))
+            done = harness.bccskel(*words, "--json")
+            warning, = json.loads(done.stdout)["image"]["warnings"]
+            self.assertIn(f"and all but 0 are taken for the object; {choice} ", warning)
+            self.assertIn(f"bccskel: warning: {self.path(name + '.npy')}: {warning}\n", done.stderr)
+            chosen = self.summarize(*words, choice, warning.split(choice)[1].split()[0])
+            self.assertEqual(chosen["image"]["warnings"], [])
+            self.assertEqual(chosen["image"]["voxels"], (distance < 0).sum())
+
     def test_the_skeleton_lies_in_the_world_of_the_image(self):
         summary = self.skeletonize(self.write_ring())
         self.assertEqual(summary["certificate"]["mask"],

@@ -114,6 +114,11 @@ class MasksTest(harness.TestCase):
         self.assertEqual(len(skeleton.to_pandas()), 0)
         self.assertEqual(len(skeleton.to_networkx()), 0)
 
+    def test_gray_levels_taken_for_a_mask_are_warned_of(self):
+        gray = numpy.random.default_rng(1).normal(100, 9, (20, 20, 20))
+        with self.assertWarnsRegex(UserWarning, "look like gray levels, .*; threshold 1?[0-9]{2}"):
+            bccskel.skeletonize(gray)
+
     def test_a_sampling_that_changes_the_topology_warns(self):
         noise = numpy.random.default_rng(1).random((20, 20, 20)) > 0.6
         with self.assertWarnsRegex(UserWarning, "the conversion to the lattice changed"):

@@ -69,10 +69,12 @@ MaskGrid GridOf(const ImageInfo& info) {
   return {info.size.nx, info.size.ny, info.size.nz, info.placement};
 }
 
-// Takes the mask's own topology into the certificate.
+// Takes the mask's own topology into the certificate, and what there is to say of it into the
+// warnings.
 absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, Outcome& outcome) {
   Certificate& certificate = outcome.result.certificate;
   certificate.mask = image.mask;
+  outcome.warnings.insert(outcome.warnings.end(), image.warnings.begin(), image.warnings.end());
   const std::string changes = DescribeChanges(image.mask, certificate.Given());
   if (changes.empty()) return absl::OkStatus();
   const std::string message = "the conversion to the lattice changed " + changes;

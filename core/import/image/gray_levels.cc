@@ -1,0 +1,79 @@
+#include "core/import/image/gray_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <variant>
+
+namespace bccskel {
+namespace {
+
+// Fewer tell nothing.
+constexpr int64_t kFewestPairs = 256;
+
+// Needs: sorted values.
+double OtsuThreshold(const std::vector<double>& values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const auto count = static_cast<double>(values.size());
+  double below = 0, best = 0, threshold = values.front();
+  for (size_t n = 1; n < values.size(); ++n) {
+    below += values[n - 1];
+    if (values[n] == values[n - 1]) continue;
+    const auto low = static_cast<double>(n), high = count - low;
+    const double between = below / low - (sum - below) / high;
+    const double variance = low * high * between * between;
+    if (variance <= best) continue;
+    best = variance;
+    threshold = (values[n - 1] + values[n]) / 2;
+  }
+  return threshold;
+}
+
+}  // namespace
+
+GrayLevels::GrayLevels(const ImageSize& size) {
+  constexpr int64_t kVoxels = 250'000;
+  step_ = std::max<int64_t>(1, int64_t{size.ny} * size.nz * size.nx / kVoxels);
+}
+
+template <typename T>
+void GrayLevels::AddRow(std::span<const T> row) {
+  T before = 0;
+  for (const T value : row) {
+    if (!std::isfinite(static_cast<double>(value))) continue;
+    values_.push_back(static_cast<double>(value));
+    if (value != 0 && before != 0) {
+      ++pairs_;
+      if (value != before) ++unequal_;
+    }
+    before = value;
+  }
+}
+
+void GrayLevels::Add(const ImageSlice& slice) {
+  const auto nx = static_cast<size_t>(slice.nx);
+  std::visit(
+      [&](const auto& values) {
+        for (size_t y = 0; y < static_cast<size_t>(slice.ny); ++y) {
+          if (next_row_++ % step_ == 0) AddRow(values.subspan(y * nx, nx));
+        }
+      },
+      slice.values);
+}
+
+std::optional<double> GrayLevels::Threshold() const {
+  if (pairs_ < kFewestPairs || 2 * unequal_ <= pairs_) return std::nullopt;
+  std::vector<double> values = values_;
+  std::ranges::sort(values);
+  return OtsuThreshold(values);
+}
+
+bool GrayLevels::HasBothSigns() const {
+  const auto below = std::ranges::count_if(values_, [](double value) { return value < 0; });
+  const auto above = std::ranges::count_if(values_, [](double value) { return value > 0; });
+  const auto zeros = static_cast<int64_t>(values_.size()) - below - above;
+  return below > 0 && above > 0 && 100 * zeros < static_cast<int64_t>(values_.size());
+}
+
+}  // namespace bccskel

@@ -1,0 +1,41 @@
+#ifndef BCCSKEL_CORE_IMPORT_IMAGE_GRAY_LEVELS_H_
+#define BCCSKEL_CORE_IMPORT_IMAGE_GRAY_LEVELS_H_
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/import/image/image_source.h"
+
+namespace bccskel {
+
+// Notices that an image holds gray levels, not a mask or labels. Looks at rows spread over the
+// image, about 250,000 voxels of them.
+class GrayLevels {
+ public:
+  explicit GrayLevels(const ImageSize& size);
+
+  // The next slice, from z = 0 on.
+  void Add(const ImageSlice& slice);
+
+  // If most neighbors in a row that are both not 0 differ: Otsu's threshold between background and
+  // object (1979, doi 10.1109/TSMC.1979.4310076).
+  std::optional<double> Threshold() const;
+
+  // Values below and above 0, but none in a hundred is 0: of a mask, all would be object.
+  bool HasBothSigns() const;
+
+ private:
+  template <typename T>
+  void AddRow(std::span<const T> row);
+
+  int64_t step_;  // rows from one that is seen to the next
+  int64_t next_row_ = 0;
+  std::vector<double> values_;
+  int64_t pairs_ = 0;  // of neighbors that are not 0
+  int64_t unequal_ = 0;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_IMAGE_GRAY_LEVELS_H_
