@@ -46,7 +46,7 @@ void AddAction(CLI::App& app, const Action& action, CommandLine& line) {
 
 // What CLI11 says, in our words.
 std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string what = error.what();
+  std::string what = error.what();
   const std::vector<std::string> rest = app.remaining();
   const auto is = [&error](CLI::ExitCodes code) {
     return error.get_exit_code() == static_cast<int>(code);

@@ -79,7 +79,8 @@ inline Network RandomNetwork(uint64_t seed, size_t places = 26) {
     }
   }
   std::ranges::sort(shortest_first);
-  for (const auto& [gap, tube] : shortest_first) {
+  for (const auto& found : shortest_first) {
+    const auto& tube = found.second;
     const auto apart = [&](const auto& other) { return KeepApart(network, tube, other); };
     if (network.DegreeOf(tube.first) == kMostTubes || network.DegreeOf(tube.second) == kMostTubes ||
         !std::ranges::all_of(network.tubes, apart)) {
