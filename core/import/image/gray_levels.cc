@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <variant>
@@ -9,8 +10,8 @@
 namespace bccskel {
 namespace {
 
-// Fewer tell nothing.
-constexpr int64_t kFewestPairs = 256;
+// Of pairs or values: fewer tell nothing.
+constexpr int64_t kFewest = 256;
 
 // Needs: sorted values.
 double OtsuThreshold(const std::vector<double>& values) {
@@ -63,7 +64,7 @@ void GrayLevels::Add(const ImageSlice& slice) {
 }
 
 std::optional<double> GrayLevels::Threshold() const {
-  if (pairs_ < kFewestPairs || 2 * unequal_ <= pairs_) return std::nullopt;
+  if (pairs_ < kFewest || 2 * unequal_ <= pairs_) return std::nullopt;
   std::vector<double> values = values_;
   std::ranges::sort(values);
   return OtsuThreshold(values);
@@ -72,8 +73,8 @@ std::optional<double> GrayLevels::Threshold() const {
 bool GrayLevels::HasBothSigns() const {
   const auto below = std::ranges::count_if(values_, [](double value) { return value < 0; });
   const auto above = std::ranges::count_if(values_, [](double value) { return value > 0; });
-  const auto zeros = static_cast<int64_t>(values_.size()) - below - above;
-  return below > 0 && above > 0 && 100 * zeros < static_cast<int64_t>(values_.size());
+  const auto all = std::ssize(values_), zeros = all - below - above;
+  return all >= kFewest && below > 0 && above > 0 && 100 * zeros < all;
 }
 
 }  // namespace bccskel
