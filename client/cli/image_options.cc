@@ -279,11 +279,11 @@ absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments) {
   return arguments.invert ? rule.Inverted() : rule;
 }
 
-namespace {
-
 MaskGrid GridOf(const ImageInfo& info) {
   return {info.size.nx, info.size.ny, info.size.nz, info.placement};
 }
+
+namespace {
 
 // Reads an image, several slices at once where they are small, each turned by
 // `take(slice, room)` into `slice_size` values, which `use(values)` gets in order.

@@ -85,6 +85,8 @@ enum class KeptVoxels : uint8_t { kNone, kAll };
 absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
                                          KeptVoxels kept, const exec::Context& context);
 
+MaskGrid GridOf(const ImageInfo& info);
+
 struct CollectedLabels {
   ImageInfo info;
   LabeledObjects objects;

@@ -273,7 +273,8 @@ ExitCode PrintSummary(const SkeletonSummary& summary) {
 // The surface of an image's object goes in steps of a voxel.
 SkeletonizeArguments ForInput(SkeletonizeArguments arguments, const Object& object) {
   if (object.image.has_value()) {
-    arguments.skeletonize = ForMask(arguments.skeletonize, arguments.image.mask);
+    const MaskGrid grid = GridOf(object.image->info);
+    arguments.skeletonize = ForMask(arguments.skeletonize, grid, arguments.image.mask);
   }
   return arguments;
 }

@@ -21,10 +21,15 @@ absl::StatusOr<ConvertedMask> ConvertLabel(const MaskGrid& grid, const LabeledOb
   return std::move(converter).FinishRows();
 }
 
-SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskOptions& mask) {
+SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskGrid& grid,
+                           const MaskOptions& mask) {
   const bool two = mask.points == VoxelPoints::kTwo;
   options.source = two ? ObjectSource::kVoxels : ObjectSource::kRefinedVoxels;
-  if (mask.sampling) options.source = ObjectSource::kSampledVoxels;
+  if (mask.sampling) {
+    options.source = ObjectSource::kSampledVoxels;
+  } else {
+    options.voxel_slabs = SlabsOf(grid, mask.points);
+  }
   return options;
 }
 

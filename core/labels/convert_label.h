@@ -16,9 +16,9 @@ absl::StatusOr<ConvertedMask> ConvertLabel(const MaskGrid& grid, const LabeledOb
                                            const MaskOptions& options,
                                            const exec::Context& context);
 
-// The options for an object that was made of voxels in this way: its source, and the default margin
-// of pruning in steps of voxels.
-SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskOptions& mask);
+// The options for an object that was made of voxels in this way: its source and its slabs.
+SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskGrid& grid,
+                           const MaskOptions& mask);
 
 }  // namespace bccskel
 

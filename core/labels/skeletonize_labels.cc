@@ -31,9 +31,9 @@ absl::StatusOr<LabelSkeleton> SkeletonOf(const MaskGrid& grid, const LabeledObje
   BCCSKEL_ASSIGN_OR_RETURN(const ConvertedMask converted,
                            ConvertLabel(grid, object, options.mask, context));
   LabelSkeleton skeleton{object.label, object.voxels, {}};
-  BCCSKEL_ASSIGN_OR_RETURN(skeleton.result,
-                           SkeletonizeWithin(memory, converted.volume,
-                                             ForMask(options.skeleton, options.mask), context));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      skeleton.result, SkeletonizeWithin(memory, converted.volume,
+                                         ForMask(options.skeleton, grid, options.mask), context));
   Certificate& certificate = skeleton.result.certificate;
   certificate.mask = converted.mask;
   const std::string changes = DescribeChanges(converted.mask, certificate.Given());

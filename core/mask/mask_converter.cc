@@ -31,6 +31,7 @@ absl::StatusOr<MaskConverter> MaskConverter::Create(const MaskGrid& grid,
 MaskConverter::MaskConverter(const MaskGrid& grid, const MaskOptions& options)
     : grid_(grid),
       options_(options),
+      parts_(options.sampling ? VoxelParts{1, 1, 1} : PartsOf(grid, options.points)),
       topology_(grid, options.adjacency),
       bricks_(options.adjacency, options.part) {}
 
@@ -51,11 +52,11 @@ absl::Status MaskConverter::AddRows(int32_t z, SliceRows& rows, const exec::Cont
 
 void MaskConverter::CutTubes(int32_t z, SliceRows& rows) {
   const auto add = [this](const RowTube& tube) { AddTube(tube); };
-  if (options_.points == VoxelPoints::kTwo || sampler_) return tubes_.AddSlice(z, rows, add);
-  // Refined voxels leave no gap that the rule would act on: every corner stays.
-  for (int32_t half : {2 * z, 2 * z + 1}) {
-    refined_.SetRefined(rows);
-    tubes_.AddSlice(half, refined_, add);
+  const auto [px, py, pz] = parts_;
+  if (parts_ == VoxelParts{1, 1, 1}) return tubes_.AddSlice(z, rows, add);
+  for (int32_t part = pz * z; part < pz * (z + 1); ++part) {
+    refined_.SetParts(rows, px, py);
+    tubes_.AddSlice(part, refined_, add);
   }
 }
 

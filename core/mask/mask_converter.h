@@ -73,6 +73,7 @@ class MaskConverter {
 
   MaskGrid grid_;
   MaskOptions options_;
+  VoxelParts parts_;
   MaskTopology topology_;
   RowTubes tubes_;
   TubeBricks bricks_;

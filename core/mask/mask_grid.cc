@@ -1,5 +1,7 @@
 #include "core/mask/mask_grid.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/volume/volume.h"
@@ -31,6 +33,8 @@ absl::Status CheckSliceSize(const MaskGrid& grid, int32_t z, size_t size, size_t
                                                     z, size, grid.nx, grid.ny, expected));
 }
 
+int32_t RefinementOf(VoxelPoints points) { return points == VoxelPoints::kTwo ? 1 : 2; }
+
 }  // namespace
 
 absl::Status CheckMaskGrid(const MaskGrid& grid) {
@@ -53,17 +57,41 @@ absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const ui
   return CheckSliceSize(grid, z, labels.size(), grid.VoxelsPerSlice());
 }
 
+VoxelParts SlabsOf(const MaskGrid& grid, VoxelPoints points) {
+  constexpr double kLongest = 3;       // of a part, in its shortest edges
+  constexpr double kTolerance = 1e-6;  // of spacings that were rounded
+  constexpr int32_t kMostSlabs = 8;
+  const std::array<int64_t, 3> voxels = {grid.nx, grid.ny, grid.nz};
+  const std::array<double, 3>& spacing = grid.placement.spacing;
+  const double longest = kLongest * (1 + kTolerance) * std::ranges::min(spacing);
+  VoxelParts slabs = {1, 1, 1};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto fits = [&](int32_t count) {
+      return RefinementOf(points) * count * voxels[axis] < kMaxExtentCells;
+    };
+    int32_t& count = slabs[axis];
+    while (spacing[axis] > count * longest && count < kMostSlabs && fits(count + 1)) ++count;
+  }
+  return slabs;
+}
+
+VoxelParts PartsOf(const MaskGrid& grid, VoxelPoints points) {
+  VoxelParts parts = SlabsOf(grid, points);
+  for (int32_t& count : parts) count *= RefinementOf(points);
+  return parts;
+}
+
 LatticeExtent ExactExtent(const MaskGrid& grid, VoxelPoints points) {
-  const int32_t cells = points == VoxelPoints::kTwo ? 1 : 2;
-  return {cells * grid.nx + 1, cells * grid.ny + 1, cells * grid.nz + 1};
+  const auto [px, py, pz] = PartsOf(grid, points);
+  return {px * grid.nx + 1, py * grid.ny + 1, pz * grid.nz + 1};
 }
 
 Placement ExactPlacement(const MaskGrid& grid, VoxelPoints points) {
   Placement placement = grid.placement;
   // Lattice point (0, 0, 0) is the outer corner of voxel (0, 0, 0).
   placement.origin = grid.placement.ToWorld(-1, -1, -1);
-  if (points == VoxelPoints::kTwo) return placement;
-  for (double& spacing : placement.spacing) spacing /= 2;
+  const VoxelParts parts = PartsOf(grid, points);
+  for (size_t axis = 0; axis < 3; ++axis) placement.spacing[axis] /= parts[axis];
   return placement;
 }
 

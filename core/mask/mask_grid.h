@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_MASK_MASK_GRID_H_
 #define BCCSKEL_CORE_MASK_MASK_GRID_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,9 @@ enum class VoxelPoints : uint8_t {
   kTwo,      // the center of the voxel and a corner
   kSixteen,  // the same of a mask refined 2 x 2 x 2, for finer curves
 };
+
+// Equal parts that voxels are cut into, along x, y and z.
+using VoxelParts = std::array<int32_t, 3>;
 
 // Largest number of voxels along an axis: sixteen points a voxel make 2 n + 1 cells of n voxels.
 inline constexpr int32_t kMaxMaskVoxels = (kMaxExtentCells - 1) / 2;
@@ -53,8 +57,16 @@ absl::Status CheckMaskGrid(const MaskGrid& grid);
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
 absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
 
-// The lattice of an exact conversion: its odd points are the centers of the voxels, or of the
-// refined voxels, its even points their corners. World positions are those of the voxels.
+// What makes the parts of thick slices at most twice as long as they are wide: eight at most, and
+// as many as the extent allows. On longer ones curves would fork and end early, see README.md.
+// Parts of voxels touch each other as the voxels do, so the topology is the same.
+VoxelParts SlabsOf(const MaskGrid& grid, VoxelPoints points);
+
+// All parts of an exact conversion: the slabs, each cut in two along each axis for sixteen points.
+VoxelParts PartsOf(const MaskGrid& grid, VoxelPoints points);
+
+// The lattice of an exact conversion: its odd points are the centers of the parts of voxels, its
+// even points their corners. World positions are those of the voxels.
 LatticeExtent ExactExtent(const MaskGrid& grid, VoxelPoints points);
 Placement ExactPlacement(const MaskGrid& grid, VoxelPoints points);
 

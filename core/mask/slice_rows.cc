@@ -10,17 +10,6 @@ uint64_t BitsOf(int32_t begin, int32_t end) {
   return ~uint64_t{0} >> (64 - (end - begin)) << begin;
 }
 
-// Each bit of the low half twice.
-uint64_t Doubled(uint64_t bits) {
-  bits &= 0xffffffff;
-  bits = (bits | bits << 16) & 0x0000ffff0000ffff;
-  bits = (bits | bits << 8) & 0x00ff00ff00ff00ff;
-  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0f;
-  bits = (bits | bits << 2) & 0x3333333333333333;
-  bits = (bits | bits << 1) & 0x5555555555555555;
-  return bits | bits << 1;
-}
-
 }  // namespace
 
 void SliceRows::Clear() {
@@ -54,19 +43,17 @@ void SliceRows::AddRun(int32_t y, int32_t begin, int32_t end) {
   }
 }
 
-void SliceRows::SetRefined(const SliceRows& voxels) {
+void SliceRows::SetParts(const SliceRows& voxels, int32_t px, int32_t py) {
   Clear();
   for (size_t n = 0; n < voxels.size(); ++n) {
     const MaskRow row = voxels[n];
-    // Half a word of voxels makes a word.
-    const size_t first = static_cast<uint32_t>(row.words.front()) == 0 ? 1 : 0;
-    const size_t end = 2 * row.words.size() - (row.words.back() >> 32 == 0 ? 1 : 0);
-    const int32_t first_word = 2 * row.first_word + static_cast<int32_t>(first);
-    for (int32_t y : {2 * row.y, 2 * row.y + 1}) {
-      rows_.push_back({y, first_word, words_.size(), end - first});
-    }
-    for (size_t half = first; half < end; ++half) {
-      words_.push_back(Doubled(row.words[half / 2] >> 32 * (half % 2)));
+    for (int32_t y = py * row.y; y < py * (row.y + 1); ++y) {
+      if (px == 1) {
+        rows_.push_back({y, row.first_word, words_.size(), row.words.size()});
+        words_.insert(words_.end(), row.words.begin(), row.words.end());
+      } else {
+        ForEachRun(row, [&](int32_t begin, int32_t end) { AddRun(y, px * begin, px * end); });
+      }
     }
   }
 }

@@ -48,8 +48,8 @@ class SliceRows {
   void SetDense(const MaskGrid& grid, std::span<const uint64_t> words);
   // Adds the voxels [begin, end). Needs: called in order of y, then x; runs do not overlap.
   void AddRun(int32_t y, int32_t begin, int32_t end);
-  // Replaces the rows by either slice of those refined 2 x 2 x 2.
-  void SetRefined(const SliceRows& voxels);
+  // Replaces the rows by those of voxels cut into so many parts along x and y.
+  void SetParts(const SliceRows& voxels, int32_t px, int32_t py);
 
   bool empty() const { return rows_.empty(); }
   size_t size() const { return rows_.size(); }

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "absl/strings/str_join.h"
+
 namespace bccskel {
 namespace {
 
@@ -38,6 +40,7 @@ std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options) {
           NumberFact("pruning_threshold", options.pruning.threshold),
           {"tips", WordFor(kTipsWords, options.pruning.tips)},
           {"source", WordFor(kSourceWords, options.source)},
+          {"voxel_slabs", absl::StrJoin(options.voxel_slabs, ",")},
           NumberFact("merge_junctions", options.junction_reach),
           {"border", WordFor(kBorderWords, options.border)}};
 }

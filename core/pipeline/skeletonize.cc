@@ -297,10 +297,11 @@ class Pipeline {
     if (IsConverted(options_.source) && !space_.has_value()) search_.emplace(object);
     if (HasCurves(options_.thinning)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
-      BCCSKEL_ASSIGN_OR_RETURN(
-          ThinSkeleton pruned,
-          Prune(skeleton_, {object, single, SurfaceStepOf(options_.source), &SpaceOf(object)},
-                options_.thinning.keep, options_.pruning, context_));
+      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
+                               Prune(skeleton_,
+                                     {object, single, SurfaceStepOf(options_.source),
+                                      options_.voxel_slabs, &SpaceOf(object)},
+                                     options_.thinning.keep, options_.pruning, context_));
       TakeOver(std::move(pruned));
     }
     const PruningOptions& pruning = result_.options.pruning;

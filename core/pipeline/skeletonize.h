@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
 #define BCCSKEL_CORE_PIPELINE_SKELETONIZE_H_
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ struct SkeletonizeOptions {
   // Skipped if thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};
   ObjectSource source = ObjectSource::kPoints;
+  // The slabs that the voxels of a mask were cut into along x, y and z, since they were long: noise
+  // of the mask is so much longer than the lattice says. 1 to 8.
+  std::array<int32_t, 3> voxel_slabs = {1, 1, 1};
   // Merges junctions within this many radii of each other; 0 merges none. Only for graphs of
   // curves.
   double junction_reach = kDefaultJunctionReach;

@@ -28,6 +28,11 @@ absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
   BCCSKEL_RETURN_IF_ERROR(CheckThinningOptions(options.thinning));
   BCCSKEL_RETURN_IF_ERROR(CheckPruningOptions(options.pruning));
   BCCSKEL_RETURN_IF_ERROR(CheckJunctionReach(options.junction_reach));
+  for (const int32_t slabs : options.voxel_slabs) {
+    if (slabs >= 1 && slabs <= 8) continue;
+    return absl::InvalidArgumentError(
+        absl::StrFormat("%d slabs of a voxel: must be 1 to 8", slabs));
+  }
   if (options.thinning.kind == SkeletonKind::kSurface && !IsForSheets(options.pruning.rule)) {
     return absl::InvalidArgumentError(
         "pruning by length, relative length or persistence: is for curves; the kind surface is "

@@ -87,7 +87,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     RemoveSimplePoints(set, kept, poll);
   }
   const Volume& space = in.space != nullptr ? *in.space : in.object;
-  const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step);
+  const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs);
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
   std::optional<WayOn> way_on;
   std::optional<FirmDepth> firm_depth;

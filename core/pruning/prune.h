@@ -52,6 +52,8 @@ struct PrunedObject {
   const ExactRadius& radius;  // of the object
   // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
   double surface_step = 1;
+  // That voxels were cut into along x, y and z.
+  std::array<int32_t, 3> slabs = {1, 1, 1};
   // Where widths and depths are measured, if not in the object: the same in a window.
   const Volume* space = nullptr;
 };

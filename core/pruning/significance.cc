@@ -89,7 +89,8 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& n
       const double out = way - kSteepness * (depth - radius);
       if (out > run.elongation) run.to = to, run.elongation = out;
     }
-    run.ratio = (run.elongation - noise.At(depth)) / depth;
+    const double stretch = noise.Stretch(set.Way(path.points[from], path.points[run.to]));
+    run.ratio = (run.elongation - stretch * noise.At(depth)) / depth;
     if (run.ratio > best.ratio) best = run;
   }
   return best;
@@ -168,8 +169,8 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
 
 // Shape and noise have nothing to do with each other, so their squares add. The margin makes up for
 // the thinnest limbs, for which that is less than the noise itself.
-double Significance::BeyondNoise(double elongation, double radius) const {
-  const double noise = noise_.At(radius) + kNoiseMargin;
+double Significance::BeyondNoise(double elongation, double radius, const Coordinates& way) const {
+  const double noise = noise_.Stretch(way) * (noise_.At(radius) + kNoiseMargin);
   if (elongation <= noise) return elongation - noise;
   return std::sqrt(elongation * elongation - noise * noise);
 }
@@ -184,14 +185,16 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
       const size_t tip = PlaceIn(run, later);
       const double fallen = kSteepness * (depth - path.radii[tip]);
       const double way = set.Between(path.points[root], path.points[tip]);
-      most = std::max(most, BeyondNoise(way - fallen, depth) / depth);
+      const Coordinates along = set.Way(path.points[root], path.points[tip]);
+      most = std::max(most, BeyondNoise(way - fallen, depth, along) / depth);
     }
   }
   return most;
 }
 
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {
-  const double radius = path.radii[run.from], out = BeyondNoise(run.elongation, radius);
+  const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
+  const double radius = path.radii[run.from], out = BeyondNoise(run.elongation, radius, along);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
@@ -256,8 +259,9 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
                                   ? from.radius + wide - half_width_near_tip
                                   : kWallSteepness * (from.inscribed - to.inscribed);
       const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
-      const double way = set.Between(root, path.points[PlaceIn(run, tip)]);
-      value = std::max(value, BeyondNoise(way - fallen, from.radius) / width);
+      const LatticePoint end = path.points[PlaceIn(run, tip)];
+      const double out = set.Between(root, end) - fallen;
+      value = std::max(value, BeyondNoise(out, from.radius, set.Way(root, end)) / width);
     }
   }
   return value;

@@ -39,22 +39,22 @@ Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& n
 //        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
 //        is the limb, not where in a thick body its junction lies. Then
 //          S = sqrt(elongation^2 - noise^2) / (D + 2.2 (H - D)) * uncovered,
-//        noise the allowance for a branch of this radius and 2 units, D the radius where the limb
-//        begins, at one of the first seven of 11 places of the run, whichever makes the most of
-//        it: the run may begin in something flat that the limb leaves. H is the half-width of the
-//        object across the branch, the median of the places from there on, each the widest of
-//        eight lines and, where S by these is 0.35 or more and H more than 1.5 D + 1, of up to ten
-//        more beside the widest: lines that do not lie in a thin plate leave it soon. In a wall,
-//        where H > 2.5 D + 3, the widest line goes on where the wall bends, round or with an edge;
-//        so do 16 lines in the wall, of which the third shortest is W, the radius of the circle
-//        inscribed in the wall.
-//        Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the place of that in the
-//        elongation: in a wall W is what D is in space. `uncovered` is the share of the run that
-//        lies outside 0.9 of the balls of other branches. In a limb H is D; a rib lies in
-//        something wide; a strand lies in the balls of the strand beside it. A limb may begin late
-//        in a long run through something wide, as a thumb does behind a palm. So the largest run
-//        of the later half is evaluated, too, and so on; the largest S counts. On rough surfaces
-//        of voxels D is measured without pits (FirmDepth), where that may decide.
+//        noise the allowance for a branch of this radius and 2 units, stretched by how long voxels
+//        are along it, D the radius where the limb begins, at one of the first seven of 11 places
+//        of the run, whichever makes the most of it: the run may begin in something flat that the
+//        limb leaves. H is the half-width of the object across the branch, the median of the places
+//        from there on, each the widest of eight lines and, where S by these is 0.35 or more and H
+//        more than 1.5 D + 1, of up to ten more beside the widest: lines that do not lie in a thin
+//        plate leave it soon. In a wall, where H > 2.5 D + 3, the widest line goes on where the
+//        wall bends, round or with an edge; so do 16 lines in the wall, of which the third shortest
+//        is W, the radius of the circle inscribed in the wall. Where 0.4 (W(q) - W(p)) is more than
+//        2 (D(q) - D(p)), it takes the place of that in the elongation: in a wall W is what D is in
+//        space. `uncovered` is the share of the run that lies outside 0.9 of the balls of other
+//        branches. In a limb H is D; a rib lies in something wide; a strand lies in the balls of
+//        the strand beside it. A limb may begin late in a long run through something wide, as a
+//        thumb does behind a palm. So the largest run of the later half is evaluated, too, and so
+//        on; the largest S counts. On rough surfaces of voxels D is measured without pits
+//        (FirmDepth), where that may decide.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
 // Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it
@@ -115,7 +115,7 @@ class Significance {
   // As if nothing of it were covered.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
   // ValueOf() is no more, in floating point, too; without rays.
-  double BeyondNoise(double elongation, double radius) const;
+  double BeyondNoise(double elongation, double radius, const Coordinates& way) const;
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);

@@ -66,11 +66,16 @@ double Roughness(const Volume& object) {
                            : static_cast<double>(count.pits) / static_cast<double>(count.points);
 }
 
-SurfaceNoise SurfaceNoiseOf(const Volume& object, double step) {
+SurfaceNoise SurfaceNoiseOf(const Volume& object, double step,
+                            const std::array<int32_t, 3>& slabs) {
   const double rough = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
   const double least = std::max(step, kLeastNoise);
   const double thin = least + (kMostSteps * step - least) * rough;
-  return {.step = step, .roughness = rough, .thin = thin, .thick = step > 1 ? least : thin};
+  AxisScale edges = AxisScaleOf(object.placement());
+  for (size_t axis = 0; axis < 3; ++axis) edges[axis] *= slabs[axis];
+  const double shortest = std::ranges::min(edges);
+  for (double& edge : edges) edge /= shortest;
+  return {step, rough, thin, step > 1 ? least : thin, edges};
 }
 
 }  // namespace bccskel

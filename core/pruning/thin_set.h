@@ -61,7 +61,12 @@ class ThinSet {
   // Straight distance in lattice units.
   double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }
 
-  // The same to a place between points.
+  // In lattice units.
+  Coordinates Way(LatticePoint from, LatticePoint to) const {
+    return Sum(PlaceOf(to, scale_), -1, PlaceOf(from, scale_));
+  }
+
+  // Straight distance to a place between points.
   double Between(LatticePoint a, const Coordinates& place) const {
     const Coordinates way = Sum(place, -1, PlaceOf(a, scale_));
     return std::sqrt(Dot(way, way));

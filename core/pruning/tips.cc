@@ -25,13 +25,13 @@ constexpr double kRidgeSlope = 0.3;    // what falls by less is a ridge for sure
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
 constexpr double kAnchorRadii = 4;     // how far back the anchor lies, in radii
-constexpr double kAnchorMargin = 5;    // and in lattice units
+constexpr double kAnchorMargin = 5;    // and in steps
 constexpr double kStraightRadii = 2;   // what is shorter gives no direction, bent or not
 constexpr double kBendRadii = 0.35;    // a limb bends that leaves the straight way by so many radii
 constexpr double kBendMargin = 2;      // and lattice units
 constexpr size_t kBendStride = 8;      // points between checks
 constexpr size_t kBendSamples = 16;
-constexpr double kLeastAim = 4;     // from the anchor to what gives the limb its direction
+constexpr double kLeastAim = 4;  // from the anchor to what gives the limb its direction, in steps
 constexpr double kCutRadii = 1.75;  // a cut takes the way into a cap or a corner at most, in radii
 constexpr double kCutMargin = 6;    // and in lattice units
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
@@ -62,6 +62,7 @@ class TipPlacer {
         flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement()), context),
+        coarse_(std::ranges::max(AxisScaleOf(object.placement()))),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {}
 
@@ -77,7 +78,7 @@ class TipPlacer {
     FindMajority();
     CutHair();
     const size_t first = FirstCut();
-    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim ? path_.back() : path_[first];
+    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim * coarse_ ? path_.back() : path_[first];
     GrowAnew(first);
     CutAfter(SafestFrom(first));
     MeasureGrown();
@@ -134,8 +135,9 @@ class TipPlacer {
     for (size_t n = 1; n < points.size(); ++n) {
       length += set_.Between(points[n - 1], points[n]);
       radius = std::max(radius, set_.RadiusOf(points[n]));
-      const bool is_far = length >= kAnchorRadii * radius + kAnchorMargin;
-      const bool may_bend = length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorMargin;
+      const bool is_far = length >= kAnchorRadii * radius + kAnchorMargin * coarse_;
+      const bool may_bend =
+          length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorMargin * coarse_;
       const bool is_checked = may_bend && front < n && n % kBendStride == 0;
       if (!is_far && !(is_checked && Bends(points, front, n))) continue;
       const LatticePoint anchor = points[n];
@@ -168,7 +170,7 @@ class TipPlacer {
   // median radius.
   bool Bends(std::span<const LatticePoint> points, size_t front, size_t back) const {
     const LatticePoint a = points[front], b = points[back];
-    if (set_.Between(a, b) < kLeastAim) return false;
+    if (set_.Between(a, b) < kLeastAim * coarse_) return false;
     std::vector<float> radii;
     double farthest = 0;  // squared
     const size_t stride = (back - front) / kBendSamples + 1;
@@ -369,6 +371,7 @@ class TipPlacer {
   FlatEnd flat_;
   const PointSet& keep_;
   BallIndex balls_;
+  const double coarse_;  // the longest step along an axis, in lattice units
   const double least_gain_;
   const SurfaceNoise noise_;
   std::optional<LatticePoint> junction_;  // of the branch

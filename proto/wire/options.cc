@@ -276,6 +276,19 @@ absl::StatusOr<PreparingOptions> FromMessage(const v1::PreparingOptions& message
   return preparing;
 }
 
+absl::Status ReadSlabs(const v1::SkeletonizeOptions& message, const std::string& field,
+                       SkeletonizeOptions& options) {
+  const auto& slabs = message.voxel_slabs();
+  if (slabs.empty()) return absl::OkStatus();
+  if (std::cmp_not_equal(slabs.size(), options.voxel_slabs.size())) {
+    return InvalidField(field, absl::StrCat(slabs.size(), " numbers, must be 3 or none"));
+  }
+  std::ranges::transform(slabs, options.voxel_slabs.begin(), [](uint32_t count) {
+    return static_cast<int32_t>(std::min(count, uint32_t{1000}));  // of which it is told
+  });
+  return absl::OkStatus();
+}
+
 absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
                                          const std::string& field) {
   PruningOptions pruning;
@@ -333,6 +346,9 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
   message.set_border(options.border == Border::kContinues ? v1::BORDER_CONTINUES : v1::BORDER_ENDS);
   *message.mutable_preparing() = ToMessage(options.preparing);
   message.set_object_source(ToMessage(options.source));
+  if (options.voxel_slabs != decltype(options.voxel_slabs){1, 1, 1}) {
+    message.mutable_voxel_slabs()->Assign(options.voxel_slabs.begin(), options.voxel_slabs.end());
+  }
   for (LatticePoint p : thinning.keep) {
     message.mutable_keep()->add_x(p.x);
     message.mutable_keep()->add_y(p.y);
@@ -359,6 +375,7 @@ absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& mes
                            FromMessage(message.preparing(), field + ".preparing"));
   BCCSKEL_ASSIGN_OR_RETURN(options.source,
                            FromMessage(message.object_source(), field + ".object_source"));
+  BCCSKEL_RETURN_IF_ERROR(ReadSlabs(message, field + ".voxel_slabs", options));
   BCCSKEL_ASSIGN_OR_RETURN(options.border, FromMessage(message.border(), field + ".border"));
   if (message.has_junction_reach()) options.junction_reach = message.junction_reach();
   if (message.shell_width() != 0) thinning.shell_width = message.shell_width();

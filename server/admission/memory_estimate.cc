@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <deque>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,10 +24,9 @@ constexpr uint64_t kBytesPerLabel = sizeof(LabeledObject) + 128;
 // Stacks, small tables and the allocator's slack of one label at work.
 constexpr uint64_t kFixedBytesPerLabel = 64 * 1024;
 
-// Tubes of four voxels across have a brick for every 25 voxels, solid blobs for 200. Refined voxels
-// fill eight times as many.
-constexpr uint64_t kVoxelsPerBrick = 25;
-constexpr uint64_t kRefinedVoxelsPerBrick = 4;
+// Tubes of four voxels across have a brick for every 25 voxels, or parts of them, solid blobs for
+// 200.
+constexpr uint64_t kPartsPerBrick = 25;
 // For each thread: dozens of small labels, so that a turn is worth its beginning and its end.
 constexpr uint64_t kLeastBricks = 4096;
 
@@ -38,32 +39,22 @@ uint64_t LabelsOfType(int bytes) {
   return bytes == 8 ? ~uint64_t{0} : (uint64_t{1} << (8 * bytes)) - 1;
 }
 
-// The voxels that a brick spans.
-struct BlockSize {
-  int32_t x = kBrickX;
-  int32_t y = kBrickY;
-  int32_t z = kBrickZ;
-};
-BlockSize BlockSizeOf(VoxelPoints points) {
-  if (points == VoxelPoints::kTwo) return {};
-  return {kBrickX / 2, kBrickY / 2, kBrickZ / 2};
-}
-
-// The columns of blocks, over one layer of them, that an object touches: a voxel belongs to its own
-// block and touches the next one with its far corner.
-class BlockLayer {
+// The columns of bricks, over one layer of them, that an object touches: a voxel has its parts and
+// touches the next one with its far corner.
+class BrickLayer {
  public:
-  BlockLayer(const VoxelBox& box, const BlockSize& size, CavityFilling cavities)
-      : size_(size),
+  BrickLayer(const VoxelBox& box, const VoxelParts& parts, CavityFilling cavities)
+      : parts_(parts),
         cavities_(cavities),
-        first_x_(box.low[0] / size.x),
-        first_y_(box.low[1] / size.y),
-        words_per_row_(static_cast<size_t>(box.high[0] / size.x - first_x_) / 64 + 1),
-        bits_(words_per_row_ * static_cast<size_t>(box.high[1] / size.y - first_y_ + 1)) {}
+        first_x_(parts[0] * box.low[0] / kBrickX),
+        first_y_(parts[1] * box.low[1] / kBrickY),
+        words_per_row_(static_cast<size_t>(parts[0] * box.high[0] / kBrickX - first_x_) / 64 + 1),
+        bits_(words_per_row_ *
+              static_cast<size_t>(parts[1] * box.high[1] / kBrickY - first_y_ + 1)) {}
 
   void Add(const VoxelRun& run) {
-    AddRow(run.y / size_.y, run);
-    if ((run.y + 1) % size_.y == 0) AddRow(run.y / size_.y + 1, run);
+    const int32_t last = parts_[1] * (run.y + 1) / kBrickY;
+    for (int32_t by = parts_[1] * run.y / kBrickY; by <= last; ++by) AddRow(by, run);
   }
 
   uint64_t TakeCount() {
@@ -78,24 +69,25 @@ class BlockLayer {
  private:
   void AddRow(int32_t by, const VoxelRun& run) {
     uint64_t* const row = &bits_[static_cast<size_t>(by - first_y_) * words_per_row_];
-    for (int32_t bx = run.begin / size_.x; bx <= run.end / size_.x; ++bx) {
+    const int32_t last = parts_[0] * run.end / kBrickX;
+    for (int32_t bx = parts_[0] * run.begin / kBrickX; bx <= last; ++bx) {
       const auto bit = static_cast<size_t>(bx - first_x_);
       row[bit / 64] |= uint64_t{1} << bit % 64;
     }
   }
 
   uint64_t CountRow(std::span<const uint64_t> row) const {
-    uint64_t blocks = 0, first = row.size() * 64, last = 0;
+    uint64_t bricks = 0, first = row.size() * 64, last = 0;
     for (size_t n = 0; n < row.size(); ++n) {
       if (row[n] == 0) continue;
-      blocks += static_cast<uint64_t>(std::popcount(row[n]));
+      bricks += static_cast<uint64_t>(std::popcount(row[n]));
       first = std::min<uint64_t>(first, 64 * n + static_cast<uint64_t>(std::countr_zero(row[n])));
       last = 64 * n + 63 - static_cast<uint64_t>(std::countl_zero(row[n]));
     }
-    return cavities_ == CavityFilling::kOn && blocks > 0 ? last - first + 1 : blocks;
+    return cavities_ == CavityFilling::kOn && bricks > 0 ? last - first + 1 : bricks;
   }
 
-  BlockSize size_;
+  VoxelParts parts_;
   CavityFilling cavities_;
   int32_t first_x_, first_y_;
   size_t words_per_row_;
@@ -147,10 +139,10 @@ uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads) {
   const uint64_t at_work =
       std::min(SaturatingMultiply(declared.max_label_voxels, static_cast<uint64_t>(threads)),
                declared.max_voxels);
-  const uint64_t voxels_per_brick =
-      declared.points == VoxelPoints::kTwo ? kVoxelsPerBrick : kRefinedVoxelsPerBrick;
+  const auto [px, py, pz] = PartsOf(declared.grid, declared.points);
+  const uint64_t parts = SaturatingMultiply(at_work, static_cast<uint64_t>(px * py * pz));
   const uint64_t bricks =
-      SaturatingAdd(at_work / voxels_per_brick, kLeastBricks * static_cast<uint64_t>(threads));
+      SaturatingAdd(parts / kPartsPerBrick, kLeastBricks * static_cast<uint64_t>(threads));
   const uint64_t box = BoxBrickCount(ExactExtent(declared.grid, declared.points));
   return BytesToComputeLabel(std::min(bricks, std::max(box, kLeastBricks)));
 }
@@ -170,22 +162,26 @@ uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads
   return SaturatingAdd(bytes, BytesToComputeLabels(declared, threads));
 }
 
-uint64_t MostBricksOf(const LabeledObject& object, VoxelPoints points, CavityFilling cavities) {
+uint64_t MostBricksOf(const LabeledObject& object, const VoxelParts& parts,
+                      CavityFilling cavities) {
   if (object.runs.empty()) return 0;
-  const BlockSize size = BlockSizeOf(points);
-  BlockLayer here(object.box, size, cavities), above(object.box, size, cavities);
-  uint64_t blocks = 0;
-  int32_t bz = object.runs.front().z / size.z;
+  uint64_t bricks = 0;
+  int32_t bz = parts[2] * object.runs.front().z / kBrickZ;  // of the first layer
+  std::deque<BrickLayer> layers;
   for (const VoxelRun& run : object.runs) {
-    while (bz < run.z / size.z) {
-      blocks += here.TakeCount();
-      std::swap(here, above);
-      ++bz;
+    const int32_t first = parts[2] * run.z / kBrickZ, last = parts[2] * (run.z + 1) / kBrickZ;
+    for (; bz < first; ++bz) {
+      if (layers.empty()) continue;
+      bricks += layers.front().TakeCount();
+      layers.pop_front();
     }
-    here.Add(run);
-    if ((run.z + 1) % size.z == 0) above.Add(run);
+    while (bz + std::ssize(layers) <= last) layers.emplace_back(object.box, parts, cavities);
+    for (int32_t layer = first; layer <= last; ++layer) {
+      layers[static_cast<size_t>(layer - bz)].Add(run);
+    }
   }
-  return 2 * (blocks + here.TakeCount() + above.TakeCount());
+  for (BrickLayer& layer : layers) bricks += layer.TakeCount();
+  return 2 * bricks;
 }
 
 uint64_t BytesToComputeLabel(uint64_t bricks) {

@@ -89,10 +89,10 @@ uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads);
 // Peak memory for receiving the volume, and for computing beside its runs.
 uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads);
 
-// No exact conversion of the object has more bricks; most have as many. Where cavities are to be
-// filled, all bricks between others of a row count.
-// Cost: a few operations for each run.
-uint64_t MostBricksOf(const LabeledObject& object, VoxelPoints points,
+// No exact conversion of the object with these parts of voxels has more bricks; most have as many.
+// Where cavities are to be filled, all bricks between others of a row count. Cost: a few operations
+// for each run.
+uint64_t MostBricksOf(const LabeledObject& object, const VoxelParts& parts,
                       CavityFilling cavities = CavityFilling::kOff);
 // Peak memory for converting and thinning an object of so many bricks, its graph included.
 uint64_t BytesToComputeLabel(uint64_t bricks);

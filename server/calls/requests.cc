@@ -257,7 +257,8 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
   request.size_bytes = config.volume().size_bytes();
   BCCSKEL_ASSIGN_OR_RETURN(request.options, wire::FromMessage(config.options(), "config.options"));
   if (request.header.mask.has_value()) {
-    request.options = ForMask(request.options, {.points = request.header.mask->points});
+    const MaskDeclaration& mask = *request.header.mask;
+    request.options = ForMask(request.options, mask.grid, {.points = mask.points});
   }
   BCCSKEL_ASSIGN_OR_RETURN(request.thin_volume, ThinVolumeOf(config.thin_volume_return()));
   BCCSKEL_ASSIGN_OR_RETURN(request.shell_points, ShellPointsOf(config.shell_points_return()));

@@ -43,10 +43,10 @@ absl::Status LabelsWork::Finish(const std::optional<Sha256Digest>& expected,
 }
 
 void LabelsWork::Plan() {
+  const VoxelParts parts = PartsOf(request_.header.grid, request_.header.points);
   uint64_t all = 0, largest = 0;
   for (const LabeledObject& object : labels_.objects) {
-    const uint64_t bricks =
-        MostBricksOf(object, request_.header.points, request_.options.preparing.cavities);
+    const uint64_t bricks = MostBricksOf(object, parts, request_.options.preparing.cavities);
     const uint64_t estimate = BytesToComputeLabel(bricks);
     estimates_.push_back(estimate);
     bricks_ += bricks;

@@ -113,7 +113,7 @@ absl::StatusOr<MaskObject> Convert(VoxelMask& mask, const SkeletonizeOptions& op
     BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(mask.Slice(z), exec::Context()));
   }
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask converted, std::move(converter).Finish());
-  return MaskObject{std::move(converted.volume), ForMask(options, conversion)};
+  return MaskObject{std::move(converted.volume), ForMask(options, mask.grid(), conversion)};
 }
 
 VoxelMask WithTopologyKeepingNoise(VoxelMask mask, double fraction, uint64_t seed) {

@@ -65,10 +65,6 @@ absl::StatusOr<Outcome> OutcomeOf(Volume object, const SkeletonizeOptions& optio
   return outcome;
 }
 
-MaskGrid GridOf(const ImageInfo& info) {
-  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
-}
-
 // Takes the mask's own topology into the certificate, and what there is to say of it into the
 // warnings.
 absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, Outcome& outcome) {
@@ -114,11 +110,12 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
   if (image.image.voxels == 0 && !arguments.image.labels.empty()) {
     return NoVoxelOf(arguments.image.labels);
   }
-  BCCSKEL_ASSIGN_OR_RETURN(
-      Outcome outcome, OutcomeOf(std::move(image.volume), ForMask(arguments.skeletonize, options),
-                                 arguments.root, run, here.context()));
+  const MaskGrid grid = cli::GridOf(mask.info());
+  BCCSKEL_ASSIGN_OR_RETURN(Outcome outcome, OutcomeOf(std::move(image.volume),
+                                                      ForMask(arguments.skeletonize, grid, options),
+                                                      arguments.root, run, here.context()));
   outcome.voxels = image.image.voxels;
-  outcome.grid = GridOf(mask.info());
+  outcome.grid = grid;
   outcome.mask = options;
   BCCSKEL_RETURN_IF_ERROR(Certify(image.image, options, outcome));
   return outcome;

@@ -93,14 +93,15 @@ struct Feature {
   std::array<int32_t, 3> quarters;
   uint32_t value;
 };
-std::array<int32_t, 3> QuartersOf(LatticePoint p) {
-  return {2 * p.x - 2, 2 * p.y - 2, 2 * p.z - 2};
+// Needs: one or two slabs.
+std::array<int32_t, 3> QuartersOf(LatticePoint p, const VoxelParts& slabs) {
+  return {2 * p.x / slabs[0] - 2, 2 * p.y / slabs[1] - 2, 2 * p.z / slabs[2] - 2};
 }
-std::vector<Feature> FeaturesOf(const SkeletonGraph& graph) {
+std::vector<Feature> FeaturesOf(const SkeletonGraph& graph, const VoxelParts& slabs) {
   std::vector<Feature> features;
   std::vector<bool> touched(graph.nodes.size());
   const auto add = [&](LatticePoint p, size_t value) {
-    features.push_back({QuartersOf(p), static_cast<uint32_t>(value)});
+    features.push_back({QuartersOf(p, slabs), static_cast<uint32_t>(value)});
   };
   for (size_t e = 0; e < graph.edges.size(); ++e) {
     touched[graph.edges[e].source] = touched[graph.edges[e].target] = true;
@@ -135,7 +136,8 @@ void ExpectNearestEdges(const Example& example, int threads) {
   const std::map<Voxel, int> components = ComponentsOf(example.object());
   EXPECT_EQ(values.size(), components.size());
   std::map<int, std::vector<Feature>> features;
-  for (const Feature& f : FeaturesOf(example.graph)) {
+  const VoxelParts slabs = SlabsOf(example.volume.grid, VoxelPoints::kTwo);
+  for (const Feature& f : FeaturesOf(example.graph, slabs)) {
     features[components.at(VoxelsAt(f, components).at(0))].push_back(f);
   }
   const auto& spacing = example.volume.grid.placement.spacing;
@@ -287,7 +289,8 @@ TEST(DrawSkeleton, SetsOneObjectVoxelForEachCurvePointAndKeepsEdgesConnected) {
   const std::map<Voxel, uint32_t> drawn = VoxelsOf(*image);
   const std::map<Voxel, int> components = ComponentsOf(example.object());
   std::map<Voxel, uint32_t> expected;
-  for (const Feature& f : FeaturesOf(example.graph)) {
+  const VoxelParts slabs = SlabsOf(example.volume.grid, VoxelPoints::kTwo);
+  for (const Feature& f : FeaturesOf(example.graph, slabs)) {
     std::vector<Voxel> voxels = VoxelsAt(f, components);
     ASSERT_FALSE(voxels.empty());
     const Voxel first = *std::ranges::min_element(
@@ -299,7 +302,7 @@ TEST(DrawSkeleton, SetsOneObjectVoxelForEachCurvePointAndKeepsEdgesConnected) {
   for (const SkeletonEdge& edge : example.graph.edges) {
     Voxel before = {};
     for (const SkeletonPoint& p : example.graph.PointsOf(edge)) {
-      const Feature f = {QuartersOf(p.point), 0};
+      const Feature f = {QuartersOf(p.point, {1, 1, 1}), 0};
       std::vector<Voxel> voxels = VoxelsAt(f, components);
       const Voxel v = *std::ranges::min_element(
           voxels, {}, [](const Voxel& w) { return std::tuple(w[2], w[1], w[0]); });

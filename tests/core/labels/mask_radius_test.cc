@@ -53,7 +53,7 @@ SkeletonizeResult SkeletonOf(const Solid& solid, VoxelPoints points) {
     EXPECT_TRUE(converter.AddSlice(words, {}).ok());
   }
   const ConvertedMask converted = *std::move(converter).Finish();
-  return *Skeletonize(converted.volume, ForMask({}, options), {});
+  return *Skeletonize(converted.volume, ForMask({}, grid, options), {});
 }
 
 class MeanError {
@@ -131,21 +131,22 @@ TEST(MaskRadius, IsThatOfTheSolidWithinATenthOfAVoxelInTheMean) {
 
 // A slab as many voxels thick as it is: hardly an error, also where voxels are no cubes.
 TEST(MaskRadius, OfASlabIsHalfItsThickness) {
-  for (int32_t thickness : {5, 6, 9, 10}) {
+  for (const auto& [thickness, edge] :
+       {std::pair(5, 2.5), {6, 2.5}, {9, 2.5}, {10, 2.5}, {3, 8.0}}) {
     MaskGrid grid = {.nx = 128, .ny = 64, .nz = 20};
-    grid.placement.spacing = {1, 1, 2.5};
+    grid.placement.spacing = {1, 1, edge};
     auto converter = *MaskConverter::Create(grid, {});
     const std::vector<uint64_t> empty(grid.WordsPerSlice()), full(grid.WordsPerSlice(), ~0ULL);
     for (int32_t z = 0; z < grid.nz; ++z) {
       ASSERT_TRUE(converter.AddSlice(z >= 3 && z < 3 + thickness ? full : empty, {}).ok());
     }
     const ConvertedMask converted = *std::move(converter).Finish();
-    const SkeletonizeResult result = *Skeletonize(converted.volume, ForMask({}, {}), {});
+    const SkeletonizeResult result = *Skeletonize(converted.volume, ForMask({}, grid, {}), {});
     int count = 0;
     for (const SkeletonPoint& p : result.graph.points) {
       const WorldPoint at = result.graph.PositionOf(p);
-      if (std::min({at[0], at[1], 127 - at[0], 63 - at[1]}) < 1.3 * thickness + 8) continue;
-      EXPECT_NEAR(result.graph.RadiusOf(p), 2.5 * thickness / 2, 0.1) << at[2];
+      if (std::min({at[0], at[1], 127 - at[0], 63 - at[1]}) < 0.52 * edge * thickness + 8) continue;
+      EXPECT_NEAR(result.graph.RadiusOf(p), edge * thickness / 2, 0.1) << at[2];
       ++count;
     }
     EXPECT_GT(count, 0) << thickness;
@@ -173,7 +174,8 @@ TEST(MaskRadius, OfAnyPartIsHalfAVoxelAtLeast) {
       auto converter = *MaskConverter::Create(grid, options);
       for (const auto& words : slices) ASSERT_TRUE(converter.AddSlice(words, {}).ok());
       const ConvertedMask converted = *std::move(converter).Finish();
-      const SkeletonGraph graph = Skeletonize(converted.volume, ForMask({}, options), {})->graph;
+      const SkeletonGraph graph =
+          Skeletonize(converted.volume, ForMask({}, grid, options), {})->graph;
       ASSERT_GT(graph.points.size(), 100u);
       for (const SkeletonPoint& p : graph.points) EXPECT_GE(graph.RadiusOf(p), 0.999);
       for (const SkeletonNode& n : graph.nodes) EXPECT_GE(graph.RadiusOf(n.at), 0.999);

@@ -204,7 +204,7 @@ TEST(ExactConversion, CannotKeepEveryCorner) {
 }
 
 TEST(ExactConversion, KeepsWorldCoordinates) {
-  const Placement image = {{0.5, 2, 3}, {10, -20, 30}, {0, -1, 0, 1, 0, 0, 0, 0, -1}};
+  const Placement image = {{1, 2, 3}, {10, -20, 30}, {0, -1, 0, 1, 0, 0, 0, 0, -1}};
   const ReferenceMask mask = MaskOfBits(5, 4, 3, uint64_t{1} << (2 + 5 * (1 + 4 * 2)));
   const Volume volume = Converted(mask, {}, image).volume;
   const LatticePoint center = {2 * 2 + 1, 2 * 1 + 1, 2 * 2 + 1};
@@ -216,7 +216,59 @@ TEST(ExactConversion, KeepsWorldCoordinates) {
   const LatticePoint middle = {4 * 2 + 2, 4 * 1 + 2, 4 * 2 + 2};
   EXPECT_TRUE(fine.Contains(middle));
   EXPECT_EQ(fine.placement().ToWorld(middle), image.ToWorld(2 * 2, 2 * 1, 2 * 2));
-  EXPECT_EQ(fine.placement().spacing, (std::array<double, 3>{0.25, 1, 1.5}));
+  EXPECT_EQ(fine.placement().spacing, (std::array<double, 3>{0.5, 1, 1.5}));
+}
+
+// The same mask of voxels that are cut into parts.
+ReferenceMask InParts(const ReferenceMask& mask, const VoxelParts& parts) {
+  const auto [px, py, pz] = parts;
+  ReferenceMask cut = MaskOfBits(px * mask.nx, py * mask.ny, 0, 0);
+  cut.nz = pz * mask.nz;
+  for (int32_t z = 0; z < cut.nz; ++z) {
+    for (int32_t y = 0; y < cut.ny; ++y) {
+      for (int32_t x = 0; x < cut.nx; ++x) {
+        cut.voxels.push_back(mask.Contains(x / px, y / py, z / pz) ? 1 : 0);
+      }
+    }
+  }
+  return cut;
+}
+
+TEST(ExactConversion, OfLongVoxelsIsThatOfTheirSlabs) {
+  const struct {
+    std::array<double, 3> spacing;
+    VoxelParts slabs;
+  } cases[] = {{{1, 1, 3}, {1, 1, 1}},       {{1, 1, 3.1}, {1, 1, 2}}, {{0.5, 4, 0.7}, {1, 3, 1}},
+               {{40, 4.0001, 4}, {4, 1, 1}}, {{8, 1, 9}, {3, 1, 3}},   {{1, 1, 1000}, {1, 1, 8}}};
+  for (const auto& [spacing, slabs] : cases) {
+    for (const VoxelPoints points : {VoxelPoints::kTwo, VoxelPoints::kSixteen}) {
+      for (const MaskAdjacency adjacency : kBothAdjacencies) {
+        const ReferenceMask mask = test::RandomMask(3, 5, 6, 7, 0.4);
+        const MaskOptions options = {.adjacency = adjacency, .points = points};
+        const ConvertedMask converted = Converted(mask, options, {.spacing = spacing});
+        const MaskGrid grid = {mask.nx, mask.ny, mask.nz, {.spacing = spacing}};
+        EXPECT_EQ(SlabsOf(grid, points), slabs);
+        const Volume cut = Converted(InParts(mask, slabs), options).volume;
+        EXPECT_EQ(converted.volume.SortedPoints(), cut.SortedPoints());
+        EXPECT_EQ(converted.mask, test::ReferenceMaskBetti(mask, ReachOf(adjacency)));
+        EXPECT_EQ(*CountBettiNumbers(converted.volume, {}), converted.mask);
+        const Placement& placement = converted.volume.placement();
+        const int32_t cells = points == VoxelPoints::kTwo ? 1 : 2;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          EXPECT_DOUBLE_EQ(placement.spacing[axis], spacing[axis] / slabs[axis] / cells);
+          EXPECT_DOUBLE_EQ(placement.origin[axis], -spacing[axis] / 2);
+        }
+      }
+    }
+  }
+}
+
+TEST(ExactConversion, CutsNoMoreSlabsThanTheExtentHasCellsFor) {
+  const MaskGrid long_grid = {1, 1, kMaxMaskVoxels / 2, {.spacing = {1, 1, 100}}};
+  EXPECT_EQ(SlabsOf(long_grid, VoxelPoints::kTwo), (VoxelParts{1, 1, 4}));
+  EXPECT_EQ(SlabsOf(long_grid, VoxelPoints::kSixteen), (VoxelParts{1, 1, 2}));
+  EXPECT_TRUE(CheckGrid(ExactExtent(long_grid, VoxelPoints::kTwo), long_grid.placement).ok());
+  EXPECT_TRUE(CheckGrid(ExactExtent(long_grid, VoxelPoints::kSixteen), long_grid.placement).ok());
 }
 
 TEST(ExactConversion, OfAnEmptyMaskIsEmpty) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -75,6 +76,17 @@ TEST(SurfaceNoise, IsThreeStepsWhereRoughButOneForThickBranchesOfVoxels) {
   EXPECT_EQ(voxels.At(3), 6);
   EXPECT_EQ(voxels.At(4.5), 4);
   EXPECT_EQ(voxels.At(6), 2);
+}
+
+TEST(SurfaceNoise, IsAsLongAsTheVoxelsAre) {
+  const Volume even = VolumeOfPoints({});
+  EXPECT_EQ(SurfaceNoiseOf(even, 2).Stretch({3, 4, 5}), 1);
+  const Volume flat = Volume::FromSortedBricks({1, 1, 1}, {.spacing = {1, 2, 1.5}}, {}, {});
+  const SurfaceNoise noise = SurfaceNoiseOf(flat, 2, {1, 1, 4});  // voxels of 1 x 2 x 6
+  EXPECT_EQ(noise.Stretch({7, 0, 0}), 1);
+  EXPECT_EQ(noise.Stretch({0, 1, 0}), 2);
+  EXPECT_EQ(noise.Stretch({0, 0, 2}), 6);
+  EXPECT_DOUBLE_EQ(noise.Stretch({1, 0, 1}), std::sqrt((1 + 36) / 2.0));
 }
 
 }  // namespace

@@ -65,10 +65,13 @@ TEST(Tips, LieWhereTheAxisOfACapsuleEnds) {
   }
 }
 
-// The skeleton of the voxels whose centers lie within `radius` of the segment, of edge 1.
-SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double radius) {
+// The skeleton of the voxels whose centers lie within `radius` of the segment, of edge 1 but along
+// z.
+SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double radius,
+                            double edge_z = 1) {
   constexpr int32_t kEdge = 48;
-  absl::StatusOr<MaskConverter> converter = MaskConverter::Create({kEdge, kEdge, kEdge}, {});
+  const MaskGrid grid = {kEdge, kEdge, kEdge, {.spacing = {1, 1, edge_z}}};
+  absl::StatusOr<MaskConverter> converter = MaskConverter::Create(grid, {});
   EXPECT_TRUE(converter.ok()) << converter.status();
   const WorldPoint axis = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
@@ -76,10 +79,12 @@ SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double rad
     std::vector<uint64_t> words(kEdge);
     for (int32_t y = 0; y < kEdge; ++y) {
       for (int32_t x = 0; x < kEdge; ++x) {
-        const double along = (x - a[0]) * axis[0] + (y - a[1]) * axis[1] + (z - a[2]) * axis[2];
+        const WorldPoint at = {1.0 * x, 1.0 * y, edge_z * z};
+        const double along =
+            (at[0] - a[0]) * axis[0] + (at[1] - a[1]) * axis[1] + (at[2] - a[2]) * axis[2];
         const double t = std::clamp(along / square, 0.0, 1.0);
         const WorldPoint nearest = {a[0] + t * axis[0], a[1] + t * axis[1], a[2] + t * axis[2]};
-        if (Gap({1.0 * x, 1.0 * y, 1.0 * z}, nearest) > radius) continue;
+        if (Gap(at, nearest) > radius) continue;
         words[static_cast<size_t>(y)] |= uint64_t{1} << x;
       }
     }
@@ -88,10 +93,30 @@ SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double rad
   }
   absl::StatusOr<ConvertedMask> converted = std::move(*converter).Finish();
   EXPECT_TRUE(converted.ok()) << converted.status();
-  absl::StatusOr<SkeletonizeResult> result =
-      Skeletonize(converted->volume, {.source = ObjectSource::kVoxels}, {});
+  const SkeletonizeOptions options = {.source = ObjectSource::kVoxels,
+                                      .voxel_slabs = SlabsOf(grid, VoxelPoints::kTwo)};
+  absl::StatusOr<SkeletonizeResult> result = Skeletonize(converted->volume, options, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return std::move(result->graph);
+}
+
+// Slices eight times as thick as voxels are wide, tubes one and a half to two slices thick.
+TEST(Tips, OfTubesThroughThickSlicesLieInTheirCaps) {
+  const struct {
+    WorldPoint a, b;
+    double radius;
+  } tubes[] = {{{17, 20, 40}, {26, 28, 300}, 14},
+               {{22, 21, 60}, {24, 26, 330}, 16},
+               {{16, 16, 100}, {33, 32, 130}, 12}};
+  for (const auto& [a, b, radius] : tubes) {
+    const SkeletonGraph graph = GraphOfVoxels(a, b, radius, 8);
+    ASSERT_EQ(graph.nodes.size(), 2u);
+    for (const SkeletonNode& node : graph.nodes) {
+      const WorldPoint at = graph.PositionOf(node.at);
+      EXPECT_LT(std::min(Gap(at, a), Gap(at, b)), 0.75 * radius);
+      EXPECT_GT(graph.RadiusOf(node.at), 0.5 * radius);
+    }
+  }
 }
 
 // Near its tips the ridge of the distances falls, up to 1 per unit where it ends.

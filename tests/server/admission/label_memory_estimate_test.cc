@@ -32,12 +32,28 @@ LabeledObject ObjectOf(Inside inside) {
   return std::move(objects.objects[0]);
 }
 
-constexpr VoxelPoints kBothPoints[] = {VoxelPoints::kTwo, VoxelPoints::kSixteen};
+// Voxels with other shapes are cut into other parts.
+struct Cut {
+  VoxelPoints points;
+  std::array<double, 3> spacing = {1, 1, 1};
 
-uint64_t BricksConverted(const LabeledObject& object, VoxelPoints points,
+  MaskGrid grid() const {
+    MaskGrid grid = kGrid;
+    grid.placement.spacing = spacing;
+    return grid;
+  }
+  VoxelParts parts() const { return PartsOf(grid(), points); }
+};
+const Cut kCuts[] = {{VoxelPoints::kTwo},
+                     {VoxelPoints::kSixteen},
+                     {VoxelPoints::kTwo, {1, 1, 5}},
+                     {VoxelPoints::kTwo, {16, 3, 1}},
+                     {VoxelPoints::kSixteen, {1, 16, 16}}};
+
+uint64_t BricksConverted(const LabeledObject& object, const Cut& cut,
                          MaskAdjacency adjacency = MaskAdjacency::k26) {
-  const MaskOptions options = {.adjacency = adjacency, .points = points};
-  return ConvertLabel(kGrid, object, options, exec::Context())->volume.brick_count();
+  const MaskOptions options = {.adjacency = adjacency, .points = cut.points};
+  return ConvertLabel(cut.grid(), object, options, exec::Context())->volume.brick_count();
 }
 
 TEST(MostBricks, IsTheNumberOfBricksOfASolid) {
@@ -45,10 +61,10 @@ TEST(MostBricks, IsTheNumberOfBricksOfASolid) {
     const LabeledObject box = ObjectOf([low](int32_t x, int32_t y, int32_t z) {
       return std::min({x, y, z}) >= low && x < 70 && y < 17 && z < 20;
     });
-    for (VoxelPoints points : kBothPoints) {
-      const uint64_t bricks = BricksConverted(box, points);
-      EXPECT_GE(MostBricksOf(box, points), bricks) << low;
-      EXPECT_LE(MostBricksOf(box, points), bricks + bricks / 2) << low;
+    for (const Cut& cut : kCuts) {
+      const uint64_t bricks = BricksConverted(box, cut);
+      EXPECT_GE(MostBricksOf(box, cut.parts()), bricks) << low;
+      EXPECT_LE(MostBricksOf(box, cut.parts()), bricks + bricks / 2) << low;
     }
   }
 }
@@ -62,8 +78,8 @@ TEST(MostBricks, IsNeverTooFew) {
         return (x == 40 && y == 9 && z == 7) || here(random);
       });
       for (const MaskAdjacency adjacency : {MaskAdjacency::k26, MaskAdjacency::k6}) {
-        for (VoxelPoints points : kBothPoints) {
-          EXPECT_GE(MostBricksOf(dust, points), BricksConverted(dust, points, adjacency));
+        for (const Cut& cut : kCuts) {
+          EXPECT_GE(MostBricksOf(dust, cut.parts()), BricksConverted(dust, cut, adjacency));
         }
       }
     }
@@ -76,9 +92,9 @@ TEST(MostBricks, OfAnyVoxelCoverIt) {
       for (int32_t z = 0; z < 9; ++z) {
         const LabeledObject voxel = ObjectOf(
             [=](int32_t vx, int32_t vy, int32_t vz) { return vx == x && vy == y && vz == z; });
-        for (VoxelPoints points : kBothPoints) {
-          EXPECT_GE(MostBricksOf(voxel, points), BricksConverted(voxel, points));
-          EXPECT_LE(MostBricksOf(voxel, points), 16u);
+        for (const Cut& cut : {kCuts[0], kCuts[1]}) {
+          EXPECT_GE(MostBricksOf(voxel, cut.parts()), BricksConverted(voxel, cut));
+          EXPECT_LE(MostBricksOf(voxel, cut.parts()), 16u);
         }
       }
     }
