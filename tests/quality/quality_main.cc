@@ -21,6 +21,7 @@ absl::Status Run(const std::string& name, const std::vector<std::string>& argume
       {"meshes", StudyClosedMeshes},
       {"real-masks", StudyRealMasks},
       {"spine-lengths", StudySpineLengths},
+      {"thick-slices", StudyThickSlices},
       {"wild", StudyWild},
       {"voxels", PrintVoxels},
       {"real-voxels", PrintRealVoxels},

@@ -12,7 +12,7 @@ import tables
 import wild_tables
 
 STUDIES = {"figures": [], "rotations": [], "reconstruction": [],
-           "spine-lengths": [],
+           "spine-lengths": [], "thick-slices": [],
            "wild": ["--as", "bcc,mask", "--noise", "0,5", "--half", "judge", "--json"]}
 
 MASKS = [{"mask": f"{kind}.nrrd", "kind": kind, "voxels": 1000, "components": 1, "loops": 2, "ends": 3,
@@ -51,16 +51,21 @@ class SmokeTest(unittest.TestCase):
             self.assertEqual(row["simple_left"], 0, row)
             self.assertEqual(row["loops_found"], row["loops"], row)
 
+    def test_tubes_have_two_ends_however_thick_the_slices_are(self):
+        for row in self.rows["thick-slices"]:
+            self.assertEqual(row["wrong"], 0, row)
+
     def test_the_report_has_all_its_tables(self):
         text = "\n".join(tables.report(self.rows["figures"], [], self.rows["rotations"],
                                        self.rows["reconstruction"], [],
                                        wild_tables.report(self.rows["wild"],
-                                                          self.rows["spine-lengths"], [], MASKS, [],
+                                                          self.rows["spine-lengths"],
+                                                          self.rows["thick-slices"], [], MASKS, [],
                                                           {words: MASKS for words in
                                                            wild_tables.MASK_OPTIONS})))
         for title in ("Targets", "Against known center lines", "Figure by figure", "Turning",
                       "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild",
-                      "Real masks", "Options for real masks"):
+                      "Thick slices", "Real masks", "Options for real masks"):
             self.assertIn(f"## {title}", text)
         self.assertNotIn("nan", text)
 
