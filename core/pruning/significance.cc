@@ -11,17 +11,15 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSteepness = 2;        // a radius that falls by half the way belongs to a limb
 constexpr double kWallSteepness = 0.4;  // of what its inscribed circle shrinks by
 constexpr double kWidthShare = 2.2;     // of what the object is wider than thick
 constexpr double kNoiseMargin = 2;      // lattice units more, as noise goes off the square
 constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
 constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
-constexpr size_t kMostSamples = 48;
-constexpr size_t kRoots = 7;     // of the places, the first: there the limb may begin
-constexpr size_t kNearTip = 9;   // of the places
-constexpr size_t kWayReach = 5;  // points on either side that give the branch's way
+constexpr size_t kRoots = 7;            // of the places, the first: there the limb may begin
+constexpr size_t kNearTip = 9;          // of the places
+constexpr size_t kWayReach = 5;         // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
 constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
 constexpr double kRoundMargin = 1;
@@ -72,29 +70,6 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 }
 
 }  // namespace
-
-Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& noise,
-               size_t first) {
-  const size_t last = path.points.size() - 1, stride = (last - first) / kMostSamples + 1;
-  std::vector<std::pair<size_t, double>> samples;  // positions and radii
-  for (size_t n = first; n < last; n += stride) samples.emplace_back(n, path.radii[n]);
-  samples.emplace_back(last, path.radii[last]);
-  Run best{.ratio = -std::numeric_limits<double>::infinity()};
-  for (size_t i = 0; i + 1 < samples.size(); ++i) {
-    const auto [from, depth] = samples[i];
-    Run run{.from = from, .elongation = -std::numeric_limits<double>::infinity()};
-    for (size_t j = i + 1; j < samples.size(); ++j) {
-      const auto [to, radius] = samples[j];
-      const double way = set.Between(path.points[from], path.points[to]);
-      const double out = way - kSteepness * (depth - radius);
-      if (out > run.elongation) run.to = to, run.elongation = out;
-    }
-    const double stretch = noise.Stretch(set.Way(path.points[from], path.points[run.to]));
-    run.ratio = (run.elongation - stretch * noise.At(depth)) / depth;
-    if (run.ratio > best.ratio) best = run;
-  }
-  return best;
-}
 
 Significance::Significance(const Volume& object, const SurfaceNoise& noise,
                            std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth)

@@ -12,6 +12,7 @@
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/firm_depth.h"
+#include "core/pruning/largest_run.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
@@ -19,19 +20,6 @@
 #include "core/volume/volume.h"
 
 namespace bccskel {
-
-// The part of a branch that sticks out most for its radius.
-struct Run {
-  size_t from = 0;  // positions in the path, the junction's end first
-  size_t to = 0;
-  double elongation = 0;  // |p - q| - 2 (D(q) - D(p)) from q to p, lattice units
-  double ratio = 0;       // what of that is no noise, in radii at `from`
-};
-
-// Needs: at least two points, from the junction, or the middle of a path, to the end. The run
-// begins at position `first` or later. Long paths are sampled at 48 positions.
-Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& noise,
-               size_t first = 0);
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
 // Does:  lets the branch go on to where its limb may end (WayOn), where that may matter, and finds

@@ -1,7 +1,6 @@
 #include "core/pruning/tips.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,7 +12,7 @@
 #include "core/pruning/firm_depth.h"
 #include "core/pruning/flat_end.h"
 #include "core/pruning/grow_along.h"
-#include "core/pruning/significance.h"
+#include "core/pruning/largest_run.h"
 
 namespace bccskel {
 namespace {
@@ -25,7 +24,7 @@ constexpr double kRidgeSlope = 0.3;    // what falls by less is a ridge for sure
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
 constexpr double kAnchorRadii = 4;     // how far back the anchor lies, in radii
-constexpr double kAnchorMargin = 5;    // and in steps
+constexpr double kAnchorSteps = 5;     // and in steps
 constexpr double kStraightRadii = 2;   // what is shorter gives no direction, bent or not
 constexpr double kBendRadii = 0.35;    // a limb bends that leaves the straight way by so many radii
 constexpr double kBendMargin = 2;      // and lattice units
@@ -62,7 +61,7 @@ class TipPlacer {
         flat_(space, searching_, depth_),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement()), context),
-        coarse_(std::ranges::max(AxisScaleOf(object.placement()))),
+        step_(std::ranges::max(AxisScaleOf(object.placement()))),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {}
 
@@ -71,14 +70,13 @@ class TipPlacer {
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
     if (CutFlat(branch)) return;
-    const std::optional<LatticePoint> anchor = TakeAnchor(branch);
-    if (!anchor.has_value() || branch.points.empty()) return;
-    anchor_ = *anchor;
+    anchor_ = TakeAnchor(branch);
+    if (branch.points.empty()) return;
     path_.assign(branch.points.rbegin(), branch.points.rend());
     FindMajority();
     CutHair();
     const size_t first = FirstCut();
-    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim * coarse_ ? path_.back() : path_[first];
+    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim * step_ ? path_.back() : path_[first];
     GrowAnew(first);
     CutAfter(SafestFrom(first));
     MeasureGrown();
@@ -127,7 +125,7 @@ class TipPlacer {
 
   // Finds the anchor and leaves the points between the end and it. Where the limb bends, the anchor
   // lies no farther back than the limb is straight.
-  std::optional<LatticePoint> TakeAnchor(FreeBranch& branch) const {
+  LatticePoint TakeAnchor(FreeBranch& branch) const {
     std::vector<LatticePoint>& points = branch.points;
     const size_t front = RidgeEnd(points);
     double length = 0;
@@ -135,16 +133,16 @@ class TipPlacer {
     for (size_t n = 1; n < points.size(); ++n) {
       length += set_.Between(points[n - 1], points[n]);
       radius = std::max(radius, set_.RadiusOf(points[n]));
-      const bool is_far = length >= kAnchorRadii * radius + kAnchorMargin * coarse_;
+      const bool is_far = length >= kAnchorRadii * radius + kAnchorSteps * step_;
       const bool may_bend =
-          length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorMargin * coarse_;
+          length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorSteps * step_;
       const bool is_checked = may_bend && front < n && n % kBendStride == 0;
       if (!is_far && !(is_checked && Bends(points, front, n))) continue;
       const LatticePoint anchor = points[n];
       points.resize(n);
       return anchor;
     }
-    if (branch.junction.has_value()) return branch.junction;
+    if (branch.junction.has_value()) return *branch.junction;
     const LatticePoint middle = points[points.size() / 2];
     points.resize(points.size() / 2);
     return middle;
@@ -170,7 +168,7 @@ class TipPlacer {
   // median radius.
   bool Bends(std::span<const LatticePoint> points, size_t front, size_t back) const {
     const LatticePoint a = points[front], b = points[back];
-    if (set_.Between(a, b) < kLeastAim * coarse_) return false;
+    if (set_.Between(a, b) < kLeastAim * step_) return false;
     std::vector<float> radii;
     double farthest = 0;  // squared
     const size_t stride = (back - front) / kBendSamples + 1;
@@ -282,8 +280,7 @@ class TipPlacer {
     const LatticePoint start = path_.back();
     const double longest = root_radius_ + kGrowthMargin;
     while (const std::optional<LatticePoint> next = NextTip()) {
-      if (!IsFirm(*next) || set_.Between(*next, start) > longest) break;
-      if (IsInBallOfAnother(*next)) break;
+      if (!IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next)) break;
       Append(*next);
       const double merit = Merit(*next);
       if (merit < best - kPatience) break;
@@ -371,7 +368,7 @@ class TipPlacer {
   FlatEnd flat_;
   const PointSet& keep_;
   BallIndex balls_;
-  const double coarse_;  // the longest step along an axis, in lattice units
+  const double step_;  // the longest step along an axis, in lattice units
   const double least_gain_;
   const SurfaceNoise noise_;
   std::optional<LatticePoint> junction_;  // of the branch
