@@ -57,8 +57,8 @@ absl::Status CheckMaskGrid(const MaskGrid& grid);
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
 absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
 
-// What makes the parts of thick slices at most twice as long as they are wide: eight at most, and
-// as many as the extent allows. On longer ones curves would fork and end early, see README.md.
+// What makes the parts of thick slices at most three times as long as they are wide: eight at most,
+// and as many as the extent allows. On longer ones curves would fork and end early, see README.md.
 // Parts of voxels touch each other as the voxels do, so the topology is the same.
 VoxelParts SlabsOf(const MaskGrid& grid, VoxelPoints points);
 
