@@ -101,6 +101,12 @@ absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string&
   header.extent = ExactExtent(mask.grid, mask.points);
   header.placement = ExactPlacement(mask.grid, mask.points);
   header.mask = mask;
+  // The caller counts blocks of voxels; each has as many bricks as its voxels have slabs.
+  const auto [sx, sy, sz] = SlabsOf(mask.grid, mask.points);
+  if (header.declared_bricks.has_value()) {
+    header.declared_bricks =
+        SaturatingMultiply(*header.declared_bricks, static_cast<uint64_t>(sx * sy * sz));
+  }
   return absl::OkStatus();
 }
 

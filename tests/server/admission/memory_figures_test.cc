@@ -132,7 +132,7 @@ TEST(MemoryFigures, CoverNets) {
 }
 
 TEST(MemoryFigures, CoverNoise) {
-  for (const uint64_t percent : {5, 15, 30, 45, 60, 80}) ExpectCovered(Noise(percent));
+  for (const uint64_t percent : {5u, 15u, 30u, 45u, 60u, 80u}) ExpectCovered(Noise(percent));
 }
 
 TEST(MemoryFigures, CoverEachKindOfSkeleton) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "core/pipeline/algorithm_version.h"
@@ -95,6 +97,19 @@ TEST(CubicMask, HasAsManyPointsAVoxelAsAskedFor) {
     EXPECT_EQ(skeleton->algorithm_version, kMaskAlgorithmVersion);
     EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{1, 0, 0}));
   }
+}
+
+// Voxels of 1 x 1 x 9 are cut into three slabs, which the bound for blocks of voxels allows for.
+TEST(CubicMask, OfThickSlicesMayHaveSlabsTimesTheBricksDeclared) {
+  const auto server = test::StartServer();
+  DeclaredVolume mask = MaskOf([](uint32_t x, uint32_t y, uint32_t) { return x < 4 && y < 3; });
+  mask.declaration.mutable_placement()->mutable_spacing()->Set(2, 9);
+  const uint32_t blocks = (mask.declaration.extent().nz() + 8) / 8;  // of 16 x 4 x 8 voxels
+  mask.declaration.set_max_bricks(2 * blocks);
+  const auto skeleton = SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+  ASSERT_TRUE(skeleton.ok()) << skeleton.status();
+  EXPECT_EQ(skeleton->options.voxel_slabs, (std::array<int32_t, 3>{1, 1, 3}));
+  EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{1, 0, 0}));
 }
 
 struct Fault {

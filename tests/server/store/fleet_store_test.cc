@@ -139,7 +139,7 @@ TEST_P(FleetStoreTest, RefusesAPasswordThatOthersCouldSee) {
 TEST_P(FleetStoreTest, OthersSeeTheNewestProgressOfAJob) {
   const int64_t job = Insert(Job("clinic", "jobs/a"));
   EXPECT_FALSE(other_->FindProgress(job)->has_value());
-  for (const uint64_t sequence : {3, 9}) {
+  for (const uint64_t sequence : {3u, 9u}) {
     ASSERT_TRUE(store_->PutProgress(job, {.sequence = sequence, .bytes = "p"}).ok());
   }
   EXPECT_EQ((*other_->FindProgress(job))->sequence, 9u);
