@@ -22,8 +22,8 @@ absl::Status StudyWild(const StudyOptions& options);
 // The mask of a ball of a radius of 20 voxels with six spines along the axes, of a radius of 2 and
 // of growing length: how many ends there are.
 absl::Status StudySpineLengths(const StudyOptions& options);
-// Tubes with round caps in random directions, as masks whose slices are 1 to 8 times as thick as voxels
-// are wide: ends, and how far they and the curves are off.
+// Tubes with round caps in random directions, as masks whose slices are 1 to 8 times as thick as
+// voxels are wide: ends, and how far they and the curves are off.
 absl::Status StudyThickSlices(const StudyOptions& options);
 // The real masks of the reference data: ends, twigs, redundant length, missed parts.
 absl::Status StudyRealMasks(const StudyOptions& options);

@@ -1,6 +1,12 @@
 #include "proto/wire/options.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "proto/wire/error_details.h"
 
@@ -97,6 +103,23 @@ TEST(OptionsRoundTrip, KeepsTheBorder) {
     const auto back = FromMessage(ToMessage(SkeletonizeOptions{.border = border}), "options");
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_EQ(back->border, border);
+  }
+}
+
+TEST(OptionsRoundTrip, KeepsThreeNumbersOfSlabs) {
+  const std::array<int32_t, 3> slabs = {1, 8, 3};
+  const v1::SkeletonizeOptions message = ToMessage(SkeletonizeOptions{.voxel_slabs = slabs});
+  EXPECT_EQ(FromMessage(message, "options")->voxel_slabs, slabs);
+  EXPECT_EQ(ToMessage(SkeletonizeOptions()).voxel_slabs_size(), 0);
+  const std::pair<std::vector<uint32_t>, const char*> wrong[] = {
+      {{1, 2}, "2 numbers, must be 3 or none"},
+      {{1, 1, 0}, "0 slabs of a voxel: must be 1 to 8"},
+      {{9, 1, 1}, "9 slabs of a voxel: must be 1 to 8"},
+      {{1, 4'000'000'000, 1}, "must be 1 to 8"}};
+  for (const auto& [given, told] : wrong) {
+    v1::SkeletonizeOptions bad;
+    bad.mutable_voxel_slabs()->Assign(given.begin(), given.end());
+    EXPECT_THAT(FromMessage(bad, "options").status().message(), testing::HasSubstr(told));
   }
 }
 
