@@ -284,7 +284,7 @@ absl::Status ReadSlabs(const v1::SkeletonizeOptions& message, const std::string&
     return InvalidField(field, absl::StrCat(slabs.size(), " numbers, must be 3 or none"));
   }
   std::ranges::transform(slabs, options.voxel_slabs.begin(), [](uint32_t count) {
-    return static_cast<int32_t>(std::min(count, uint32_t{1000}));  // of which it is told
+    return static_cast<int32_t>(std::min(count, uint32_t{INT32_MAX}));  // too many either way
   });
   return absl::OkStatus();
 }

@@ -115,6 +115,7 @@ TEST(OptionsRoundTrip, KeepsThreeNumbersOfSlabs) {
       {{1, 2}, "2 numbers, must be 3 or none"},
       {{1, 1, 0}, "0 slabs of a voxel: must be 1 to 8"},
       {{9, 1, 1}, "9 slabs of a voxel: must be 1 to 8"},
+      {{1, 1, 5000}, "5000 slabs of a voxel: must be 1 to 8"},
       {{1, 4'000'000'000, 1}, "must be 1 to 8"}};
   for (const auto& [given, told] : wrong) {
     v1::SkeletonizeOptions bad;
