@@ -114,6 +114,15 @@ class MasksTest(harness.TestCase):
         self.assertEqual(len(skeleton.to_pandas()), 0)
         self.assertEqual(len(skeleton.to_networkx()), 0)
 
+    def test_images_of_thick_slices_show_every_voxel(self):
+        mask = numpy.zeros((9, 30, 20), bool)
+        mask[2:7, 4:26, 5:15] = True
+        for voxel_points in (2, 16):
+            for array, spacing in ((mask, (8, 1, 1)), (mask.T, (1, 1, 8))):
+                skeleton = bccskel.skeletonize(array, spacing=spacing, voxel_points=voxel_points)
+                numpy.testing.assert_array_equal(skeleton.branch_image() > 0, array)
+                self.assertTrue(array[skeleton.curve_image() > 0].all())
+
     def test_gray_levels_taken_for_a_mask_are_warned_of(self):
         gray = numpy.random.default_rng(1).normal(100, 9, (20, 20, 20))
         with self.assertWarnsRegex(UserWarning, "look like gray levels, .*; threshold 1?[0-9]{2}"):

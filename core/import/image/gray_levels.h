@@ -9,8 +9,8 @@
 
 namespace bccskel {
 
-// Notices that an image holds gray levels, not a mask or labels. Looks at rows spread over the
-// image, about 250,000 voxels of them.
+// Notices that an image holds gray levels or a level set, not a mask or labels. Looks at rows
+// spread over the image, about 250,000 voxels of them.
 class GrayLevels {
  public:
   explicit GrayLevels(const ImageSize& size);

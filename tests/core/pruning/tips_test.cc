@@ -100,6 +100,26 @@ SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double rad
   return std::move(result->graph);
 }
 
+// A few lattice points do not tell a limb's direction where steps along z are four or six times as
+// long.
+TEST(Tips, FollowTheLimbOnLatticesOfLongCells) {
+  for (const double up : {0.3, 0.5, 0.7}) {
+    for (const double edge : {4.0, 6.0}) {
+      const double radius = 16, length = 8 * radius, flat = std::sqrt(1 - up * up);
+      const std::array<double, 3> a = {24, 24, 24};
+      const std::array<double, 3> b = {a[0] + 0.765 * flat * length, a[1] + 0.644 * flat * length,
+                                       a[2] + up * length};
+      const auto result = Skeletonize(Capsule(a, b, radius, {1, 1, edge}), {}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      ASSERT_EQ(result->graph.nodes.size(), 2u);
+      for (const SkeletonNode& node : result->graph.nodes) {
+        const WorldPoint at = result->graph.PositionOf(node.at);
+        EXPECT_LT(std::min(Gap(at, a), Gap(at, b)), 0.5 * radius) << up << ' ' << edge;
+      }
+    }
+  }
+}
+
 // Slices eight times as thick as voxels are wide, tubes one and a half to two slices thick.
 TEST(Tips, OfTubesThroughThickSlicesLieInTheirCaps) {
   const struct {
