@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "core/lattice/directions.h"
 #include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
 
