@@ -25,10 +25,6 @@ BranchType TypeOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   return ends == 2 ? BranchType::kEndToEnd : BranchType::kJunctionToEnd;
 }
 
-double Between(const WorldPoint& a, const WorldPoint& b) {
-  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-}
-
 void AddHeader(Text& text, const GraphContext& context) {
   if (!context.labels.of_edges.empty()) text.Add("label,");
   text.Add("skeleton_id,branch_id,node_id_src,node_id_dst,branch_type,branch_distance,",
@@ -53,7 +49,7 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
   const WorldPoint source = graph.PositionOf(graph.nodes[edge.source].at);
   const WorldPoint target = graph.PositionOf(graph.nodes[edge.target].at);
   text.Add(component, ',', n, ',', edge.source, ',', edge.target, ',',
-           static_cast<int>(TypeOf(graph, edge)), ',', figures.length, ',', Between(source, target),
+           static_cast<int>(TypeOf(graph, edge)), ',', figures.length, ',', DistanceBetween(source, target),
            ',');
   if (figures.tortuosity.has_value()) text.Add(*figures.tortuosity);
   text.Add(',', figures.mean_radius, ',', figures.min_radius, ',', figures.max_radius);

@@ -16,10 +16,6 @@ constexpr double kMostPerPoint = 1000;
 // Fewer would turn a loop of one edge into a point or a line there and back.
 constexpr size_t kLeastStepsOfLoop = 4;
 
-double Between(const WorldPoint& a, const WorldPoint& b) {
-  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-}
-
 CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
   CurvePoint mixed = {a.at, a.radius + part * (b.radius - a.radius)};
   for (size_t axis = 0; axis < 3; ++axis) mixed.at[axis] += part * (b.at[axis] - a.at[axis]);
@@ -63,7 +59,7 @@ Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
 std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve) {
   std::vector<double> ways = {0};
   for (size_t n = 1; n < curve.size(); ++n) {
-    ways.push_back(ways.back() + Between(curve[n - 1].at, curve[n].at));
+    ways.push_back(ways.back() + DistanceBetween(curve[n - 1].at, curve[n].at));
   }
   return ways;
 }

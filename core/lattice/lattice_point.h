@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_LATTICE_LATTICE_POINT_H_
 
 #include <array>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 
@@ -105,6 +106,11 @@ constexpr double Dot(const WorldPoint& a, const WorldPoint& b) {
 
 constexpr WorldPoint Cross(const WorldPoint& a, const WorldPoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline double DistanceBetween(const WorldPoint& a, const WorldPoint& b) {
+  const WorldPoint way = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return std::sqrt(Dot(way, way));
 }
 
 // Where the lattice lies in the world. `spacing` is the edge of the cubic cell along each axis;

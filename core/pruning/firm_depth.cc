@@ -9,7 +9,7 @@ namespace bccskel {
 namespace {
 
 constexpr LatticePoint kOutside = {-1, -1, -1};
-constexpr int kMajority = 8;  // of a background point's 14 neighbors and itself
+constexpr int kFirmMajority = 8;  // of a background point's 14 neighbors and itself
 
 }  // namespace
 
@@ -46,7 +46,7 @@ float FirmDepth::Search(LatticePoint p) {
 
 bool FirmDepth::IsPit(LatticePoint q) {
   const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(q + offset); };
-  return std::ranges::count_if(kDirections14, in_object) >= kMajority;
+  return std::ranges::count_if(kDirections14, in_object) >= kFirmMajority;
 }
 
 void FirmDepth::Remember(LatticePoint background) {

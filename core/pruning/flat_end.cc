@@ -7,7 +7,7 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSlope = 0.75;       // of a place's merit, along the limb
+constexpr double kWidthSlope = 0.75;  // of a place's merit, along the limb
 constexpr double kAside = 0.4;        // and across it: corners lie aside, points do not
 constexpr double kFlatness = 1.5;     // width by radius: less is round
 constexpr double kFlatMargin = 1.5;   // so are limbs as thick as the steps of the surface
@@ -22,14 +22,15 @@ constexpr double kAsWideMargin = 1;
 constexpr double kLeastLimb = 0.4;  // of the largest width: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kLeastStride = 1;
-constexpr double kStride = 8;         // places in a width
-constexpr size_t kNormalReach = 4;    // points on either side
-constexpr double kWalkWidths = 1;     // so long before its end the limb is walked along
-constexpr double kWalkSlope = 0.85;   // no corners, so more than kSlope: leaves taper by up to this
-constexpr double kWalkStep = 2;       // lattice units
-constexpr size_t kHeadingSteps = 12;  // the way is that of the last steps,
-constexpr size_t kLeastHeading = 6;   // if there are so many
-constexpr double kMostWiden = 1.3;    // what is wider is no limb
+constexpr double kStride = 8;       // places in a width
+constexpr size_t kNormalReach = 4;  // points on either side
+constexpr double kWalkWidths = 1;   // so long before its end the limb is walked along
+constexpr double kWalkSlope =
+    0.85;                        // no corners, so more than kWidthSlope: leaves taper by up to this
+constexpr double kWalkStep = 2;  // lattice units
+constexpr size_t kHeadingSteps = 12;   // the way is that of the last steps,
+constexpr size_t kLeastHeading = 6;    // if there are so many
+constexpr double kMostWiden = 1.3;     // what is wider is no limb
 constexpr double kLeastInPlane = 0.3;  // of a way of length 1
 
 // Where the limb is about as wide as anywhere.
@@ -47,7 +48,7 @@ bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
 double MeritOf(double width, const Coordinates& out, const Coordinates& way) {
   const double along = Dot(way, out);
   const double aside = std::sqrt(std::max(Dot(out, out) - along * along, 0.0));
-  return width + kSlope * along - kAside * aside;
+  return width + kWidthSlope * along - kAside * aside;
 }
 
 }  // namespace

@@ -6,22 +6,22 @@
 namespace bccskel {
 namespace {
 
-constexpr double kStep = 1.5;           // of a way, lattice units
-constexpr double kMostOff = 2;          // farther off lies another sheet
-constexpr double kThicknessStep = 0.5;  // lattice units
-constexpr double kMostThick = 24;       // to either side
-constexpr double kLeastCosine = 0.7;    // of the normal and the way to background beside it
-constexpr double kNormalWeight = 0.25;  // of a new normal
+constexpr double kStep = 1.5;               // of a way, lattice units
+constexpr double kMostOff = 2;              // farther off lies another sheet
+constexpr double kThicknessStep = 0.5;      // lattice units
+constexpr double kMostSheetThick = 24;      // to either side
+constexpr double kLeastNormalCosine = 0.7;  // of the normal and the way to background beside it
+constexpr double kNormalWeight = 0.25;      // of a new normal
 
 // Eighths of a half turn: cosine and sine, from the first on.
-constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
-                                                          {0, 1},
-                                                          {0.70710678, 0.70710678},
-                                                          {-0.70710678, 0.70710678},
-                                                          {0.92387953, 0.38268343},
-                                                          {-0.38268343, 0.92387953},
-                                                          {0.38268343, 0.92387953},
-                                                          {-0.92387953, 0.38268343}}};
+constexpr std::array<std::array<double, 2>, 8> kSpreadTurns = {{{1, 0},
+                                                                {0, 1},
+                                                                {0.70710678, 0.70710678},
+                                                                {-0.70710678, 0.70710678},
+                                                                {0.92387953, 0.38268343},
+                                                                {-0.38268343, 0.92387953},
+                                                                {0.38268343, 0.92387953},
+                                                                {-0.92387953, 0.38268343}}};
 
 }  // namespace
 
@@ -31,7 +31,7 @@ FlatSheet::FlatSheet(const Volume& object, const ExactRadius& radius)
 double FlatSheet::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {
   double width = longest;
   const auto [u, v] = Across(normal);
-  for (const auto& [cosine, sine] : kTurns) {
+  for (const auto& [cosine, sine] : kSpreadTurns) {
     const Coordinates way = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
     for (const double side : {1.0, -1.0}) {
       width = WayToRim(place, Sum({0, 0, 0}, side, way), normal, width);
@@ -43,8 +43,8 @@ double FlatSheet::WidthAt(const Coordinates& place, const Coordinates& normal, d
 double FlatSheet::WayToSide(const Coordinates& place, const Coordinates& way,
                             const Coordinates& side, const Coordinates& normal, double longest) {
   double shortest = longest;
-  for (size_t turn = 1; turn < kTurns.size(); ++turn) {
-    const auto& [cosine, sine] = kTurns[turn];
+  for (size_t turn = 1; turn < kSpreadTurns.size(); ++turn) {
+    const auto& [cosine, sine] = kSpreadTurns[turn];
     const Coordinates out = Sum(Sum({0, 0, 0}, cosine, way), sine, side);
     shortest = WayToRim(place, out, normal, shortest);
   }
@@ -87,7 +87,7 @@ std::optional<Coordinates> FlatSheet::MiddleNear(const Coordinates& place,
   if (!in.has_value()) return std::nullopt;
   const auto thickness = [&](double side) {
     double out = 0;
-    while (out < kMostThick && InObject(Sum(*in, side * (out + kThicknessStep), normal))) {
+    while (out < kMostSheetThick && InObject(Sum(*in, side * (out + kThicknessStep), normal))) {
       out += kThicknessStep;
     }
     return out;
@@ -101,7 +101,7 @@ Coordinates FlatSheet::NormalNear(const Coordinates& place, const Coordinates& n
   const LatticePoint background = radius_.FirstNearestAt(p, radius_.At(p));
   const Coordinates way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
   const double cosine = Dot(normal, way);
-  if (std::abs(cosine) < kLeastCosine) return normal;
+  if (std::abs(cosine) < kLeastNormalCosine) return normal;
   return Unit(Sum(normal, kNormalWeight * std::copysign(cosine * cosine, cosine), way));
 }
 

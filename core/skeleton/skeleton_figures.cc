@@ -11,20 +11,15 @@
 namespace bccskel {
 namespace {
 
-double Between(const WorldPoint& a, const WorldPoint& b) {
-  const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
-  return std::sqrt(x * x + y * y + z * z);
-}
-
 double LengthOfCurve(std::span<const WorldPoint> curve) {
   double length = 0;
-  for (size_t n = 1; n < curve.size(); ++n) length += Between(curve[n - 1], curve[n]);
+  for (size_t n = 1; n < curve.size(); ++n) length += DistanceBetween(curve[n - 1], curve[n]);
   return length;
 }
 
 // The place, or the one on the way to it that is as far from `from` as may be.
 WorldPoint Within(double reach, const WorldPoint& from, const WorldPoint& place) {
-  const double way = Between(from, place);
+  const double way = DistanceBetween(from, place);
   if (way <= reach) return place;
   WorldPoint nearer;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -73,7 +68,7 @@ EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
   for (const SkeletonPoint& p : points) figures.mean_radius += graph.RadiusOf(p);
   figures.mean_radius /= static_cast<double>(points.size());
   const double straight =
-      Between(graph.PositionOf(points.front()), graph.PositionOf(points.back()));
+      DistanceBetween(graph.PositionOf(points.front()), graph.PositionOf(points.back()));
   if (straight > 0) figures.tortuosity = figures.length / straight;
   return figures;
 }

@@ -13,15 +13,15 @@
 namespace bccskel::server {
 namespace {
 
-using Base = WritingCall<StreamCall<grpc::ServerWriteReactor<v1::ReadSkeletonResponse>>,
-                         v1::ReadSkeletonResponse>;
+using ReadBase = WritingCall<StreamCall<grpc::ServerWriteReactor<v1::ReadSkeletonResponse>>,
+                             v1::ReadSkeletonResponse>;
 
 // A ReadSkeleton call: reads a record, writes it, reads the next. So a slow reader costs one
 // record.
-class ReadCall final : public Base {
+class ReadCall final : public ReadBase {
  public:
   ReadCall(DurableCall call, const v1::ReadSkeletonRequest& request)
-      : Base(std::move(call.facts)),
+      : ReadBase(std::move(call.facts)),
         durable_jobs_(call.durable_jobs),
         index_(request.piece_index()) {
     subject_ = request.job();

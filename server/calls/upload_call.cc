@@ -24,16 +24,16 @@ absl::Status CheckVolumeBytes(uint64_t bytes, const JobPool::Limits& limits) {
                    {.quota = "max_volume_bytes"});
 }
 
-using Base = ReceivingCall<StreamCall<grpc::ServerReadReactor<v1::UploadVolumeRequest>>,
-                           v1::UploadVolumeRequest>;
+using UploadBase = ReceivingCall<StreamCall<grpc::ServerReadReactor<v1::UploadVolumeRequest>>,
+                                 v1::UploadVolumeRequest>;
 
 // An UploadVolume call: hands one chunk after the other to DurableJobs and reads no further before
 // DurableJobs has room.
-class UploadCall final : public Base, public UploadWriters::Writer {
+class UploadCall final : public UploadBase, public UploadWriters::Writer {
  public:
   UploadCall(DurableCall call, UploadWriters& writers, const JobPool::Limits& limits,
              v1::UploadVolumeResponse& response)
-      : Base(std::move(call.facts)),
+      : UploadBase(std::move(call.facts)),
         durable_jobs_(call.durable_jobs),
         writers_(writers),
         limits_(limits),

@@ -14,19 +14,17 @@
 namespace bccskel::server {
 namespace {
 
-using Clock = std::chrono::system_clock;
-
 // Part of the interface: proxies that close idle streams wait longer.
 constexpr std::chrono::seconds kHeartbeat(10);
 
-using Base =
+using WatchBase =
     WritingCall<StreamCall<grpc::ServerWriteReactor<v1::WatchJobResponse>>, v1::WatchJobResponse>;
 
 // A WatchJob call: tells a job's events, and in silence a heartbeat.
-class WatchCall final : public Base, public JobWatcher {
+class WatchCall final : public WatchBase, public JobWatcher {
  public:
   WatchCall(DurableCall call, const v1::WatchJobRequest& request)
-      : Base(std::move(call.facts)), durable_jobs_(call.durable_jobs) {
+      : WatchBase(std::move(call.facts)), durable_jobs_(call.durable_jobs) {
     subject_ = request.job();
     events_.StartAfter(request.after_sequence());
   }
@@ -65,7 +63,7 @@ class WatchCall final : public Base, public JobWatcher {
   std::unique_ptr<WatchHandle> handle_;   // guarded by mutex_, as what follows
   std::unique_ptr<grpc::Alarm> silence_;  // null once the call has finished
   EventQueue events_;
-  Clock::time_point written_ = Clock::now();
+  std::chrono::system_clock::time_point written_ = std::chrono::system_clock::now();
   bool heartbeat_due_ = false;
 };
 
@@ -73,16 +71,16 @@ std::optional<v1::WatchJobResponse> WatchCall::Next() {
   std::optional<v1::WatchJobResponse> next = events_.Next();
   if (!next.has_value() && heartbeat_due_) {
     next.emplace().set_sequence(events_.sequence());
-    *next->mutable_time() = ToMessage(Clock::now());
+    *next->mutable_time() = ToMessage(std::chrono::system_clock::now());
     next->mutable_heartbeat();
   }
   heartbeat_due_ = false;
-  if (next.has_value()) written_ = Clock::now();
+  if (next.has_value()) written_ = std::chrono::system_clock::now();
   return next;
 }
 
 void WatchCall::Advance() {
-  Base::Advance();
+  WatchBase::Advance();
   if (finished_) silence_ = nullptr;
 }
 
@@ -97,9 +95,9 @@ void WatchCall::AwaitSilence() {
 
 void WatchCall::OnAlarm() {
   std::lock_guard lock(mutex_);
-  heartbeat_due_ = !writing() && Clock::now() >= written_ + kHeartbeat;
+  heartbeat_due_ = !writing() && std::chrono::system_clock::now() >= written_ + kHeartbeat;
   if (heartbeat_due_) Advance();
-  if (writing()) written_ = Clock::now();
+  if (writing()) written_ = std::chrono::system_clock::now();
   AwaitSilence();
 }
 

@@ -15,7 +15,7 @@ namespace {
 // so a migration adds, with defaults.
 //
 // Text is bytes, as callers sent it: it may hold a zero byte, and is compared as SQLite does.
-constexpr const char* kMigrations[] = {
+constexpr const char* kPostgresMigrations[] = {
     // 1
     R"(
 CREATE TABLE uploads(
@@ -81,7 +81,7 @@ CREATE UNLOGGED TABLE progress(
 )",
 };
 
-constexpr int kVersion = static_cast<int>(std::size(kMigrations));
+constexpr int kVersion = static_cast<int>(std::size(kPostgresMigrations));
 
 constexpr char kVersionTable[] =
     "CREATE TABLE IF NOT EXISTS store(id BYTEA NOT NULL, version BIGINT NOT NULL);"
@@ -94,7 +94,7 @@ absl::Status MigrateWithin(SqlDatabase& database) {
   const auto version = static_cast<int>(rows.front().Number());
   BCCSKEL_RETURN_IF_ERROR(CheckSchemaVersion(version, kVersion));
   for (int next = version; next < kVersion; ++next) {
-    BCCSKEL_RETURN_IF_ERROR(database.Execute(kMigrations[next]));
+    BCCSKEL_RETURN_IF_ERROR(database.Execute(kPostgresMigrations[next]));
   }
   return database.Run("UPDATE store SET version = $1", {SqlValue::Number(kVersion)}).status();
 }

@@ -10,7 +10,7 @@ namespace bccskel::server {
 namespace {
 
 // Migration n brings a file from version n to version n + 1. What was released is never changed.
-constexpr const char* kMigrations[] = {
+constexpr const char* kSqliteMigrations[] = {
     // 1
     R"(
 CREATE TABLE uploads(
@@ -128,7 +128,7 @@ absl::Status CheckSchemaVersion(int version, int known) {
                                                     ": it was written by a newer server"));
 }
 
-int SqliteSchemaVersion() { return static_cast<int>(std::size(kMigrations)); }
+int SqliteSchemaVersion() { return static_cast<int>(std::size(kSqliteMigrations)); }
 
 absl::Status MigrateSqlite(SqlDatabase& database) {
   BCCSKEL_ASSIGN_OR_RETURN(int version, VersionOf(database));
@@ -137,7 +137,7 @@ absl::Status MigrateSqlite(SqlDatabase& database) {
   for (; version < SqliteSchemaVersion(); ++version) {
     const bool last = version + 1 == SqliteSchemaVersion();
     const std::string sql =
-        absl::StrCat("BEGIN IMMEDIATE;", kMigrations[version], last ? kSealSchema : "",
+        absl::StrCat("BEGIN IMMEDIATE;", kSqliteMigrations[version], last ? kSealSchema : "",
                      "PRAGMA user_version = ", version + 1, "; COMMIT;");
     absl::Status migrated = database.Execute(sql);
     if (migrated.ok()) continue;
