@@ -49,8 +49,8 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
   const WorldPoint source = graph.PositionOf(graph.nodes[edge.source].at);
   const WorldPoint target = graph.PositionOf(graph.nodes[edge.target].at);
   text.Add(component, ',', n, ',', edge.source, ',', edge.target, ',',
-           static_cast<int>(TypeOf(graph, edge)), ',', figures.length, ',', DistanceBetween(source, target),
-           ',');
+           static_cast<int>(TypeOf(graph, edge)), ',', figures.length, ',',
+           DistanceBetween(source, target), ',');
   if (figures.tortuosity.has_value()) text.Add(*figures.tortuosity);
   text.Add(',', figures.mean_radius, ',', figures.min_radius, ',', figures.max_radius);
   for (const WorldPoint& place : {source, target}) {
