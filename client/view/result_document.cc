@@ -14,43 +14,57 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Where a value stands, composed only for an error: documents have millions of values.
+struct Place {
+  const Place* in = nullptr;  // none: the document
+  std::string_view member;    // empty: an item of a list
+  size_t item = 0;
+
+  std::string Name() const {
+    if (in == nullptr) return "";
+    if (member.empty()) return absl::StrCat(in->Name(), "[", item, "]");
+    return in->in == nullptr ? std::string(member)
+                             : absl::StrCat(in->Name(), ".", std::string(member));
+  }
+};
+
 // Reads members of a document. After the first error all that is read is empty.
 class Reader {
  public:
   const absl::Status& status() const { return status_; }
 
-  void Read(const Json& from, const std::string& place, double& to) {
+  void Read(const Json& from, const Place& place, double& to) {
     if (!from.is_number() || !std::isfinite(from.get<double>())) {
       return Complain(place, "a finite number");
     }
     to = from.get<double>();
   }
   template <std::integral Integer>
-  void Read(const Json& from, const std::string& place, Integer& to) {
+  void Read(const Json& from, const Place& place, Integer& to) {
     const bool negative = from.is_number_integer() && !from.is_number_unsigned();
     if (!from.is_number_integer() || (negative && std::unsigned_integral<Integer>)) {
       return Complain(place, "an integer in range");
     }
     to = from.get<Integer>();
   }
-  void Read(const Json& from, const std::string& place, std::string& to) {
+  void Read(const Json& from, const Place& place, std::string& to) {
     if (!from.is_string()) return Complain(place, "a string");
     to = from.get<std::string>();
   }
   template <typename Item>
-  void Read(const Json& from, const std::string& place, std::vector<Item>& to) {
+  void Read(const Json& from, const Place& place, std::vector<Item>& to) {
     if (!from.is_array()) return Complain(place, "a list");
     to.resize(from.size());
     for (size_t n = 0; n < to.size() && status_.ok(); ++n) {
-      Read(from[n], absl::StrCat(place, "[", n, "]"), to[n]);
+      Read(from[n], {&place, "", n}, to[n]);
     }
   }
-  void Read(const Json& from, const std::string& place, ResultDocument::Node& to) {
+  void Read(const Json& from, const Place& place, ResultDocument::Node& to) {
     ReadMember(from, place, "kind", to.kind);
     ReadMember(from, place, "position", to.position);
     ReadMember(from, place, "radius", to.radius);
   }
-  void Read(const Json& from, const std::string& place, ResultDocument::Edge& to) {
+  void Read(const Json& from, const Place& place, ResultDocument::Edge& to) {
     ReadMember(from, place, "source", to.source);
     ReadMember(from, place, "target", to.target);
     ReadMember(from, place, "points", to.points);
@@ -60,26 +74,26 @@ class Reader {
       Complain(place, "an edge with points and as many radii");
     }
   }
-  void Read(const Json& from, const std::string& place, ResultDocument::Sheets& to) {
+  void Read(const Json& from, const Place& place, ResultDocument::Sheets& to) {
     ReadMember(from, place, "points", to.points);
     ReadMember(from, place, "radii", to.radii);
     if (to.radii.size() != to.points.size()) Complain(place, "points and as many radii");
   }
   template <size_t kCount>
-  void Read(const Json& from, const std::string& place, std::array<double, kCount>& to) {
+  void Read(const Json& from, const Place& place, std::array<double, kCount>& to) {
     if (!from.is_array() || from.size() != kCount) {
       return Complain(place, kCount == 3 ? "three numbers" : absl::StrCat(kCount, " numbers"));
     }
     for (size_t n = 0; n < kCount; ++n) Read(from[n], place, to[n]);
   }
-  void Read(const Json& from, const std::string& place, Placement& to) {
+  void Read(const Json& from, const Place& place, Placement& to) {
     ReadMember(from, place, "spacing", to.spacing);
     ReadMember(from, place, "origin", to.origin);
     ReadMember(from, place, "direction", to.direction);
     const absl::Status usable = status_.ok() ? CheckGrid({1, 1, 1}, to) : absl::OkStatus();
     if (!usable.ok()) Complain(place, "one of a lattice (" + std::string(usable.message()) + ")");
   }
-  void Read(const Json& from, const std::string& place, PreparingOptions& to) {
+  void Read(const Json& from, const Place& place, PreparingOptions& to) {
     if (!from.is_object()) return Complain(place, "an object");
     std::string cavities, components;
     ReadIfThere(from, "denoise_passes", to.denoise_passes);
@@ -92,12 +106,12 @@ class Reader {
     if (cavities == "filled") to.cavities = CavityFilling::kOn;
     if (components == "largest") to.components = KeptComponents::kLargest;
   }
-  void Read(const Json& from, const std::string& place, BettiNumbers& to) {
+  void Read(const Json& from, const Place& place, BettiNumbers& to) {
     ReadMember(from, place, "components", to.components);
     ReadMember(from, place, "loops", to.loops);
     ReadMember(from, place, "cavities", to.cavities);
   }
-  void Read(const Json& from, const std::string& place, Certificate& to) {
+  void Read(const Json& from, const Place& place, Certificate& to) {
     ReadMember(from, place, "input", to.input);
     ReadMember(from, place, "skeleton", to.skeleton);
     ReadMember(from, place, "simple_points_left", to.simple_points_left);
@@ -109,8 +123,8 @@ class Reader {
     to.sampled = from.is_object() && from.value("sampled", Json()) == true;
   }
   template <typename T>
-  void ReadMember(const Json& from, const std::string& place, const char* name, T& to) {
-    const std::string here = place.empty() ? name : absl::StrCat(place, ".", name);
+  void ReadMember(const Json& from, const Place& place, const char* name, T& to) {
+    const Place here = {&place, name};
     const auto member = from.is_object() ? from.find(name) : from.end();
     if (member == from.end()) return Complain(here, "there");
     Read(*member, here, to);
@@ -119,16 +133,18 @@ class Reader {
   // Leaves `to` as it is where there is no such member. Needs: an object.
   template <typename T>
   void ReadIfThere(const Json& from, const char* name, T& to) {
-    if (const auto member = from.find(name); member != from.end()) Read(*member, name, to);
+    if (const auto member = from.find(name); member != from.end())
+      Read(*member, {&kDocument, name}, to);
   }
 
-  void Complain(const std::string& place, const std::string& expected) {
+  void Complain(const Place& place, const std::string& expected) {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(
-        absl::StrCat("no JSON result of bccskel: ", place, " is not ", expected));
+        absl::StrCat("no JSON result of bccskel: ", place.Name(), " is not ", expected));
   }
 
  private:
+  static constexpr Place kDocument = {};
   absl::Status status_;
 };
 
@@ -168,10 +184,10 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text) {
   if (json.is_discarded())
     return absl::InvalidArgumentError("not a JSON result of skeletonize or submit");
   Reader reader;
-  reader.ReadMember(json, "", "nodes", document.nodes);
-  reader.ReadMember(json, "", "edges", document.edges);
-  reader.ReadMember(json, "", "certificate", document.certificate);
-  reader.ReadMember(json, "", "object_points", document.object_points);
+  reader.ReadMember(json, {}, "nodes", document.nodes);
+  reader.ReadMember(json, {}, "edges", document.edges);
+  reader.ReadMember(json, {}, "certificate", document.certificate);
+  reader.ReadMember(json, {}, "object_points", document.object_points);
   BCCSKEL_RETURN_IF_ERROR(reader.status());
   reader.ReadIfThere(json, "sheets", document.sheets);
   reader.ReadIfThere(json, "options", document.preparing);
@@ -180,7 +196,7 @@ absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text) {
     document.border_continues = json["options"].value("border", Json()) == "continues";
   }
   if (json.contains("placement")) {
-    reader.ReadMember(json, "", "placement", document.placement.emplace());
+    reader.ReadMember(json, {}, "placement", document.placement.emplace());
   }
   BCCSKEL_RETURN_IF_ERROR(reader.status());
   BCCSKEL_RETURN_IF_ERROR(CheckEdges(document));
