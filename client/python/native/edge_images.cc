@@ -31,13 +31,13 @@ absl::Status CheckVoxels(const Outcome& outcome) {
 // An exact conversion puts the odd points into the centers of the parts of voxels.
 absl::StatusOr<LabeledObject> VoxelsOf(const Volume& object, const MaskGrid& grid,
                                        VoxelPoints points, const exec::Context& context) {
-  const auto [px, py, pz] = PartsOf(grid, points);
+  const auto parts = PartsOf(grid, points);
   std::vector<uint64_t> words(grid.WordsPerSlice() * static_cast<size_t>(grid.nz));
   object.ForEachPoint([&](LatticePoint p) {
     if (SublatticeOf(p) == Sublattice::kEven) return;
-    const auto x = static_cast<size_t>(p.x / (2 * px));
-    const size_t row = static_cast<size_t>(p.z / (2 * pz)) * static_cast<size_t>(grid.ny) +
-                       static_cast<size_t>(p.y / (2 * py));
+    const auto x = static_cast<size_t>(p.x / (2 * parts[0]));
+    const size_t row = static_cast<size_t>(p.z / (2 * parts[2])) * static_cast<size_t>(grid.ny) +
+                       static_cast<size_t>(p.y / (2 * parts[1]));
     words[row * grid.WordsPerRow() + x / 64] |= uint64_t{1} << (x % 64);
   });
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
