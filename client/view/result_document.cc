@@ -133,8 +133,8 @@ class Reader {
   // Leaves `to` as it is where there is no such member. Needs: an object.
   template <typename T>
   void ReadIfThere(const Json& from, const char* name, T& to) {
-    if (const auto member = from.find(name); member != from.end())
-      Read(*member, {&kDocument, name}, to);
+    const auto member = from.find(name);
+    if (member != from.end()) Read(*member, {&kDocument, name}, to);
   }
 
   void Complain(const Place& place, const std::string& expected) {

@@ -28,7 +28,7 @@ function(bccskel_target_defaults target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # Results must have the same bits on every machine: no contraction to fused multiply-add.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -ffp-contract=off)
-  # GCC's own garbage collection takes a tenth of its time, and no source needs more than 1 GiB.
+  # In KiB: GCC's own garbage collection takes up to a fifth of its time; no unit needs above 1 GiB.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=262144>)
   # OpenEXR's initializer macros leave fields out; only clang minds that in a header of others.

@@ -22,12 +22,11 @@ constexpr double kAsWideMargin = 1;
 constexpr double kLeastLimb = 0.4;  // of the largest width: the limb before its end
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kLeastStride = 1;
-constexpr double kStride = 8;       // places in a width
-constexpr size_t kNormalReach = 4;  // points on either side
-constexpr double kWalkWidths = 1;   // so long before its end the limb is walked along
-constexpr double kWalkSlope =
-    0.85;                        // no corners, so more than kWidthSlope: leaves taper by up to this
-constexpr double kWalkStep = 2;  // lattice units
+constexpr double kStride = 8;          // places in a width
+constexpr size_t kNormalReach = 4;     // points on either side
+constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
+constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
+constexpr double kWalkStep = 2;        // lattice units
 constexpr size_t kHeadingSteps = 12;   // the way is that of the last steps,
 constexpr size_t kLeastHeading = 6;    // if there are so many
 constexpr double kMostWiden = 1.3;     // what is wider is no limb

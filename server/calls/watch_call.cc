@@ -46,6 +46,8 @@ class WatchCall final : public WatchBase, public JobWatcher {
   void OnWatchEnd(const absl::Status& status) override { End(StorageError(status)); }
 
  private:
+  using Clock = std::chrono::system_clock;
+
   std::optional<v1::WatchJobResponse> Next() override;
   void Advance() override;
   void Closed() override {
@@ -63,7 +65,7 @@ class WatchCall final : public WatchBase, public JobWatcher {
   std::unique_ptr<WatchHandle> handle_;   // guarded by mutex_, as what follows
   std::unique_ptr<grpc::Alarm> silence_;  // null once the call has finished
   EventQueue events_;
-  std::chrono::system_clock::time_point written_ = std::chrono::system_clock::now();
+  Clock::time_point written_ = Clock::now();
   bool heartbeat_due_ = false;
 };
 
@@ -71,11 +73,11 @@ std::optional<v1::WatchJobResponse> WatchCall::Next() {
   std::optional<v1::WatchJobResponse> next = events_.Next();
   if (!next.has_value() && heartbeat_due_) {
     next.emplace().set_sequence(events_.sequence());
-    *next->mutable_time() = ToMessage(std::chrono::system_clock::now());
+    *next->mutable_time() = ToMessage(Clock::now());
     next->mutable_heartbeat();
   }
   heartbeat_due_ = false;
-  if (next.has_value()) written_ = std::chrono::system_clock::now();
+  if (next.has_value()) written_ = Clock::now();
   return next;
 }
 
@@ -95,9 +97,9 @@ void WatchCall::AwaitSilence() {
 
 void WatchCall::OnAlarm() {
   std::lock_guard lock(mutex_);
-  heartbeat_due_ = !writing() && std::chrono::system_clock::now() >= written_ + kHeartbeat;
+  heartbeat_due_ = !writing() && Clock::now() >= written_ + kHeartbeat;
   if (heartbeat_due_) Advance();
-  if (writing()) written_ = std::chrono::system_clock::now();
+  if (writing()) written_ = Clock::now();
   AwaitSilence();
 }
 

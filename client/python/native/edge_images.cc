@@ -31,7 +31,7 @@ absl::Status CheckVoxels(const Outcome& outcome) {
 // An exact conversion puts the odd points into the centers of the parts of voxels.
 absl::StatusOr<LabeledObject> VoxelsOf(const Volume& object, const MaskGrid& grid,
                                        VoxelPoints points, const exec::Context& context) {
-  const auto parts = PartsOf(grid, points);
+  const VoxelParts parts = PartsOf(grid, points);
   std::vector<uint64_t> words(grid.WordsPerSlice() * static_cast<size_t>(grid.nz));
   object.ForEachPoint([&](LatticePoint p) {
     if (SublatticeOf(p) == Sublattice::kEven) return;
