@@ -18,7 +18,6 @@
 namespace bccskel::view {
 namespace {
 
-using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 // The cube that everything lies in, and its 65,535 steps.
@@ -154,35 +153,21 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
   return json;
 }
 
-void AppendMember(std::string& text, std::string_view name, const std::string& value) {
-  absl::StrAppend(&text, text.ends_with('{') ? "" : ",", Json(name).dump(), ":", value);
-}
-
-// The curve stands for the points that it smooths.
-void AppendEdge(std::string& text, const Json& edge) {
-  text += '{';
-  for (const auto& [name, value] : edge.items()) {
-    if (name != "points" || !edge.contains("curve")) AppendMember(text, name, value.dump());
-  }
-  text += '}';
-}
-
-// What the page shows of a document. Put together as text: the document is large, and most of it
-// stays as it is.
+// What the page shows of a document: its text, since it is large and most of it stays as it is.
 std::string ShownOf(const ResultDocument& document) {
-  const Json& json = *document.json;
-  std::string text = "{";
-  for (const auto& [name, value] : json.items()) {
-    const bool shown = name != "timings" && name != "sheets";  // those come as a surface
-    if (shown && name != "edges") AppendMember(text, name, value.dump());
+  const std::string steps = PruningJson(PruningStepsOf(document)).dump();
+  const std::string_view text = *document.text;
+  const size_t begin = text.find('{') + 1;
+  std::string shown;
+  shown.reserve(text.size() + steps.size());
+  absl::StrAppend(&shown, "{\"pruning_steps\":", steps, ",");
+  const char* from = text.data() + begin;
+  for (const std::string_view left_out : document.not_on_pages) {
+    shown.append(from, left_out.data());
+    shown += "null";
+    from = left_out.data() + left_out.size();
   }
-  AppendMember(text, "pruning_steps", PruningJson(PruningStepsOf(document)).dump());
-  text += ",\"edges\":[";
-  for (const Json& edge : json["edges"]) {
-    if (!text.ends_with('[')) text += ',';
-    AppendEdge(text, edge);
-  }
-  return text += "]}";
+  return shown.append(from, text.data() + text.size());
 }
 
 // JSON inside of a script element: no text in it may end the element.

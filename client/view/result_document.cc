@@ -1,18 +1,22 @@
 #include "client/view/result_document.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <concepts>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/view/json_events.h"
 #include "core/exec/status_macros.h"
 #include "core/import/mesh/file_bytes.h"
+#include "core/pipeline/option_words.h"
 
 namespace bccskel::view {
 namespace {
 
-using Json = nlohmann::json;
+using Kind = JsonEvent::Kind;
 
 // Where a value stands, composed only for an error: documents have millions of values.
 struct Place {
@@ -21,193 +25,361 @@ struct Place {
   size_t item = 0;
 
   std::string Name() const {
-    if (in == nullptr) return "";
+    if (in == nullptr) return "the document";
     if (member.empty()) return absl::StrCat(in->Name(), "[", item, "]");
     return in->in == nullptr ? std::string(member)
                              : absl::StrCat(in->Name(), ".", std::string(member));
   }
 };
 
-// Reads members of a document. After the first error all that is read is empty.
+// A member of an object, and where its value goes.
+template <typename T>
+struct Member {
+  std::string_view name;
+  T& to;
+  bool required = false;
+  bool found = false;
+};
+template <typename T>
+Member<T> Required(std::string_view name, T& to) {
+  return {name, to, true};
+}
+template <typename T>
+Member<T> Optional(std::string_view name, T& to) {
+  return {name, to};
+}
+
+// What is checked, but not kept.
+struct Unkept {
+  bool there = false;
+};
+// A value whose text is noted, too.
+template <typename T>
+struct WithText {
+  T& to;
+  std::string_view& text;
+};
+template <typename T>
+struct NotOnPages {
+  T& to;
+};
+struct Order {
+  std::optional<std::vector<uint32_t>>& roots;
+};
+
+// Reads values from their events. After the first error what is read is incomplete.
 class Reader {
  public:
-  const absl::Status& status() const { return status_; }
+  explicit Reader(ResultDocument& to) : to_(to) {}
 
-  void Read(const Json& from, const Place& place, double& to) {
-    if (!from.is_number() || !std::isfinite(from.get<double>())) {
-      return Complain(place, "a finite number");
-    }
-    to = from.get<double>();
-  }
-  template <std::integral Integer>
-  void Read(const Json& from, const Place& place, Integer& to) {
-    const bool negative = from.is_number_integer() && !from.is_number_unsigned();
-    if (!from.is_number_integer() || (negative && std::unsigned_integral<Integer>)) {
-      return Complain(place, "an integer in range");
-    }
-    to = from.get<Integer>();
-  }
-  void Read(const Json& from, const Place& place, std::string& to) {
-    if (!from.is_string()) return Complain(place, "a string");
-    to = from.get<std::string>();
-  }
-  template <typename Item>
-  void Read(const Json& from, const Place& place, std::vector<Item>& to) {
-    if (!from.is_array()) return Complain(place, "a list");
-    to.resize(from.size());
-    for (size_t n = 0; n < to.size() && status_.ok(); ++n) {
-      Read(from[n], {&place, "", n}, to[n]);
-    }
-  }
-  void Read(const Json& from, const Place& place, ResultDocument::Node& to) {
-    ReadMember(from, place, "kind", to.kind);
-    ReadMember(from, place, "position", to.position);
-    ReadMember(from, place, "radius", to.radius);
-  }
-  void Read(const Json& from, const Place& place, ResultDocument::Edge& to) {
-    ReadMember(from, place, "source", to.source);
-    ReadMember(from, place, "target", to.target);
-    ReadMember(from, place, "points", to.points);
-    ReadMember(from, place, "radii", to.radii);
-    ReadMember(from, place, "length", to.length);
-    if (to.points.empty() || to.radii.size() != to.points.size()) {
-      Complain(place, "an edge with points and as many radii");
-    }
-  }
-  void Read(const Json& from, const Place& place, ResultDocument::Sheets& to) {
-    ReadMember(from, place, "points", to.points);
-    ReadMember(from, place, "radii", to.radii);
-    if (to.radii.size() != to.points.size()) Complain(place, "points and as many radii");
-  }
-  template <size_t kCount>
-  void Read(const Json& from, const Place& place, std::array<double, kCount>& to) {
-    if (!from.is_array() || from.size() != kCount) {
-      return Complain(place, kCount == 3 ? "three numbers" : absl::StrCat(kCount, " numbers"));
-    }
-    for (size_t n = 0; n < kCount; ++n) Read(from[n], place, to[n]);
-  }
-  void Read(const Json& from, const Place& place, Placement& to) {
-    ReadMember(from, place, "spacing", to.spacing);
-    ReadMember(from, place, "origin", to.origin);
-    ReadMember(from, place, "direction", to.direction);
-    const absl::Status usable = status_.ok() ? CheckGrid({1, 1, 1}, to) : absl::OkStatus();
-    if (!usable.ok()) Complain(place, "one of a lattice (" + std::string(usable.message()) + ")");
-  }
-  void Read(const Json& from, const Place& place, PreparingOptions& to) {
-    if (!from.is_object()) return Complain(place, "an object");
-    std::string cavities, components;
-    ReadIfThere(from, "denoise_passes", to.denoise_passes);
-    ReadIfThere(from, "cavities", cavities);
-    ReadIfThere(from, "tunnel_width", to.tunnel_width);
-    ReadIfThere(from, "tunnel_cells", to.tunnel_cells);
-    ReadIfThere(from, "min_component_points", to.min_component_points);
-    ReadIfThere(from, "min_component_volume", to.min_component_volume);
-    ReadIfThere(from, "components", components);
-    if (cavities == "filled") to.cavities = CavityFilling::kOn;
-    if (components == "largest") to.components = KeptComponents::kLargest;
-  }
-  void Read(const Json& from, const Place& place, BettiNumbers& to) {
-    ReadMember(from, place, "components", to.components);
-    ReadMember(from, place, "loops", to.loops);
-    ReadMember(from, place, "cavities", to.cavities);
-  }
-  void Read(const Json& from, const Place& place, Certificate& to) {
-    ReadMember(from, place, "input", to.input);
-    ReadMember(from, place, "skeleton", to.skeleton);
-    ReadMember(from, place, "simple_points_left", to.simple_points_left);
-    if (!status_.ok()) return;
-    if (from.contains("mask")) ReadMember(from, place, "mask", to.mask.emplace());
-    if (from.contains("unprepared")) {
-      ReadMember(from, place, "unprepared", to.unprepared.emplace());
-    }
-    to.sampled = from.is_object() && from.value("sampled", Json()) == true;
-  }
-  template <typename T>
-  void ReadMember(const Json& from, const Place& place, const char* name, T& to) {
-    const Place here = {&place, name};
-    const auto member = from.is_object() ? from.find(name) : from.end();
-    if (member == from.end()) return Complain(here, "there");
-    Read(*member, here, to);
-  }
-
-  // Leaves `to` as it is where there is no such member. Needs: an object.
-  template <typename T>
-  void ReadIfThere(const Json& from, const char* name, T& to) {
-    const auto member = from.find(name);
-    if (member != from.end()) Read(*member, {&kDocument, name}, to);
-  }
-
-  void Complain(const Place& place, const std::string& expected) {
-    if (!status_.ok()) return;
-    status_ = absl::InvalidArgumentError(
-        absl::StrCat("no JSON result of bccskel: ", place.Name(), " is not ", expected));
+  absl::Status Run() && {
+    Unkept timed;
+    NotOnPages timings{timed};
+    NotOnPages sheets{to_.sheets};
+    Order order{to_.roots};
+    return ReadDocument(
+        Required("nodes", to_.nodes), Required("edges", to_.edges), Optional("sheets", sheets),
+        Required("certificate", to_.certificate), Required("object_points", to_.object_points),
+        Optional("options", to_), Optional("preparing", to_.steps),
+        Optional("placement", to_.placement), Optional("method", to_.method),
+        Optional("algorithm_version", to_.algorithm_version), Optional("world", to_.world),
+        Optional("unit", to_.unit), Optional("order", order), Optional("timings", timings));
   }
 
  private:
-  static constexpr Place kDocument = {};
+  template <typename... T>
+  absl::Status ReadDocument(Member<T>... members) {
+    const Place document;
+    const JsonMembers wanted = {{members.name...}, {"nodes", "edges"}};
+    const auto take = [&](std::string_view name, std::optional<size_t> item,
+                          const JsonValue& value) {
+      value_ = &value;
+      now_ = value.events.data();
+      const Place here = {&document, name};
+      if (!item.has_value()) {
+        ReadMember(name, here, members...);
+      } else if (name == "nodes") {
+        Read({&here, "", *item}, to_.nodes.emplace_back());
+      } else {
+        Read({&here, "", *item}, to_.edges.emplace_back());
+      }
+      return status_.ok();
+    };
+    BCCSKEL_RETURN_IF_ERROR(ReadJson(*to_.text, wanted, take));
+    Require(document, members...);
+    return std::move(status_);
+  }
+
+  void Read(const Place& place, double& to) {
+    switch (now_->kind) {
+      case Kind::kDouble:
+        to = std::bit_cast<double>(now_->bits);
+        break;
+      case Kind::kUnsigned:
+        to = static_cast<double>(now_->bits);
+        break;
+      case Kind::kNegative:
+        to = static_cast<double>(std::bit_cast<int64_t>(now_->bits));
+        break;
+      default:
+        Complain(place, "a finite number");
+    }
+  }
+  template <std::integral Integer>
+  void Read(const Place& place, Integer& to) {
+    const auto signed_value = std::bit_cast<int64_t>(now_->bits);
+    const bool fits = now_->kind == Kind::kUnsigned
+                          ? std::in_range<Integer>(now_->bits)
+                          : now_->kind == Kind::kNegative && std::in_range<Integer>(signed_value);
+    if (!fits) return Complain(place, "an integer in range");
+    to = static_cast<Integer>(now_->bits);
+  }
+  void Read(const Place& place, bool& to) {
+    if (now_->kind != Kind::kBool) return Complain(place, "true or false");
+    to = now_->bits != 0;
+  }
+  void Read(const Place& place, std::string& to) {
+    if (now_->kind != Kind::kString) return Complain(place, "a string");
+    to = Text();
+  }
+  void Read(const Place& /*place*/, Unkept& to) {
+    to.there = true;
+    Skip();
+  }
+  template <typename T>
+  void Read(const Place& place, WithText<T>& to) {
+    const JsonEvent& begin = *now_;
+    Read(place, to.to);
+    if (!status_.ok() || &begin == now_) return;  // a number or the like
+    to.text = std::string_view(*to_.text).substr(begin.bits, now_->bits - begin.bits);
+  }
+  template <typename T>
+  void Read(const Place& place, NotOnPages<T>& to) {
+    std::string_view text;
+    WithText with_text{to.to, text};
+    Read(place, with_text);
+    if (!text.empty()) to_.not_on_pages.push_back(text);
+  }
+  template <typename T>
+  void Read(const Place& place, std::optional<T>& to) {
+    Read(place, to.emplace());
+  }
+  template <typename Item>
+  void Read(const Place& place, std::vector<Item>& to) {
+    to.clear();
+    ReadItems(place, "a list", [&](const Place& at) { Read(at, to.emplace_back()); });
+  }
+  template <typename Item, size_t kCount>
+  void Read(const Place& place, std::array<Item, kCount>& to) {
+    size_t count = 0;
+    const std::string_view expected = kCount == 3 ? "three numbers" : "a list of nine numbers";
+    ReadItems(place, expected, [&](const Place& at) {
+      Item beyond;
+      Read(at, count < kCount ? to[count] : beyond);
+      ++count;
+    });
+    if (count != kCount) Complain(place, expected);
+  }
+  void Read(const Place& place, ResultDocument::Node& to) {
+    ReadObject(place, Required("kind", to.kind), Required("position", to.position),
+               Required("radius", to.radius), Optional("birth", to.birth),
+               Optional("loops", to.loops), Optional("cavities", to.cavities));
+  }
+  void Read(const Place& place, ResultDocument::Edge& to) {
+    Unkept curve;
+    std::string_view stored;
+    WithText points{to.points, stored};
+    ReadObject(place, Required("source", to.source), Required("target", to.target),
+               Required("points", points), Required("radii", to.radii),
+               Optional("births", to.births), Optional("shifts", to.shifts),
+               Optional("curve", curve), Required("length", to.length),
+               Optional("pruning_level", to.pruning_level));
+    const size_t count = to.points.size();
+    if (count == 0 || to.radii.size() != count) {
+      Complain(place, "an edge with points and as many radii");
+    }
+    if (!to.births.empty() && to.births.size() != count) Complain(place, "with a birth a point");
+    if (!to.shifts.empty() && to.shifts.size() != count) Complain(place, "with a shift a point");
+    if (curve.there) to_.not_on_pages.push_back(stored);
+  }
+  void Read(const Place& place, ResultDocument::Sheets& to) {
+    ReadObject(place, Required("points", to.points), Required("radii", to.radii),
+               Optional("births", to.births));
+    if (to.radii.size() != to.points.size()) Complain(place, "points and as many radii");
+    if (!to.births.empty() && to.births.size() != to.points.size()) {
+      Complain(place, "with a birth a point");
+    }
+  }
+  void Read(const Place& place, Placement& to) {
+    ReadObject(place, Required("spacing", to.spacing), Required("origin", to.origin),
+               Required("direction", to.direction));
+    if (!status_.ok()) return;
+    const absl::Status usable = CheckGrid({1, 1, 1}, to);
+    if (!usable.ok()) {
+      Complain(place, absl::StrCat("one of a lattice (", usable.message(), ")"));
+    }
+  }
+  void Read(const Place& place, PreparingStep& to) {
+    std::string word;
+    ReadObject(place, Required("step", word), Optional("count", to.count),
+               Optional("points_added", to.points_added),
+               Optional("points_removed", to.points_removed));
+    for (const auto& [name, kind] : kPreparingWords) {
+      if (word == name) return void(to.kind = kind);
+    }
+    Complain(place, "a step of preparing");
+  }
+  void Read(const Place& place, BettiNumbers& to) {
+    ReadObject(place, Required("components", to.components), Required("loops", to.loops),
+               Required("cavities", to.cavities));
+  }
+  void Read(const Place& place, Certificate& to) {
+    ReadObject(place, Required("input", to.input), Required("skeleton", to.skeleton),
+               Required("simple_points_left", to.simple_points_left), Optional("mask", to.mask),
+               Optional("unprepared", to.unprepared), Optional("sampled", to.sampled));
+  }
+  // The members of "options".
+  void Read(const Place& place, ResultDocument& to) {
+    const JsonEvent* const begin = now_;
+    to.options.clear();
+    ReadFields(place, [&](std::string_view name) { to.options.emplace_back(name, Word()); });
+    if (!status_.ok()) return;
+    now_ = begin;
+    std::string cavities, components, border;
+    PreparingOptions& preparing = to.preparing;
+    ReadObject(place, Optional("denoise_passes", preparing.denoise_passes),
+               Optional("cavities", cavities), Optional("tunnel_width", preparing.tunnel_width),
+               Optional("tunnel_cells", preparing.tunnel_cells),
+               Optional("min_component_points", preparing.min_component_points),
+               Optional("min_component_volume", preparing.min_component_volume),
+               Optional("components", components), Optional("border", border));
+    if (cavities == "filled") preparing.cavities = CavityFilling::kOn;
+    if (components == "largest") preparing.components = KeptComponents::kLargest;
+    to.border_continues = border == "continues";
+  }
+  void Read(const Place& place, Order& to) { ReadObject(place, Required("roots", to.roots)); }
+
+  template <typename... T>
+  void ReadObject(const Place& place, Member<T>... members) {
+    ReadFields(place, [&](std::string_view name) {
+      if (!ReadMember(name, {&place, name}, members...)) Skip();
+    });
+    Require(place, members...);
+  }
+  template <typename... T>
+  bool ReadMember(std::string_view name, const Place& place, Member<T>&... members) {
+    const auto read = [&](auto& member) {
+      if (member.name != name) return false;
+      member.found = true;
+      Read(place, member.to);
+      return true;
+    };
+    return (read(members) || ...);
+  }
+  template <typename... T>
+  void Require(const Place& place, const Member<T>&... members) {
+    const auto require = [&](const auto& member) {
+      if (member.required && !member.found) Complain({&place, member.name}, "there");
+    };
+    (require(members), ...);
+  }
+
+  template <typename Use>
+  void ReadFields(const Place& place, Use use) {
+    if (now_->kind != Kind::kBeginObject) return Complain(place, "an object");
+    while ((++now_)->kind != Kind::kEndObject) {
+      const std::string_view name = Text();
+      ++now_;
+      use(name);
+      if (!status_.ok()) return;
+    }
+  }
+  template <typename Use>
+  void ReadItems(const Place& place, std::string_view expected, Use use) {
+    if (now_->kind != Kind::kBeginList) return Complain(place, expected);
+    for (size_t n = 0; (++now_)->kind != Kind::kEndList; ++n) {
+      use(Place{&place, "", n});
+      if (!status_.ok()) return;
+    }
+  }
+
+  // Every Read() and this go to the last event of the value that begins now.
+  void Skip() {
+    int64_t open = 0;
+    for (;; ++now_) {
+      open += now_->kind == Kind::kBeginList || now_->kind == Kind::kBeginObject;
+      open -= now_->kind == Kind::kEndList || now_->kind == Kind::kEndObject;
+      if (open == 0 && now_->kind != Kind::kName) return;
+    }
+  }
+
+  // A value as text; a string without its quotes.
+  std::string Word() {
+    const JsonEvent& begin = *now_;
+    switch (begin.kind) {
+      case Kind::kString:
+        return std::string(Text());
+      case Kind::kNull:
+        return "null";
+      case Kind::kBool:
+        return begin.bits != 0 ? "true" : "false";
+      case Kind::kDouble:
+        return nlohmann::json(std::bit_cast<double>(begin.bits)).dump();
+      case Kind::kUnsigned:
+        return absl::StrCat(begin.bits);
+      case Kind::kNegative:
+        return absl::StrCat(std::bit_cast<int64_t>(begin.bits));
+      default:
+        Skip();
+        return to_.text->substr(begin.bits, now_->bits - begin.bits);
+    }
+  }
+  // Of a string or a name.
+  std::string_view Text() const {
+    return std::string_view(value_->strings).substr(now_->bits, now_->size);
+  }
+
+  void Complain(const Place& place, std::string_view expected) {
+    if (!status_.ok()) return;
+    status_ = absl::InvalidArgumentError(absl::StrCat("no JSON result of bccskel: ", place.Name(),
+                                                      " is not ", std::string(expected)));
+  }
+
+  ResultDocument& to_;
+  const JsonValue* value_ = nullptr;
+  const JsonEvent* now_ = nullptr;
   absl::Status status_;
 };
 
-absl::Status CheckEdges(const ResultDocument& document) {
-  for (const ResultDocument::Edge& edge : document.edges) {
-    const uint64_t last = std::max(edge.source, edge.target);
-    if (last < document.nodes.size()) continue;
+absl::Status CheckIndices(const ResultDocument& document) {
+  const auto check = [&](const char* what, uint64_t node) {
+    if (node < document.nodes.size()) return absl::OkStatus();
     return absl::InvalidArgumentError(
-        absl::StrCat("an edge names node ", last, "; there are ", document.nodes.size(), " nodes"));
+        absl::StrCat(what, " names node ", node, "; there are ", document.nodes.size(), " nodes"));
+  };
+  for (const ResultDocument::Edge& edge : document.edges) {
+    BCCSKEL_RETURN_IF_ERROR(check("an edge", std::max(edge.source, edge.target)));
+  }
+  if (document.roots.has_value()) {
+    for (const uint32_t root : *document.roots) BCCSKEL_RETURN_IF_ERROR(check("the order", root));
   }
   return absl::OkStatus();
 }
 
-// In the order in which they stand, which Json forgets. (Objects of ordered_json copy their members
-// whenever they grow: a whole document takes three times as long.)
-std::vector<std::pair<std::string, std::string>> OptionsIn(std::string_view text) {
-  using OrderedJson = nlohmann::ordered_json;
-  const auto only_options = [](int depth, Json::parse_event_t event, OrderedJson& parsed) {
-    return depth != 1 || event != Json::parse_event_t::key || parsed == "options";
-  };
-  const OrderedJson json = OrderedJson::parse(text, only_options, /*allow_exceptions=*/false);
-  std::vector<std::pair<std::string, std::string>> options;
-  if (!json.is_object() || !json.contains("options")) return options;
-  for (const auto& [name, value] : json["options"].items()) {
-    options.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
-  }
-  return options;
-}
-
 }  // namespace
 
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text) {
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   ResultDocument document;
-  document.json =
-      std::make_shared<const Json>(Json::parse(text, nullptr, /*allow_exceptions=*/false));
-  const Json& json = *document.json;
-  if (json.is_discarded())
-    return absl::InvalidArgumentError("not a JSON result of skeletonize or submit");
-  Reader reader;
-  reader.ReadMember(json, {}, "nodes", document.nodes);
-  reader.ReadMember(json, {}, "edges", document.edges);
-  reader.ReadMember(json, {}, "certificate", document.certificate);
-  reader.ReadMember(json, {}, "object_points", document.object_points);
-  BCCSKEL_RETURN_IF_ERROR(reader.status());
-  reader.ReadIfThere(json, "sheets", document.sheets);
-  reader.ReadIfThere(json, "options", document.preparing);
-  BCCSKEL_RETURN_IF_ERROR(reader.status());
-  if (json.contains("options")) {
-    document.border_continues = json["options"].value("border", Json()) == "continues";
-  }
-  if (json.contains("placement")) {
-    reader.ReadMember(json, {}, "placement", document.placement.emplace());
-  }
-  BCCSKEL_RETURN_IF_ERROR(reader.status());
-  BCCSKEL_RETURN_IF_ERROR(CheckEdges(document));
-  document.options = OptionsIn(text);
+  document.text = std::make_shared<const std::string>(std::move(text));
+  BCCSKEL_RETURN_IF_ERROR(Reader(document).Run());
+  BCCSKEL_RETURN_IF_ERROR(CheckIndices(document));
   return document;
 }
 
 absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path) {
   constexpr uint64_t kMostBytes = uint64_t{1} << 31;
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(path, kMostBytes));
-  absl::StatusOr<ResultDocument> document = ParseResultDocument(text);
+  BCCSKEL_ASSIGN_OR_RETURN(std::string text, ReadFileBytes(path, kMostBytes));
+  absl::StatusOr<ResultDocument> document = ParseResultDocument(std::move(text));
   if (document.ok()) return document;
   return absl::Status(document.status().code(),
                       absl::StrCat(path, ": ", document.status().message()));

@@ -1,9 +1,10 @@
 #ifndef BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
 #define BCCSKEL_CLIENT_VIEW_RESULT_DOCUMENT_H_
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,40 +18,56 @@
 
 namespace bccskel::view {
 
-// What pictures show of a JSON result (client/export/skeleton.schema.json). World coordinates.
+// A JSON result (client/export/skeleton.schema.json). World coordinates.
 struct ResultDocument {
   struct Node {
     std::string kind;
     WorldPoint position;
     double radius;
+    int32_t birth = 0;
+    uint32_t loops = 0;
+    uint32_t cavities = 0;
   };
   struct Edge {
     uint64_t source;  // index into nodes
     uint64_t target;
     std::vector<WorldPoint> points;
-    std::vector<double> radii;  // one per point
+    std::vector<double> radii;    // one per point
+    std::vector<int32_t> births;  // one per point, or none
+    std::vector<std::array<int16_t, 3>> shifts;
     double length;
+    double pruning_level = std::numeric_limits<double>::infinity();
   };
   // Points on no edge.
   struct Sheets {
     std::vector<WorldPoint> points;
-    std::vector<double> radii;  // one per point
+    std::vector<double> radii;    // one per point
+    std::vector<int32_t> births;  // one per point, or none
   };
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   Sheets sheets;
   std::optional<Placement> placement;  // unknown in results of older versions
   PreparingOptions preparing;          // what was done to the object before thinning
+  std::vector<PreparingStep> steps;    // and what came of it
   bool border_continues = false;       // then balls reach beyond it
   Certificate certificate;
   uint64_t object_points = 0;
   std::vector<std::pair<std::string, std::string>> options;  // in the document's order
-  std::shared_ptr<const nlohmann::json> json;                // the document itself
+  std::string method = "unknown";
+  std::string algorithm_version = "unknown";
+  std::string world = "unknown";
+  std::string unit = "unknown";
+  std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
+  std::shared_ptr<const std::string> text;     // the document itself
+  // Values in it, in order, that a page has in another form: timings, sheets, and the points of
+  // edges that have a smooth curve.
+  std::vector<std::string_view> not_on_pages;
 };
 
 // Errors: INVALID_ARGUMENT with the place of the first thing that is not as the schema says.
 // Members that the schema may gain are ignored, and those that it has gained may be missing.
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string_view text);
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
 
 // Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED
 //         for a file above 2 GiB.

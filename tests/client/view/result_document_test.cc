@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "client/export/json.h"
 #include "tests/client/export/sample_skeletons.h"
@@ -81,17 +80,36 @@ TEST(ResultDocumentTest, OfAnOlderVersionHasNoSheetsAndNoPlacement) {
 }
 
 TEST(ResultDocumentTest, IgnoresWhatItDoesNotKnow) {
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  EXPECT_TRUE(ParseResultDocument(SmallWith("[null]", deep)).ok());
   const auto document = ParseResultDocument(kSmall);
   ASSERT_TRUE(document.ok()) << document.status();
   EXPECT_EQ(document->edges[0].points[1], (WorldPoint{1, 1, 1.5}));
-  EXPECT_EQ((*document->json)["something_new"].size(), 1u);
+  EXPECT_THAT(*document->text, HasSubstr("\"something_new\":[null]"));
+}
+
+TEST(ResultDocumentTest, KnowsWhatPagesHaveInAnotherForm) {
+  const std::string text = SmallWith(
+      "\"length\":2}", R"("curve":[[0,0,0]],"length":2},{"source":0,"target":0,"curve":[],)"
+                       R"("radii":[1], "points" : [ [0,0,0] ] ,"length":0},)"
+                       R"({"source":0,"target":0,"points":[[9,9,9]],"radii":[1],"length":0})");
+  const auto document = ParseResultDocument(
+      std::string(text).replace(text.find("[null]"), 6, R"(0,"timings":{"a":[1]},"sheets":
+      {"points":[],"radii":[]})"));
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_EQ(document->edges.size(), 3u);
+  EXPECT_THAT(document->not_on_pages, ElementsAre("[[0,0,0],[1,1,1.5]]", "[ [0,0,0] ]",
+                                                  R"({"a":[1]})", R"({"points":[],"radii":[]})"));
 }
 
 TEST(ResultDocumentTest, OptionsKeepTheirOrder) {
   const auto document = ParseResultDocument(
-      SmallWith("\"something_new\":[null]", R"("options":{"kind":"curve","border":0.5})"));
+      SmallWith("\"something_new\":[null]",
+                R"("options":{"kind":"curve","b":0.5,"n":-3,"t":true,"l":[1, 2]})"));
   ASSERT_TRUE(document.ok()) << document.status();
-  EXPECT_THAT(document->options, ElementsAre(Pair("kind", "curve"), Pair("border", "0.5")));
+  EXPECT_THAT(document->options,
+              ElementsAre(Pair("kind", "curve"), Pair("b", "0.5"), Pair("n", "-3"),
+                          Pair("t", "true"), Pair("l", "[1, 2]")));
   EXPECT_THAT(ParseResultDocument(kSmall)->options, IsEmpty());
 }
 
@@ -101,7 +119,8 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
     std::string message;
   } cases[] = {
       {"", "not a JSON result"},
-      {"[]", "nodes is not there"},
+      {"[]", "submit: it is not an object"},
+      {"3", "submit: it is not an object"},
       {"{}", "nodes is not there"},
       {SmallWith("[1,1,1.5],\"radius\"", "[1,1],\"radius\""), "nodes[1].position is not three"},
       {SmallWith("\"radius\":0.5", "\"radius\":\"big\""), "nodes[1].radius is not a finite"},
@@ -110,6 +129,22 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
       {SmallWith("\"target\":1", "\"target\":-1"), "edges[0].target is not an integer in range"},
       {SmallWith("\"loops\":0", "\"loops\":0.5"), "certificate.input.loops is not an integer"},
       {SmallWith("\"object_points\":9", "\"points\":9"), "object_points is not there"},
+      {SmallWith("\"object_points\":9", "\"order\":{\"roots\":[2]},\"object_points\":9"),
+       "order names node 2; there are 2"},
+      {SmallWith("\"length\":2", "\"length\":2,\"births\":[1]"), "edges[0] is not with a birth"},
+      {SmallWith("\"length\":2", "\"length\":2,\"shifts\":[[0,0,32768],[0,0,0]]"),
+       "edges[0].shifts[0][2] is not an integer in range"},
+      // also where nothing is kept
+      {SmallWith("[null]", "[nul]"), "not a JSON result of skeletonize or submit: byte "},
+      {SmallWith("[null]", "[1.2.3]"), "not a JSON result"},
+      {SmallWith("[null]", "[1,]"), "not a JSON result"},
+      {SmallWith("[null]", "[1"), "not a JSON result"},
+      {SmallWith("[null]", "{\"a\"}"), "not a JSON result"},
+      {SmallWith("[null]", "1e400"), "not a JSON result"},
+      {SmallWith("[null]", "\"\xff\""), "not a JSON result"},
+      {SmallWith("[null]", "[[]"), "not a JSON result"},
+      {std::string(kSmall) + "{}", "not a JSON result"},
+      {std::string(kSmall).substr(0, 100), "not a JSON result"},
   };
   for (const auto& [text, message] : cases) {
     const absl::Status status = ParseResultDocument(text).status();
