@@ -1,6 +1,7 @@
 #include "core/import/voxelize/voxelize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/import/voxelize/crossings.h"
 #include "core/import/voxelize/grid_fit.h"
 #include "core/import/voxelize/solid_fill.h"
+#include "core/import/voxelize/topology_repair.h"
 
 namespace bccskel {
 namespace {
@@ -22,6 +24,10 @@ std::string InWords(const SolidTopology& solid) {
   return Counted(solid.components, "component", "components") + ", " +
          Counted(solid.loops, "loop", "loops") + ", " +
          Counted(solid.cavities, "cavity", "cavities");
+}
+
+SolidTopology AsSolid(const BettiNumbers& grid) {
+  return {grid.components, grid.loops, grid.cavities};
 }
 
 absl::Status CheckOptions(const VoxelizeOptions& options) {
@@ -101,7 +107,7 @@ class Voxelizer {
     BCCSKEL_ASSIGN_OR_RETURN(result.volume, FillAsAsked());
     if (options_.topology == TopologyCheck::kCompare) {
       BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
-      BCCSKEL_RETURN_IF_ERROR(WarnAboutTopology(result.fill, *result.topology));
+      BCCSKEL_RETURN_IF_ERROR(CompareTopology(result));
     }
     result.warnings = std::move(warnings_);
     result.mesh = std::move(surface_.report);
@@ -117,26 +123,66 @@ class Voxelizer {
     return volume;
   }
 
-  absl::Status WarnAboutTopology(FillRule fill, const BettiNumbers& grid) {
-    const SolidTopology found = {grid.components, grid.loops, grid.cavities};
+  // Repairs the topology, or warns about it.
+  absl::Status CompareTopology(VoxelizeResult& result) {
+    const SolidTopology found = AsSolid(*result.topology);
     if (surface_.report.closure == SurfaceClosure::kOpen) {
       warnings_.push_back("the volume has " + InWords(found) +
                           "; the topology of an open mesh is not known, so check them");
       return absl::OkStatus();
     }
-    const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, fill);
+    const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);
     if (!mesh || *mesh == found) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
-    const std::string difference =
-        "the volume has " + InWords(found) + ", but the mesh has " + InWords(*mesh) + ": ";
+    if (crossings == 0) BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
+    if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
     warnings_.push_back(
-        difference + (crossings == 0
-                          ? "walls or gaps are thinner than a cell, which more points or a smaller "
-                            "spacing resolve, or parts touch"
-                          : Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
-                                    "pairs of triangles cross") +
-                                "; repair the mesh, or try --denoise 1, which removes thin "
-                                "spots and small holes"));
+        "the volume has " + InWords(AsSolid(*result.topology)) + ", but the mesh has " +
+        InWords(*mesh) + ": " +
+        (crossings == 0 ? "walls or gaps are thinner than a cell, which more points or a smaller "
+                          "spacing resolve, or parts touch" +
+                              WallsInWords(result.volume)
+                        : Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
+                                  "pairs of triangles cross") +
+                              "; repair the mesh, or try --denoise 1, which removes thin "
+                              "spots and small holes"));
+    return absl::OkStatus();
+  }
+
+  // Where it is near a cell or below, what would resolve the mean thickness of walls, which is
+  // twice the volume by the area; "" elsewhere.
+  std::string WallsInWords(const Volume& volume) const {
+    double area = 0;
+    for (const auto& [a, b, c] : surface_.triangles) {
+      const auto& v = surface_.vertices;
+      std::array<double, 3> ab, ac;
+      for (size_t n = 0; n < 3; ++n) {
+        ab[n] = v[b][n] - v[a][n];
+        ac[n] = v[c][n] - v[a][n];
+      }
+      area += std::hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                         ab[0] * ac[1] - ab[1] * ac[0]) /
+              2;
+    }
+    const double thickness = 2 * surface_.unit_volume / area;
+    const double cell = volume.placement().spacing[0] / surface_.half_size / 2;
+    if (!(thickness > 0 && thickness < 2 * cell)) return "";
+    const double spacing = thickness / 2;
+    const double points = 2 * surface_.unit_volume / (spacing * spacing * spacing);
+    return absl::StrFormat(
+        "; walls are about %.2g thick and cells %.2g wide, so try --spacing %.2g, which takes "
+        "about "
+        "%.2g points",
+        InWorld(thickness), InWorld(cell), InWorld(spacing), points);
+  }
+  double InWorld(double length) const { return length * surface_.half_size * 2; }
+
+  absl::Status Repair(const SolidTopology& mesh, VoxelizeResult& result) {
+    const BettiNumbers wanted = {mesh.components, mesh.loops, mesh.cavities};
+    BCCSKEL_ASSIGN_OR_RETURN(Volume repaired, RepairTopology(std::move(result.volume),
+                                                             *result.topology, wanted, context_));
+    result.volume = std::move(repaired);
+    BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
     return absl::OkStatus();
   }
 

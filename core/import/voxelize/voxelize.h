@@ -17,7 +17,9 @@
 
 namespace bccskel {
 
-// Whether the topology of the grid is counted and compared with that of the mesh.
+// Whether the topology of the grid is counted and compared with that of the mesh, which is that of
+// the solid if the mesh is closed and does not cross itself. Then the volume is repaired where that
+// succeeds (see topology_repair.h).
 enum class TopologyCheck { kCompare, kSkip };
 
 struct VoxelizeOptions {

@@ -1,0 +1,122 @@
+// Sharp edges, along which a sampling hangs together by chance.
+#include "core/import/voxelize/topology_repair.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "tests/core/import/voxelize/voxelized.h"
+
+namespace bccskel {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A prism of length 4 over a triangle of width 2 and this height: its two long edges are sharp.
+TriangleMesh Blade(double height) {
+  TriangleMesh mesh;
+  for (const double z : {-2.0, 2.0}) {
+    mesh.vertices.insert(mesh.vertices.end(), {{-1, 0, z}, {1, 0, z}, {0, height, z}});
+  }
+  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                    {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  return mesh;
+}
+
+TriangleMesh Turned(TriangleMesh mesh, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::array<double, 4> q;
+  for (double& part : q) part = normal(random);
+  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  for (double& part : q) part /= size;
+  const auto [w, x, y, z] = q;
+  for (auto& v : mesh.vertices) {
+    const auto [a, b, c] = v;
+    v = {(1 - 2 * (y * y + z * z)) * a + 2 * (x * y - w * z) * b + 2 * (x * z + w * y) * c,
+         2 * (x * y + w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z - w * x) * c,
+         2 * (x * z - w * y) * a + 2 * (y * z + w * x) * b + (1 - 2 * (x * x + y * y)) * c};
+  }
+  return mesh;
+}
+
+uint64_t PointsApart(const Volume& a, const Volume& b) {
+  uint64_t apart = 0;
+  a.ForEachPoint([&](LatticePoint p) { apart += !b.Contains(p); });
+  b.ForEachPoint([&](LatticePoint p) { apart += !a.Contains(p); });
+  return apart;
+}
+
+TEST(TopologyRepair, BladesHaveTheTopologyOfTheirMeshInEveryPose) {
+  std::mt19937 random(1);
+  int different = 0;
+  for (int n = 0; n < 24; ++n) {
+    const TriangleMesh mesh = Turned(Blade(0.2 + 0.05 * (n % 4)), random);
+    const VoxelizeResult plain =
+        test::Voxelized(mesh, {.points = 20000, .topology = TopologyCheck::kSkip});
+    const VoxelizeResult result = test::Voxelized(mesh, {.points = 20000});
+    EXPECT_THAT(result.warnings, IsEmpty());
+    EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
+    EXPECT_EQ(CountBettiNumbers(result.volume, {}).value(), (BettiNumbers{1, 0, 0}));
+    const BettiNumbers found = CountBettiNumbers(plain.volume, {}).value();
+    const uint64_t apart = PointsApart(plain.volume, result.volume);
+    EXPECT_EQ(apart == 0, found == (BettiNumbers{1, 0, 0}));
+    EXPECT_LE(apart, 20u + 4 * static_cast<uint64_t>(found.loops));
+    different += apart > 0;
+  }
+  EXPECT_GE(different, 8);  // or the test shows nothing
+}
+
+// A cube of lattice points with a spine of single points, and a handle that is one point thick.
+struct SpineAndHandle {
+  VolumeBuilder builder{LatticeExtent{20, 20, 20}};
+  std::vector<LatticePoint> spine;
+
+  explicit SpineAndHandle(bool handle) {
+    for (int32_t z = 10; z < 20; ++z) {
+      for (int32_t y = 10; y < 20; ++y) {
+        for (int32_t x = 10; x < 20; ++x) {
+          if (IsOnLattice({x, y, z})) builder.Add({x, y, z});
+        }
+      }
+    }
+    for (int32_t x = 20; x < 34; x += 2) spine.push_back({x, 14, 14});
+    for (const LatticePoint p : spine) builder.Add(p);
+    if (!handle) return;
+    for (int32_t y = 20; y < 26; y += 2) builder.Add({12, y, 12});
+    for (int32_t x = 12; x < 18; x += 2) builder.Add({x, 26, 12});
+    for (int32_t y = 20; y < 27; y += 2) builder.Add({18, y, 12});
+  }
+};
+
+TEST(TopologyRepair, CutsAFalseHandleAndKeepsAThinLimb) {
+  SpineAndHandle made(/*handle=*/true);
+  const Volume sampling = std::move(made.builder).Build().value();
+  const BettiNumbers found = CountBettiNumbers(sampling, {}).value();
+  ASSERT_EQ(found, (BettiNumbers{1, 1, 0}));
+  const Volume repaired = RepairTopology(sampling, found, {1, 0, 0}, {}).value();
+  EXPECT_EQ(CountBettiNumbers(repaired, {}).value(), (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(PointsApart(sampling, repaired), 1u);
+  for (const LatticePoint p : made.spine) EXPECT_TRUE(repaired.Contains(p));
+}
+
+TEST(TopologyRepair, LeavesWhatItCannotBringNearer) {
+  SpineAndHandle made(/*handle=*/true);
+  const Volume sampling = std::move(made.builder).Build().value();
+  for (const BettiNumbers wanted : {BettiNumbers{1, 1, 1}, BettiNumbers{2, 0, 0}}) {
+    EXPECT_EQ(RepairTopology(sampling, {1, 1, 0}, wanted, {}).value(), sampling);
+  }
+}
+
+TEST(TopologyRepair, AWallThinnerThanCellsIsNamedWithItsRemedy) {
+  TriangleMesh mesh = Blade(0.01);
+  const VoxelizeResult result = test::Voxelized(mesh, {.spacing = 0.05});
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("cells 0.05 wide, so try --spacing 0.00")));
+}
+
+}  // namespace
+}  // namespace bccskel
