@@ -54,7 +54,8 @@ struct PrunedObject {
   double surface_step = 1;
   // That voxels were cut into along x, y and z.
   std::array<int32_t, 3> slabs = {1, 1, 1};
-  // Where widths and depths are measured, if not in the object: the same in a window.
+  // Where depths are measured, if not in the object: the same in a window. Widths across branches
+  // end where the object is cut off: beyond, all of a thin stack would be as wide as it is not high.
   const Volume* space = nullptr;
 };
 

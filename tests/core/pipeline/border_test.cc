@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "core/exec/worker_team.h"
@@ -78,6 +79,24 @@ TEST(Border, ARodThatIsCutOffRunsStraightToIt) {
     for (const SkeletonNode& node : SkeletonOf(rod, {}).graph.nodes) {
       EXPECT_LT(node.at.radius, 0.8 * radius + 2);
     }
+  }
+}
+
+// Two crossed bars, cut out of a stack of this height: limbs stay, however thin the stack is.
+TEST(Border, LimbsInAThinStackKeepTheirCurvesAndRadii) {
+  for (const int32_t height : {1, 3, 10}) {
+    const Volume cross = VolumeWhere({64, 64, height}, [](double x, double y, double /*z*/) {
+      const double across = std::min(std::abs(x - 60), std::abs(y - 66));
+      return across <= 7 && std::max(std::abs(x - 60), std::abs(y - 66)) <= 50;
+    });
+    const SkeletonizeResult result = SkeletonOf(cross, Continued());
+    EXPECT_EQ(std::ranges::count(result.graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 4)
+        << height;
+    double deepest = 0;
+    for (const SkeletonNode& node : result.graph.nodes) {
+      deepest = std::max<double>(deepest, node.at.radius);
+    }
+    EXPECT_NEAR(deepest, 7 * std::numbers::sqrt2, 2) << height;
   }
 }
 
