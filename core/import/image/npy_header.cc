@@ -29,6 +29,7 @@ absl::StatusOr<std::string_view> ValueOf(std::string_view dictionary, std::strin
 struct Elements {
   VoxelType type;
   std::endian order;
+  StoredHalves halves = StoredHalves::kNo;
 };
 
 absl::Status BadElements(std::string_view descr) {
@@ -44,6 +45,7 @@ absl::StatusOr<Elements> ElementsOf(std::string_view dictionary) {
   const std::string_view name = descr.substr(2, 2);
   if (descr[1] != '<' && descr[1] != '>' && descr[1] != '|') return BadElements(descr);
   if (name == "b1") return Elements{VoxelType::kUint8, order};
+  if (name == "f2") return Elements{VoxelType::kUint16, order, StoredHalves::kYes};
   const std::optional<int> bytes = ParseNumber<int>(name.substr(1));
   if (!bytes.has_value()) return BadElements(descr);
   const std::string short_name = absl::StrFormat("%c%d", name[0], 8 * *bytes);
@@ -115,6 +117,7 @@ absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits&
   image.info.format = "npy";
   BCCSKEL_ASSIGN_OR_RETURN(const Elements elements, ElementsOf(header.dictionary));
   image.stored_type = elements.type;
+  image.halves = elements.halves;
   image.byte_order = elements.order;
   BCCSKEL_ASSIGN_OR_RETURN(image.voxel_order, VoxelOrderOf(header.dictionary));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> shape, ShapeOf(header.dictionary));

@@ -19,6 +19,15 @@ void ReverseEach(std::span<std::byte> bytes) {
   }
 }
 
+float FromHalf(uint16_t half) {
+  const uint32_t bits = static_cast<uint32_t>(half & 0x7fff) << 13;
+  const bool finite = (half & 0x7c00) != 0x7c00;
+  // 15 is the middle of its exponents, 127 that of a float.
+  const float size =
+      finite ? std::bit_cast<float>(bits) * 0x1p112F : std::bit_cast<float>(bits | 0x7f800000);
+  return (half & 0x8000) == 0 ? size : -size;
+}
+
 }  // namespace
 
 void SliceBuffer::Resize(VoxelType type, uint64_t voxels) {
@@ -54,6 +63,13 @@ SliceValues SliceBuffer::Scaled(double slope, double intercept) {
       },
       values());
   return std::span<const double>(scaled_);
+}
+
+SliceValues SliceBuffer::Halves() {
+  const std::span<const uint16_t> values = SpanOf<uint16_t>(bytes_);
+  halves_.resize(values.size());
+  std::ranges::transform(values, halves_.begin(), FromHalf);
+  return std::span<const float>(halves_);
 }
 
 }  // namespace bccskel

@@ -53,11 +53,14 @@ class SliceBuffer {
   void SwapFrom(std::endian order);
   // slope * value + intercept of all values, as float64.
   SliceValues Scaled(double slope, double intercept);
+  // The values of 16 bits as numbers of half precision (IEEE 754), as float32.
+  SliceValues Halves();
 
  private:
   VoxelType type_ = VoxelType::kUint8;
   exec::UninitializedVector<std::byte> bytes_;
   std::vector<double> scaled_;
+  std::vector<float> halves_;
 };
 
 }  // namespace bccskel

@@ -74,8 +74,9 @@ class StoredSource : public ImageSource {
       BCCSKEL_RETURN_IF_ERROR(Fill(z_, buffer_.bytes()));
       if (z_ + 1 == size.nz) BCCSKEL_RETURN_IF_ERROR(CheckEnd(image_, *stream_));
       buffer_.SwapFrom(image_.byte_order);
-      const SliceValues values =
-          image_.Scaled() ? buffer_.Scaled(image_.slope, image_.intercept) : buffer_.values();
+      const SliceValues values = image_.halves == StoredHalves::kYes ? buffer_.Halves()
+                                 : image_.Scaled() ? buffer_.Scaled(image_.slope, image_.intercept)
+                                                   : buffer_.values();
       return ImageSlice{.nx = size.nx, .ny = size.ny, .z = z_++, .values = values};
     } catch (const std::bad_alloc&) {
       return absl::ResourceExhaustedError(
@@ -163,7 +164,9 @@ class ZFastestSource : public StoredSource {
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenStoredImage(StoredImage image,
                                                              const ImageLimits& limits) {
-  image.info.type = image.Scaled() ? VoxelType::kFloat64 : image.stored_type;
+  image.info.type = image.halves == StoredHalves::kYes ? VoxelType::kFloat32
+                    : image.Scaled()                   ? VoxelType::kFloat64
+                                                       : image.stored_type;
   BCCSKEL_RETURN_IF_ERROR(CheckLength(image));
   BCCSKEL_ASSIGN_OR_RETURN(auto stream, OpenVoxels(image));
   if (image.voxel_order == VoxelOrder::kZFastest) {

@@ -17,11 +17,15 @@ namespace bccskel {
 // Which axis varies fastest in the file.
 enum class VoxelOrder { kXFastest, kZFastest };
 
+// Whether the stored values of 16 bits are numbers of half precision, which slices give as float32.
+enum class StoredHalves { kNo, kYes };
+
 // What every format but TIFF comes down to: one array of voxels in one stream of bytes. The readers
 // of headers fill it in; from there on all formats share one way.
 struct StoredImage {
   ImageInfo info;
   VoxelType stored_type = VoxelType::kUint8;
+  StoredHalves halves = StoredHalves::kNo;
   std::endian byte_order = std::endian::little;
   VoxelOrder voxel_order = VoxelOrder::kXFastest;
 

@@ -124,8 +124,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Npy, RefusedHeader,
     ::testing::Values(
-        Refused{"half", Npy("{'descr': '<f2', 'fortran_order': False, 'shape': (2, 2, 3), }"),
-                kInvalid, "'<f2'"},
+        Refused{"long_double",
+                Npy("{'descr': '<f16', 'fortran_order': False, 'shape': (2, 2, 3), }"), kInvalid,
+                "'<f16'"},
         Refused{"complex", Npy("{'descr': '<c8', 'fortran_order': False, 'shape': (2, 2, 3), }"),
                 kInvalid, "'<c8'"},
         Refused{"record", Npy("{'descr': [('a', '<u1')], 'fortran_order': False, 'shape': (2,), }"),

@@ -158,6 +158,19 @@ TEST(OpenImage, ReadsNpyWithTheLastAxisAsX) {
   EXPECT_EQ(image->values, CountedTo(12));
 }
 
+TEST(OpenImage, ReadsNpyOfHalfPrecision) {
+  const std::string dictionary = "{'descr': '<f2', 'fortran_order': False, 'shape': (1, 2, 4), }";
+  std::string elements;
+  for (const int half : {0x0000, 0x3c00, 0xbe00, 0x7bff, 0x0001, 0x8400, 0xfc00, 0x7e01}) {
+    elements += Bytes(static_cast<uint16_t>(half));
+  }
+  const auto image = ReadBytes(Npy(dictionary, elements));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(image->info.type, VoxelType::kFloat32);
+  EXPECT_THAT(image->values,
+              ElementsAre(0, 1, -1.5, 65504, 0x1p-24, -0x1p-14, -HUGE_VAL, ::testing::IsNan()));
+}
+
 TEST(OpenImage, ReadsNpyInFortranOrderAsTheSameArray) {
   // Element (z, y, x) of a 2 x 3 x 4 array is 12 z + 4 y + x; in the file, z varies fastest.
   std::string elements;
