@@ -73,14 +73,14 @@ class Reader {
   explicit Reader(ResultDocument& to) : to_(to) {}
 
   absl::Status Run() && {
-    Unkept timed;
+    Unkept timed, labels;
     NotOnPages timings{timed};
     NotOnPages sheets{to_.sheets};
     Order order{to_.roots};
     return ReadDocument(
         Required("nodes", to_.nodes), Required("edges", to_.edges), Optional("sheets", sheets),
         Required("certificate", to_.certificate), Required("object_points", to_.object_points),
-        Optional("options", to_), Optional("preparing", to_.steps),
+        Optional("options", to_), Optional("preparing", to_.steps), Optional("labels", labels),
         Optional("placement", to_.placement), Optional("method", to_.method),
         Optional("algorithm_version", to_.algorithm_version), Optional("world", to_.world),
         Optional("unit", to_.unit), Optional("order", order), Optional("timings", timings));
@@ -90,7 +90,7 @@ class Reader {
   template <typename... T>
   absl::Status ReadDocument(Member<T>... members) {
     const Place document;
-    const JsonMembers wanted = {{members.name...}, {"nodes", "edges"}};
+    const JsonMembers wanted = {{members.name...}, {"nodes", "edges", "labels"}};
     const auto take = [&](std::string_view name, std::optional<size_t> item,
                           const JsonValue& value) {
       value_ = &value;
@@ -98,6 +98,10 @@ class Reader {
       const Place here = {&document, name};
       if (!item.has_value()) {
         ReadMember(name, here, members...);
+      } else if (name == "labels") {
+        status_ = absl::InvalidArgumentError(
+            "holds the skeletons of many labels; have `bccskel labels` write the wanted format, or "
+            "take the member \"skeleton\" of one label");
       } else if (name == "nodes") {
         Read({&here, "", *item}, to_.nodes.emplace_back());
       } else {

@@ -122,6 +122,9 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
       {"[]", "submit: it is not an object"},
       {"3", "submit: it is not an object"},
       {"{}", "nodes is not there"},
+      {R"({"labels":[{"label":1,"skeleton":{}}]})",
+       "holds the skeletons of many labels; have `bccskel labels` write the wanted format, or take "
+       "the member \"skeleton\" of one label"},
       {SmallWith("[1,1,1.5],\"radius\"", "[1,1],\"radius\""), "nodes[1].position is not three"},
       {SmallWith("\"radius\":0.5", "\"radius\":\"big\""), "nodes[1].radius is not a finite"},
       {SmallWith("[1,0.5]", "[1]"), "edges[0] is not an edge with points and as many radii"},
