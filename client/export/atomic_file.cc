@@ -15,7 +15,13 @@ namespace {
 
 absl::Status ErrnoStatus(const std::string& path) {
   const int error = errno;
-  return absl::ErrnoToStatus(error, "cannot write " + path);
+  const std::string message = "cannot write " + path, folder = path.substr(0, path.rfind('/') + 1);
+  std::error_code ignored;
+  if (error == ENOENT && !folder.empty() && !std::filesystem::exists(folder, ignored)) {
+    return absl::NotFoundError(message + ": the folder " + folder.substr(0, folder.size() - 1) +
+                               " does not exist; make it first");
+  }
+  return absl::ErrnoToStatus(error, message);
 }
 
 // Owns a file descriptor.

@@ -67,6 +67,13 @@ TEST_F(AtomicFileTest, ReplacesAFile) {
   EXPECT_EQ(ReadBack(folder_ / "file"), "new");
 }
 
+TEST_F(AtomicFileTest, AFolderThatIsNotThereIsNamed) {
+  const std::string folder = folder_ / "a/b", path = folder + "/c.swc";
+  EXPECT_EQ(CheckWritable(path).message(),
+            "cannot write " + path + ": the folder " + folder + " does not exist; make it first");
+  EXPECT_TRUE(absl::IsNotFound(WriteFileAtomically(path, "bytes")));
+}
+
 TEST_F(AtomicFileTest, ALinkStaysALink) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
   fs::create_symlink("file", folder_ / "link");
