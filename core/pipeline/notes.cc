@@ -56,6 +56,21 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
                                          width));
 }
 
+// So many parts are seldom wanted.
+void AddSpecks(const SkeletonizeResult& result, Notes& notes) {
+  constexpr int64_t kMany = 1000;
+  const int64_t components = result.certificate.input.components;
+  const PreparingOptions& preparing = result.options.preparing;
+  if (components < kMany || preparing.min_component_points > 0 ||
+      preparing.min_component_volume > 0) {
+    return;
+  }
+  notes.push_back(absl::StrFormat(
+      "the object has %d components, as specks of noise make them; --min-component 200 drops small "
+      "ones, --keep-largest all but one",
+      components));
+}
+
 void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
   if (result.certificate.Given() == BettiNumbers()) notes.push_back("the object has no points");
 }
@@ -63,7 +78,11 @@ void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
 void AddPreparing(const SkeletonizeResult& result, Notes& notes) {
   const BettiNumbers &before = result.certificate.Given(), &after = result.certificate.input;
   if (result.object_points == 0 && !result.preparing.empty() && before != BettiNumbers()) {
-    notes.push_back("nothing is left of the object after preparing");
+    const auto emptied =
+        std::ranges::find_if(result.preparing.rbegin(), result.preparing.rend(),
+                             [](const PreparingStep& step) { return step.points_removed > 0; });
+    notes.push_back("nothing is left of the object after preparing" +
+                    (emptied == result.preparing.rend() ? "" : ": " + WordsFor(*emptied)));
     return;
   }
   if (before == after) return;
@@ -89,6 +108,7 @@ std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   AddPreparing(result, notes);
   AddCavities(result, notes);
   AddNarrowLoops(result, notes);
+  AddSpecks(result, notes);
   AddSimplePoints(result, notes);
   return notes;
 }

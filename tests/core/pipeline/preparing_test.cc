@@ -88,9 +88,22 @@ TEST(NotesOn, NameTheClosedSurfacesAndTheOptionAgainstThem) {
 }
 
 TEST(NotesOn, SayWhenNothingIsLeft) {
-  EXPECT_THAT(NotesOn(SkeletonOf(HollowBall(), {.preparing = {.min_component_points = 1 << 20}})),
-              ElementsAre(HasSubstr("nothing is left")));
+  EXPECT_THAT(
+      NotesOn(SkeletonOf(HollowBall(), {.preparing = {.min_component_points = 1 << 20}})),
+      ElementsAre("nothing is left of the object after preparing: 1 small component dropped"));
   EXPECT_THAT(NotesOn(SkeletonOf(Volume(), {})), ElementsAre("the object has no points"));
+}
+
+TEST(NotesOn, NameTheOptionsAgainstSpecks) {
+  const auto specks = [](int32_t number) {
+    VolumeBuilder points({400, 400, 400});
+    for (int32_t n = 0; n < number; ++n) points.Add({8 * (n % 40), 8 * (n / 40), 0});
+    return *std::move(points).Build();
+  };
+  EXPECT_THAT(NotesOn(SkeletonOf(specks(1000), {})),
+              ElementsAre("the object has 1000 components, as specks of noise make them; "
+                          "--min-component 200 drops small ones, --keep-largest all but one"));
+  EXPECT_THAT(NotesOn(SkeletonOf(specks(999), {})), IsEmpty());
 }
 
 TEST(NotesOn, SayWhySimplePointsAreLeft) {
