@@ -78,6 +78,16 @@ bool LacksToken(const ServerArguments& server, const absl::Status& error) {
          std::getenv("BCCSKEL_TOKEN_FILE") == nullptr;
 }
 
+// Who computes here has started no job.
+std::string MessageHere(const absl::Status& error) {
+  constexpr std::string_view kOfJob = "the job was cancelled";
+  std::string message(error.message());
+  if (absl::IsCancelled(error) && message.ends_with(kOfJob)) {
+    message.replace(message.size() - kOfJob.size(), message.npos, "interrupted");
+  }
+  return message;
+}
+
 // Files that may not be read are no question of credentials.
 ExitCode CodeOf(const absl::Status& error) {
   return absl::IsPermissionDenied(error) ? ExitCode::kCredentials : ExitCodeOf(error);
@@ -100,20 +110,19 @@ ExitCode Fail(const absl::Status& error, std::string_view hint) {
 }
 
 ExitCode FailWith(ExitCode code, const absl::Status& error) {
-  PrintLine("error", std::string(error.message()));
+  PrintLine("error", MessageHere(error));
   return code;
 }
 
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint) {
-  const std::string message = "server " + server.address + ": " + std::string(error.message());
-  const ExitCode code = FailWith(CodeOf(error), absl::Status(error.code(), message));
+  PrintLine("error", "server " + server.address + ": " + std::string(error.message()));
   if (!hint.empty()) PrintLine("hint", hint);
   if (LacksToken(server, error)) PrintLine("hint", "name the file of your token with --token-file");
   if (MayWantTls(server, error)) {
     PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
   }
-  return code;
+  return CodeOf(error);
 }
 
 ExitCode Print(std::string_view text) {

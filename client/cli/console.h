@@ -55,6 +55,7 @@ void Warn(std::string_view message);
 void Note(std::string_view message);
 
 // Prints the error, with a hint where there is one, and returns the exit code for it.
+// CANCELLED is an interruption here, and that of a job only in FailOnServer().
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 

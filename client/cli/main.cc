@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <variant>
 
 #include "absl/synchronization/mutex.h"
@@ -24,9 +25,13 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
   try {
     return std::visit([&](const auto& chosen) { return bccskel::cli::Run(chosen, stop); },
                       arguments);
+  } catch (const std::bad_alloc&) {
+    return bccskel::cli::Fail(
+        absl::ResourceExhaustedError("not enough memory"),
+        "a mesh needs less with smaller --points or a larger --spacing, an image with fewer voxels "
+        "(crop it, or read a coarser --level)");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "bccskel: error: out of memory or another failure of the system: %s\n",
-                 error.what());
+    std::fprintf(stderr, "bccskel: error: failure of the system: %s\n", error.what());
     return ExitCode::kTooLarge;
   }
 }

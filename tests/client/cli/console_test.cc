@@ -41,6 +41,16 @@ ServerArguments ServerAt(const std::string& address) {
   return server;
 }
 
+TEST(ConsoleTest, AJobIsCancelledOnAServerAlone) {
+  const absl::Status stopped = absl::CancelledError("a.off: the job was cancelled");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Fail(stopped), ExitCode::kStopped);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "bccskel: error: a.off: interrupted\n");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(FailOnServer(ServerAt("a:1"), stopped), ExitCode::kStopped);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the job was cancelled"));
+}
+
 TEST(ConsoleTest, ATokenThatIsNotForACallIsAQuestionOfCredentials) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(FailOnServer(ServerAt("a:1"), absl::PermissionDeniedError("no")),
