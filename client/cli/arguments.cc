@@ -107,6 +107,14 @@ std::string UnknownWord(const CLI::App& app) {
   return command->get_name() + " has no option " + option + Suggestion(option, known);
 }
 
+// `bccskel help COMMAND` is `bccskel COMMAND --help`.
+std::vector<std::string> WithoutHelpCommand(std::vector<std::string> words) {
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 // The command that completions/ call with the words of a command line.
 constexpr std::string_view kComplete = "__complete";
 
@@ -280,7 +288,9 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
   }
   CommandLine line;
   try {
-    line.app().parse(argc, argv);
+    std::vector<std::string> backwards = WithoutHelpCommand(words);
+    std::ranges::reverse(backwards);  // the order that CLI11 takes a vector in
+    line.app().parse(std::move(backwards));
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     if (line.app().exit(error, out, err) == 0) return Print(out.str());

@@ -201,11 +201,7 @@ void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNee
 }
 
 uint64_t ReadBenchPoints(const std::string& given) {
-  const auto points = ReadCount<uint64_t>("--points", given);
-  if (points >= kMinShapePoints && points <= kMaxShapePoints) return points;
-  throw CLI::ValidationError("--points " + given + ": must be within " +
-                             std::to_string(kMinShapePoints) + " and " +
-                             std::to_string(kMaxShapePoints));
+  return ReadCount<uint64_t>("--points", given, kMinShapePoints, kMaxShapePoints);
 }
 
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description) {

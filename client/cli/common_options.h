@@ -63,7 +63,7 @@ void AddResult(CLI::App& command, std::string& path);
 enum class ObjectNeed { kRequired, kOptional };
 void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need);
 
-// What the benchmarks thin. ReadBenchPoints() throws CLI::ValidationError.
+// What the benchmarks thin and `generate` makes. ReadBenchPoints() throws CLI::ValidationError.
 uint64_t ReadBenchPoints(const std::string& given);
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
 void AddBenchMethod(CLI::App& command, ThinningMethod& method,

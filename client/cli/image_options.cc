@@ -25,13 +25,15 @@
 namespace bccskel::cli {
 
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
-  CLI::Option* points = AddCount<uint64_t>(
-      command, "--points",
-      [&grid](uint64_t count) {
-        if (count == 0) throw CLI::ValidationError("--points 0: must be at least 1");
-        grid.points = count;
-      },
-      "Number of lattice points inside the solid");
+  CLI::Option* points = command
+                            .add_option_function<std::string>(
+                                "--points",
+                                [&grid](const std::string& given) {
+                                  grid.points =
+                                      ReadCount<uint64_t>("--points", given, 1, grid.max_points);
+                                },
+                                "Number of lattice points inside the solid")
+                            ->option_text("N");
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
       ->check(Positive())
       ->excludes(points)

@@ -77,15 +77,14 @@ std::string InWords(const std::string& error);
 // A whole number from 0 on: 850000, 850k, 1.5M, 2G, 1e6; nothing for another text.
 std::optional<uint64_t> ParseCount(std::string_view text);
 
-// CLI11 would take -3 for a huge one, and 010 for 8.
+// One from `low` to `high`. CLI11 would take -3 for a huge one, and 010 for 8.
 template <std::unsigned_integral Number>
-Number ReadCount(const std::string& name, const std::string& given) {
+Number ReadCount(const std::string& name, const std::string& given, Number low = 0,
+                 Number high = std::numeric_limits<Number>::max()) {
   const std::optional<uint64_t> number = ParseCount(given);
-  if (number.has_value() && *number <= std::numeric_limits<Number>::max()) {
-    return static_cast<Number>(*number);
-  }
-  throw CLI::ValidationError(name + " " + given + ": must be a whole number from 0 to " +
-                             std::to_string(std::numeric_limits<Number>::max()) +
+  if (number.has_value() && *number >= low && *number <= high) return static_cast<Number>(*number);
+  throw CLI::ValidationError(name + " " + given + ": must be a whole number from " +
+                             std::to_string(low) + " to " + std::to_string(high) +
                              ", such as 850000, 850k, 4M or 1e6");
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <concepts>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <system_error>
 #include <variant>
@@ -170,24 +171,15 @@ absl::Status CheckServer(const Chosen& arguments) {
   return absl::OkStatus();
 }
 
-template <typename Other>
-absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArguments>) {
-  return absl::OkStatus();
-}
-
-}  // namespace
-
-absl::Status Validate(const Arguments& arguments) {
-  BCCSKEL_RETURN_IF_ERROR(
-      std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
-  return std::visit([](const auto& chosen) { return Validate(chosen); }, arguments);
-}
-
-namespace {
-
-// The folders that a label's number names are made for it, in one that must be there.
-std::string FirstMadeFor(const std::string& path) {
-  return path.substr(0, path.find('/', path.find(kLabelPlace)));
+template <typename Chosen>
+absl::Status CheckInputs(const Chosen& arguments) {
+  std::vector<std::string> paths;
+  if constexpr (requires { arguments.input; }) paths.push_back(arguments.input);
+  if constexpr (requires { arguments.file; }) paths.push_back(arguments.file);
+  if constexpr (requires { arguments.result; }) paths.push_back(arguments.result);
+  if constexpr (requires { arguments.object; }) paths.push_back(arguments.object);
+  if (std::ranges::find(paths, "-") == paths.end()) return absl::OkStatus();
+  return absl::InvalidArgumentError("-: standard input is not read; save it to a file first");
 }
 
 template <typename Chosen>
@@ -200,6 +192,63 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
       if (!path.empty()) paths.push_back(path);
     }
   }
+  return paths;
+}
+
+// Where a path leads, also of a file that is not there yet.
+std::filesystem::path PlaceOf(const std::string& path) {
+  std::error_code error;
+  std::filesystem::path place =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  return error ? std::filesystem::path(path) : place;
+}
+
+template <typename Chosen>
+absl::Status CheckOutputNames(const Chosen& arguments) {
+  std::set<std::filesystem::path> places;
+  for (const std::string& path : OutputsOf(arguments)) {
+    if (!std::same_as<Chosen, LabelsArguments> && path.find(kLabelPlace) != path.npos) {
+      return absl::InvalidArgumentError(path +
+                                        ": only `bccskel labels` puts the number of a label in "
+                                        "place of " +
+                                        kLabelPlace);
+    }
+    if (!places.insert(PlaceOf(path)).second) {
+      return absl::InvalidArgumentError(path +
+                                        ": is an output already; each needs a file of its own");
+    }
+  }
+  return absl::OkStatus();
+}
+
+template <typename Other>
+absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArguments>) {
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status Validate(const Arguments& arguments) {
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return CheckInputs(chosen); }, arguments));
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return Validate(chosen); }, arguments));
+  return std::visit([](const auto& chosen) { return CheckOutputNames(chosen); }, arguments);
+}
+
+namespace {
+
+// The folders that a label's number names are made for it, in one that must be there.
+std::string FirstMadeFor(const std::string& path) {
+  return path.substr(0, path.find('/', path.find(kLabelPlace)));
+}
+
+// Of what is written first.
+template <typename Chosen>
+std::vector<std::string> FirstOutputsOf(const Chosen& arguments) {
+  std::vector<std::string> paths = OutputsOf(arguments);
   if constexpr (std::same_as<Chosen, LabelsArguments>) {
     std::ranges::transform(paths, paths.begin(), FirstMadeFor);
   }
@@ -210,7 +259,7 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
 
 absl::Status CheckOutputs(const Arguments& arguments) {
   const std::vector<std::string> paths =
-      std::visit([](const auto& chosen) { return OutputsOf(chosen); }, arguments);
+      std::visit([](const auto& chosen) { return FirstOutputsOf(chosen); }, arguments);
   for (const std::string& path : paths) {
     BCCSKEL_RETURN_IF_ERROR(exporting::CheckOutput(path));
   }
