@@ -80,6 +80,9 @@ struct ImageObject {
 
 enum class KeptVoxels : uint8_t { kNone, kAll };
 
+// That so many voxels are NaN.
+std::string NanWarning(uint64_t voxels);
+
 // Reads an image slice by slice and converts its foreground, which may be empty.
 // Errors: as NextSlice(), ForegroundOf() and MaskConverter.
 absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
@@ -90,7 +93,8 @@ MaskGrid GridOf(const ImageInfo& info);
 struct CollectedLabels {
   ImageInfo info;
   LabeledObjects objects;
-  uint64_t left_out = 0;  // labels with fewer voxels than wanted
+  uint64_t left_out = 0;     // labels with fewer voxels than wanted
+  uint64_t not_numbers = 0;  // voxels that are NaN
 };
 
 // Gathers the wanted labels of an image that have `min_voxels` or more; there may be none.

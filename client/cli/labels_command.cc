@@ -318,6 +318,7 @@ absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
                                      const exec::Context& context) {
   absl::StatusOr<CollectedLabels> labels = Collect(arguments, context);
   if (!labels.ok()) return WithPath(labels.status(), arguments.input);
+  if (labels->not_numbers > 0) Warn(arguments.input + ": " + NanWarning(labels->not_numbers));
   if (labels->objects.objects.empty()) {
     return WithPath(NoLabels(arguments, labels->left_out), arguments.input);
   }

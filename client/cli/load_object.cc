@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "absl/strings/ascii.h"
@@ -141,11 +143,45 @@ absl::Status NoSuchLabel(const std::string& path, const ImageArguments& argument
 
 namespace {
 
+// The options that select the object, as they were given.
+std::string SelectionOf(const ImageArguments& arguments) {
+  std::string words;
+  if (!arguments.labels.empty()) words = "--label " + absl::StrJoin(arguments.labels, ",");
+  if (!arguments.range.empty()) words = "--range " + arguments.range;
+  if (arguments.threshold.has_value()) {
+    words = absl::StrFormat("--threshold %g", *arguments.threshold);
+  }
+  if (arguments.below.has_value()) words = absl::StrFormat("--below %g", *arguments.below);
+  if (arguments.invert) words += words.empty() ? "--invert" : " --invert";
+  return words;
+}
+
+// Why no voxel is object; reads the image again.
+absl::StatusOr<std::string> WhyEmpty(const std::string& path, const ImageArguments& arguments) {
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int32_t z = 0; z < source->info().size.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
+    const auto add = [&](const auto value) {
+      low = std::min(low, static_cast<double>(value));  // neither takes NaN
+      high = std::max(high, static_cast<double>(value));
+    };
+    std::visit([&](const auto values) { std::ranges::for_each(values, add); }, slice.values);
+  }
+  if (low > high) return "no voxel is object: all are NaN";
+  const std::string selection = SelectionOf(arguments);
+  if (selection.empty()) return "no voxel is object: all are 0, the background";
+  return selection +
+         absl::StrFormat(" selects no voxel; values range from %.7g to %.7g", low, high);
+}
+
 absl::StatusOr<ImageObject> Convert(const std::string& path, const ImageArguments& arguments,
                                     KeptVoxels kept, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
   BCCSKEL_ASSIGN_OR_RETURN(ImageObject object, ConvertImage(*source, arguments, kept, context));
-  if (object.image.voxels == 0 && !arguments.labels.empty()) return NoSuchLabel(path, arguments);
+  if (object.image.voxels > 0) return object;
+  if (!arguments.labels.empty() && !arguments.invert) return NoSuchLabel(path, arguments);
+  BCCSKEL_ASSIGN_OR_RETURN(object.image.warnings.emplace_back(), WhyEmpty(path, arguments));
   return object;
 }
 
@@ -186,7 +222,7 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, each also with .gz), "
       "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, OME-Zarr "
-      "folders, ...)");
+      "folders, ...); save another image as TIFF or .npy");
 }
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image) {

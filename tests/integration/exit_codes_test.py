@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import unittest
 from concurrent import futures
 
 import grpc
@@ -34,8 +35,11 @@ class ExitCodesTest(harness.TestCase):
             pathlib.Path(self.path(name)).write_text("nonsense " * 20)
             self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
             self.fail_with(3, name, "info", self.path(name))
-        pathlib.Path(self.path("a.docx")).touch()
-        self.fail_with(3, "format not supported", *self.skeletonize(self.path("a.docx"), "--local"))
+        for name in ("a.docx", "a.npz", "a.png"):
+            pathlib.Path(self.path(name)).touch()
+            done = self.fail_with(3, "format not supported",
+                                  *self.skeletonize(self.path(name), "--local"))
+            self.assertIn("; save another image as TIFF or .npy\n", done.stderr)
         self.fail_with(3, "cannot open 'none': No such file", *self.skeletonize("none", "--local"))
         self.fail_with(3, "cannot open 'none': No such file", "info", "none")
         self.fail_with(3, "No such file", *self.skeletonize("a.nrrd", "--local"))
@@ -76,11 +80,19 @@ class ExitCodesTest(harness.TestCase):
                         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
         self.fail_with(7, "the limit is", *self.skeletonize(mesh, "--local", "--spacing", 0.01))
 
+    @unittest.skipIf(harness.SANITIZED, "sanitizers reserve memory of their own")
+    def test_7_when_memory_runs_out(self):
+        done = self.fail_with(7, "not enough memory\nbccskel: hint: a mesh needs less with",
+                              *self.skeletonize(self.triangle_block(), "--local"), "--points",
+                              "4G", preexec_fn=harness.limit_memory(1))
+        self.assertNotIn("bad_alloc", done.stderr)
+
     def test_8_when_output_cannot_be_written(self):
         volume = self.generate("ball")
+        missing = f": the folder {self.path('no/such/folder')} does not exist; make it first"
         for ending in ("swc", "exr", "bccb", "svg"):
             output = self.path("no/such/folder/a." + ending)
-            self.fail_with(8, output, "skeletonize", volume, "--local", "-o", output)
+            self.fail_with(8, output + missing, "skeletonize", volume, "--local", "-o", output)
         self.fail_with(8, "a.exr", "voxelize", self.triangle_block(), "--points", 9999, "-o",
                        self.path("no/a.exr"))
         self.fail_with(8, "a.exr", "generate", "ball", "-o", self.path("no/a.exr"))
@@ -92,9 +104,9 @@ class ExitCodesTest(harness.TestCase):
                              (8, "bccskel: error: cannot write to standard output\n"), words)
 
     def test_8_comes_before_the_work(self):
-        good, bad = self.path("a.swc"), self.path("no/{label}.swc")
+        good, bad = self.path("a.swc"), self.path("no/b.swc")
         for words in (("skeletonize", "missing.off", "--local", "-o", good, "-o", bad),
-                      ("labels", "missing.tif", "-o", bad),
+                      ("labels", "missing.tif", "-o", self.path("no/{label}.swc")),
                       ("skeletonize", "missing.nrrd", "--local", "-o", good,
                        "--branch-image", self.path("no/b.nrrd"))):
             self.fail_with(8, "cannot write " + self.path("no/"), *words)
@@ -162,6 +174,7 @@ class ExitCodesTest(harness.TestCase):
         client.send_signal(signal.SIGINT)
         _, error = client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130, error)
+        self.assertTrue(error.endswith("object.bccb: interrupted\n"), error)
         self.assert_no_output()
 
     def test_130_while_it_waits_for_a_server(self):

@@ -343,7 +343,7 @@ class FormatsTest(harness.TestCase):
                            max(v[2] for v in vertices))
 
     def test_a_folder_of_labels_without_a_unit_is_noted(self):
-        numpy.save(self.path("labels.npy"), numpy.ones((3, 3, 12), "u1"))
+        numpy.save(self.path("labels.npy"), numpy.pad(numpy.ones((3, 3, 12), "u1"), 1))
         for words in (("labels", self.path("labels.npy")),
                       ("skeletonize", self.path("labels.npy"), "--local")):
             said = self.succeed(*words, "-o", self.path("n.precomputed"))
@@ -361,7 +361,7 @@ class FormatsTest(harness.TestCase):
             "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 3 3\nspace: right-anterior-superior\n"
             "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
             "space units: \"mm\" \"mm\" \"mm\"\nencoding: raw\ndata file: v.raw\n")
-        (self.folder / "v.raw").write_bytes(bytes([1]) * 108)
+        (self.folder / "v.raw").write_bytes(bytes([1]) * 107 + bytes(1))
         outputs = [word for e in ("json", "swc", "graphml", "vtp", "mrk.json")
                    for word in ("-o", self.path(f"w.{e}"))]
         self.succeed("skeletonize", self.path("v.nhdr"), "--local", *outputs)

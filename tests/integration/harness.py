@@ -116,11 +116,12 @@ class TestCase(unittest.TestCase):
         return done.stdout
 
     def summarize(self, *words):
-        """The JSON summary of a command that must succeed, and warns of the notes in it alone."""
+        """The JSON summary of a command that must succeed, with no warnings but those in it."""
         done = bccskel(*words, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads(done.stdout)
-        warnings = [f"bccskel: warning: {summary['input']}: {note}\n" for note in summary["notes"]]
+        said = summary.get("image", {}).get("warnings", []) + summary["notes"]
+        warnings = [f"bccskel: warning: {summary['input']}: {line}\n" for line in said]
         self.assertEqual(done.stderr, "".join(warnings), done.args)
         return summary
 

@@ -96,10 +96,12 @@ class ImagesTest(harness.TestCase):
         mask = ring()
         numpy.save(self.path("c.npy"), mask)
         numpy.save(self.path("f.npy"), numpy.asfortranarray(mask.astype(">i4")))
+        numpy.save(self.path("h.npy"), mask.astype("f2"))
         raw = self.write("mask.bin", b"head" + mask.astype(">u2").tobytes())
         packed = self.write("mask.raw.gz", gzip.compress(mask.tobytes()))
         layout = ("--raw-size", "9,8,7")
         runs = [self.skeletonize(self.path("c.npy")), self.skeletonize(self.path("f.npy")),
+                self.skeletonize(self.path("h.npy")),
                 self.skeletonize(raw, *layout, "--raw-type", "u16", "--raw-order", "big",
                                  "--raw-header", 4),
                 self.skeletonize(packed, *layout)]
@@ -158,8 +160,36 @@ class ImagesTest(harness.TestCase):
         numpy.save(self.path("many.npy"), numpy.arange(27, dtype="u2").reshape(3, 3, 3))
         self.fail_with(3, "26 labels are there: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...",
                        "info", self.path("many.npy"), "--label", 99)
-        self.assertEqual(self.skeletonize(ring_file, "--threshold", 9)["notes"],
-                         ["the object has no points"])
+
+    def test_an_image_without_object_or_without_background_is_explained(self):
+        numpy.save(self.path("a.npy"), ring())
+        numpy.save(self.path("zero.npy"), numpy.zeros((3, 3, 3), "u1"))
+        numpy.save(self.path("nan.npy"), numpy.full((3, 3, 3), numpy.nan, "f4"))
+        numpy.save(self.path("full.npy"), numpy.ones((3, 3, 3), "i2"))
+        for name, rule, warning in (
+                ("a", ("--threshold", 9), "--threshold 9 selects no voxel; values range from 0 to 5"),
+                ("a", ("--below", 0), "--below 0 selects no voxel; values range from 0 to 5"),
+                ("a", ("--range", "6,"), "--range 6, selects no voxel; values range from 0 to 5"),
+                ("full", ("--invert",), "--invert selects no voxel; values range from 1 to 1"),
+                ("zero", (), "no voxel is object: all are 0, the background"),
+                ("nan", ("--invert",), "no voxel is object: all are NaN")):
+            with self.subTest(warning):
+                summary = self.skeletonize(self.path(name + ".npy"), *rule)
+                self.assertEqual((summary["image"]["warnings"], summary["notes"]),
+                                 ([warning], ["the object has no points"]))
+        warning, = self.skeletonize(self.path("full.npy"))["image"]["warnings"]
+        self.assertEqual(warning, "the object fills the whole image; --threshold or --below selects "
+                                  "a part of it")
+
+    def test_voxels_that_are_no_numbers_are_counted_in_a_warning(self):
+        image = ring().astype("f4")
+        image[0, 0, :2] = numpy.nan
+        numpy.save(self.path("a.npy"), image)
+        warning = "2 voxels are NaN, which counts as background"
+        self.assertEqual(self.skeletonize(self.path("a.npy"))["image"]["warnings"], [warning])
+        done = harness.bccskel("labels", self.path("a.npy"), "--local", "-o", self.path("a.csv"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (0, f"bccskel: warning: {self.path('a.npy')}: {warning}\n"))
 
     def test_adjacency_decides_whether_voxels_at_a_corner_touch(self):
         pair = numpy.zeros((2, 2, 2), "u1")

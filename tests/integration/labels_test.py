@@ -171,7 +171,9 @@ class LabelsTest(harness.TestCase):
 
     def test_info_of_measured_values_tells_no_labels(self):
         numpy.save(self.image, numpy.array([-0.1, 2.5, numpy.nan, 7], "<f4").reshape(1, 2, 2))
-        image = json.loads(self.succeed("info", self.image, "--json"))["image"]
+        done = harness.bccskel("info", self.image, "--json")
+        self.assertIn(": 1 voxel is NaN, which counts as background\n", done.stderr)
+        image = json.loads(done.stdout)["image"]
         self.assertEqual(image["values"], {"low": -0.1, "high": 7, "not_numbers": 1})
 
     def test_wrong_wishes_are_told(self):

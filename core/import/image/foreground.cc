@@ -257,6 +257,16 @@ void ForegroundSlice(const ImageSlice& slice, const ForegroundRule& rule,
       slice.values);
 }
 
+uint64_t CountNotNumbers(const ImageSlice& slice) {
+  return std::visit(
+      []<typename T>(std::span<const T> values) -> uint64_t {
+        if constexpr (!std::is_floating_point_v<T>) return 0;
+        return static_cast<uint64_t>(
+            std::ranges::count_if(values, [](T value) { return !IsNumber(value); }));
+      },
+      slice.values);
+}
+
 absl::Status LabelSlice(const ImageSlice& slice, std::span<uint64_t> labels) {
   return std::visit([&](const auto values) { return WriteLabelValues(slice, values, labels); },
                     slice.values);

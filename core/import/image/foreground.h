@@ -54,6 +54,9 @@ constexpr size_t WordsPerRow(int32_t nx) { return (static_cast<size_t>(nx) + 63)
 void ForegroundSlice(const ImageSlice& slice, const ForegroundRule& rule,
                      std::span<uint64_t> words);
 
+// How many voxels of a slice are NaN.
+uint64_t CountNotNumbers(const ImageSlice& slice);
+
 // Writes the labels of a slice, 0 for background; NaN is background.
 // Shapes: labels holds nx * ny, x fastest.
 // Errors: INVALID_ARGUMENT for a value that is no whole number from 0 on; names it and its place.

@@ -49,6 +49,11 @@ TEST(ForegroundRule, IsNonZeroByDefaultAndNanIsNeverInside) {
   EXPECT_THAT(Foreground<int8_t>({0, -1, 5}, ForegroundRule::NonZero()), ElementsAre(0, 1, 1));
 }
 
+TEST(CountNotNumbers, CountsNanAlone) {
+  EXPECT_EQ(CountNotNumbers(RowOf<double>({0, kNan, HUGE_VAL, -1, kNan})), 2);
+  EXPECT_EQ(CountNotNumbers(RowOf<uint8_t>({0, 255})), 0);
+}
+
 TEST(ForegroundRule, TakesRangesWithOpenEnds) {
   const std::vector<float> values = {-2, -1, 0, 1, 2, static_cast<float>(kNan)};
   EXPECT_THAT(Foreground(values, *ForegroundRule::Range(-1, 1)), ElementsAre(0, 1, 1, 1, 0, 0));

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "client/cli/image_options.h"
+#include "core/exec/read_ahead.h"
+#include "core/exec/status_macros.h"
+#include "core/import/image/gray_levels.h"
+#include "core/labels/label_collector.h"
+#include "core/mask/mask_converter.h"
+
+// What an image becomes under the options of image_options.cc.
+
+namespace bccskel::cli {
+
+MaskGrid GridOf(const ImageInfo& info) {
+  return {info.size.nx, info.size.ny, info.size.nz, info.placement};
+}
+
+namespace {
+
+// Reads an image, several slices at once where they are small, each turned by
+// `take(slice, room)` into `slice_size` values, which `use(values)` gets in order.
+template <typename Take, typename Use>
+absl::Status ReadSlices(ImageSource& source, size_t slice_size, const exec::Context& context,
+                        Take take, Use use) {
+  using Room = std::vector<uint64_t>;
+  constexpr size_t kVoxelsAtOnce = size_t{1} << 18;
+  const ImageSize size = source.info().size;
+  const auto slices = static_cast<size_t>(size.nz);
+  const size_t at_once = std::clamp<size_t>(kVoxelsAtOnce / size.SliceVoxels(), 1, slices);
+  const auto each = [&](size_t part, Room& room, auto work) -> absl::Status {
+    const size_t count = std::min(at_once, slices - part * at_once);
+    room.resize(at_once * slice_size);
+    for (size_t n = 0; n < count; ++n) {
+      BCCSKEL_RETURN_IF_ERROR(work(std::span(room).subspan(n * slice_size, slice_size)));
+    }
+    return absl::OkStatus();
+  };
+  const auto read = [&](std::span<uint64_t> room) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    return take(slice, room);
+  };
+  return exec::ReadAhead<Room>(
+      context, (slices + at_once - 1) / at_once,
+      [&](size_t part, Room& room) { return each(part, room, read); },
+      [&](size_t part, Room& room) { return each(part, room, use); });
+}
+
+// Whether the object is everything but 0, since nothing else was said.
+bool IsPlain(const ImageArguments& arguments) {
+  return arguments.labels.empty() && arguments.range.empty() && !arguments.threshold.has_value() &&
+         !arguments.below.has_value() && !arguments.invert;
+}
+
+std::string WarningOf(const GrayLevels& levels) {
+  const std::optional<double> threshold = levels.Threshold();
+  const bool signs = levels.HasBothSigns();
+  if (!threshold.has_value() && !signs) return "";
+  std::string warning = absl::StrCat("the values look like ",
+                                     threshold.has_value() ? "gray levels" : "those of a level set",
+                                     ", and all but 0 are taken for the object; ");
+  if (threshold.has_value()) {
+    absl::StrAppendFormat(&warning, "--threshold %g (Otsu's) or --range selects it", *threshold);
+  }
+  if (signs) {
+    absl::StrAppend(&warning, threshold.has_value() ? ", " : "",
+                    "--below 0 selects the inside of a level set");
+  }
+  return warning;
+}
+
+std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& levels,
+                                    uint64_t object, uint64_t not_numbers) {
+  std::vector<std::string> warnings;
+  const std::string gray = WarningOf(levels);
+  if (!gray.empty()) {
+    warnings.push_back(gray);
+  } else if (object == info.size.Voxels()) {
+    warnings.emplace_back(
+        "the object fills the whole image; --threshold or --below selects a part of it");
+  }
+  if (not_numbers > 0 && not_numbers < info.size.Voxels()) {
+    warnings.push_back(NanWarning(not_numbers));
+  }
+  return warnings;
+}
+
+}  // namespace
+
+std::string NanWarning(uint64_t voxels) {
+  return absl::StrCat(voxels, voxels == 1 ? " voxel is" : " voxels are",
+                      " NaN, which counts as background");
+}
+
+absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArguments& arguments,
+                                         KeptVoxels kept, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ForegroundRule rule, ForegroundOf(arguments));
+  const MaskGrid grid = GridOf(source.info());
+  BCCSKEL_ASSIGN_OR_RETURN(MaskConverter converter, MaskConverter::Create(grid, arguments.mask));
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector, LabelCollector::Create(grid, {}));
+  GrayLevels levels(source.info().size);
+  const bool plain = IsPlain(arguments);
+  uint64_t not_numbers = 0;
+  BCCSKEL_RETURN_IF_ERROR(ReadSlices(
+      source, grid.WordsPerSlice(), context,
+      [&](const ImageSlice& slice, std::span<uint64_t> words) {
+        if (plain) levels.Add(slice);
+        not_numbers += CountNotNumbers(slice);
+        ForegroundSlice(slice, rule, words);
+        return absl::OkStatus();
+      },
+      [&](std::span<const uint64_t> words) {
+        BCCSKEL_RETURN_IF_ERROR(converter.AddSlice(words, context));
+        return kept == KeptVoxels::kNone ? absl::OkStatus()
+                                         : collector.AddMaskSlice(words, context);
+      }));
+  BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
+  ImageObject object = {std::move(mask.volume),
+                        {source.info(), mask.voxels, mask.mask,
+                         WarningsOf(source.info(), levels, mask.voxels, not_numbers)}};
+  if (kept == KeptVoxels::kAll) {
+    BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
+  }
+  return object;
+}
+
+absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
+                                              uint64_t min_voxels, const exec::Context& context) {
+  CollectedLabels labels = {.info = source.info(), .objects = {}};
+  const MaskGrid grid = GridOf(labels.info);
+  BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
+                           LabelCollector::Create(grid, {.labels = arguments.labels}));
+  BCCSKEL_RETURN_IF_ERROR(ReadSlices(
+      source, grid.VoxelsPerSlice(), context,
+      [&](const ImageSlice& slice, std::span<uint64_t> values) {
+        labels.not_numbers += CountNotNumbers(slice);
+        return LabelSlice(slice, values);
+      },
+      [&](std::span<const uint64_t> values) { return collector.AddSlice(values, context); }));
+  BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
+  labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
+    return object.voxels < min_voxels;
+  });
+  return labels;
+}
+
+}  // namespace bccskel::cli
