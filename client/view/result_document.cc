@@ -60,9 +60,13 @@ struct WithText {
   std::string_view& text;
 };
 template <typename T>
+WithText(T&, std::string_view&) -> WithText<T>;  // clang 14 needs the guides
+template <typename T>
 struct NotOnPages {
   T& to;
 };
+template <typename T>
+NotOnPages(T&) -> NotOnPages<T>;
 struct Order {
   std::optional<std::vector<uint32_t>>& roots;
 };
