@@ -26,6 +26,9 @@ inline constexpr double kSteepness = 2;
 Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& noise,
                size_t first = 0);
 
+// The largest elongation of a run, whatever its radius; 0 or more.
+double LargestElongation(const ThinSet& set, const BranchPath& path);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_PRUNING_LARGEST_RUN_H_

@@ -59,6 +59,46 @@ void RunBoth(const std::function<void(const exec::Context&)>& first,
   });
 }
 
+// The path's deepest point, the one nearest to its middle where there are several.
+size_t DeepestOf(const ThinSet& set, const std::vector<LatticePoint>& path) {
+  const auto rank = [&](size_t n) {
+    const auto off = std::abs(2 * static_cast<int64_t>(n) + 1 - static_cast<int64_t>(path.size()));
+    return std::pair(-set.RadiusOf(path[n]), off);
+  };
+  size_t deepest = 0;
+  for (size_t n = 1; n < path.size(); ++n) {
+    if (rank(n) < rank(deepest)) deepest = n;
+  }
+  return deepest;
+}
+
+// What has no limb has no curve that another pose would not turn elsewhere: a cube has four
+// diagonals. So of a path whose two halves do not stick out of its deepest ball that ball's center
+// stays.
+void CollapsePaths(ThinSet& set, const Significance& significance, double threshold,
+                   const PointSet& keep) {
+  constexpr double kMost = 0.25;  // a spheroid 1.3 times as long as thick has it
+  for (const LatticePoint end : set.Ends()) {
+    if (!set.Contains(end) || set.Degree(end) != 1) continue;
+    const FreeBranch branch = BranchFrom(set, end);
+    const std::vector<LatticePoint>& path = branch.points;
+    const bool kept = std::ranges::any_of(path, [&](LatticePoint p) { return keep.contains(p); });
+    if (branch.junction.has_value() || kept) continue;
+    const size_t deepest = DeepestOf(set, path);
+    std::array<BranchPath, 2> halves;
+    for (size_t n = deepest; n < path.size(); ++n) halves[0].points.push_back(path[n]);
+    for (size_t n = deepest + 1; n-- > 0;) halves[1].points.push_back(path[n]);
+    for (BranchPath& half : halves) {
+      for (const LatticePoint p : half.points) half.radii.push_back(set.RadiusOf(p));
+    }
+    if (significance.OfPath(set, halves[0], halves[1]) >= std::min(threshold, kMost)) {
+      continue;
+    }
+    for (size_t n = 0; n < deepest; ++n) set.Remove(path[n]);
+    for (size_t n = path.size() - 1; n > deepest; --n) set.Remove(path[n]);
+  }
+}
+
 }  // namespace
 
 absl::Status CheckPruningOptions(const PruningOptions& options) {
@@ -101,6 +141,9 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
     BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
+    if (options.rule == PruningRule::kSignificance) {
+      CollapsePaths(set, significance, threshold, kept);
+    }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   }
   PruningLevels levels;

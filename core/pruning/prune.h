@@ -18,6 +18,7 @@ namespace bccskel {
 enum class PruningRule : uint8_t {
   // Those that stick out by less than the threshold, 0.45 by default, in half-widths of the object
   // beside them: bumps, ribs of flat parts, and strands beside another one. See significance.h.
+  // What then is left of an object without limbs, such as a cube, is its deepest point.
   kSignificance,
   // Those shorter than the threshold, in world units.
   kLength,
@@ -55,7 +56,8 @@ struct PrunedObject {
   // That voxels were cut into along x, y and z.
   std::array<int32_t, 3> slabs = {1, 1, 1};
   // Where depths are measured, if not in the object: the same in a window. Widths across branches
-  // end where the object is cut off: beyond, all of a thin stack would be as wide as it is not high.
+  // end where the object is cut off: beyond, all of a thin stack would be as wide as it is not
+  // high.
   const Volume* space = nullptr;
 };
 

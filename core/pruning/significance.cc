@@ -89,6 +89,12 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return last->value * UncoveredShare(set, branch, last->run);
 }
 
+double Significance::OfPath(const ThinSet& set, const BranchPath& one_way,
+                            const BranchPath& other_way) const {
+  const double elongation = LargestElongation(set, one_way) + LargestElongation(set, other_way);
+  return (elongation - noise_.step) / one_way.radii[0];
+}
+
 void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
                              const exec::Context& context) {
   std::vector<const FreeBranch*> unknown;

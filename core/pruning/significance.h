@@ -64,6 +64,9 @@ class Significance {
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
+  // Of a path with two ends: by how much its two ways from the deepest point stick out, less a step
+  // of the surface, in radii of that point. The width does not count: what is flat has a curve.
+  double OfPath(const ThinSet& set, const BranchPath& one_way, const BranchPath& other_way) const;
   // Measures branches on the context's threads, so that Of() knows them; not all of them where the
   // context says to stop. Needs: as Of().
   void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,

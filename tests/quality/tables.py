@@ -109,7 +109,7 @@ def figures_section(figures):
              "The first five resemble the shapes that the defaults were tuned on. Radius is that "
              "of the result minus the true one; with noise balls are smaller, since they stop at the "
              "first dent. A horse's limbs are spheroids that end in points: there the gap is what "
-             "is cut from the last, thin part. A cube has no true tips; its diagonal is kept.", ""]
+             "is cut from the last, thin part. A cube has no true tips; its middle is kept.", ""]
     head = ["figure", "noise", "tips", "ends", "raw", "smoothed", "largest", "radius", "length",
             "gap, mean", "largest", "branch points, true / found", "loops, true / found"]
     return lines + table(head, [row for name in names for row in figure_rows(figures, name)])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -172,6 +173,55 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4, test::kStride));
+
+// Where |x|, |y| and |z| of the turned points are: a test of them.
+template <typename IsIn>
+Volume TurnedSolid(double angle, IsIn is_in) {
+  VolumeBuilder builder({40, 40, 40});
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (int32_t z = 0; z < 80; ++z) {
+    for (int32_t y = z & 1; y < 80; y += 2) {
+      for (int32_t x = z & 1; x < 80; x += 2) {
+        const double a = c * (x - 40) - s * (y - 40), b = s * (x - 40) + c * (y - 40);
+        if (is_in(c * a - s * (z - 40), b, s * a + c * (z - 40))) builder.Add({x, y, z});
+      }
+    }
+  }
+  return std::move(builder).Build().value();
+}
+
+TEST(PrunedCompactObject, IsAPointInEveryPose) {
+  for (const double angle : {0.0, 0.3, 0.55, 0.8}) {
+    const auto of = [&](const auto& is_in, const SkeletonizeOptions& options) {
+      return Skeletonize(TurnedSolid(angle, is_in), options, {})->graph;
+    };
+    const auto cube = [](double x, double y, double z) {
+      return std::max({std::abs(x), std::abs(y), std::abs(z)}) <= 20;
+    };
+    const SkeletonGraph graph = of(cube, {});
+    ASSERT_EQ(graph.nodes.size(), 1u) << angle;
+    EXPECT_EQ(graph.nodes[0].kind, NodeKind::kIsolated);
+    EXPECT_NEAR(graph.nodes[0].at.radius, 20, 1.5);
+    const auto spheroid = [](double x, double y, double z) {
+      return x * x / 2.25 + y * y + z * z <= 20 * 20;
+    };
+    EXPECT_EQ(EndsOf(of(spheroid, {})), 2u) << angle;
+  }
+}
+
+TEST(PrunedCompactObject, KeepsAPathWithAPointToKeepOrWithoutPruning) {
+  const Volume cube = TurnedSolid(0.55, [](double x, double y, double z) {
+    return std::max({std::abs(x), std::abs(y), std::abs(z)}) <= 20;
+  });
+  SkeletonizeOptions options;
+  options.pruning.rule = PruningRule::kNone;
+  const SkeletonGraph whole = Skeletonize(cube, options, {})->graph;
+  ASSERT_GE(EndsOf(whole), 2u);
+  const auto end = std::ranges::find(whole.nodes, NodeKind::kEnd, &SkeletonNode::kind);
+  options = {};
+  options.thinning.keep = {end->at.point};
+  EXPECT_EQ(EndsOf(Skeletonize(cube, options, {})->graph), 2u);
+}
 
 }  // namespace
 }  // namespace bccskel
