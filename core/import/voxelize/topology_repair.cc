@@ -125,6 +125,9 @@ absl::StatusOr<std::optional<Volume>> BestMajority(const Volume& sampling, int64
 
 absl::StatusOr<Volume> RepairTopology(Volume sampling, const BettiNumbers& found,
                                       const BettiNumbers& wanted, const exec::Context& context) {
+  const bool lacks = found.components < wanted.components || found.loops < wanted.loops ||
+                     found.cavities < wanted.cavities;
+  if (lacks) return sampling;  // parts touch, or walls are thinner than a cell
   const bool only_loops =
       found.components == wanted.components && found.cavities == wanted.cavities;
   const int64_t most_loops = only_loops ? found.loops : std::numeric_limits<int64_t>::max();

@@ -15,7 +15,7 @@ namespace bccskel {
 //        other one, as long as each is simple at its turn. So topology is that of the majority, and
 //        all else, to a few points, that of the sampling.
 // Takes the majority that is nearest to the wanted topology. Returns the sampling where none is
-// nearer than that, or each lacks a loop.
+// nearer than that or each lacks a loop, and where the sampling itself lacks something.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<Volume> RepairTopology(Volume sampling, const BettiNumbers& found,
                                       const BettiNumbers& wanted, const exec::Context& context);

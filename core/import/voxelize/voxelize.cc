@@ -105,7 +105,7 @@ class Voxelizer {
     warnings_ = DefectWarnings(surface_.report, result.fill);
     fill_.emplace(surface_, result.fill, options_.max_points);
     BCCSKEL_ASSIGN_OR_RETURN(result.volume, FillAsAsked());
-    if (options_.topology == TopologyCheck::kCompare) {
+    if (options_.topology == TopologyCheck::kCompare && !result.volume.empty()) {
       BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
       BCCSKEL_RETURN_IF_ERROR(CompareTopology(result));
     }
@@ -119,7 +119,8 @@ class Voxelizer {
     if (!options_.spacing) return FillToCount(*options_.points);
     const double unit_spacing = *options_.spacing / surface_.half_size / 2;
     BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(unit_spacing, options_.shift));
-    if (volume.empty()) warnings_.push_back("no lattice point is inside: the spacing is too large");
+    if (volume.empty())
+      warnings_.push_back("no lattice point is inside: the spacing is too large for this mesh");
     return volume;
   }
 
