@@ -14,9 +14,10 @@
 namespace bccskel {
 namespace {
 
-enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl };
+enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl, kVtkLegacy, kVtp, kGifti };
 
-constexpr std::array<std::string_view, 4> kMeshEndings = {"obj", "stl", "ply", "off"};
+constexpr std::array<std::string_view, 7> kMeshEndings = {"obj", "stl", "ply", "off",
+                                                          "vtk", "vtp", "gii"};
 
 // "off" for "a/b.OFF.gz"; empty without a dot.
 std::string EndingOf(std::string_view path) {
@@ -41,11 +42,22 @@ bool IsObjKeyword(std::string_view word) {
   return std::ranges::find(kKeywords, word) != kKeywords.end();
 }
 
+// The root element of an XML file stands near its start.
+std::optional<MeshFormat> SniffXml(std::string_view bytes) {
+  const std::string_view front = bytes.substr(0, 4096);
+  if (front.find("<VTKFile") != front.npos) return MeshFormat::kVtp;
+  if (front.find("<GIFTI") != front.npos) return MeshFormat::kGifti;
+  return std::nullopt;
+}
+
 // What the bytes say by themselves.
 std::optional<MeshFormat> SniffContent(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::kPly;
+  if (IsVtkLegacy(bytes)) return MeshFormat::kVtkLegacy;
   if (HasBinaryStlLength(bytes)) return MeshFormat::kBinaryStl;
   const std::string_view word = FirstWord(bytes);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (word.starts_with('<') || word.starts_with(kByteOrderMark)) return SniffXml(bytes);
   if (IsOffKeyword(word)) return MeshFormat::kOff;
   if (EqualsIgnoringCase(word, "solid")) return MeshFormat::kAsciiStl;
   if (IsObjKeyword(word)) return MeshFormat::kObj;
@@ -66,8 +78,14 @@ absl::StatusOr<MeshFormat> ChooseFormat(std::string_view bytes, std::string_view
   if (ending == "off") return MeshFormat::kOff;
   if (ending == "stl") return MeshFormat::kBinaryStl;
   if (ending == "ply") return absl::InvalidArgumentError("a PLY file must begin with 'ply'");
+  if (ending == "vtk") {
+    return absl::InvalidArgumentError("a VTK file must begin with '# vtk DataFile Version'");
+  }
+  if (ending == "vtp") return MeshFormat::kVtp;
+  if (ending == "gii") return MeshFormat::kGifti;
   return absl::InvalidArgumentError(
-      "format not supported: meshes are read from OBJ, STL, PLY and OFF, each also .gz");
+      "format not supported: meshes are read from OBJ, STL, PLY, OFF, VTK polygon data and "
+      "GIFTI files, each also .gz");
 }
 
 absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
@@ -81,6 +99,12 @@ absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
       return ParsePly(bytes, limits);
     case MeshFormat::kAsciiStl:
       return ParseAsciiStl(bytes, limits);
+    case MeshFormat::kVtkLegacy:
+      return ParseVtkLegacy(bytes, limits);
+    case MeshFormat::kVtp:
+      return ParseVtp(bytes, limits);
+    case MeshFormat::kGifti:
+      return ParseGifti(bytes, limits);
     case MeshFormat::kBinaryStl:
       break;
   }
