@@ -11,6 +11,8 @@
 // scanner and one assembler, and read numbers with std::from_chars, which rounds correctly.
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "absl/status/status.h"
@@ -31,6 +33,9 @@ absl::StatusOr<TriangleMesh> ParseBinaryStl(std::string_view bytes, const MeshLi
 absl::StatusOr<TriangleMesh> ParseVtkLegacy(std::string_view bytes, const MeshLimits& limits);
 absl::StatusOr<TriangleMesh> ParseVtp(std::string_view bytes, const MeshLimits& limits);
 absl::StatusOr<TriangleMesh> ParseGifti(std::string_view bytes, const MeshLimits& limits);
+// glTF, as text or as .glb. Buffers may be files in `folder` and below; without one, none are read.
+absl::StatusOr<TriangleMesh> ParseGltf(std::string_view bytes, std::optional<std::string> folder,
+                                       const MeshLimits& limits);
 
 // Is the length exactly that of a binary STL with the count it declares?
 bool HasBinaryStlLength(std::string_view bytes);

@@ -189,7 +189,7 @@ TEST(MeshFile, TellsAMissingFileFromAFolder) {
 TEST(MeshFile, KnowsItsFileNames) {
   EXPECT_TRUE(HasMeshFileName("a/b.c/X.OFF"));
   EXPECT_TRUE(HasMeshFileName("x.stl.gz"));
-  for (const char* name : {"a.vtk", "a.vtp", "lh.surf.gii", "a.vtk.gz"}) {
+  for (const char* name : {"a.glb", "a.gltf", "a.vtk", "a.vtp", "lh.surf.gii", "a.vtk.gz"}) {
     EXPECT_TRUE(HasMeshFileName(name)) << name;
   }
   EXPECT_FALSE(HasMeshFileName("x.exr"));
