@@ -220,7 +220,8 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   }
   return absl::InvalidArgumentError(
       path +
-      ": format not supported; there are meshes (.obj, .stl, .ply, .off, each also with .gz), "
+      ": format not supported; there are meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, "
+      ".gii, each also with .gz), "
       "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, OME-Zarr "
       "folders, ...); save another image as TIFF or .npy");
 }

@@ -2,7 +2,7 @@
 # The Debian packages that hold them are listed in docker/packages/build.txt.
 
 # What a program needs that links our core; bccskelConfig.cmake repeats this list.
-set(BCCSKEL_CORE_PACKAGES Threads absl ZLIB zstd OpenEXR TIFF hwy nlohmann_json)
+set(BCCSKEL_CORE_PACKAGES Threads absl ZLIB zstd OpenEXR TIFF hwy nlohmann_json pugixml)
 # What a program needs besides that links our client.
 set(BCCSKEL_CLIENT_PACKAGES Protobuf gRPC meshoptimizer)
 

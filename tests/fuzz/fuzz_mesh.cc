@@ -8,7 +8,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  // OBJ and STL as text have no mark of their own: there the name decides.
+  // OBJ and STL as text have no mark of their own: there the name decides. Those of glTF, VTK and
+  // GIFTI are in the seeds.
   for (const std::string_view name : {"fuzz.obj", "fuzz.stl"}) {
     const auto mesh = bccskel::ParseMesh(bytes, name);
     if (!mesh.ok()) continue;

@@ -1,11 +1,13 @@
 #include "core/import/mesh/mesh_assembler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "absl/strings/str_format.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel {
 
@@ -38,6 +40,17 @@ absl::Status MeshAssembler::AddPolygon(std::span<const int64_t> corners) {
     mesh_.triangles.push_back({static_cast<uint32_t>(corners[0]),
                                static_cast<uint32_t>(corners[n - 1]),
                                static_cast<uint32_t>(corners[n])});
+  }
+  return absl::OkStatus();
+}
+
+absl::Status MeshAssembler::AddStrip(std::span<const int64_t> corners) {
+  for (size_t n = 2; n < corners.size(); ++n) {
+    const int64_t a = corners[n - 2], b = corners[n - 1], c = corners[n];
+    if (a == b || b == c || a == c) continue;
+    const bool turned = n % 2 == 1;
+    const std::array<int64_t, 3> triangle = {turned ? b : a, turned ? a : b, c};
+    BCCSKEL_RETURN_IF_ERROR(AddPolygon(triangle));
   }
   return absl::OkStatus();
 }

@@ -13,7 +13,7 @@
 
 namespace bccskel {
 
-// Collects the elements that the four readers find and runs the checks that all of them share.
+// Collects the elements that the readers find and runs the checks that all of them share.
 class MeshAssembler {
  public:
   explicit MeshAssembler(const MeshLimits& limits) : limits_(limits) {}
@@ -24,6 +24,10 @@ class MeshAssembler {
   // are dropped. Corners may name vertices that come later in the file.
   // Errors: INVALID_ARGUMENT for an index no vertex can have, RESOURCE_EXHAUSTED.
   absl::Status AddPolygon(std::span<const int64_t> corners);
+  // Adds a strip: each corner from the third on makes a triangle with the two before it, every
+  // second one turned over. Triangles that name a corner twice only join pieces of a strip and are
+  // dropped. Errors: those of AddPolygon().
+  absl::Status AddStrip(std::span<const int64_t> corners);
 
   uint64_t vertex_count() const { return mesh_.vertices.size(); }
   uint64_t triangle_count() const { return mesh_.triangles.size(); }

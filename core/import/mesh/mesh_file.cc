@@ -14,9 +14,13 @@
 namespace bccskel {
 namespace {
 
-enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl };
+enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl, kGltf, kVtkLegacy, kVtp, kGifti };
 
-constexpr std::array<std::string_view, 4> kMeshEndings = {"obj", "stl", "ply", "off"};
+// Of the mesh file, for the files that glTF names; nothing for bytes in memory.
+using Folder = std::optional<std::string>;
+
+constexpr std::array<std::string_view, 9> kMeshEndings = {"obj",  "stl", "ply", "off", "glb",
+                                                          "gltf", "vtk", "vtp", "gii"};
 
 // "off" for "a/b.OFF.gz"; empty without a dot.
 std::string EndingOf(std::string_view path) {
@@ -41,11 +45,24 @@ bool IsObjKeyword(std::string_view word) {
   return std::ranges::find(kKeywords, word) != kKeywords.end();
 }
 
+// The root element of an XML file stands near its start.
+std::optional<MeshFormat> SniffXml(std::string_view bytes) {
+  const std::string_view front = bytes.substr(0, 4096);
+  if (front.find("<VTKFile") != front.npos) return MeshFormat::kVtp;
+  if (front.find("<GIFTI") != front.npos) return MeshFormat::kGifti;
+  return std::nullopt;
+}
+
 // What the bytes say by themselves.
 std::optional<MeshFormat> SniffContent(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::kPly;
+  if (bytes.starts_with("glTF")) return MeshFormat::kGltf;
+  if (IsVtkLegacy(bytes)) return MeshFormat::kVtkLegacy;
   if (HasBinaryStlLength(bytes)) return MeshFormat::kBinaryStl;
   const std::string_view word = FirstWord(bytes);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (word.starts_with('<') || word.starts_with(kByteOrderMark)) return SniffXml(bytes);
+  if (word.starts_with('{')) return MeshFormat::kGltf;
   if (IsOffKeyword(word)) return MeshFormat::kOff;
   if (EqualsIgnoringCase(word, "solid")) return MeshFormat::kAsciiStl;
   if (IsObjKeyword(word)) return MeshFormat::kObj;
@@ -66,12 +83,19 @@ absl::StatusOr<MeshFormat> ChooseFormat(std::string_view bytes, std::string_view
   if (ending == "off") return MeshFormat::kOff;
   if (ending == "stl") return MeshFormat::kBinaryStl;
   if (ending == "ply") return absl::InvalidArgumentError("a PLY file must begin with 'ply'");
+  if (ending == "vtk") {
+    return absl::InvalidArgumentError("a VTK file must begin with '# vtk DataFile Version'");
+  }
+  if (ending == "glb" || ending == "gltf") return MeshFormat::kGltf;
+  if (ending == "vtp") return MeshFormat::kVtp;
+  if (ending == "gii") return MeshFormat::kGifti;
   return absl::InvalidArgumentError(
-      "format not supported: meshes are read from OBJ, STL, PLY and OFF, each also .gz");
+      "format not supported: meshes are read from OBJ, STL, PLY, OFF, glTF, VTK polygon data and "
+      "GIFTI files, each also .gz");
 }
 
 absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
-                                     const MeshLimits& limits) {
+                                     const Folder& folder, const MeshLimits& limits) {
   switch (format) {
     case MeshFormat::kOff:
       return ParseOff(bytes, limits);
@@ -81,6 +105,14 @@ absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
       return ParsePly(bytes, limits);
     case MeshFormat::kAsciiStl:
       return ParseAsciiStl(bytes, limits);
+    case MeshFormat::kGltf:
+      return ParseGltf(bytes, folder, limits);
+    case MeshFormat::kVtkLegacy:
+      return ParseVtkLegacy(bytes, limits);
+    case MeshFormat::kVtp:
+      return ParseVtp(bytes, limits);
+    case MeshFormat::kGifti:
+      return ParseGifti(bytes, limits);
     case MeshFormat::kBinaryStl:
       break;
   }
@@ -88,12 +120,25 @@ absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
 }
 
 absl::StatusOr<TriangleMesh> ChooseAndParse(std::string_view bytes, std::string_view name,
-                                            const MeshLimits& limits) {
+                                            const Folder& folder, const MeshLimits& limits) {
   if (bytes.empty() && EndingOf(name) != "obj") {
     return absl::InvalidArgumentError("the file is empty");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const MeshFormat format, ChooseFormat(bytes, name));
-  return ParseAs(format, bytes, limits);
+  return ParseAs(format, bytes, folder, limits);
+}
+
+absl::StatusOr<TriangleMesh> ParseNamed(std::string_view bytes, std::string_view name,
+                                        const Folder& folder, const MeshLimits& limits) {
+  try {
+    absl::StatusOr<TriangleMesh> mesh = ChooseAndParse(bytes, name, folder, limits);
+    if (mesh.ok()) return mesh;
+    return absl::Status(mesh.status().code(), absl::StrFormat("mesh '%s': %s", std::string(name),
+                                                              mesh.status().message()));
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError(
+        absl::StrFormat("mesh '%s': not enough memory", std::string(name)));
+  }
 }
 
 }  // namespace
@@ -104,20 +149,13 @@ bool HasMeshFileName(std::string_view path) {
 
 absl::StatusOr<TriangleMesh> ParseMesh(std::string_view bytes, std::string_view name,
                                        const MeshLimits& limits) {
-  try {
-    absl::StatusOr<TriangleMesh> mesh = ChooseAndParse(bytes, name, limits);
-    if (mesh.ok()) return mesh;
-    return absl::Status(mesh.status().code(), absl::StrFormat("mesh '%s': %s", std::string(name),
-                                                              mesh.status().message()));
-  } catch (const std::bad_alloc&) {
-    return absl::ResourceExhaustedError(
-        absl::StrFormat("mesh '%s': not enough memory", std::string(name)));
-  }
+  return ParseNamed(bytes, name, std::nullopt, limits);
 }
 
 absl::StatusOr<TriangleMesh> ReadMeshFile(const std::string& path, const MeshLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(path, limits.max_file_bytes));
-  return ParseMesh(bytes, path, limits);
+  const size_t slash = path.find_last_of('/');
+  return ParseNamed(bytes, path, slash == path.npos ? "." : path.substr(0, slash + 1), limits);
 }
 
 }  // namespace bccskel

@@ -10,23 +10,23 @@
 namespace bccskel {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PlyScalar>, 16> kTypeNames = {{
-    {"char", PlyScalar::kInt8},
-    {"int8", PlyScalar::kInt8},
-    {"uchar", PlyScalar::kUint8},
-    {"uint8", PlyScalar::kUint8},
-    {"short", PlyScalar::kInt16},
-    {"int16", PlyScalar::kInt16},
-    {"ushort", PlyScalar::kUint16},
-    {"uint16", PlyScalar::kUint16},
-    {"int", PlyScalar::kInt32},
-    {"int32", PlyScalar::kInt32},
-    {"uint", PlyScalar::kUint32},
-    {"uint32", PlyScalar::kUint32},
-    {"float", PlyScalar::kFloat32},
-    {"float32", PlyScalar::kFloat32},
-    {"double", PlyScalar::kFloat64},
-    {"float64", PlyScalar::kFloat64},
+constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypeNames = {{
+    {"char", Scalar::kInt8},
+    {"int8", Scalar::kInt8},
+    {"uchar", Scalar::kUint8},
+    {"uint8", Scalar::kUint8},
+    {"short", Scalar::kInt16},
+    {"int16", Scalar::kInt16},
+    {"ushort", Scalar::kUint16},
+    {"uint16", Scalar::kUint16},
+    {"int", Scalar::kInt32},
+    {"int32", Scalar::kInt32},
+    {"uint", Scalar::kUint32},
+    {"uint32", Scalar::kUint32},
+    {"float", Scalar::kFloat32},
+    {"float32", Scalar::kFloat32},
+    {"double", Scalar::kFloat64},
+    {"float64", Scalar::kFloat64},
 }};
 
 absl::Status HeaderError(std::string_view what, std::string_view found) {
@@ -34,7 +34,7 @@ absl::Status HeaderError(std::string_view what, std::string_view found) {
                                                     std::string(found.substr(0, 40))));
 }
 
-absl::StatusOr<PlyScalar> ParseType(std::string_view name) {
+absl::StatusOr<Scalar> ParseType(std::string_view name) {
   for (const auto& [known, type] : kTypeNames) {
     if (known == name) return type;
   }
@@ -63,7 +63,7 @@ absl::StatusOr<PlyProperty> ParseProperty(TextScanner& line) {
   std::string_view type = line.Token();
   if (type == "list") {
     BCCSKEL_ASSIGN_OR_RETURN(property.list_count, ParseType(line.Token()));
-    if (*property.list_count >= PlyScalar::kFloat32) {
+    if (IsFloat(*property.list_count)) {
       return HeaderError("expected an integer type for the length of a list", type);
     }
     type = line.Token();
@@ -109,17 +109,12 @@ absl::Status CheckCounts(const PlyHeader& header, uint64_t body_bytes) {
 
 }  // namespace
 
-size_t PlyScalarBytes(PlyScalar type) {
-  constexpr std::array<size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[static_cast<size_t>(type)];
-}
-
 uint64_t PlyElement::MinimumBytes(PlyEncoding encoding) const {
   uint64_t bytes = 0;
   for (const PlyProperty& property : properties) {
     bytes += encoding == PlyEncoding::kAscii ? 1
-             : property.list_count           ? PlyScalarBytes(*property.list_count)
-                                             : PlyScalarBytes(property.type);
+             : property.list_count           ? ScalarBytes(*property.list_count)
+                                             : ScalarBytes(property.type);
   }
   return bytes;
 }

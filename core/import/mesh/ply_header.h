@@ -8,18 +8,16 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/import/mesh/scalar.h"
 
 namespace bccskel {
 
 enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
-enum class PlyScalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-size_t PlyScalarBytes(PlyScalar type);
 
 struct PlyProperty {
   std::string name;
-  PlyScalar type = PlyScalar::kFloat32;  // of the value, or of each value of a list
-  std::optional<PlyScalar> list_count;   // type of the count; set for lists only
+  Scalar type = Scalar::kFloat32;    // of the value, or of each value of a list
+  std::optional<Scalar> list_count;  // type of the count; set for lists only
 };
 
 struct PlyElement {

@@ -14,6 +14,7 @@
 #include "core/import/mesh/mesh_assembler.h"
 #include "core/import/mesh/mesh_readers.h"
 #include "core/import/mesh/ply_header.h"
+#include "core/import/mesh/scalar.h"
 #include "core/import/mesh/text_scanner.h"
 
 namespace bccskel {
@@ -40,57 +41,28 @@ class PlyBody {
   PlyBody(std::string_view bytes, PlyEncoding encoding)
       : bytes_(bytes),
         encoding_(encoding),
+        order_(encoding == PlyEncoding::kBigEndian ? std::endian::big : std::endian::little),
         text_(bytes, TextScanner::Comments::kNone, LineContinuation::kNone) {}
 
-  std::optional<double> Next(PlyScalar type) {
+  std::optional<double> Next(Scalar type) {
     if (encoding_ == PlyEncoding::kAscii) return ParseDouble(text_.TokenAcrossLines());
-    const size_t size = PlyScalarBytes(type);
+    const size_t size = ScalarBytes(type);
     if (bytes_.size() < size) return std::nullopt;
-    const uint64_t raw = TakeRaw(size);
-    return Convert(type, raw);
+    const double value = ScalarAt(bytes_.data(), type, order_);
+    bytes_.remove_prefix(size);
+    return value;
   }
 
   // False when so many values cannot follow.
-  bool CanHold(uint64_t count, PlyScalar type) const {
-    const size_t size = encoding_ == PlyEncoding::kAscii ? 1 : PlyScalarBytes(type);
+  bool CanHold(uint64_t count, Scalar type) const {
+    const size_t size = encoding_ == PlyEncoding::kAscii ? 1 : ScalarBytes(type);
     return count <= bytes_.size() / size;
   }
 
  private:
-  uint64_t TakeRaw(size_t size) {
-    uint64_t raw = 0;
-    for (size_t n = 0; n < size; ++n) {
-      const size_t at = encoding_ == PlyEncoding::kBigEndian ? n : size - 1 - n;
-      raw = raw << 8 | static_cast<uint8_t>(bytes_[at]);
-    }
-    bytes_.remove_prefix(size);
-    return raw;
-  }
-
-  static double Convert(PlyScalar type, uint64_t raw) {
-    switch (type) {
-      case PlyScalar::kInt8:
-        return static_cast<int8_t>(raw);
-      case PlyScalar::kUint8:
-        return static_cast<uint8_t>(raw);
-      case PlyScalar::kInt16:
-        return static_cast<int16_t>(raw);
-      case PlyScalar::kUint16:
-        return static_cast<uint16_t>(raw);
-      case PlyScalar::kInt32:
-        return static_cast<int32_t>(raw);
-      case PlyScalar::kUint32:
-        return static_cast<uint32_t>(raw);
-      case PlyScalar::kFloat32:
-        return std::bit_cast<float>(static_cast<uint32_t>(raw));
-      case PlyScalar::kFloat64:
-        break;
-    }
-    return std::bit_cast<double>(raw);
-  }
-
   std::string_view bytes_;
   PlyEncoding encoding_;
+  std::endian order_;
   TextScanner text_;
 };
 

@@ -86,6 +86,16 @@ absl::Status LineError(std::string_view format, const TextScanner& text, std::st
                                                     text.line_number(), what, token.substr(0, 40)));
 }
 
+absl::Status CheckMarks(std::string_view format, std::string_view text,
+                        std::string_view characters) {
+  const auto marks =
+      std::ranges::count_if(text, [&](char c) { return characters.find(c) != characters.npos; });
+  if (static_cast<uint64_t>(marks) <= kMaxMarks) return absl::OkStatus();
+  return absl::ResourceExhaustedError(
+      absl::StrFormat("%s: %d of the characters %s mark parts of the file; the limit is %d", format,
+                      marks, characters, kMaxMarks));
+}
+
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
 }

@@ -53,6 +53,14 @@ std::optional<int64_t> ParseInteger(std::string_view token);
 absl::Status LineError(std::string_view format, const TextScanner& text, std::string_view what,
                        std::string_view token);
 
+// Meshes have few elements and long texts. More than this many marks (tags, attributes; braces and
+// commas of JSON) would take many times the memory of the file.
+constexpr uint64_t kMaxMarks = uint64_t{1} << 21;
+
+// Errors: RESOURCE_EXHAUSTED if `text` has more than kMaxMarks of the characters.
+absl::Status CheckMarks(std::string_view format, std::string_view text,
+                        std::string_view characters);
+
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 
 }  // namespace bccskel

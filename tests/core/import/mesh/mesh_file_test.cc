@@ -189,6 +189,9 @@ TEST(MeshFile, TellsAMissingFileFromAFolder) {
 TEST(MeshFile, KnowsItsFileNames) {
   EXPECT_TRUE(HasMeshFileName("a/b.c/X.OFF"));
   EXPECT_TRUE(HasMeshFileName("x.stl.gz"));
+  for (const char* name : {"a.glb", "a.gltf", "a.vtk", "a.vtp", "lh.surf.gii", "a.vtk.gz"}) {
+    EXPECT_TRUE(HasMeshFileName(name)) << name;
+  }
   EXPECT_FALSE(HasMeshFileName("x.exr"));
   EXPECT_FALSE(HasMeshFileName("dir.obj/x"));
 }

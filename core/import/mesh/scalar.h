@@ -1,0 +1,32 @@
+#ifndef BCCSKEL_CORE_IMPORT_MESH_SCALAR_H_
+#define BCCSKEL_CORE_IMPORT_MESH_SCALAR_H_
+
+#include <bit>
+#include <cstddef>
+
+namespace bccskel {
+
+// How a binary file stores a number.
+enum class Scalar {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64
+};
+
+size_t ScalarBytes(Scalar type);
+inline bool IsFloat(Scalar type) { return type >= Scalar::kFloat32; }
+
+// The number that the first ScalarBytes(type) bytes hold. A double holds all of them but integers
+// of 64 bits beyond 2^53, which are no index of ours: those are rounded.
+double ScalarAt(const char* bytes, Scalar type, std::endian order);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_IMPORT_MESH_SCALAR_H_
