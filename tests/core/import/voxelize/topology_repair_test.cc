@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/core/import/mesh/mesh_shapes.h"
 #include "tests/core/import/voxelize/voxelized.h"
 
 namespace bccskel {
@@ -113,7 +114,8 @@ TEST(TopologyRepair, LeavesWhatItCannotBringNearer) {
 }
 
 TEST(TopologyRepair, AWallThinnerThanCellsIsNamedWithItsRemedy) {
-  TriangleMesh mesh = Blade(0.05);
+  std::mt19937 random(1);
+  const TriangleMesh mesh = Turned(testing::Box({0, 0, 0}, {1, 1, 0.02}), random);
   const VoxelizeResult result = test::Voxelized(mesh, {.spacing = 0.05});
   EXPECT_THAT(result.warnings, Contains(HasSubstr("cells 0.05 wide, so try --spacing 0.0")));
 }
