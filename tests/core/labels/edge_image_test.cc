@@ -44,9 +44,9 @@ Example ExampleOf(LabelVolume volume) {
 }
 
 // One label: seeded balls that form several components, some with branches.
-Example Balls(const Placement& placement) {
+Example Balls(const Placement& placement, int number = 14, int largest = 6) {
   LabelVolume volume = test::EmptyLabels(60, 40, 30, placement);
-  const test::ReferenceMask balls = test::RandomBallMask(8, 60, 40, 30, 14, 6);
+  const test::ReferenceMask balls = test::RandomBallMask(8, 60, 40, 30, number, largest);
   for (size_t n = 0; n < balls.voxels.size(); ++n) volume.labels[n] = balls.voxels[n];
   return ExampleOf(std::move(volume));
 }
@@ -156,7 +156,7 @@ void ExpectNearestEdges(const Example& example, int threads) {
 }
 
 TEST(NearestEdges, AreThoseFoundByLookingAtAllCurvePointsOfTheComponent) {
-  const Example example = Balls({});
+  const Example example = Balls({}, 40, 5);
   ASSERT_GT(example.graph.edges.size(), 5u);
   ExpectNearestEdges(example, 1);
   ExpectNearestEdges(example, 3);
