@@ -203,7 +203,7 @@ def options_section(masks, changed):
             "From the defaults to the option. A preset may change the topology: it fills cavities "
             "and narrow tunnels and drops small components, so loops and components go. "
             "`--border continues` keeps it. What lies flat along a face of the image then has its "
-            "curve in the face, where it covers less: more parts are missed, so it is no default.",
+            "curve in the face, beside others: more length is redundant, so it is no default.",
             "",
             *table(["option", "mask", "components", "loops", "free ends", "branches", "twigs",
                     "missed parts", "redundant length"], rows)]
