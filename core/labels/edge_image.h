@@ -37,7 +37,8 @@ absl::StatusOr<SparseImage> NearestEdges(const MaskGrid& grid, const LabeledObje
 
 // The voxels of the object that curve points fall in. A point between voxels falls in the first of
 // them, in the order of z, y, x, that is in the object; a voxel of several edges has the smallest
-// value. The voxels of an edge are connected (26).
+// value. The voxels of an edge are connected (26), but that beside a notch of the mask one may be
+// missing between two of them.
 // Errors: INVALID_ARGUMENT as above.
 absl::StatusOr<SparseImage> DrawSkeleton(const MaskGrid& grid, const LabeledObject& object,
                                          const SkeletonGraph& graph);
