@@ -10,6 +10,7 @@
 
 #include "core/exec/status_macros.h"
 #include "core/lattice/directions.h"
+#include "core/lattice/lattice_point_hash.h"
 #include "core/prepare/denoise.h"
 #include "core/prepare/keep_components.h"
 #include "core/topology/simple_point_table.h"
@@ -17,16 +18,7 @@
 namespace bccskel {
 namespace {
 
-struct PointHash {
-  size_t operator()(LatticePoint p) const {
-    uint64_t hash = static_cast<uint32_t>(p.x);
-    for (const int32_t next : {p.y, p.z}) {
-      hash = hash * 0x9e3779b97f4a7c15u + static_cast<uint32_t>(next);
-    }
-    return static_cast<size_t>(hash ^ hash >> 32);
-  }
-};
-using PointSet = std::unordered_set<LatticePoint, PointHash>;
+using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
 // Points of `a` that are not in `b`, in the order of a volume's bricks.
 std::vector<LatticePoint> PointsOnlyIn(const Volume& a, const Volume& b) {
