@@ -1,7 +1,6 @@
 #include "core/import/voxelize/voxelize.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -155,15 +154,11 @@ class Voxelizer {
   std::string WallsInWords(const Volume& volume) const {
     double area = 0;
     for (const auto& [a, b, c] : surface_.triangles) {
-      const auto& v = surface_.vertices;
-      std::array<double, 3> ab, ac;
-      for (size_t n = 0; n < 3; ++n) {
-        ab[n] = v[b][n] - v[a][n];
-        ac[n] = v[c][n] - v[a][n];
-      }
-      area += std::hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
-                         ab[0] * ac[1] - ab[1] * ac[0]) /
-              2;
+      const WorldPoint &at = surface_.vertices[a], &v = surface_.vertices[b],
+                       &w = surface_.vertices[c];
+      const WorldPoint normal = Cross({v[0] - at[0], v[1] - at[1], v[2] - at[2]},
+                                      {w[0] - at[0], w[1] - at[1], w[2] - at[2]});
+      area += std::sqrt(Dot(normal, normal)) / 2;
     }
     const double thickness = 2 * surface_.unit_volume / area;
     const double cell = volume.placement().spacing[0] / surface_.half_size / 2;
