@@ -113,10 +113,10 @@ class GltfReader {
 
   // In the order of the file, without recursion: a tree may be as deep as the file is long.
   absl::Status ReadTree(uint64_t root) {
-    std::vector<PlacedNode> todo = {{root, GltfTransform()}};
-    while (!todo.empty()) {
-      const PlacedNode placed = todo.back();
-      todo.pop_back();
+    std::vector<PlacedNode> pending = {{root, GltfTransform()}};
+    while (!pending.empty()) {
+      const PlacedNode placed = pending.back();
+      pending.pop_back();
       BCCSKEL_ASSIGN_OR_RETURN(const GltfItem node, GltfItem::At(document_, "nodes", placed.index));
       if (!visited_.insert(placed.index).second) {
         return node.Error("is reached twice; nodes must form trees, without cycles");
@@ -125,7 +125,7 @@ class GltfReader {
       const GltfTransform transform = placed.transform.After(own);
       if (node.Has("mesh")) BCCSKEL_RETURN_IF_ERROR(ReadMesh(node, transform));
       BCCSKEL_ASSIGN_OR_RETURN(const std::vector<uint64_t> children, node.Wholes("children"));
-      for (size_t n = children.size(); n > 0; --n) todo.push_back({children[n - 1], transform});
+      for (size_t n = children.size(); n > 0; --n) pending.push_back({children[n - 1], transform});
     }
     return absl::OkStatus();
   }

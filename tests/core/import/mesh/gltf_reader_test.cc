@@ -17,14 +17,13 @@
 namespace bccskel {
 namespace {
 
+using testing::GltfBox;
 using ::testing::HasSubstr;
 using testing::Json;
 using testing::List;
 using testing::Scene;
 using testing::SceneOf;
 using testing::ToGlb;
-
-TriangleMesh GltfBox() { return testing::Box({-1, 0.5, 2}, {3, 4, 5}); }
 
 void ExpectMesh(const std::string& bytes, const TriangleMesh& expected) {
   const auto mesh = ParseMesh(bytes, "a.bin");

@@ -11,6 +11,7 @@
 namespace bccskel {
 namespace {
 
+using testing::GltfBox;
 using ::testing::HasSubstr;
 using testing::Json;
 using testing::List;
@@ -18,8 +19,6 @@ using testing::Scene;
 using testing::SceneOf;
 using testing::ToGlb;
 using testing::ToGltf;
-
-TriangleMesh RefusedBox() { return testing::Box({-1, 0.5, 2}, {3, 4, 5}); }
 
 struct GltfRefusal {
   const char* what;
@@ -32,7 +31,7 @@ void PrintTo(const GltfRefusal& refusal, std::ostream* out) { *out << refusal.wh
 class GltfRefusals : public ::testing::TestWithParam<GltfRefusal> {};
 
 TEST_P(GltfRefusals, NameWhatIsWrong) {
-  Scene scene = SceneOf(RefusedBox());
+  Scene scene = SceneOf(GltfBox());
   GetParam().damage(scene);
   for (const std::string& bytes : {ToGlb(scene), ToGltf(scene)}) {
     const auto mesh = ParseMesh(bytes, "a.glb");
@@ -117,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.what; });
 
 TEST(GltfRefusal, RefusesACutContainer) {
-  const std::string bytes = ToGlb(SceneOf(RefusedBox()));
+  const std::string bytes = ToGlb(SceneOf(GltfBox()));
   for (size_t size = 4; size < bytes.size(); ++size) {
     EXPECT_EQ(ParseMesh(bytes.substr(0, size), "a.glb").status().code(),
               absl::StatusCode::kInvalidArgument)
@@ -135,13 +134,13 @@ TEST(GltfRefusal, SurvivesDeepNesting) {
   const std::string closed = deep + std::string(deep.size(), ']');
   EXPECT_FALSE(
       ParseMesh("{\"asset\":{\"version\":\"2.0\"},\"scene\":" + closed + "}", "a.gltf").ok());
-  Scene chain = SceneOf(RefusedBox());
+  Scene chain = SceneOf(GltfBox());
   chain.json["nodes"] = Json::array();
   for (int n = 0; n < 20'000; ++n) chain.json["nodes"].push_back({{"children", List(n + 1)}});
   chain.json["nodes"].push_back({{"mesh", 0}});
   const auto mesh = ParseMesh(ToGlb(chain), "a.glb");
   ASSERT_TRUE(mesh.ok()) << mesh.status();
-  EXPECT_EQ(*mesh, RefusedBox());
+  EXPECT_EQ(*mesh, GltfBox());
 }
 
 TEST(GltfRefusal, RefusesMoreMarksThanItsLimit) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/import/mesh/triangle_mesh.h"
+#include "tests/core/import/mesh/mesh_shapes.h"
 
 namespace bccskel::testing {
 
@@ -48,6 +49,9 @@ struct Scene {
   }
   Json& primitive() { return json["meshes"][0]["primitives"][0]; }
 };
+
+// What the tests draw.
+inline TriangleMesh GltfBox() { return Box({-1, 0.5, 2}, {3, 4, 5}); }
 
 // The mesh as floats and 32-bit indices, drawn by one node.
 Scene SceneOf(const TriangleMesh& mesh);
