@@ -1,5 +1,6 @@
 #include "core/labels/curve_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -76,19 +77,22 @@ std::vector<ValuedPoint> ValuedPoints(const SkeletonGraph& graph) {
 // Half a voxel around the point, and one voxel around it for samplings.
 constexpr std::array<double, 2> kReaches = {0.5, 1};
 
-// The object's voxels whose centers are at most `reach` away along each axis: the first one.
-std::optional<std::pair<std::array<int32_t, 3>, RunIndex>> FirstVoxel(const Vector& at,
-                                                                      double reach,
-                                                                      const RunLookup& lookup) {
-  std::array<int32_t, 3> low = {}, high = {};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = static_cast<int32_t>(std::ceil(at[axis] - reach));
-    high[axis] = static_cast<int32_t>(std::floor(at[axis] + reach));
-  }
-  for (int32_t z = low[2]; z <= high[2]; ++z) {
-    for (int32_t y = low[1]; y <= high[1]; ++y) {
-      for (int32_t x = low[0]; x <= high[0]; ++x) {
-        if (const auto run = lookup.Find({x, y, z})) return std::pair{std::array{x, y, z}, *run};
+using FoundVoxel = std::pair<std::array<int32_t, 3>, RunIndex>;
+
+// The first of the object's voxels whose centers are at most the smallest reach that finds one away
+// from both places, along each axis.
+std::optional<FoundVoxel> FirstVoxel(const Vector& a, const Vector& b, const RunLookup& lookup) {
+  for (double reach : kReaches) {
+    std::array<int32_t, 3> low = {}, high = {};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = static_cast<int32_t>(std::ceil(std::max(a[axis], b[axis]) - reach));
+      high[axis] = static_cast<int32_t>(std::floor(std::min(a[axis], b[axis]) + reach));
+    }
+    for (int32_t z = low[2]; z <= high[2]; ++z) {
+      for (int32_t y = low[1]; y <= high[1]; ++y) {
+        for (int32_t x = low[0]; x <= high[0]; ++x) {
+          if (const auto run = lookup.Find({x, y, z})) return std::pair{std::array{x, y, z}, *run};
+        }
       }
     }
   }
@@ -105,14 +109,17 @@ absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph
   std::vector<CurvePoint> points;
   for (const auto& [point, value] : ValuedPoints(graph)) {
     const Vector at = placed.At(point);
-    for (double reach : kReaches) {
-      if (const auto found = FirstVoxel(at, reach, lookup)) {
-        points.push_back({at, found->first, found->second, value});
-        break;
-      }
+    if (const auto found = FirstVoxel(at, at, lookup)) {
+      points.push_back({at, found->first, found->second, value});
     }
   }
   return points;
+}
+
+std::optional<std::array<int32_t, 3>> SharedVoxel(const CurvePoint& a, const CurvePoint& b,
+                                                  const RunLookup& lookup) {
+  const auto found = FirstVoxel(a.at, b.at, lookup);
+  return found ? std::optional(found->first) : std::nullopt;
 }
 
 }  // namespace bccskel

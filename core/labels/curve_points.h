@@ -29,6 +29,11 @@ absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph
                                                       const MaskGrid& grid,
                                                       const RunLookup& lookup);
 
+// The first object voxel, in the order of z, y, x, that both points lie in or beside: their places
+// are at most half a voxel from its center along each axis, or one voxel if there is none.
+std::optional<std::array<int32_t, 3>> SharedVoxel(const CurvePoint& a, const CurvePoint& b,
+                                                  const RunLookup& lookup);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_LABELS_CURVE_POINTS_H_

@@ -1,7 +1,9 @@
 #include "core/labels/edge_image.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdlib>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -27,6 +29,11 @@ void Append(SparseImage& image, const VoxelRun& voxel, uint32_t value) {
     }
   }
   image.push_back({voxel, value});
+}
+
+// Whether the voxels are the same or neighbors (26).
+bool Touch(const std::array<int32_t, 3>& a, const std::array<int32_t, 3>& b) {
+  return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 && std::abs(a[2] - b[2]) <= 1;
 }
 
 // The curve points of each component, ready to be searched.
@@ -127,12 +134,19 @@ absl::StatusOr<SparseImage> NearestEdges(const MaskGrid& grid, const LabeledObje
 
 absl::StatusOr<SparseImage> DrawSkeleton(const MaskGrid& grid, const LabeledObject& object,
                                          const SkeletonGraph& graph) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<CurvePoint> points,
-                           CurvePointsOf(graph, grid, RunLookup(object.runs)));
+  const RunLookup lookup(object.runs);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<CurvePoint> points,
+                           CurvePointsOf(graph, grid, lookup));
   SparseImage voxels;
-  for (const CurvePoint& p : points) {
-    const auto [x, y, z] = p.voxel;
-    voxels.push_back({{z, y, x, x + 1}, p.value});
+  const auto draw = [&](const std::array<int32_t, 3>& voxel, uint32_t value) {
+    const auto [x, y, z] = voxel;
+    voxels.push_back({{z, y, x, x + 1}, value});
+  };
+  for (size_t n = 0; n < points.size(); ++n) {
+    const CurvePoint& p = points[n];
+    draw(p.voxel, p.value);
+    if (n == 0 || points[n - 1].value != p.value || Touch(points[n - 1].voxel, p.voxel)) continue;
+    if (const auto between = SharedVoxel(points[n - 1], p, lookup)) draw(*between, p.value);
   }
   std::ranges::sort(voxels);
   SparseImage image;

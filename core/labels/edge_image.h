@@ -36,9 +36,9 @@ absl::StatusOr<SparseImage> NearestEdges(const MaskGrid& grid, const LabeledObje
                                          const exec::Context& context);
 
 // The voxels of the object that curve points fall in. A point between voxels falls in the first of
-// them, in the order of z, y, x, that is in the object; a voxel of several edges has the smallest
-// value. The voxels of an edge are connected (26), but that beside a notch of the mask one may be
-// missing between two of them.
+// them, in the order of z, y, x, that is in the object; beside a notch two successive points may so
+// fall in voxels that do not touch, and the voxel that both lie beside is added. A voxel of several
+// edges has the smallest value. The voxels of an exactly converted component are connected (26).
 // Errors: INVALID_ARGUMENT as above.
 absl::StatusOr<SparseImage> DrawSkeleton(const MaskGrid& grid, const LabeledObject& object,
                                          const SkeletonGraph& graph);
