@@ -1,8 +1,8 @@
 #include "core/import/voxelize/topology_repair.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -87,49 +87,69 @@ class SimpleFlips {
   PointSet flipped_;
 };
 
-// The majority, once or twice, that is nearest to the wanted topology; nothing if none is nearer
-// than the sampling, or lacks a loop.
-absl::StatusOr<std::optional<Volume>> BestMajority(const Volume& sampling, int64_t most_loops,
+// How many components, loops and cavities more than wanted.
+int64_t Surplus(const BettiNumbers& found, const BettiNumbers& wanted) {
+  return std::max<int64_t>(0, found.components - wanted.components) +
+         std::max<int64_t>(0, found.loops - wanted.loops) +
+         std::max<int64_t>(0, found.cavities - wanted.cavities);
+}
+
+// Whether `after` has less of something than both.
+bool Lacks(const BettiNumbers& after, const BettiNumbers& before, const BettiNumbers& wanted) {
+  return after.components < std::min(before.components, wanted.components) ||
+         after.loops < std::min(before.loops, wanted.loops) ||
+         after.cavities < std::min(before.cavities, wanted.cavities);
+}
+
+// What hangs by few points is dust after a majority.
+absl::StatusOr<Volume> WithoutDust(const Volume& volume, const BettiNumbers& wanted,
+                                   const exec::Context& context) {
+  constexpr uint64_t kLeastPart = 64;  // points
+  BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume kept,
+                           wanted.components == 1
+                               ? KeepLargestComponent(volume, context)
+                               : DropSmallComponents(volume, kLeastPart, context));
+  return std::move(kept.object);
+}
+
+// See the header; nothing where none is better than the sampling.
+absl::StatusOr<std::optional<Volume>> BestMajority(const Volume& sampling,
+                                                   const BettiNumbers& before,
                                                    const BettiNumbers& wanted,
                                                    const exec::Context& context) {
   constexpr int kMostPasses = 4;
   std::optional<Volume> best;
-  Volume majority = sampling;
-  for (int pass = 0; pass < kMostPasses && most_loops != wanted.loops; ++pass) {
-    BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume denoised, Denoise(majority, context));
-    majority = std::move(denoised.object);
-    if (wanted.components == 1) {  // denoising parts what hangs by few points
-      BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume largest, KeepLargestComponent(majority, context));
-      majority = std::move(largest.object);
+  int64_t least = Surplus(before, wanted);
+  // Where parts cross, dust of the sampling may hide that they are one component.
+  BCCSKEL_ASSIGN_OR_RETURN(Volume majority, WithoutDust(sampling, wanted, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const BettiNumbers firm, CountBettiNumbers(majority, context));
+  BettiNumbers after = firm;
+  for (int pass = 0;; ++pass) {
+    const int64_t surplus = Surplus(after, wanted);
+    if (surplus < least && !Lacks(after, firm, wanted)) {
+      best = majority;
+      least = surplus;
     }
-    BCCSKEL_ASSIGN_OR_RETURN(const BettiNumbers found, CountBettiNumbers(majority, context));
-    const bool nearer = found.components == wanted.components &&
-                        found.cavities == wanted.cavities && found.loops >= wanted.loops &&
-                        found.loops < most_loops;
-    if (!nearer) continue;
-    best = majority;
-    most_loops = found.loops;
+    if (pass == kMostPasses || least == 0) return best;
+    BCCSKEL_ASSIGN_OR_RETURN(ChangedVolume denoised, Denoise(majority, context));
+    BCCSKEL_ASSIGN_OR_RETURN(majority, WithoutDust(denoised.object, wanted, context));
+    BCCSKEL_ASSIGN_OR_RETURN(after, CountBettiNumbers(majority, context));
   }
-  return best;
 }
 
 }  // namespace
 
 absl::StatusOr<Volume> RepairTopology(Volume sampling, const BettiNumbers& found,
                                       const BettiNumbers& wanted, const exec::Context& context) {
-  const bool lacks = found.components < wanted.components || found.loops < wanted.loops ||
-                     found.cavities < wanted.cavities;
-  if (lacks) return sampling;  // parts touch, or walls are thinner than a cell
-  const bool only_loops =
-      found.components == wanted.components && found.cavities == wanted.cavities;
-  const int64_t most_loops = only_loops ? found.loops : std::numeric_limits<int64_t>::max();
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<Volume> majority,
-                           BestMajority(sampling, most_loops, wanted, context));
+                           BestMajority(sampling, found, wanted, context));
   if (!majority.has_value()) return sampling;
   SimpleFlips flips(*majority);
   flips.Flip(PointsOnlyIn(sampling, *majority));
   flips.Flip(PointsOnlyIn(*majority, sampling));
-  return std::move(flips).Take();
+  BCCSKEL_ASSIGN_OR_RETURN(Volume repaired, std::move(flips).Take());
+  const bool much_is_lost = repaired.PointCount() < sampling.PointCount() / 16 * 15;
+  return much_is_lost ? std::move(sampling) : std::move(repaired);
 }
 
 }  // namespace bccskel

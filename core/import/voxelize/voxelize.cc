@@ -133,9 +133,9 @@ class Voxelizer {
     }
     const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);
     if (!mesh || *mesh == found) return absl::OkStatus();
-    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
-    if (crossings == 0) BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
+    BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
     if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
+    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
     warnings_.push_back(
         "the volume has " + InWords(AsSolid(*result.topology)) + ", but the mesh has " +
         InWords(*mesh) + ": " +
@@ -167,8 +167,7 @@ class Voxelizer {
     const double points = 2 * surface_.unit_volume / (spacing * spacing * spacing);
     return absl::StrFormat(
         "; walls are about %.2g thick and cells %.2g wide, so try --spacing %.2g, which takes "
-        "about "
-        "%.2g points",
+        "about %.2g points",
         InWorld(thickness), InWorld(cell), InWorld(spacing), points);
   }
   double InWorld(double length) const { return length * surface_.half_size * 2; }

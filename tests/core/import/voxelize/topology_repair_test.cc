@@ -1,4 +1,4 @@
-// Sharp edges, along which a sampling hangs together by chance.
+// Sharp edges and crossing parts, where a sampling hangs together by chance.
 #include "core/import/voxelize/topology_repair.h"
 
 #include <gmock/gmock.h>
@@ -72,6 +72,24 @@ TEST(TopologyRepair, BladesHaveTheTopologyOfTheirMeshInEveryPose) {
   EXPECT_GE(different, 8);  // or the test shows nothing
 }
 
+TEST(TopologyRepair, BladesThatCrossHaveNoLoopsInAnyPose) {
+  std::mt19937 random(2);
+  int different = 0;
+  for (int n = 0; n < 12; ++n) {
+    const TriangleMesh blade = Turned(Blade(0.2 + 0.05 * (n % 4)), random);
+    TriangleMesh mesh = blade;
+    for (const auto& [x, y, z] : blade.vertices) mesh.vertices.push_back({y, z, x});
+    for (auto [a, b, c] : blade.triangles) mesh.triangles.push_back({a + 6, b + 6, c + 6});
+    const VoxelizeResult plain =
+        test::Voxelized(mesh, {.points = 20000, .topology = TopologyCheck::kSkip});
+    const VoxelizeResult result = test::Voxelized(mesh, {.points = 20000});
+    EXPECT_THAT(result.warnings, Contains(HasSubstr("but the mesh has 2 components, 0 loops")));
+    EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
+    different += PointsApart(plain.volume, result.volume) > 0;
+  }
+  EXPECT_GE(different, 4);  // or the test shows nothing
+}
+
 // A cube of lattice points with a spine of single points, and a handle that is one point thick.
 struct SpineAndHandle {
   VolumeBuilder builder{LatticeExtent{20, 20, 20}};
@@ -105,10 +123,17 @@ TEST(TopologyRepair, CutsAFalseHandleAndKeepsAThinLimb) {
   for (const LatticePoint p : made.spine) EXPECT_TRUE(repaired.Contains(p));
 }
 
-TEST(TopologyRepair, LeavesWhatItCannotBringNearer) {
+TEST(TopologyRepair, TakesAwayWhatIsTooMuchWherePartsTouch) {
   SpineAndHandle made(/*handle=*/true);
   const Volume sampling = std::move(made.builder).Build().value();
-  for (const BettiNumbers wanted : {BettiNumbers{1, 1, 1}, BettiNumbers{2, 0, 0}}) {  // lacks these
+  const Volume repaired = RepairTopology(sampling, {1, 1, 0}, {2, 0, 0}, {}).value();
+  EXPECT_EQ(CountBettiNumbers(repaired, {}).value(), (BettiNumbers{1, 0, 0}));
+}
+
+TEST(TopologyRepair, LeavesASamplingThatHasNothingTooMuch) {
+  SpineAndHandle made(/*handle=*/true);
+  const Volume sampling = std::move(made.builder).Build().value();
+  for (const BettiNumbers wanted : {BettiNumbers{1, 1, 1}, BettiNumbers{2, 2, 0}}) {
     EXPECT_EQ(RepairTopology(sampling, {1, 1, 0}, wanted, {}).value(), sampling);
   }
 }

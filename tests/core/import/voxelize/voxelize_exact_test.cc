@@ -17,6 +17,7 @@ namespace {
 
 using test::Agreement;
 using test::Compare;
+using test::Voxelized;
 using test::WithSpacing;
 using testing::Box;
 using testing::Flipped;
@@ -34,7 +35,8 @@ TriangleMesh Tilted(TriangleMesh mesh, double angle = 0.7) {
 }
 
 void ExpectWhatRaysFind(const TriangleMesh& mesh, double spacing) {
-  const VoxelizeResult result = WithSpacing(mesh, spacing);
+  const VoxelizeResult result =
+      Voxelized(mesh, {.spacing = spacing, .topology = TopologyCheck::kSkip});
   const Agreement agreement = Compare(result.volume, mesh, [&](const WorldPoint& p) {
     return test::CastSkewRay(mesh, p).winding != 0;
   });
@@ -152,7 +154,8 @@ TEST(VoxelizeExactLaw, ParityOfRandomTetrahedraIsWhatRaysInAnotherDirectionFind)
       const auto part = testing::Tetrahedron(corner(), corner(), corner(), corner());
       mesh = Merged(mesh, n % 2 == 0 ? part : Flipped(part));
     }
-    const VoxelizeResult result = WithSpacing(mesh, 0.05, FillRule::kParity);
+    const VoxelizeResult result = Voxelized(
+        mesh, {.spacing = 0.05, .fill = FillRule::kParity, .topology = TopologyCheck::kSkip});
     const Agreement agreement = Compare(result.volume, mesh, [&](const WorldPoint& p) {
       return test::CastSkewRay(mesh, p).crossings % 2 != 0;
     });
