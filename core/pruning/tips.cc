@@ -58,7 +58,7 @@ class TipPlacer {
         radius_(radius),
         searching_(radius.searches() ? radius : ExactRadius(space)),
         depth_(space, searching_),
-        flat_(space, searching_, depth_),
+        flat_(object, searching_, depth_),  // it ends at the border
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement()), context),
         step_(std::ranges::max(AxisScaleOf(object.placement()))),

@@ -83,6 +83,22 @@ TEST(Border, ARodThatIsCutOffRunsStraightToIt) {
 }
 
 // Two crossed bars, cut out of a stack of this height: limbs stay, however thin the stack is.
+TEST(Border, ARodInOneLayerKeepsItsEnds) {
+  for (const double radius : {4.0, 6.0, 9.0}) {
+    const Volume rod = VolumeWhere({240, 90, 1}, [radius](double x, double y, double) {
+      const double dx = x - 240, dy = y - 90;
+      const double along = std::clamp((3 * dx + dy) / std::sqrt(10), -220.0, 220.0);
+      return std::hypot(dx - 3 * along / std::sqrt(10), dy - along / std::sqrt(10)) <= radius;
+    });
+    const SkeletonizeResult result = SkeletonOf(rod, Continued());
+    ASSERT_EQ(result.graph.nodes.size(), 2u) << radius;
+    for (const SkeletonNode& node : result.graph.nodes) {
+      const LatticePoint p = node.at.point;
+      EXPECT_NEAR(std::hypot(p.x - 240, p.y - 90), 220, 4) << radius;
+    }
+  }
+}
+
 TEST(Border, LimbsInAThinStackKeepTheirCurvesAndRadii) {
   for (const int32_t height : {1, 3, 10}) {
     const Volume cross = VolumeWhere({64, 64, height}, [](double x, double y, double /*z*/) {
