@@ -122,11 +122,11 @@ absl::Status DurableJobs::RecoverStore(JobStore& store) {
 }
 
 absl::Status DurableJobs::RecoverUploads(JobStore& store) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.All<UploadRow>());
   for (const UploadRow& row : uploads) {
     if (!row.volume.empty()) continue;
     BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
-                             blobs_.OpenUpload(row.tenant, row.name));
+                             UploadFile::Open(blobs_.PathOf(row)));
     // Nobody could send while there was no server.
     uploads_.Add(std::make_shared<UploadSession>(row, std::move(file), Now()));
   }
@@ -232,7 +232,7 @@ void DurableJobs::Apply(const Erased& erased) {
         })) {
       continue;
     }
-    blobs_.RemoveBlob(row.tenant, row.blob_digest).IgnoreError();
+    RemoveFile(blobs_.PathOfBlob(row.tenant, row.blob_digest)).IgnoreError();
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
   if (erased.traces == Erased::Traces::kMayStay) return;

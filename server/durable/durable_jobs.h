@@ -26,9 +26,7 @@
 #include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/durable/run.h"
-#include "server/durable/steps.h"
 #include "server/durable/stored_result.h"
-#include "server/durable/upload_session.h"
 #include "server/durable/upload_table.h"
 #include "server/durable/watch_board.h"
 #include "server/jobs/task_threads.h"
@@ -162,6 +160,14 @@ class DurableJobs final : public RunObserver {
   struct Storing;
   struct Claiming;
   struct Moving;
+  // What a change has deleted, for its end.
+  struct Erased {
+    std::vector<Step> steps;
+    std::vector<UploadRow> uploads;  // unfinished ones
+    std::vector<ResultRow> results;
+    std::vector<VolumeRow> blobs;  // whose bytes no volume may have any more
+    enum class Traces { kMayStay, kErase } traces = Traces::kMayStay;  // in the store's files
+  };
 
   // ---- Opening and closing
   absl::Status RecoverStore(JobStore& store);
@@ -229,8 +235,6 @@ class DurableJobs final : public RunObserver {
   void OpenFile(const std::shared_ptr<Opening>& opening);
   void AppendNow(const Session& session, std::string bytes, std::optional<uint32_t> crc32c,
                  const Done<uint64_t>& done);
-  absl::StatusOr<UploadRow> FindUploadRow(JobStore& store, const std::string& tenant,
-                                          const std::string& upload) const;
   UploadInfo InfoOf(const UploadRow& row) const;
   // Takes an unfinished upload away, and ends the job that waits for it.
   void EndUpload(const std::string& tenant, const std::string& upload, JobState state,
@@ -245,8 +249,6 @@ class DurableJobs final : public RunObserver {
 
   // ---- Volumes
   VolumeInfo InfoOf(const VolumeRow& row) const;
-  absl::StatusOr<VolumeRow> FindVolumeRow(JobStore& store, const std::string& tenant,
-                                          const std::string& volume) const;
   absl::Status EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased);
 
   // ---- Jobs
@@ -256,8 +258,6 @@ class DurableJobs final : public RunObserver {
   absl::Status StoreJob(JobStore& store, Creating& creating);
   absl::Status InsertJob(JobStore& store, JobRow job, Creating& creating);
   absl::Status CheckJob(JobStore& store, Creating& creating);
-  absl::StatusOr<JobRow> FindJobRow(JobStore& store, const std::string& tenant,
-                                    const std::string& job) const;
   absl::Status CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased);
   absl::Status EraseJob(JobStore& store, const JobRow& job, Erased& erased);
 

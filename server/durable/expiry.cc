@@ -31,7 +31,7 @@ bool DurableJobs::ClockIsBelieved() {
 // Others' are known by their files.
 std::vector<UploadRow> DurableJobs::UnusedUploads(Time oldest) {
   std::vector<UploadRow> unused;
-  const auto uploads = loop_.store().AllUploads();
+  const auto uploads = loop_.store().All<UploadRow>();
   for (const UploadRow& row : uploads.ok() ? *uploads : std::vector<UploadRow>()) {
     if (row.volume.empty() && InfoOf(row).expires < oldest + options_.keep_uploads) {
       unused.push_back(row);
@@ -49,10 +49,10 @@ void DurableJobs::ExpireUploads() {
   }
   loop_.Post(
       [oldest](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.All<UploadRow>());
         for (const UploadRow& row : uploads) {
           if (row.volume.empty() || row.used >= oldest) continue;
-          BCCSKEL_RETURN_IF_ERROR(store.DeleteUpload(row.tenant, row.name));
+          BCCSKEL_RETURN_IF_ERROR(store.Delete<UploadRow>(row.tenant, row.name));
         }
         return absl::OkStatus();
       },
@@ -81,7 +81,7 @@ void DurableJobs::ExpireVolumes() {
   const Time oldest = Now() - options_.keep_volumes;
   Erase(
       [this, oldest](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
+        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.All<VolumeRow>());
         for (const VolumeRow& row : volumes) {
           if (row.used >= oldest) continue;
           BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(row.tenant, row.name));

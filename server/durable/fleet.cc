@@ -213,7 +213,7 @@ void DurableJobs::WithSession(const std::string& tenant, const std::string& uplo
 }
 
 absl::Status DurableJobs::PrepareMove(JobStore& store, Moving& moving) {
-  BCCSKEL_ASSIGN_OR_RETURN(moving.row, FindUploadRow(store, moving.row.tenant, moving.row.name));
+  BCCSKEL_ASSIGN_OR_RETURN(moving.row, store.Get<UploadRow>(moving.row.tenant, moving.row.name));
   if (!moving.row.volume.empty()) {
     return CallError(Reason::kUploadFinished, absl::StrCat(moving.row.name, " is finished"));
   }
@@ -227,10 +227,10 @@ absl::Status DurableJobs::PrepareMove(JobStore& store, Moving& moving) {
 }
 
 void DurableJobs::MoveUpload(const std::shared_ptr<Moving>& moving) {
-  const UploadRow& row = moving->row;
-  auto copy = blobs_.CopyUpload(row.tenant, row.name, row.file, moving->to);
+  const std::string to = blobs_.PathOfUpload(moving->row.tenant, moving->row.name, moving->to);
+  auto copy = UploadFile::Copy(blobs_.PathOf(moving->row), to);
   // Its server may not have come to making it.
-  if (absl::IsNotFound(copy.status())) copy = blobs_.OpenUpload(row.tenant, row.name, moving->to);
+  if (absl::IsNotFound(copy.status())) copy = UploadFile::Open(to);
   if (!copy.ok()) return EndMove(moving, copy.status());
   moving->file = *std::move(copy);
   loop_.Post([this, moving](JobStore& store) { return StoreMove(store, *moving); },
@@ -238,7 +238,7 @@ void DurableJobs::MoveUpload(const std::shared_ptr<Moving>& moving) {
 }
 
 absl::Status DurableJobs::StoreMove(JobStore& store, Moving& moving) const {
-  BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, FindUploadRow(store, moving.row.tenant, moving.row.name));
+  BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, store.Get<UploadRow>(moving.row.tenant, moving.row.name));
   if (now.file != moving.row.file || !now.volume.empty()) {
     return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " goes on on another server"));
   }
@@ -251,7 +251,7 @@ void DurableJobs::EndMove(const std::shared_ptr<Moving>& moving, absl::Status st
   const UploadRow old = moving->row;
   if (!status.ok()) {
     if (moving->file != nullptr) {
-      blobs_.RemoveUpload(old.tenant, old.name, moving->to).IgnoreError();
+      UploadFile::Remove(blobs_.PathOfUpload(old.tenant, old.name, moving->to)).IgnoreError();
     }
     if (moving->opening) uploads_.EndOpening(old);
     return moving->done(std::move(status));
@@ -259,7 +259,7 @@ void DurableJobs::EndMove(const std::shared_ptr<Moving>& moving, absl::Status st
   moving->row.file = moving->to;
   const auto session = std::make_shared<UploadSession>(moving->row, std::move(moving->file), Now());
   uploads_.Add(session);
-  blobs_.RemoveUpload(old.tenant, old.name, old.file).IgnoreError();  // else with the removals
+  UploadFile::Remove(blobs_.PathOf(old)).IgnoreError();  // else with the removals
   moving->done(session);
 }
 

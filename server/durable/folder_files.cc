@@ -30,13 +30,15 @@ absl::Status FolderFiles::CheckTables(const std::string& tables, const DurableOp
 
 absl::StatusOr<std::set<std::string>> FolderFiles::Known(JobStore& store) const {
   std::set<std::string> known;
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.AllUploads());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<UploadRow> uploads, store.All<UploadRow>());
   for (const UploadRow& row : uploads) {
-    if (row.volume.empty()) known.merge(blobs_.PathsOfUpload(row.tenant, row.name, row.file));
+    if (!row.volume.empty()) continue;
+    known.insert(UploadFile::BytesPath(blobs_.PathOf(row)));
+    known.insert(UploadFile::ChunksPath(blobs_.PathOf(row)));
   }
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.AllVolumes());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.All<VolumeRow>());
   for (const VolumeRow& row : volumes) known.insert(blobs_.PathOfBlob(row.tenant, row.blob_digest));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.AllResults());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<ResultRow> results, store.All<ResultRow>());
   for (const ResultRow& row : results) {
     if (row.file.empty()) continue;
     const std::string path = blobs_.PathOfResult(row.tenant, row.file);
@@ -125,7 +127,7 @@ absl::Status FolderFiles::Sweep(JobStore& store, const std::set<std::string>& ol
 }
 
 absl::Status FolderFiles::RemoveDeleted(JobStore& store) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<RemovalRow> removals, store.AllRemovals());
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<RemovalRow> removals, store.All<RemovalRow>());
   for (const RemovalRow& row : removals) {
     const absl::Status removed = Remove(store, row);
     if (removed.ok()) BCCSKEL_RETURN_IF_ERROR(store.DeleteRemoval(row));
@@ -137,15 +139,16 @@ absl::Status FolderFiles::RemoveDeleted(JobStore& store) {
 absl::Status FolderFiles::Remove(JobStore& store, const RemovalRow& row) const {
   switch (row.kind) {
     case RemovalRow::Kind::kUpload: {
-      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindUpload(row.tenant, row.name));
+      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.Find<UploadRow>(row.tenant, row.name));
       const bool wanted = again.has_value() && again->volume.empty();
-      return wanted ? absl::OkStatus() : blobs_.RemoveUpload(row.tenant, row.name);
+      return wanted ? absl::OkStatus()
+                    : UploadFile::Remove(blobs_.PathOfUpload(row.tenant, row.name));
     }
     case RemovalRow::Kind::kUploadFile:
-      return blobs_.RemoveUpload(row.tenant, {}, row.name);
+      return UploadFile::Remove(blobs_.PathOfUpload(row.tenant, {}, row.name));
     case RemovalRow::Kind::kBlob: {
       BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
-      return again.empty() ? blobs_.RemoveBlob(row.tenant, row.name) : absl::OkStatus();
+      return again.empty() ? RemoveFile(blobs_.PathOfBlob(row.tenant, row.name)) : absl::OkStatus();
     }
     case RemovalRow::Kind::kResult:
       break;

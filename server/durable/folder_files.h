@@ -11,6 +11,7 @@
 #include "server/store/blob_store.h"
 #include "server/store/data_folder.h"
 #include "server/store/job_store.h"
+#include "server/store/upload_file.h"
 
 namespace bccskel::server {
 

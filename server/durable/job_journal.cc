@@ -36,7 +36,7 @@ absl::StatusOr<EventRow> JobJournal::AddEvent(JobStore& store, const JobRow& job
                     .state = job.state,
                     .attempt = job.attempts,
                     .error = job.error};
-  BCCSKEL_RETURN_IF_ERROR(store.InsertEvent(event));
+  BCCSKEL_RETURN_IF_ERROR(store.Insert(event));
   return event;
 }
 

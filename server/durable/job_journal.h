@@ -16,6 +16,12 @@ namespace bccskel::server {
 // Crashes of the server that one job may survive; with the next one it has FAILED.
 inline constexpr int kCrashesToPoison = 3;
 
+// A job's new state, and the event that tells it; none where the job had ended before.
+struct Step {
+  JobRow job;
+  std::optional<EventRow> event;
+};
+
 // The only place where jobs change their states: the row, and an event that tells it.
 // Threads: one at a time, the store's.
 class JobJournal {

@@ -57,15 +57,6 @@ bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
          found.priority == wanted.priority && found.threads == wanted.threads;
 }
 
-class BoardWatch final : public WatchHandle {
- public:
-  explicit BoardWatch(std::shared_ptr<Watch> watch) : watch_(std::move(watch)) {}
-  ~BoardWatch() override { watch_->Stop(); }
-
- private:
-  const std::shared_ptr<Watch> watch_;
-};
-
 }  // namespace
 
 // A job on its way into the store.
@@ -84,20 +75,7 @@ struct DurableJobs::Creating {
 
 JobInfo DurableJobs::PlainInfoOf(const JobRow& row) const {
   JobInfo info;
-  info.name = row.name;
-  info.volume = row.volume;
-  info.upload = row.upload;
-  info.request_id = row.request_id;
-  info.options = row.options;
-  info.priority = row.priority;
-  info.threads = row.threads;
-  info.state = row.state;
-  info.error = row.error;
-  info.attempts = row.attempts;
-  info.sequence = row.sequence;
-  info.created = row.created;
-  info.started = row.started;
-  info.ended = row.ended;
+  static_cast<JobRow&>(info) = row;
   if (row.ended.has_value()) info.expires = *row.ended + options_.keep_results;
   return info;
 }
@@ -115,13 +93,6 @@ absl::StatusOr<JobInfo> DurableJobs::InfoOf(JobStore& store, const JobRow& row) 
   info.result_bytes = result->bytes;
   info.summary = result->summary;
   return info;
-}
-
-absl::StatusOr<JobRow> DurableJobs::FindJobRow(JobStore& store, const std::string& tenant,
-                                               const std::string& job) const {
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> row, store.FindJob(tenant, job));
-  if (row.has_value()) return *std::move(row);
-  return absl::NotFoundError(absl::StrCat("there is no job ", job));
 }
 
 void DurableJobs::CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) {
@@ -193,7 +164,7 @@ absl::Status DurableJobs::StoreJob(JobStore& store, Creating& creating) {
 
 absl::Status DurableJobs::CheckJob(JobStore& store, Creating& creating) {
   const absl::StatusOr<VolumeRow> volume =
-      FindVolumeRow(store, creating.tenant, creating.wanted.volume);
+      store.Get<VolumeRow>(creating.tenant, creating.wanted.volume);
   if (absl::IsNotFound(volume.status())) {
     return CallError(Reason::kVolumeMissing, std::string(volume.status().message()));
   }
@@ -236,7 +207,7 @@ absl::Status DurableJobs::InsertJob(JobStore& store, JobRow job, Creating& creat
 void DurableJobs::GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
   Read<JobInfo>(
       [this, tenant, job](JobStore& store) -> absl::StatusOr<JobInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
         return InfoOf(store, row);
       },
       std::move(done));
@@ -269,9 +240,9 @@ void DurableJobs::CancelJob(const std::string& tenant, const std::string& job, D
   const auto info = std::make_shared<JobInfo>();
   Erase(
       [this, tenant, job, info](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
         BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, erased));
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, store.Get<JobRow>(tenant, job));
         BCCSKEL_ASSIGN_OR_RETURN(*info, InfoOf(store, now));
         return absl::OkStatus();
       },
@@ -284,7 +255,7 @@ void DurableJobs::CancelJob(const std::string& tenant, const std::string& job, D
 absl::Status DurableJobs::CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased) {
   if (IsTerminal(job.state)) return absl::OkStatus();
   if (job.state == JobState::kReceiving) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto upload, store.FindUpload(job.tenant, job.upload));
+    BCCSKEL_ASSIGN_OR_RETURN(const auto upload, store.Find<UploadRow>(job.tenant, job.upload));
     if (upload.has_value()) {
       return EraseUpload(store, *upload, JobState::kCancelled, absl::OkStatus(), erased);
     }
@@ -298,8 +269,8 @@ absl::Status DurableJobs::CancelIfUnfinished(JobStore& store, const JobRow& job,
 void DurableJobs::DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done) {
   Erase(
       [this, tenant, job](JobStore& store, Erased& erased) -> absl::Status {
-        const absl::StatusOr<JobRow> row = FindJobRow(store, tenant, job);
-        if (absl::IsDataLoss(row.status())) return store.DeleteDamagedJob(tenant, job);
+        const absl::StatusOr<JobRow> row = store.Get<JobRow>(tenant, job);
+        if (absl::IsDataLoss(row.status())) return store.Delete<JobRow>(tenant, job);
         BCCSKEL_RETURN_IF_ERROR(row.status());
         return EraseJob(store, *row, erased);
       },
@@ -327,7 +298,7 @@ std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
   const auto found = std::make_shared<Found>();
   loop_.Post(
       [this, tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(found->job, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(found->job, store.Get<JobRow>(tenant, job));
         // The end is told also to a caller who knows it already.
         const bool ended = IsTerminal(found->job.state);
         const uint64_t after =
@@ -342,7 +313,7 @@ std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
         watches_.Add(found->job.number, watch);
         TellStored(found->job.number);  // what others have added since, and was followed already
       });
-  return std::make_unique<BoardWatch>(watch);
+  return std::make_unique<WatchHandle>(watch);
 }
 
 void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
@@ -351,7 +322,7 @@ void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
   done = Track(std::move(done));
   loop_.Post(
       [this, tenant, job, found](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, FindJobRow(store, tenant, job));
+        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
         BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
         if (row.state != JobState::kSucceeded || !result.has_value()) {
           return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
@@ -366,7 +337,7 @@ void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
       [this, found, first_record, done](absl::Status status) {
         if (!status.ok()) return done(std::move(status));
         files_.Post({.tenant = found->tenant}, [this, found, first_record, done] {
-          auto reader = OpenStoredResult(*found, first_record, blobs_, files_);
+          auto reader = ResultReader::Open(*found, first_record, blobs_, files_);
           if (!absl::IsDataLoss(reader.status())) return done(std::move(reader));
           // The next job that wants the same makes it anew, also for this one.
           DropResult(*found,

@@ -14,28 +14,17 @@
 
 namespace bccskel::server {
 
-// What callers see of uploads, volumes and jobs that outlive the server's process. Every name
-// belongs to one tenant; for any other it does not exist.
-
+// What callers see of uploads, volumes and jobs that outlive the server's process: their rows, and
+// what follows from those. Every name belongs to one tenant; for any other it does not exist.
+//
 // `declaration` and `options` are bytes that DurableJobs keeps and compares but does not read: see
 // JobCodec. Equal bytes mean the same thing.
-struct UploadInfo {
-  std::string name;  // uploads/...
-  std::string declaration;
-  uint64_t size_bytes = 0;       // as declared
+struct UploadInfo : UploadRow {
   uint64_t committed_bytes = 0;  // go on from here
-  std::string volume;            // its name, once the upload is finished; else empty
-  std::string job;               // that waits for it; empty without one
   Time expires;                  // unless bytes come
 };
 
-struct VolumeInfo {
-  std::string name;  // volumes/...
-  std::string declaration;
-  std::string blob_digest;    // SHA-256 of the bytes as sent, 64 lower case hexadecimal digits
-  std::string volume_digest;  // core/io/volume_digest.h; empty until a first job has decoded it
-  uint64_t size_bytes = 0;
-  Time created;
+struct VolumeInfo : VolumeRow {
   Time expires;  // unless it is used
 };
 
@@ -44,26 +33,12 @@ struct JobProgress {
   std::chrono::nanoseconds elapsed{0};  // since the computation began
 };
 
-struct JobInfo {
-  std::string name;    // jobs/...
-  std::string volume;  // empty while it is received
-  std::string upload;  // that it came with; empty for a job made from a volume
-  std::string request_id;
-  std::string options;
-  int priority = 0;
-  int threads = 0;  // wanted; 0 leaves it to the server
-  JobState state = JobState::kQueued;
-  absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
-  int attempts = 0;       // begun so far
-  uint64_t sequence = 0;  // of its last stored event
+struct JobInfo : JobRow {
   uint64_t result_records = 0;  // of a job that succeeded
   uint64_t result_bytes = 0;
   std::string summary;                  // its last record; empty in lists
   std::optional<JobProgress> progress;  // of a running job, once there is one; not in lists
-  Time created;
-  std::optional<Time> started;  // the last attempt
-  std::optional<Time> ended;
-  std::optional<Time> expires;  // once it has ended
+  std::optional<Time> expires;          // once it has ended
 };
 
 struct JobPage {

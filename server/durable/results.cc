@@ -30,7 +30,8 @@ void DurableJobs::VolumeKnown(const std::shared_ptr<Run>& run, const std::string
   const std::string key = ResultKey(digest, active.options);
   loop_.Post(
       [tenant = active.tenant, volume = active.volume, digest](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.FindVolume(tenant, volume));
+        BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row,
+                                 store.Find<VolumeRow>(tenant, volume));
         if (row.has_value() && row->volume_digest != digest) {
           row->volume_digest = digest;
           BCCSKEL_RETURN_IF_ERROR(store.PutVolume(*row));

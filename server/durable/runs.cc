@@ -58,7 +58,7 @@ absl::StatusOr<DurableJobs::Begun> DurableJobs::BeginJob(JobStore& store,
                                                          const ActiveJobs::Turn& turn,
                                                          Claims& claims) {
   const JobRow& job = turn.job;
-  const auto volume = store.FindVolume(job.tenant, job.volume);
+  const auto volume = store.Find<VolumeRow>(job.tenant, job.volume);
   if (!volume.ok()) {
     WaitAgain(job.number);
     return volume.status();
@@ -165,7 +165,7 @@ absl::Status DurableJobs::ClaimStored(JobStore& store, Claiming& claiming) {
                                                    JobJournal::Found::kBefore));
   }
   if (!event.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.FindJob(job.tenant, job.name));
+    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
     if (!stored.has_value()) return absl::OkStatus();
     job = *stored;
     // A commit that seemed to have failed may have happened.
@@ -203,7 +203,8 @@ void DurableJobs::Feed(Run* pointer, const VolumeRow& volume) {
   if (found == nullptr) return;  // nobody wants it any more
   found->fed = RunPace::Clock::now();
   files_.Post({.tenant = volume.tenant}, [this, run = found->run, volume] {
-    absl::StatusOr<CheckedFile> file = blobs_.OpenBlob(volume.tenant, volume.blob_digest);
+    const std::string path = blobs_.PathOfBlob(volume.tenant, volume.blob_digest);
+    absl::StatusOr<CheckedFile> file = CheckedFile::Open(path, volume.blob_digest);
     if (!file.ok()) return run->Fail(file.status());
     run->Feed(*std::move(file), files_);
   });
@@ -226,7 +227,7 @@ absl::Status DurableJobs::EnterState(JobStore& store, int64_t number, JobState s
                              journal_.Enter(store, job, state, error, JobJournal::Found::kBefore));
   }
   if (!event.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.FindJob(job.tenant, job.name));
+    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
     if (!stored.has_value() || !is_ours(*stored)) return absl::OkStatus();
     job = *stored;
     job.result = result;

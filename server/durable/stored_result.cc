@@ -66,31 +66,6 @@ absl::StatusOr<ResultRow> WriteFile(const JobResult& result, const Run& run,
   return row;
 }
 
-class FileReader final : public ResultReader, public std::enable_shared_from_this<FileReader> {
- public:
-  FileReader(std::string tenant, ResultFile file, uint64_t next, TaskThreads& threads)
-      : tenant_(std::move(tenant)), file_(std::move(file)), next_(next), threads_(threads) {}
-
-  void Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done) override {
-    threads_.Post({.tenant = tenant_},
-                  [self = shared_from_this(), done = std::move(done)] { done(self->Read()); });
-  }
-
- private:
-  absl::StatusOr<std::optional<ResultRecord>> Read() {
-    if (next_ == file_.records()) return std::nullopt;
-    BCCSKEL_ASSIGN_OR_RETURN(ResultFile::Record record, file_.Read(next_));
-    ++next_;
-    return std::optional(ResultRecord{.kind = static_cast<ResultRecord::Kind>(record.kind),
-                                      .bytes = std::move(record.bytes)});
-  }
-
-  const std::string tenant_;
-  const ResultFile file_;
-  uint64_t next_;
-  TaskThreads& threads_;
-};
-
 }  // namespace
 
 absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
@@ -108,10 +83,10 @@ void RemoveResult(const ResultRow& row, const BlobStore& blobs, DiskQuota& quota
   quota.GiveBack(row.tenant, row.bytes);
 }
 
-absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& row,
-                                                               uint64_t first_record,
-                                                               const BlobStore& blobs,
-                                                               TaskThreads& threads) {
+absl::StatusOr<std::shared_ptr<ResultReader>> ResultReader::Open(const ResultRow& row,
+                                                                 uint64_t first_record,
+                                                                 const BlobStore& blobs,
+                                                                 TaskThreads& threads) {
   if (first_record > row.records) {
     return CallError(Reason::kPieceIndex,
                      absl::StrCat("piece ", first_record, " of a result with ", row.records),
@@ -120,7 +95,20 @@ absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& 
   BCCSKEL_ASSIGN_OR_RETURN(ResultFile file,
                            blobs.OpenResult(row.tenant, row.file, row.file_digest));
   return std::shared_ptr<ResultReader>(
-      std::make_shared<FileReader>(row.tenant, std::move(file), first_record, threads));
+      new ResultReader(row.tenant, std::move(file), first_record, threads));
+}
+
+void ResultReader::Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done) {
+  threads_.Post({.tenant = tenant_},
+                [self = shared_from_this(), done = std::move(done)] { done(self->Read()); });
+}
+
+absl::StatusOr<std::optional<ResultRecord>> ResultReader::Read() {
+  if (next_ == file_.records()) return std::nullopt;
+  BCCSKEL_ASSIGN_OR_RETURN(ResultFile::Record record, file_.Read(next_));
+  ++next_;
+  return std::optional(ResultRecord{.kind = static_cast<ResultRecord::Kind>(record.kind),
+                                    .bytes = std::move(record.bytes)});
 }
 
 }  // namespace bccskel::server

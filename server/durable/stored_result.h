@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
 #include "server/durable/job_codec.h"
@@ -19,11 +20,26 @@ namespace bccskel::server {
 // Reads a stored result record by record. The file stays readable while the reader lives, whatever
 // is deleted or expires meanwhile.
 // Threads: one call of Next() at a time.
-class ResultReader {
+class ResultReader : public std::enable_shared_from_this<ResultReader> {
  public:
-  virtual ~ResultReader() = default;
+  // Reads on `threads`, which outlive the reader's last call to be answered.
+  // Errors: OUT_OF_RANGE for a first record beyond the end; DATA_LOSS.
+  static absl::StatusOr<std::shared_ptr<ResultReader>> Open(const ResultRow& row,
+                                                            uint64_t first_record,
+                                                            const BlobStore& blobs,
+                                                            TaskThreads& threads);
   // Nothing after the last record. Errors: DATA_LOSS; INTERNAL.
-  virtual void Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done) = 0;
+  void Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done);
+
+ private:
+  ResultReader(std::string tenant, ResultFile file, uint64_t next, TaskThreads& threads)
+      : tenant_(std::move(tenant)), file_(std::move(file)), next_(next), threads_(threads) {}
+  absl::StatusOr<std::optional<ResultRecord>> Read();
+
+  const std::string tenant_;
+  const ResultFile file_;
+  uint64_t next_;
+  TaskThreads& threads_;
 };
 
 // Writes the run's result into a file and counts its bytes. What the row says of the key is left to
@@ -34,13 +50,6 @@ absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
                                       DiskQuota& quota);
 // The opposite.
 void RemoveResult(const ResultRow& row, const BlobStore& blobs, DiskQuota& quota);
-
-// Reads on `threads`, which outlive the reader's last call to be answered.
-// Errors: OUT_OF_RANGE for a first record beyond the end; DATA_LOSS.
-absl::StatusOr<std::shared_ptr<ResultReader>> OpenStoredResult(const ResultRow& row,
-                                                               uint64_t first_record,
-                                                               const BlobStore& blobs,
-                                                               TaskThreads& threads);
 
 }  // namespace bccskel::server
 

@@ -26,7 +26,7 @@ struct DurableJobs::Opening {
 void DurableJobs::DropSession(const UploadRow& row) {
   uploads_.Remove(row);
   // Else swept at the next start.
-  blobs_.RemoveUpload(row.tenant, row.name, row.file).IgnoreError();
+  UploadFile::Remove(blobs_.PathOf(row)).IgnoreError();
 }
 
 RemovalRow DurableJobs::RemovalOf(const UploadRow& row) {
@@ -74,7 +74,7 @@ absl::Status DurableJobs::PrepareUpload(const NewUpload& upload, Opening& openin
 
 absl::Status DurableJobs::StoreUpload(JobStore& store, Opening& opening) {
   BCCSKEL_ASSIGN_OR_RETURN(opening.existing,
-                           store.FindUpload(opening.row.tenant, opening.row.name));
+                           store.Find<UploadRow>(opening.row.tenant, opening.row.name));
   if (opening.existing.has_value()) return CheckSameUpload(store, opening);
   if (shared_ && (options_.max_disk_bytes > 0 || options_.max_tenant_disk_bytes > 0)) {
     BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
@@ -84,7 +84,7 @@ absl::Status DurableJobs::StoreUpload(JobStore& store, Opening& opening) {
     BCCSKEL_RETURN_IF_ERROR(quota_.Take(opening.row.tenant, opening.row.size_bytes));
     opening.counted = true;
   }
-  BCCSKEL_RETURN_IF_ERROR(store.InsertUpload(opening.row));
+  BCCSKEL_RETURN_IF_ERROR(store.Insert(opening.row));
   uploads_.BeginOpening(opening.row);
   return opening.job.has_value() ? StoreReceivingJob(store, opening) : absl::OkStatus();
 }
@@ -94,7 +94,7 @@ absl::Status DurableJobs::CheckSameUpload(JobStore& store, const Opening& openin
   bool same =
       found.declaration == opening.row.declaration && found.job.empty() == opening.row.job.empty();
   if (same && opening.job.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.FindJob(found.tenant, found.job));
+    BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.Find<JobRow>(found.tenant, found.job));
     same = job.has_value() && job->options == opening.job->options;
   }
   if (same) return absl::OkStatus();
@@ -131,7 +131,7 @@ void DurableJobs::UploadStored(const std::shared_ptr<Opening>& opening, absl::St
 }
 
 void DurableJobs::OpenFile(const std::shared_ptr<Opening>& opening) {
-  auto file = blobs_.OpenUpload(opening->row.tenant, opening->row.name, opening->row.file);
+  auto file = UploadFile::Open(blobs_.PathOf(opening->row));
   if (!file.ok()) {
     const absl::Status& error = file.status();
     return EndUpload(opening->row.tenant, opening->row.name, JobState::kFailed, error,
@@ -201,7 +201,7 @@ void DurableJobs::GetUpload(const std::string& tenant, const std::string& upload
                             Done<UploadInfo> done) {
   Read<UploadInfo>(
       [this, tenant, upload](JobStore& store) -> absl::StatusOr<UploadInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
         // Who asks may go on here with what another server has taken over meanwhile.
         const Session session = uploads_.Find(tenant, upload);
         if (session != nullptr && session->row().file != row.file) {
@@ -221,7 +221,7 @@ void DurableJobs::EndUpload(const std::string& tenant, const std::string& upload
                             const absl::Status& error, std::function<void(absl::Status)> then) {
   Erase(
       [this, tenant, upload, state, error](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
         return EraseUpload(store, row, state, error, erased);
       },
       std::move(then));
@@ -229,41 +229,28 @@ void DurableJobs::EndUpload(const std::string& tenant, const std::string& upload
 
 absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, JobState state,
                                       const absl::Status& error, Erased& erased) {
-  BCCSKEL_RETURN_IF_ERROR(store.DeleteUpload(row.tenant, row.name));
+  BCCSKEL_RETURN_IF_ERROR(store.Delete<UploadRow>(row.tenant, row.name));
   erased.traces = Erased::Traces::kErase;
   if (!row.volume.empty()) return absl::OkStatus();
   erased.uploads.push_back(row);
   if (row.job.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(row.tenant, row.job));
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.Find<JobRow>(row.tenant, row.job));
   if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
   erased.steps.push_back({.job = *job, .event = event});
   return absl::OkStatus();
 }
 
-absl::StatusOr<UploadRow> DurableJobs::FindUploadRow(JobStore& store, const std::string& tenant,
-                                                     const std::string& upload) const {
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<UploadRow> row, store.FindUpload(tenant, upload));
-  if (row.has_value()) return *std::move(row);
-  return absl::NotFoundError(absl::StrCat("there is no upload ", upload));
-}
-
 UploadInfo DurableJobs::InfoOf(const UploadRow& row) const {
   Session session = uploads_.Find(row.tenant, row.name);
   if (session != nullptr && session->row().file != row.file) session = nullptr;
-  UploadInfo info = {.name = row.name,
-                     .declaration = row.declaration,
-                     .size_bytes = row.size_bytes,
-                     .committed_bytes = row.volume.empty() ? 0 : row.size_bytes,
-                     .volume = row.volume,
-                     .job = row.job,
-                     .expires = row.used + options_.keep_uploads};
+  UploadInfo info{row, row.volume.empty() ? 0 : row.size_bytes, row.used + options_.keep_uploads};
   if (session != nullptr && row.volume.empty()) {
     info.committed_bytes = session->committed();
     info.expires = session->used() + options_.keep_uploads;
   } else if (shared_ && row.volume.empty()) {
-    info.committed_bytes = blobs_.SizeOfUpload(row.tenant, row.name, row.file);
-    const auto facts = blobs_.FactsOfUpload(row.tenant, row.name, row.file);
+    info.committed_bytes = UploadFile::SizeOf(blobs_.PathOf(row));
+    const auto facts = FactsOf(UploadFile::BytesPath(blobs_.PathOf(row)));
     if (facts.ok()) info.expires = std::max(row.used, facts->written) + options_.keep_uploads;
   }
   return info;

@@ -49,8 +49,8 @@ void DurableJobs::FinishAgain(const std::string& tenant, const std::string& uplo
                               Done<VolumeInfo> done) {
   Read<VolumeInfo>(
       [this, tenant, upload](JobStore& store) -> absl::StatusOr<VolumeInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, FindUploadRow(store, tenant, upload));
-        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, FindVolumeRow(store, tenant, row.volume));
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
+        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, store.Get<VolumeRow>(tenant, row.volume));
         return InfoOf(volume);
       },
       std::move(done));
@@ -93,7 +93,7 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
   finishing.new_blob = true;
   finishing.step.reset();
   BCCSKEL_ASSIGN_OR_RETURN(UploadRow upload,
-                           FindUploadRow(store, volume.tenant, finishing.session->row().name));
+                           store.Get<UploadRow>(volume.tenant, finishing.session->row().name));
   if (upload.file != finishing.session->row().file) return Superseded(finishing.session);
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> others,
                            store.FindVolumesOf(volume.tenant, volume.blob_digest));
@@ -103,8 +103,7 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
     volume.volume_digest = other.volume_digest;
     volume.created = other.created;
   }
-  BCCSKEL_RETURN_IF_ERROR(
-      blobs_.PublishBlob(volume.tenant, upload.name, volume.blob_digest, upload.file));
+  BCCSKEL_RETURN_IF_ERROR(blobs_.PublishBlob(upload, volume.blob_digest));
   BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
   upload.volume = volume.name;
   upload.used = volume.used;
@@ -115,7 +114,8 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
 
 absl::Status DurableJobs::StoreVolumeOfJob(JobStore& store, Finishing& finishing) {
   const UploadRow& upload = finishing.session->row();
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.FindJob(upload.tenant, upload.job));
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job,
+                           store.Find<JobRow>(upload.tenant, upload.job));
   if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
   job->volume = finishing.volume.name;
   bool runs = active_.FindRun(finishing.along.get()) != nullptr;
@@ -155,20 +155,7 @@ void DurableJobs::VolumeStored(Finishing& finishing, absl::Status status) {
 }
 
 VolumeInfo DurableJobs::InfoOf(const VolumeRow& row) const {
-  return {.name = row.name,
-          .declaration = row.declaration,
-          .blob_digest = row.blob_digest,
-          .volume_digest = row.volume_digest,
-          .size_bytes = row.size_bytes,
-          .created = row.created,
-          .expires = row.used + options_.keep_volumes};
-}
-
-absl::StatusOr<VolumeRow> DurableJobs::FindVolumeRow(JobStore& store, const std::string& tenant,
-                                                     const std::string& volume) const {
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.FindVolume(tenant, volume));
-  if (row.has_value()) return *std::move(row);
-  return absl::NotFoundError(absl::StrCat("there is no volume ", volume));
+  return {row, row.used + options_.keep_volumes};
 }
 
 void DurableJobs::FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
@@ -196,7 +183,7 @@ void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& vol
                                DoneStatus done) {
   Erase(
       [this, tenant, volume](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, FindVolumeRow(store, tenant, volume));
+        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, store.Get<VolumeRow>(tenant, volume));
         BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(tenant, volume));
         if (!user.has_value()) return EraseVolume(store, row, erased);
         return CallError(Reason::kVolumeInUse,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/durable/records.h"
@@ -22,12 +23,6 @@ class JobWatcher {
   virtual void OnEvent(const JobEvent& event) = 0;
   // Once, last: OK after the completed event; NOT_FOUND; UNAVAILABLE when the server stops.
   virtual void OnWatchEnd(const absl::Status& status) = 0;
-};
-
-// Ends a watch when it is destroyed: no call of the watcher begins after that.
-class WatchHandle {
- public:
-  virtual ~WatchHandle() = default;
 };
 
 // One watcher of one job. Threads: Stop() from any, the rest from DurableJobs'.
@@ -47,6 +42,18 @@ class Watch {
   uint64_t told_;                        // the last sequence
   std::shared_ptr<JobWatcher> watcher_;  // null once it was told the end
   std::atomic<bool> stopped_ = false;
+};
+
+// Ends a watch when it is destroyed: no call of the watcher begins after that.
+class WatchHandle {
+ public:
+  explicit WatchHandle(std::shared_ptr<Watch> watch) : watch_(std::move(watch)) {}
+  ~WatchHandle() { watch_->Stop(); }
+  WatchHandle(const WatchHandle&) = delete;
+  WatchHandle& operator=(const WatchHandle&) = delete;
+
+ private:
+  const std::shared_ptr<Watch> watch_;
 };
 
 // Who watches which unfinished job, and the newest progress of each.

@@ -9,6 +9,7 @@
 #include "core/digest/sha256.h"
 #include "core/exec/status_macros.h"
 #include "server/store/file_io.h"
+#include "server/store/upload_file.h"
 
 namespace bccskel::server {
 namespace {
@@ -18,64 +19,32 @@ std::string SafeName(const std::string& name) { return Sha256Of(name).Hex(); }
 
 }  // namespace
 
-std::string BlobStore::FolderOf(const std::string& tenant, const char* kind) const {
-  return absl::StrCat(folder_, "/tenants/", SafeName(tenant), "/", kind);
+std::string BlobStore::PathOf(const std::string& tenant, const char* kind,
+                              const std::string& name) const {
+  return absl::StrCat(folder_, "/tenants/", SafeName(tenant), "/", kind, "/", name);
 }
 
-std::string BlobStore::UploadPath(const std::string& tenant, const std::string& upload,
-                                  const std::string& file) const {
-  return absl::StrCat(FolderOf(tenant, "uploads"), "/", file.empty() ? SafeName(upload) : file);
+std::string BlobStore::PathOfUpload(const std::string& tenant, const std::string& upload,
+                                    const std::string& file) const {
+  return PathOf(tenant, "uploads", file.empty() ? SafeName(upload) : file);
+}
+
+std::string BlobStore::PathOf(const UploadRow& row) const {
+  return PathOfUpload(row.tenant, row.name, row.file);
 }
 
 std::string BlobStore::PathOfBlob(const std::string& tenant, const std::string& digest) const {
-  return absl::StrCat(FolderOf(tenant, "blobs"), "/", digest);
+  return PathOf(tenant, "blobs", digest);
 }
 
 std::string BlobStore::PathOfResult(const std::string& tenant, const std::string& name) const {
-  return absl::StrCat(FolderOf(tenant, "results"), "/", name);
+  return PathOf(tenant, "results", name);
 }
 
-std::set<std::string> BlobStore::PathsOfUpload(const std::string& tenant, const std::string& upload,
-                                               const std::string& file) const {
-  const std::string path = UploadPath(tenant, upload, file);
-  return {UploadFile::BytesPath(path), UploadFile::ChunksPath(path)};
-}
-
-absl::StatusOr<std::unique_ptr<UploadFile>> BlobStore::OpenUpload(const std::string& tenant,
-                                                                  const std::string& upload,
-                                                                  const std::string& file) const {
-  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "uploads")));
-  return UploadFile::Open(UploadPath(tenant, upload, file));
-}
-
-absl::StatusOr<std::unique_ptr<UploadFile>> BlobStore::CopyUpload(const std::string& tenant,
-                                                                  const std::string& upload,
-                                                                  const std::string& from,
-                                                                  const std::string& to) const {
-  return UploadFile::Copy(UploadPath(tenant, upload, from), UploadPath(tenant, upload, to));
-}
-
-uint64_t BlobStore::SizeOfUpload(const std::string& tenant, const std::string& upload,
-                                 const std::string& file) const {
-  return UploadFile::SizeOf(UploadPath(tenant, upload, file));
-}
-
-absl::StatusOr<FileFacts> BlobStore::FactsOfUpload(const std::string& tenant,
-                                                   const std::string& upload,
-                                                   const std::string& file) const {
-  return FactsOf(UploadFile::BytesPath(UploadPath(tenant, upload, file)));
-}
-
-absl::Status BlobStore::RemoveUpload(const std::string& tenant, const std::string& upload,
-                                     const std::string& file) const {
-  return UploadFile::Remove(UploadPath(tenant, upload, file));
-}
-
-absl::Status BlobStore::PublishBlob(const std::string& tenant, const std::string& upload,
-                                    const std::string& digest, const std::string& file) const {
-  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "blobs")));
-  const std::string blob = PathOfBlob(tenant, digest);
-  const std::string bytes = UploadFile::BytesPath(UploadPath(tenant, upload, file));
+absl::Status BlobStore::PublishBlob(const UploadRow& upload, const std::string& digest) const {
+  const std::string blob = PathOfBlob(upload.tenant, digest);
+  const std::string bytes = UploadFile::BytesPath(PathOf(upload));
+  BCCSKEL_RETURN_IF_ERROR(MakeFolderOf(blob));
   // A file of this name may be there and damaged: it is replaced.
   const std::string fresh = blob + kUnconfirmed;
   BCCSKEL_RETURN_IF_ERROR(RemoveFile(fresh));
@@ -87,19 +56,11 @@ absl::Status BlobStore::PublishBlob(const std::string& tenant, const std::string
   return RemoveFile(fresh);
 }
 
-absl::StatusOr<CheckedFile> BlobStore::OpenBlob(const std::string& tenant,
-                                                const std::string& digest) const {
-  return CheckedFile::Open(PathOfBlob(tenant, digest), digest);
-}
-
-absl::Status BlobStore::RemoveBlob(const std::string& tenant, const std::string& digest) const {
-  return RemoveFile(PathOfBlob(tenant, digest));
-}
-
 absl::StatusOr<ResultWriter> BlobStore::NewResult(const std::string& tenant,
                                                   const std::string& name) const {
-  BCCSKEL_RETURN_IF_ERROR(MakeFolder(FolderOf(tenant, "results")));
-  return ResultWriter::Create(PathOfResult(tenant, name) + kUnconfirmed);
+  const std::string path = PathOfResult(tenant, name) + kUnconfirmed;
+  BCCSKEL_RETURN_IF_ERROR(MakeFolderOf(path));
+  return ResultWriter::Create(path);
 }
 
 absl::Status BlobStore::ConfirmResult(const std::string& tenant, const std::string& name) const {

@@ -1,16 +1,14 @@
 #ifndef BCCSKEL_SERVER_STORE_BLOB_STORE_H_
 #define BCCSKEL_SERVER_STORE_BLOB_STORE_H_
 
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "server/store/file_io.h"
 #include "server/store/result_file.h"
-#include "server/store/upload_file.h"
+#include "server/store/rows.h"
 
 namespace bccskel::server {
 
@@ -30,29 +28,19 @@ class BlobStore {
  public:
   explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
 
-  // `file`: of the upload's row; empty for one named after the upload.
-  absl::StatusOr<std::unique_ptr<UploadFile>> OpenUpload(const std::string& tenant,
-                                                         const std::string& upload,
-                                                         const std::string& file = {}) const;
-  // Copies what is whole in `from` to `to`, which is new: who still writes the one does not disturb
-  // the other.
-  absl::StatusOr<std::unique_ptr<UploadFile>> CopyUpload(const std::string& tenant,
-                                                         const std::string& upload,
-                                                         const std::string& from,
-                                                         const std::string& to) const;
-  // As far as its chunks say; their bytes are not looked at.
-  uint64_t SizeOfUpload(const std::string& tenant, const std::string& upload,
-                        const std::string& file) const;
-  // When its bytes were last written. Errors: NOT_FOUND.
-  absl::StatusOr<FileFacts> FactsOfUpload(const std::string& tenant, const std::string& upload,
-                                          const std::string& file) const;
-  absl::Status RemoveUpload(const std::string& tenant, const std::string& upload,
-                            const std::string& file = {}) const;
+  // Where the upload's bytes are, as UploadFile takes it. `file`: of its row; empty for one named
+  // after the upload.
+  std::string PathOfUpload(const std::string& tenant, const std::string& upload,
+                           const std::string& file = {}) const;
+  std::string PathOf(const UploadRow& row) const;
+  std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
+  std::string PathOfResult(const std::string& tenant, const std::string& name) const;
+  absl::StatusOr<std::set<std::string>> Files() const;
+
   // Gives the sealed bytes of the upload their lasting name, besides the one that they have.
-  absl::Status PublishBlob(const std::string& tenant, const std::string& upload,
-                           const std::string& digest, const std::string& file = {}) const;
-  absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) const;
-  absl::Status RemoveBlob(const std::string& tenant, const std::string& digest) const;
+  absl::Status PublishBlob(const UploadRow& upload, const std::string& digest) const;
+  // Whether it is there with this size. Cheap: the bytes are not looked at.
+  bool HasBlob(const std::string& tenant, const std::string& digest, uint64_t size_bytes) const;
 
   // Its name ends in kUnconfirmed until ConfirmResult(), which comes when the tables have it.
   absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
@@ -64,20 +52,8 @@ class BlobStore {
   absl::Status ConfirmResult(const std::string& tenant, const std::string& name) const;
   absl::Status RemoveResult(const std::string& tenant, const std::string& name) const;
 
-  // Whether it is there with this size. Cheap: the bytes are not looked at.
-  bool HasBlob(const std::string& tenant, const std::string& digest, uint64_t size_bytes) const;
-
-  // The paths of what there should be, and of what there is.
-  std::set<std::string> PathsOfUpload(const std::string& tenant, const std::string& upload,
-                                      const std::string& file = {}) const;
-  std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
-  std::string PathOfResult(const std::string& tenant, const std::string& name) const;
-  absl::StatusOr<std::set<std::string>> Files() const;
-
  private:
-  std::string FolderOf(const std::string& tenant, const char* kind) const;
-  std::string UploadPath(const std::string& tenant, const std::string& upload,
-                         const std::string& file) const;
+  std::string PathOf(const std::string& tenant, const char* kind, const std::string& name) const;
 
   const std::string folder_;
 };

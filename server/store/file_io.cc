@@ -119,6 +119,8 @@ absl::Status MakeFolder(const std::string& path) {
   return error ? SystemError(absl::StrCat("cannot make ", path), error.value()) : absl::OkStatus();
 }
 
+absl::Status MakeFolderOf(const std::string& file_path) { return MakeFolder(FolderOf(file_path)); }
+
 uint64_t SpaceOf(const std::string& path) {
   std::error_code error;
   const auto space = std::filesystem::space(path, error);

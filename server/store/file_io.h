@@ -56,6 +56,7 @@ class File {
 
 // With what is above it; only the owner may enter.
 absl::Status MakeFolder(const std::string& path);
+absl::Status MakeFolderOf(const std::string& file_path);
 // Entries of the folder are on the disk when it returns.
 absl::Status SyncFolder(const std::string& path);
 absl::Status SyncFolderOf(const std::string& file_path);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
 #include "server/store/tables.h"
 
@@ -39,12 +41,19 @@ absl::Status JobStore::Run(const std::string& sql, const Values&... values) {
 }
 
 template <typename Row>
-absl::Status JobStore::Insert(const Row& row, const std::string& replacing) {
+absl::Status JobStore::Insert(const Row& row) {
+  return Put(row, "");
+}
+
+template <typename Row>
+absl::Status JobStore::Put(const Row& row, const std::string& key) {
   std::vector<SqlValue> values = ValuesOf(row);
   values.push_back(SqlValue::Number(CheckOf(row)));
-  return Execute(absl::StrCat("INSERT INTO ", TableOf(row), "(", ColumnsOf(row),
-                              ", row_check) VALUES(", Parameters(values.size()), ")", replacing),
-                 values)
+  return Execute(
+             absl::StrCat("INSERT INTO ", TableOf(row), "(", absl::StrJoin(ColumnsOf(row), ", "),
+                          ") VALUES(", Parameters(values.size()), ")",
+                          key.empty() ? "" : Replacing(key, ColumnsOf(row))),
+             values)
       .status();
 }
 
@@ -54,11 +63,11 @@ absl::Status JobStore::Delete(const std::string& tenant, const std::string& name
 }
 
 template <typename Row, typename... Values>
-absl::StatusOr<std::vector<Row>> JobStore::All(Damaged damaged, const std::string& where,
-                                               const Values&... values) {
+absl::StatusOr<std::vector<Row>> JobStore::Select(Damaged damaged, const std::string& where,
+                                                  const Values&... values) {
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<SqlRow> found,
-                           Query(absl::StrCat("SELECT ", ColumnsOf(Row()), ", row_check FROM ",
-                                              TableOf(Row()), " ", where),
+                           Query(absl::StrCat("SELECT ", absl::StrJoin(ColumnsOf(Row()), ", "),
+                                              " FROM ", TableOf(Row()), " ", where),
                                  values...));
   std::vector<Row> rows;
   for (SqlRow& from : found) {
@@ -74,14 +83,14 @@ absl::StatusOr<std::vector<Row>> JobStore::All(Damaged damaged, const std::strin
 }
 
 template <typename Row>
-absl::StatusOr<std::vector<Row>> JobStore::Every() {
-  return All<Row>(Damaged::kLeftOut, "");
+absl::StatusOr<std::vector<Row>> JobStore::All() {
+  return Select<Row>(Damaged::kLeftOut, "");
 }
 
 template <typename Row, typename... Values>
 absl::StatusOr<std::optional<Row>> JobStore::One(Damaged damaged, const std::string& where,
                                                  const Values&... values) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<Row> rows, All<Row>(damaged, where, values...));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<Row> rows, Select<Row>(damaged, where, values...));
   if (rows.empty()) return std::nullopt;
   return std::optional<Row>(std::move(rows.front()));
 }
@@ -91,6 +100,33 @@ absl::StatusOr<std::optional<Row>> JobStore::Find(const std::string& tenant,
                                                   const std::string& name) {
   return One<Row>(Damaged::kFails, kByName, tenant, name);
 }
+
+template <typename Row>
+absl::StatusOr<Row> JobStore::Get(const std::string& tenant, const std::string& name) {
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<Row> row, Find<Row>(tenant, name));
+  if (row.has_value()) return *std::move(row);
+  std::string kind = TableOf(Row());
+  kind.pop_back();  // its plural
+  return absl::NotFoundError(absl::StrCat("there is no ", kind, " ", name));
+}
+
+template absl::Status JobStore::Insert(const UploadRow&);
+template absl::Status JobStore::Insert(const EventRow&);
+template absl::StatusOr<std::optional<UploadRow>> JobStore::Find(const std::string&,
+                                                                 const std::string&);
+template absl::StatusOr<std::optional<VolumeRow>> JobStore::Find(const std::string&,
+                                                                 const std::string&);
+template absl::StatusOr<std::optional<JobRow>> JobStore::Find(const std::string&,
+                                                              const std::string&);
+template absl::StatusOr<UploadRow> JobStore::Get(const std::string&, const std::string&);
+template absl::StatusOr<VolumeRow> JobStore::Get(const std::string&, const std::string&);
+template absl::StatusOr<JobRow> JobStore::Get(const std::string&, const std::string&);
+template absl::Status JobStore::Delete<UploadRow>(const std::string&, const std::string&);
+template absl::Status JobStore::Delete<JobRow>(const std::string&, const std::string&);
+template absl::StatusOr<std::vector<UploadRow>> JobStore::All();
+template absl::StatusOr<std::vector<VolumeRow>> JobStore::All();
+template absl::StatusOr<std::vector<ResultRow>> JobStore::All();
+template absl::StatusOr<std::vector<RemovalRow>> JobStore::All();
 
 absl::StatusOr<std::string> JobStore::Id() {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT id FROM store"));
@@ -122,7 +158,6 @@ absl::Status JobStore::UndoStep() {
   return KeepStep();
 }
 
-absl::Status JobStore::InsertUpload(const UploadRow& row) { return Insert(row); }
 absl::Status JobStore::UpdateUpload(const UploadRow& row) {
   return Run(
       "UPDATE uploads SET volume = $1, used = $2, file = $3, row_check = $4"
@@ -130,23 +165,7 @@ absl::Status JobStore::UpdateUpload(const UploadRow& row) {
       row.volume, row.used, row.file, CheckOf(row), row.tenant, row.name);
 }
 
-absl::Status JobStore::DeleteUpload(const std::string& tenant, const std::string& name) {
-  return Delete<UploadRow>(tenant, name);
-}
-
-absl::StatusOr<std::optional<UploadRow>> JobStore::FindUpload(const std::string& tenant,
-                                                              const std::string& name) {
-  return Find<UploadRow>(tenant, name);
-}
-
-absl::StatusOr<std::vector<UploadRow>> JobStore::AllUploads() { return Every<UploadRow>(); }
-
-absl::Status JobStore::PutVolume(const VolumeRow& row) {
-  static const std::string replacing =
-      Replacing("tenant, name", {"declaration", "blob_digest", "volume_digest", "size_bytes",
-                                 "created", "used", "row_check"});
-  return Insert(row, replacing);
-}
+absl::Status JobStore::PutVolume(const VolumeRow& row) { return Put(row, "tenant, name"); }
 
 absl::Status JobStore::DeleteVolume(const std::string& tenant, const std::string& name) {
   BCCSKEL_RETURN_IF_ERROR(
@@ -154,20 +173,13 @@ absl::Status JobStore::DeleteVolume(const std::string& tenant, const std::string
   return Delete<VolumeRow>(tenant, name);
 }
 
-absl::StatusOr<std::optional<VolumeRow>> JobStore::FindVolume(const std::string& tenant,
-                                                              const std::string& name) {
-  return Find<VolumeRow>(tenant, name);
-}
-
 absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string& tenant,
                                                                const std::string& digest) {
-  return All<VolumeRow>(
+  return Select<VolumeRow>(
       Damaged::kLeftOut,
       "WHERE tenant = $1 AND (blob_digest = $2 OR volume_digest = $2) ORDER BY name", tenant,
       digest);
 }
-
-absl::StatusOr<std::vector<VolumeRow>> JobStore::AllVolumes() { return Every<VolumeRow>(); }
 
 // The number comes first: the checksum is of it, too.
 absl::StatusOr<int64_t> JobStore::InsertJob(JobRow row) {
@@ -193,14 +205,6 @@ absl::StatusOr<bool> JobStore::UpdateJob(const JobRow& row, std::optional<uint64
 absl::Status JobStore::DeleteJob(int64_t number) {
   return Run("DELETE FROM jobs WHERE number = $1", number);
 }
-absl::Status JobStore::DeleteDamagedJob(const std::string& tenant, const std::string& name) {
-  return Delete<JobRow>(tenant, name);
-}
-
-absl::StatusOr<std::optional<JobRow>> JobStore::FindJob(const std::string& tenant,
-                                                        const std::string& name) {
-  return Find<JobRow>(tenant, name);
-}
 
 absl::StatusOr<std::optional<JobRow>> JobStore::FindJobOfRequest(const std::string& tenant,
                                                                  const std::string& request_id) {
@@ -214,19 +218,20 @@ absl::StatusOr<std::vector<JobRow>> JobStore::ListJobs(const std::string& tenant
   const int64_t created =
       after.has_value() ? Micros(after->created) : std::numeric_limits<int64_t>::max();
   const std::string name = after.has_value() ? after->name : std::string();
-  return All<JobRow>(Damaged::kFails,
-                     "WHERE tenant = $1 AND (created, name) < ($2, $3) AND ((1 << state) & $4) != 0"
-                     " ORDER BY created DESC, name DESC LIMIT $5",
-                     tenant, created, name, states, most);
+  return Select<JobRow>(
+      Damaged::kFails,
+      "WHERE tenant = $1 AND (created, name) < ($2, $3) AND ((1 << state) & $4) != 0"
+      " ORDER BY created DESC, name DESC LIMIT $5",
+      tenant, created, name, states, most);
 }
 
 absl::StatusOr<std::vector<JobRow>> JobStore::UnfinishedJobs() {
-  return All<JobRow>(Damaged::kLeftOut, "WHERE state < 3 ORDER BY number");
+  return Select<JobRow>(Damaged::kLeftOut, "WHERE state < 3 ORDER BY number");
 }
 
 absl::StatusOr<std::vector<JobRow>> JobStore::JobsEndedBefore(Time time, int most) {
-  return All<JobRow>(Damaged::kLeftOut, "WHERE state >= 3 AND ended < $1 ORDER BY ended LIMIT $2",
-                     time, most);
+  return Select<JobRow>(Damaged::kLeftOut,
+                        "WHERE state >= 3 AND ended < $1 ORDER BY ended LIMIT $2", time, most);
 }
 
 absl::StatusOr<std::optional<std::string>> JobStore::UserOfVolume(const std::string& tenant,
@@ -238,16 +243,12 @@ absl::StatusOr<std::optional<std::string>> JobStore::UserOfVolume(const std::str
   return rows.empty() ? std::nullopt : std::optional(rows.front().Text());
 }
 
-absl::Status JobStore::InsertEvent(const EventRow& row) { return Insert(row); }
-
 absl::StatusOr<std::vector<EventRow>> JobStore::EventsAfter(int64_t job, uint64_t sequence) {
-  return All<EventRow>(Damaged::kFails, "WHERE job = $1 AND sequence > $2 ORDER BY sequence", job,
-                       sequence);
+  return Select<EventRow>(Damaged::kFails, "WHERE job = $1 AND sequence > $2 ORDER BY sequence",
+                          job, sequence);
 }
 
 absl::StatusOr<ResultRow> JobStore::InsertResult(ResultRow row) {
-  static const std::string replacing =
-      Replacing("tenant, key", {"file", "file_digest", "bytes", "records", "summary", "row_check"});
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<ResultRow> found, FindResultOf(row.tenant, row.key));
   if (found.has_value()) return *std::move(found);
   const std::string next =
@@ -256,7 +257,7 @@ absl::StatusOr<ResultRow> JobStore::InsertResult(ResultRow row) {
       database_->NextNumber("results") + ")";
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query(next, row.tenant, row.key));
   row.number = rows.front().Number();
-  BCCSKEL_RETURN_IF_ERROR(Insert(row, replacing));
+  BCCSKEL_RETURN_IF_ERROR(Put(row, "tenant, key"));
   return row;
 }
 
@@ -285,18 +286,14 @@ absl::StatusOr<std::optional<ResultRow>> JobStore::TakeResultIfUnused(int64_t nu
   return taken;
 }
 
-absl::StatusOr<std::vector<ResultRow>> JobStore::AllResults() { return Every<ResultRow>(); }
-
 absl::Status JobStore::InsertRemoval(const RemovalRow& row) {
-  return Insert(row, Replacing("kind, tenant, name", {"row_check"}));
+  return Put(row, "kind, tenant, name");
 }
 
 absl::Status JobStore::DeleteRemoval(const RemovalRow& row) {
   return Run("DELETE FROM removals WHERE kind = $1 AND tenant = $2 AND name = $3", row.kind,
              row.tenant, row.name);
 }
-
-absl::StatusOr<std::vector<RemovalRow>> JobStore::AllRemovals() { return Every<RemovalRow>(); }
 
 absl::Status JobStore::Join(const std::string& server) {
   if (!shared()) return absl::OkStatus();
@@ -342,8 +339,8 @@ absl::StatusOr<JobChanges> JobStore::ChangesAfter(int64_t number) {
   if (changes.last == number) return changes;
   BCCSKEL_ASSIGN_OR_RETURN(
       changes.jobs,
-      All<JobRow>(Damaged::kLeftOut,
-                  "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed", number));
+      Select<JobRow>(Damaged::kLeftOut,
+                     "WHERE changed > $1 AND (state < 3 OR $1 >= 0) ORDER BY changed", number));
   BCCSKEL_ASSIGN_OR_RETURN(auto gone,
                            Query("SELECT number FROM deleted_jobs WHERE changed > $1", number));
   for (SqlRow& row : gone) changes.deleted.push_back(row.Number());

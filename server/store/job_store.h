@@ -51,23 +51,32 @@ class JobStore {
   absl::Status KeepStep();
   absl::Status UndoStep();
 
-  absl::Status InsertUpload(const UploadRow& row);
+  // ---- Rows of any kind
+  // Of uploads and events: others are inserted by what follows.
+  template <typename Row>
+  absl::Status Insert(const Row& row);
+  // Of uploads, volumes and jobs, which have names.
+  template <typename Row>
+  absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
+  // The same. Errors besides: NOT_FOUND with the name, for callers.
+  template <typename Row>
+  absl::StatusOr<Row> Get(const std::string& tenant, const std::string& name);
+  // Of uploads and jobs; of a job with its events, also where it is damaged.
+  template <typename Row>
+  absl::Status Delete(const std::string& tenant, const std::string& name);
+  // Of uploads, volumes, results and removals.
+  template <typename Row>
+  absl::StatusOr<std::vector<Row>> All();
+
   absl::Status UpdateUpload(const UploadRow& row);  // its volume, file and last use
-  absl::Status DeleteUpload(const std::string& tenant, const std::string& name);
-  absl::StatusOr<std::optional<UploadRow>> FindUpload(const std::string& tenant,
-                                                      const std::string& name);
-  absl::StatusOr<std::vector<UploadRow>> AllUploads();
 
   // Replaces a row of the same name.
   absl::Status PutVolume(const VolumeRow& row);
   // With the finished uploads that it came with.
   absl::Status DeleteVolume(const std::string& tenant, const std::string& name);
-  absl::StatusOr<std::optional<VolumeRow>> FindVolume(const std::string& tenant,
-                                                      const std::string& name);
   // By blob or volume digest.
   absl::StatusOr<std::vector<VolumeRow>> FindVolumesOf(const std::string& tenant,
                                                        const std::string& digest);
-  absl::StatusOr<std::vector<VolumeRow>> AllVolumes();
 
   // Yields its number.
   absl::StatusOr<int64_t> InsertJob(JobRow row);
@@ -76,8 +85,6 @@ class JobStore {
   absl::StatusOr<bool> UpdateJob(const JobRow& row, std::optional<uint64_t> from = std::nullopt);
   // With its events.
   absl::Status DeleteJob(int64_t number);
-  absl::Status DeleteDamagedJob(const std::string& tenant, const std::string& name);
-  absl::StatusOr<std::optional<JobRow>> FindJob(const std::string& tenant, const std::string& name);
   absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
                                                          const std::string& request_id);
   // Those that come after `after`, or all, in one of the states (a bit each, by number): newest
@@ -91,7 +98,6 @@ class JobStore {
   absl::StatusOr<std::optional<std::string>> UserOfVolume(const std::string& tenant,
                                                           const std::string& volume);
 
-  absl::Status InsertEvent(const EventRow& row);
   absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence);
 
   // Yields what is stored: the row with its number, or the result that already has this key.
@@ -104,11 +110,9 @@ class JobStore {
                                                         const std::string& key);
   // Deletes the result when no job has it any more, and then yields it.
   absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number);
-  absl::StatusOr<std::vector<ResultRow>> AllResults();
 
   absl::Status InsertRemoval(const RemovalRow& row);
   absl::Status DeleteRemoval(const RemovalRow& row);
-  absl::StatusOr<std::vector<RemovalRow>> AllRemovals();
 
   // ---- The fleet. Where nobody shares the store, the one server that has it is all of it.
 
@@ -150,22 +154,17 @@ class JobStore {
   absl::StatusOr<std::vector<SqlRow>> Query(const std::string& sql, const Values&... values);
   template <typename... Values>
   absl::Status Run(const std::string& sql, const Values&... values);
+  // Where there is a row with the same `key`, its other columns are replaced, but for its number.
   template <typename Row>
-  absl::Status Insert(const Row& row, const std::string& replacing = {});
-  template <typename Row>
-  absl::Status Delete(const std::string& tenant, const std::string& name);
+  absl::Status Put(const Row& row, const std::string& key);
   // `where` follows the table's name. For who looks after everything, and must not stop at a row
   // that is damaged, those are left out.
   template <typename Row, typename... Values>
-  absl::StatusOr<std::vector<Row>> All(Damaged damaged, const std::string& where,
-                                       const Values&... values);
+  absl::StatusOr<std::vector<Row>> Select(Damaged damaged, const std::string& where,
+                                          const Values&... values);
   template <typename Row, typename... Values>
   absl::StatusOr<std::optional<Row>> One(Damaged damaged, const std::string& where,
                                          const Values&... values);
-  template <typename Row>
-  absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
-  template <typename Row>
-  absl::StatusOr<std::vector<Row>> Every();
 
   const std::unique_ptr<SqlDatabase> database_;
   std::string server_;  // empty before it has joined

@@ -29,7 +29,7 @@ constexpr bool IsTerminal(JobState state) { return state >= JobState::kSucceeded
 
 struct UploadRow {
   std::string tenant;
-  std::string name;
+  std::string name;  // uploads/...
   std::string declaration;
   uint64_t size_bytes = 0;  // as declared
   std::string job;          // that waits for it; empty without one
@@ -40,10 +40,10 @@ struct UploadRow {
 
 struct VolumeRow {
   std::string tenant;
-  std::string name;
+  std::string name;  // volumes/...
   std::string declaration;
-  std::string blob_digest;
-  std::string volume_digest;  // empty before it is known
+  std::string blob_digest;    // SHA-256 of the bytes as sent
+  std::string volume_digest;  // core/io/volume_digest.h; empty until a first job has decoded it
   uint64_t size_bytes = 0;
   Time created;
   Time used;  // last
@@ -63,13 +63,13 @@ struct ResultRow {
 struct JobRow {
   int64_t number = 0;  // given by the store; later jobs have larger ones
   std::string tenant;
-  std::string name;
+  std::string name;        // jobs/...
   std::string request_id;  // empty: none
   std::string body;        // what was asked for, to tell a repeat from a reuse
-  std::string upload;      // that it came with
+  std::string upload;      // that it came with; empty for a job made from a volume
   std::string options;
   int priority = 0;
-  int threads = 0;
+  int threads = 0;    // wanted; 0 leaves it to the server
   std::string trace;  // the traceparent of the call that made it, for the log; may be empty
   Time created;
 
@@ -80,9 +80,9 @@ struct JobRow {
   int crashes = 0;        // of the server while it ran
   uint64_t sequence = 0;  // of the last event that was stored
   std::string owner;      // the process that runs it; empty when none does
-  absl::Status error;
-  int64_t result = 0;  // a ResultRow's number
-  std::optional<Time> started;
+  absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
+  int64_t result = 0;     // a ResultRow's number
+  std::optional<Time> started;  // the last attempt
   std::optional<Time> ended;
 };
 

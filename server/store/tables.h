@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "server/store/rows.h"
 #include "server/store/sql_database.h"
 #include "server/store/stored_bytes.h"
@@ -152,13 +154,14 @@ std::vector<SqlValue> ValuesOf(Row row) {
   return values;
 }
 
-// "tenant, name, ..."
+// {"tenant", "name", ..., "row_check"}
 template <typename Row>
-std::string ColumnsOf(Row row) {
-  std::string columns;
+std::vector<std::string> ColumnsOf(Row row) {
+  std::vector<std::string> columns;
   ForEachColumn(row, [&columns](const char* name, auto&, Kind = Kind::kNumber) {
-    absl::StrAppend(&columns, columns.empty() ? "" : ", ", name);
+    columns.emplace_back(name);
   });
+  columns.emplace_back("row_check");
   return columns;
 }
 
@@ -169,12 +172,14 @@ inline std::string Parameters(size_t count) {
   return list;
 }
 
-// An insertion that replaces the row with the same `key`, all columns of it.
+// The end of an insertion that replaces the row with the same `key`, but not its number.
 inline std::string Replacing(const std::string& key, const std::vector<std::string>& columns) {
+  const std::set<std::string> kept = absl::StrSplit(key + ", number", ", ");
   std::string clause = absl::StrCat(" ON CONFLICT(", key, ") DO UPDATE SET ");
+  const char* comma = "";
   for (const std::string& column : columns) {
-    absl::StrAppend(&clause, &column == &columns.front() ? "" : ", ", column, " = excluded.",
-                    column);
+    if (kept.contains(column)) continue;
+    absl::StrAppend(&clause, std::exchange(comma, ", "), column, " = excluded.", column);
   }
   return clause;
 }

@@ -30,6 +30,7 @@ bool IsWhole(const std::string& entry) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<UploadFile>> UploadFile::Open(const std::string& path) {
+  BCCSKEL_RETURN_IF_ERROR(MakeFolderOf(path));
   BCCSKEL_ASSIGN_OR_RETURN(File bytes, File::OpenToWrite(BytesPath(path)));
   BCCSKEL_ASSIGN_OR_RETURN(File chunks, File::OpenToWrite(ChunksPath(path)));
   std::unique_ptr<UploadFile> upload(new UploadFile(path));

@@ -24,7 +24,8 @@ namespace bccskel::server {
 // Threads: one at a time.
 class UploadFile {
  public:
-  // Makes the files or goes on with those that are there: reads them and cuts off what is damaged.
+  // Makes the files, and their folder, or goes on with those that are there: reads them and cuts
+  // off what is damaged.
   static absl::StatusOr<std::unique_ptr<UploadFile>> Open(const std::string& path);
 
   // A new upload with all that is whole in another one, be it that somebody writes that still.

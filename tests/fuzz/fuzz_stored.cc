@@ -109,7 +109,7 @@ void ReadRow(const std::string& bytes) {
   const bool spoiled = database->Run("UPDATE jobs SET " + column + " = $1", {value}).ok();
   JobStore store(std::move(database));
   const auto found = store.UnfinishedJobs();
-  const auto named = store.FindJob("tenant", "jobs/a");
+  const auto named = store.Find<JobRow>("tenant", "jobs/a");
   // A change that passes is one to what was there before.
   if (spoiled && found.ok() && !found->empty()) {
     Insist(found->front().name == "jobs/a" && found->front().state == JobState::kQueued);

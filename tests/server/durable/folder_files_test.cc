@@ -148,7 +148,7 @@ TEST_F(FolderFilesTest, RemovesWhatACrashLeftOfADeletionUnlessItIsWantedAgain) {
   ASSERT_TRUE(store_->Commit().ok());
   EXPECT_FALSE(IsThere(gone));
   EXPECT_TRUE(IsThere(wanted));
-  EXPECT_THAT(*store_->AllRemovals(), SizeIs(0));
+  EXPECT_THAT(*store_->All<RemovalRow>(), SizeIs(0));
 }
 
 }  // namespace

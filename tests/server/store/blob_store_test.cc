@@ -8,12 +8,14 @@
 
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "server/errors/call_error.h"
 #include "server/store/data_folder.h"
 #include "server/store/disk_quota.h"
+#include "server/store/upload_file.h"
 #include "tests/server/store/temporary_folder.h"
 
 namespace bccskel::server {
@@ -42,24 +44,35 @@ void FlipABit(const std::string& path, uint64_t offset) {
 
 class BlobStoreTest : public testing::Test {
  protected:
+  absl::StatusOr<std::unique_ptr<UploadFile>> OpenUpload(const std::string& tenant = "clinic",
+                                                         const std::string& name = "uploads/1") {
+    return UploadFile::Open(blobs_.PathOfUpload(tenant, name));
+  }
   std::string StoreBlob(const std::string& tenant, const std::string& bytes) {
-    auto upload = *blobs_.OpenUpload(tenant, "uploads/1");
+    UploadRow row;
+    row.tenant = tenant;
+    row.name = "uploads/1";
+    auto upload = *OpenUpload(tenant);
     EXPECT_TRUE(upload->Append(bytes).ok());
     const std::string digest = upload->Seal()->Hex();
-    EXPECT_TRUE(blobs_.PublishBlob(tenant, "uploads/1", digest).ok());
-    EXPECT_TRUE(blobs_.RemoveUpload(tenant, "uploads/1").ok());
+    EXPECT_TRUE(blobs_.PublishBlob(row, digest).ok());
+    EXPECT_TRUE(UploadFile::Remove(blobs_.PathOf(row)).ok());
     return digest;
   }
-  std::string BytesPath() const { return *blobs_.PathsOfUpload("clinic", "uploads/1").rbegin(); }
-  std::string ChunksPath() const { return *blobs_.PathsOfUpload("clinic", "uploads/1").begin(); }
+  absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) {
+    return CheckedFile::Open(blobs_.PathOfBlob(tenant, digest), digest);
+  }
+  std::string UploadPath() const { return blobs_.PathOfUpload("clinic", "uploads/1"); }
+  std::string BytesPath() const { return UploadFile::BytesPath(UploadPath()); }
+  std::string ChunksPath() const { return UploadFile::ChunksPath(UploadPath()); }
 
   TemporaryFolder folder_;
   const BlobStore blobs_{folder_.path()};
 };
 
 TEST_F(BlobStoreTest, GoesOnWithAnUploadAndFindsTheDigestOfAllOfIt) {
-  (void)(*blobs_.OpenUpload("clinic", "uploads/1"))->Append("first ");
-  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+  (void)(*OpenUpload())->Append("first ");
+  auto upload = *OpenUpload();
   EXPECT_EQ(upload->size(), 6u);
   ASSERT_TRUE(upload->Append("second").ok());
   EXPECT_EQ(*upload->Seal(), Sha256Of("first second"));
@@ -67,21 +80,21 @@ TEST_F(BlobStoreTest, GoesOnWithAnUploadAndFindsTheDigestOfAllOfIt) {
 
 TEST_F(BlobStoreTest, DropsAChunkThatDidNotReachTheDiskWhole) {
   for (const std::string chunk : {"first ", "second "}) {
-    ASSERT_TRUE((*blobs_.OpenUpload("clinic", "uploads/1"))->Append(chunk).ok());
+    ASSERT_TRUE((*OpenUpload())->Append(chunk).ok());
   }
   // As a crash of the machine may leave it: the length is there, the bytes are not.
   FlipABit(BytesPath(), 8);
-  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+  auto upload = *OpenUpload();
   EXPECT_EQ(upload->size(), 6u);
   ASSERT_TRUE(upload->Append("again").ok());
   EXPECT_EQ(*upload->Seal(), Sha256Of("first again"));
 }
 
 TEST_F(BlobStoreTest, DropsAChunkWithoutAnEntry) {
-  ASSERT_TRUE((*blobs_.OpenUpload("clinic", "uploads/1"))->Append("first ").ok());
+  ASSERT_TRUE((*OpenUpload())->Append("first ").ok());
   ASSERT_TRUE((*File::OpenToWrite(BytesPath())).WriteAt(6, "half of a chu").ok());
   ASSERT_TRUE((*File::OpenToWrite(ChunksPath())).WriteAt(12, "half").ok());
-  EXPECT_EQ((*blobs_.OpenUpload("clinic", "uploads/1"))->size(), 6u);
+  EXPECT_EQ((*OpenUpload())->size(), 6u);
 }
 
 TEST_F(BlobStoreTest, KeepsNoFileOfAnUploadOpen) {
@@ -90,14 +103,14 @@ TEST_F(BlobStoreTest, KeepsNoFileOfAnUploadOpen) {
     return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
   };
   const auto before = open_files();
-  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+  auto upload = *OpenUpload();
   ASSERT_TRUE(upload->Append("first ").ok());
   EXPECT_EQ(open_files(), before);
 }
 
 TEST_F(BlobStoreTest, DoesNotBringBackAnUploadThatWasRemoved) {
-  auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
-  ASSERT_TRUE(blobs_.RemoveUpload("clinic", "uploads/1").ok());
+  auto upload = *OpenUpload();
+  ASSERT_TRUE(UploadFile::Remove(UploadPath()).ok());
   EXPECT_TRUE(absl::IsNotFound(upload->Append("late")));
   EXPECT_TRUE(absl::IsNotFound(upload->Seal().status()));
   EXPECT_TRUE(FilesBelow(folder_.path())->empty());
@@ -106,7 +119,7 @@ TEST_F(BlobStoreTest, DoesNotBringBackAnUploadThatWasRemoved) {
 TEST_F(BlobStoreTest, ReadsBackWhatWasStored) {
   const std::string bytes(3'000'000, 'v');
   const std::string digest = StoreBlob("clinic", bytes);
-  auto blob = blobs_.OpenBlob("clinic", digest);
+  auto blob = OpenBlob("clinic", digest);
   ASSERT_TRUE(blob.ok()) << blob.status();
   EXPECT_EQ(ReadAll(*blob), bytes);
 }
@@ -114,7 +127,7 @@ TEST_F(BlobStoreTest, ReadsBackWhatWasStored) {
 TEST_F(BlobStoreTest, TellsAFlippedBitOfABlobWithBothDigests) {
   const std::string digest = StoreBlob("clinic", std::string(2'000'000, 'v'));
   FlipABit(blobs_.PathOfBlob("clinic", digest), 1'500'000);
-  auto blob = *blobs_.OpenBlob("clinic", digest);
+  auto blob = *OpenBlob("clinic", digest);
   absl::Status status;
   while (status.ok()) {
     const auto bytes = blob.Next();
@@ -130,19 +143,19 @@ TEST_F(BlobStoreTest, HealsADamagedBlobWhenItComesAgain) {
   const std::string digest = StoreBlob("clinic", "volume");
   FlipABit(blobs_.PathOfBlob("clinic", digest), 1);
   EXPECT_EQ(StoreBlob("clinic", "volume"), digest);
-  auto blob = *blobs_.OpenBlob("clinic", digest);
+  auto blob = *OpenBlob("clinic", digest);
   EXPECT_EQ(ReadAll(blob), "volume");
 }
 
 TEST_F(BlobStoreTest, HidesTheBlobsOfOneTenantFromAnother) {
   const std::string digest = StoreBlob("clinic", "volume");
-  EXPECT_EQ(blobs_.OpenBlob("other", digest).status().code(), absl::StatusCode::kDataLoss);
-  ASSERT_TRUE(blobs_.RemoveBlob("other", digest).ok());
-  EXPECT_TRUE(blobs_.OpenBlob("clinic", digest).ok());
+  EXPECT_EQ(OpenBlob("other", digest).status().code(), absl::StatusCode::kDataLoss);
+  ASSERT_TRUE(RemoveFile(blobs_.PathOfBlob("other", digest)).ok());
+  EXPECT_TRUE(OpenBlob("clinic", digest).ok());
 }
 
 TEST_F(BlobStoreTest, KeepsHostileNamesInsideItsFolder) {
-  ASSERT_TRUE(blobs_.OpenUpload("../../tenant", "uploads/../../x").ok());
+  ASSERT_TRUE(OpenUpload("../../tenant", "uploads/../../x").ok());
   const std::vector<std::string> files = *FilesBelow(folder_.path());
   for (const std::string& file : files) {
     EXPECT_EQ(file.find(".."), std::string::npos) << file;
@@ -198,7 +211,7 @@ TEST_F(BlobStoreTest, LeavesAnUploadAsItWasWhenTheDiskIsFull) {
   const pid_t child = fork();
   if (child == 0) {
     signal(SIGXFSZ, SIG_IGN);
-    auto upload = *blobs_.OpenUpload("clinic", "uploads/1");
+    auto upload = *OpenUpload();
     bool good = upload->Append(std::string(100'000, 'a')).ok();
     const rlimit limit = {150'000, 150'000};
     setrlimit(RLIMIT_FSIZE, &limit);

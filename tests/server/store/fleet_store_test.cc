@@ -59,7 +59,7 @@ TEST_P(FleetStoreTest, OneWritesAtATime) {
   std::jthread second([&] {
     EXPECT_TRUE(other_->Begin().ok());
     begun = true;
-    EXPECT_TRUE(other_->FindJob("clinic", "jobs/1")->has_value());
+    EXPECT_TRUE(other_->Find<JobRow>("clinic", "jobs/1")->has_value());
     EXPECT_TRUE(other_->Commit().ok());
   });
   for (int looks = 0; looks < 1000; ++looks) std::this_thread::yield();
@@ -113,12 +113,12 @@ TEST_P(FleetStoreTest, KnowsWhetherEqualWorkRunsElsewhere) {
 
 TEST_P(FleetStoreTest, GoesOnAfterTheDatabaseWasAway) {
   PostgresServer::Get()->Restart();
-  EXPECT_FALSE(store_->FindJob("clinic", "jobs/1").ok());
+  EXPECT_FALSE(store_->Find<JobRow>("clinic", "jobs/1").ok());
   while (!store_->Begin().ok()) std::this_thread::yield();
   Insert(Job("clinic", "jobs/1"));
   ASSERT_TRUE(store_->Commit().ok());
   EXPECT_TRUE(store_->Health().ok());
-  EXPECT_TRUE(store_->FindJob("clinic", "jobs/1")->has_value());
+  EXPECT_TRUE(store_->Find<JobRow>("clinic", "jobs/1")->has_value());
 }
 
 TEST_P(FleetStoreTest, OneOfManyServersMakesTheTables) {

@@ -77,9 +77,9 @@ TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
   }
   EXPECT_EQ(failed.code(), absl::StatusCode::kAborted);
   const auto store = Open(folder);
-  EXPECT_TRUE(store->FindJob("clinic", "jobs/before")->has_value());
-  EXPECT_FALSE(store->FindJob("clinic", "jobs/failed")->has_value());
-  EXPECT_TRUE(store->FindJob("clinic", "jobs/after")->has_value());
+  EXPECT_TRUE(store->Find<JobRow>("clinic", "jobs/before")->has_value());
+  EXPECT_FALSE(store->Find<JobRow>("clinic", "jobs/failed")->has_value());
+  EXPECT_TRUE(store->Find<JobRow>("clinic", "jobs/after")->has_value());
 }
 
 TEST(GroupCommitTest, AChangeThatFindsNothingCostsNoFurtherTransaction) {
@@ -91,7 +91,7 @@ TEST(GroupCommitTest, AChangeThatFindsNothingCostsNoFurtherTransaction) {
   commit.Post(Insert("jobs/before"), nullptr);
   commit.Post(
       [](JobStore& store) -> absl::Status {
-        EXPECT_TRUE((*store.FindJob("clinic", "jobs/before")).has_value());
+        EXPECT_TRUE((*store.Find<JobRow>("clinic", "jobs/before")).has_value());
         return absl::NotFoundError("no");
       },
       [&](const absl::Status& status) { failed = status; });
@@ -133,8 +133,9 @@ TEST(GroupCommitTest, ATransactionThatFailsIsTheErrorOfNoOtherChange) {
   commit.Post([&](JobStore& store) { return store.InsertJob(large).status(); }, remember);
   commit.Post(
       [&](JobStore& store) -> absl::Status {
-        read = (*store.FindJob("clinic", "jobs/before"))->name;
-        read += (*store.FindJob("clinic", "jobs/large")).has_value() ? " and the large one" : "";
+        read = (*store.Find<JobRow>("clinic", "jobs/before"))->name;
+        read +=
+            (*store.Find<JobRow>("clinic", "jobs/large")).has_value() ? " and the large one" : "";
         return absl::OkStatus();
       },
       remember);

@@ -44,7 +44,7 @@ TEST_P(JobStoreTest, KeepsEveryFieldOfAJob) {
   job.started = Time(std::chrono::microseconds(1234567));
   job.number = Insert(job);
   Reopen();
-  const JobRow found = **store_->FindJob("clinic", "jobs/1");
+  const JobRow found = **store_->Find<JobRow>("clinic", "jobs/1");
   EXPECT_EQ(found.number, job.number);
   EXPECT_EQ(found.request_id, job.request_id);
   EXPECT_EQ(found.body, job.body);
@@ -72,7 +72,7 @@ TEST_P(JobStoreTest, NeverChangesAJobThatHasEnded) {
   EXPECT_TRUE(*store_->UpdateJob(job));
   job.state = JobState::kSucceeded;
   EXPECT_FALSE(*store_->UpdateJob(job));
-  EXPECT_EQ((*store_->FindJob("clinic", "jobs/1"))->state, JobState::kCancelled);
+  EXPECT_EQ((*store_->Find<JobRow>("clinic", "jobs/1"))->state, JobState::kCancelled);
 }
 
 TEST_P(JobStoreTest, FindsNothingOfAnotherTenant) {
@@ -89,9 +89,9 @@ TEST_P(JobStoreTest, FindsNothingOfAnotherTenant) {
                                .created = {},
                                .used = {}})
                   .ok());
-  EXPECT_FALSE(store_->FindJob("other", "jobs/1")->has_value());
+  EXPECT_FALSE(store_->Find<JobRow>("other", "jobs/1")->has_value());
   EXPECT_FALSE(store_->FindJobOfRequest("other", "request")->has_value());
-  EXPECT_FALSE(store_->FindVolume("other", "volumes/1")->has_value());
+  EXPECT_FALSE(store_->Find<VolumeRow>("other", "volumes/1")->has_value());
   EXPECT_THAT(*store_->FindVolumesOf("other", "ab"), IsEmpty());
   EXPECT_THAT(*store_->FindVolumesOf("clinic", "cd"), testing::SizeIs(1));
   EXPECT_THAT(*store_->ListJobs("other", std::nullopt, ~0u, 10), IsEmpty());
@@ -128,15 +128,15 @@ TEST_P(JobStoreTest, TakesBackAStepAndKeepsTheOthers) {
   Insert(Job("clinic", "jobs/undone"));
   ASSERT_TRUE(store_->UndoStep().ok());
   ASSERT_TRUE(store_->Commit().ok());
-  EXPECT_TRUE(store_->FindJob("clinic", "jobs/kept")->has_value());
-  EXPECT_FALSE(store_->FindJob("clinic", "jobs/undone")->has_value());
+  EXPECT_TRUE(store_->Find<JobRow>("clinic", "jobs/kept")->has_value());
+  EXPECT_FALSE(store_->Find<JobRow>("clinic", "jobs/undone")->has_value());
 }
 
 TEST_P(JobStoreTest, TakesAnyBytesForANameAndFindsNothing) {
   const std::string name("jobs/\0\xFF'", 8);
   Insert(Job("clinic", name));
-  EXPECT_EQ((*store_->FindJob("clinic", name))->name, name);
-  EXPECT_FALSE(store_->FindJob("clinic", "jobs/")->has_value());
+  EXPECT_EQ((*store_->Find<JobRow>("clinic", name))->name, name);
+  EXPECT_FALSE(store_->Find<JobRow>("clinic", "jobs/")->has_value());
 }
 
 TEST_P(JobStoreTest, CountsWhatTheFilesOfEachTenantTake) {
@@ -155,13 +155,13 @@ TEST_P(JobStoreTest, CountsWhatTheFilesOfEachTenantTake) {
   upload.tenant = "lab";
   upload.name = "uploads/1";
   upload.size_bytes = 7;
-  EXPECT_TRUE(store_->InsertUpload(upload).ok());
+  EXPECT_TRUE(store_->Insert(upload).ok());
   upload.name = "uploads/2";
-  EXPECT_TRUE(store_->InsertUpload(upload).ok());
+  EXPECT_TRUE(store_->Insert(upload).ok());
   upload.volume = "volumes/4";
   upload.file = "file";
   EXPECT_TRUE(store_->UpdateUpload(upload).ok());
-  EXPECT_EQ((*store_->FindUpload("lab", "uploads/2"))->file, "file");
+  EXPECT_EQ((*store_->Find<UploadRow>("lab", "uploads/2"))->file, "file");
   ResultRow result;
   result.tenant = "lab";
   result.file = "file";
@@ -197,7 +197,7 @@ TEST_P(JobStoreTest, DeletesTheEventsOfAJobWithIt) {
     EventRow event;
     event.job = job;
     event.sequence = sequence;
-    ASSERT_TRUE(store_->InsertEvent(event).ok());
+    ASSERT_TRUE(store_->Insert(event).ok());
   }
   EXPECT_THAT(*store_->EventsAfter(job, 1),
               ElementsAre(Field(&EventRow::sequence, 2), Field(&EventRow::sequence, 3)));
@@ -229,7 +229,7 @@ TEST_P(SqliteJobStoreTest, GivesTheRightAnswerOrAnErrorWhateverBitIsFlipped) {
       const auto store = OpenSqliteJobStore(folder_ / "jobs.db");
       if (!store.ok()) ++told;
       for (int n = 0; store.ok() && n < kJobs; ++n) {
-        const auto job = (*store)->FindJob("clinic", "jobs/" + std::to_string(n));
+        const auto job = (*store)->Find<JobRow>("clinic", "jobs/" + std::to_string(n));
         if (!job.ok() && ++told > 0) continue;
         ASSERT_TRUE(job->has_value()) << bit;
         EXPECT_EQ((*job)->options, "options of " + std::to_string(n)) << bit;

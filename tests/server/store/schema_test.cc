@@ -73,7 +73,7 @@ TEST(SchemaTest, TakesOverAFileOfVersion1) {
   ASSERT_TRUE((*OpenSqlite(folder / "jobs.db"))->Execute(kVersion1).ok());
   const auto store = OpenSqliteJobStore(folder / "jobs.db");
   ASSERT_TRUE(store.ok()) << store.status();
-  const JobRow job = **(*store)->FindJob("clinic", "jobs/old");
+  const JobRow job = **(*store)->Find<JobRow>("clinic", "jobs/old");
   EXPECT_EQ(job.number, 5);
   EXPECT_EQ(job.state, JobState::kQueued);
   EXPECT_EQ(job.options, "\x03");
@@ -81,13 +81,13 @@ TEST(SchemaTest, TakesOverAFileOfVersion1) {
   EXPECT_EQ(job.trace, "");
   EXPECT_EQ(job.created, Time(std::chrono::seconds(3)));
   EXPECT_THAT(*(*store)->EventsAfter(5, 0), testing::SizeIs(1));
-  EXPECT_EQ((*(*store)->FindVolume("clinic", "volumes/1"))->size_bytes, 7u);
+  EXPECT_EQ((*(*store)->Find<VolumeRow>("clinic", "volumes/1"))->size_bytes, 7u);
   JobRow next;
   next.tenant = "clinic";
   next.name = "jobs/new";
   next.threads = 2;
   EXPECT_EQ(*(*store)->InsertJob(next), 6) << "numbers go on growing";
-  EXPECT_EQ((*(*store)->FindJob("clinic", "jobs/new"))->threads, 2);
+  EXPECT_EQ((*(*store)->Find<JobRow>("clinic", "jobs/new"))->threads, 2);
   EXPECT_THAT(*(*store)->ListJobs("clinic", std::nullopt, ~0u, 10), testing::SizeIs(2));
 }
 

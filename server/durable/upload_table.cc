@@ -1,4 +1,4 @@
-#include "server/durable/upload_session.h"
+#include "server/durable/upload_table.h"
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
