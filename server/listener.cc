@@ -11,7 +11,7 @@
 
 #include "core/exec/status_macros.h"
 #include "server/calls/services.h"
-#include "server/calls/unparsed_requests.h"
+#include "server/metrics/call_meter.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -105,10 +105,9 @@ absl::Status Listener::Serve(ListenerPlan& plan) {
     builder.SetOption(std::make_unique<WithoutReflection>());
   }
   Configure(builder);
-  // First: the others see the status that is sent.
-  plan.interceptors.insert(plan.interceptors.begin(),
-                           std::make_unique<UnparsedRequests>(plan.healthy));
-  builder.experimental().SetInterceptorCreators(std::move(plan.interceptors));
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> meters;
+  meters.push_back(std::make_unique<CallMeter>(plan.healthy, plan.metrics));
+  builder.experimental().SetInterceptorCreators(std::move(meters));
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) return absl::InternalError("gRPC cannot start a server");
   for (size_t n = 0; n < takers.size(); ++n) {

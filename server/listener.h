@@ -11,20 +11,18 @@
 #include "absl/status/statusor.h"
 #include "server/connection_acceptor.h"
 #include "server/identity/tls_files.h"
+#include "server/metrics/server_metrics.h"
 
 namespace bccskel::server {
 
 // What is reached at a set of addresses.
 struct ListenerPlan {
-  using Interceptors =
-      std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>>;
-
   std::vector<std::string> addresses;    // each HOST:PORT or unix:PATH
   TlsFiles tls;                          // for each HOST:PORT
   std::vector<grpc::Service*> services;  // not owned
   std::vector<std::string> healthy;      // full names of services that health answers for
   enum class Reflection { kOff, kOn } reflection = Reflection::kOff;
-  Interceptors interceptors;
+  ServerMetrics* metrics = nullptr;  // that count the calls; null: nobody does
 };
 
 // Addresses that are listened on, and the calls that come in there. Each listener answers health

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "bccskel/v1/admin_service.grpc.pb.h"
+#include "bccskel/v1/job_service.grpc.pb.h"
+#include "bccskel/v1/server_service.grpc.pb.h"
+#include "bccskel/v1/skeletonization_service.grpc.pb.h"
+#include "bccskel/v1/volume_service.grpc.pb.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
@@ -23,8 +29,6 @@
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
-#include "server/metrics/metrics_page.h"
-#include "server/server_status.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -71,16 +75,53 @@ std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
   return std::chrono::duration<double>(end->time_since_epoch()).count();
 }
 
-std::optional<ServerGauges::Stored> StoredGauges(const DurableJobs* durable_jobs) {
-  if (durable_jobs == nullptr) return std::nullopt;
-  const DurableUsage usage = durable_jobs->usage();
-  return ServerGauges::Stored{.healthy = durable_jobs->Health().ok(),
-                              .disk_bytes = usage.disk_bytes,
-                              .available_bytes = usage.disk_available_bytes,
-                              .uploads = usage.uploads,
-                              .queued_jobs = usage.queued,
-                              .running_jobs = usage.running,
-                              .reused_results = usage.cached};
+void Set(google::protobuf::Duration& message, std::chrono::duration<double> time) {
+  const double whole = std::floor(time.count());
+  message.set_seconds(static_cast<int64_t>(whole));
+  message.set_nanos(static_cast<int32_t>((time.count() - whole) * 1e9));
+}
+
+void Set(v1::StoredNow& message, const DurableUsage& stored) {
+  message.set_disk_used_bytes(stored.disk_bytes);
+  message.set_disk_available_bytes(stored.disk_available_bytes);
+  message.set_uploads_unfinished(static_cast<uint32_t>(stored.uploads));
+  message.set_jobs_queued(static_cast<uint32_t>(stored.queued));
+  message.set_jobs_running(static_cast<uint32_t>(stored.running));
+}
+
+void Set(v1::GetServerStatusResponse& message, const ServerGauges& now) {
+  message.set_draining(now.draining != 0);
+  message.mutable_jobs()->set_admitted(static_cast<uint32_t>(now.admitted_jobs));
+  message.mutable_jobs()->set_waiting(static_cast<uint32_t>(now.waiting_jobs));
+  message.mutable_jobs()->set_running(static_cast<uint32_t>(now.running_jobs));
+  message.set_threads(static_cast<uint32_t>(now.threads));
+  message.set_busy_threads(static_cast<uint32_t>(now.busy_threads));
+  message.set_admitted_bytes(now.admitted_bytes);
+  message.set_max_admitted_bytes(now.max_admitted_bytes);
+  if (now.stored.has_value()) Set(*message.mutable_stored(), *now.stored);
+}
+
+void Set(v1::ServerTotals& message, const ServerSums& sums) {
+  message.set_calls(sums.calls);
+  message.set_failed_calls(sums.failed_calls);
+  message.set_jobs(sums.jobs);
+  message.set_failed_jobs(sums.failed_jobs);
+  message.set_object_points(sums.object_points);
+}
+
+// What AdminService answers, for a server that runs since `started`.
+v1::GetServerStatusResponse StatusOf(const ServerMetrics& metrics,
+                                     std::chrono::steady_clock::time_point started) {
+  v1::GetServerStatusResponse response;
+  response.set_server_version(std::string(Version()));
+  Set(*response.mutable_uptime(), std::chrono::steady_clock::now() - started);
+  Set(response, metrics.gauges());
+  const ProcessFigures process = ReadProcessFigures();
+  response.set_resident_bytes(process.resident_bytes);
+  response.set_open_files(static_cast<uint32_t>(process.open_files));
+  Set(*response.mutable_processor_time(), process.processor_time);
+  Set(*response.mutable_totals(), metrics.sums());
+  return response;
 }
 
 }  // namespace
@@ -94,24 +135,23 @@ class Server::Services {
  public:
   Services(const ServerConfig& config, const Callers& callers, JobRunner& runner,
            DurableJobs* durable_jobs, ServerMetrics& metrics)
-      : gate_(callers, config.caller_timeouts),
-        durable_gate_(gate_, durable_jobs),
-        skeletonization_(gate_, runner, config.limits.volume, durable_jobs, writers_),
-        volumes_(durable_gate_, writers_, config.limits),
-        jobs_(durable_gate_),
-        server_(gate_, config.limits, config.durable),
-        admin_(gate_, [this, &metrics] { return StatusOf(metrics, started_); }) {}
+      : gate_(callers, config.caller_timeouts, durable_jobs),
+        skeletonization_(MakeSkeletonizationService(gate_, runner, config.limits.volume, writers_)),
+        volumes_(MakeVolumeService(gate_, writers_, config.limits)),
+        jobs_(MakeJobService(gate_)),
+        server_(MakeServerService(gate_, config.limits, config.durable)),
+        admin_(MakeAdminService(gate_, [this, &metrics] { return StatusOf(metrics, started_); })) {}
 
   void AddPublic(ListenerPlan& plan) {
-    Add(plan, skeletonization_, v1::SkeletonizationService::service_full_name());
-    Add(plan, volumes_, v1::VolumeService::service_full_name());
-    Add(plan, jobs_, v1::JobService::service_full_name());
-    Add(plan, server_, v1::ServerService::service_full_name());
+    Add(plan, *skeletonization_, v1::SkeletonizationService::service_full_name());
+    Add(plan, *volumes_, v1::VolumeService::service_full_name());
+    Add(plan, *jobs_, v1::JobService::service_full_name());
+    Add(plan, *server_, v1::ServerService::service_full_name());
   }
   void CutOff() { gate_.CutOff(); }
   void LookAfterCalls() { gate_.LookAfterCalls(); }
   void AddAdmin(ListenerPlan& plan) {
-    Add(plan, admin_, v1::AdminService::service_full_name());
+    Add(plan, *admin_, v1::AdminService::service_full_name());
     plan.reflection = ListenerPlan::Reflection::kOn;
   }
 
@@ -123,13 +163,8 @@ class Server::Services {
 
   const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   CallGate gate_;
-  DurableGate durable_gate_;
   UploadWriters writers_;
-  SkeletonizationService skeletonization_;
-  VolumeService volumes_;
-  JobService jobs_;
-  ServerService server_;
-  AdminService admin_;
+  const std::unique_ptr<grpc::Service> skeletonization_, volumes_, jobs_, server_, admin_;
 };
 
 Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
@@ -142,7 +177,7 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
       data_(new Data{.codec = MessageCodec(config_.limits.volume)}) {}
 
 Server::~Server() {
-  metrics_page_.reset();
+  metrics_.Hide();
   for (const auto* listener : {&public_listener_, &admin_listener_}) {
     if (*listener != nullptr) (*listener)->Shutdown(std::chrono::milliseconds(0));
   }
@@ -191,7 +226,7 @@ absl::Status Server::Listen() {
   services_->AddPublic(plan);
   if (AdminsShareThePublicListener(config_)) services_->AddAdmin(plan);
   for (const std::string& service : plan.healthy) ExpectCallsOf(service, metrics_);
-  plan.interceptors.push_back(std::make_unique<CallMeter>(metrics_));
+  plan.metrics = &metrics_;
   BCCSKEL_ASSIGN_OR_RETURN(public_listener_, Listener::Start(std::move(plan)));
   for (const std::string& address : addresses()) {
     Log(LogLevel::kInfo, "listening", {{"address", address}});
@@ -212,9 +247,7 @@ absl::Status Server::ListenForAdmins() {
 
 absl::Status Server::ShowMetrics() {
   if (config_.metrics_listen.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(
-      metrics_page_,
-      MetricsPage::Start(config_.metrics_listen, {metrics_.counted(), metrics_.seen()}));
+  BCCSKEL_RETURN_IF_ERROR(metrics_.Show(config_.metrics_listen));
   Log(LogLevel::kInfo, "listening for metrics", {{"address", metrics_address()}});
   return absl::OkStatus();
 }
@@ -233,7 +266,7 @@ ServerGauges Server::Gauges() const {
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();
   now.certificate_end = CertificateEndSeconds(config_.tls);
-  now.stored = StoredGauges(data_->durable_jobs.get());
+  if (data_->durable_jobs != nullptr) now.stored = data_->durable_jobs->usage();
   return now;
 }
 
@@ -241,10 +274,6 @@ const std::vector<std::string>& Server::addresses() const { return public_listen
 
 std::string Server::admin_address() const {
   return admin_listener_ == nullptr ? "" : admin_listener_->addresses().front();
-}
-
-std::string Server::metrics_address() const {
-  return metrics_page_ == nullptr ? "" : metrics_page_->address();
 }
 
 void Server::ReloadIfChanged() {

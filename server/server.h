@@ -15,7 +15,6 @@
 namespace bccskel::server {
 
 class Listener;
-class MetricsPage;
 
 // The running server: listeners, services, health, reflection, metrics and the jobs behind them.
 class Server {
@@ -33,7 +32,7 @@ class Server {
   // Where reflection and admin calls are; empty: nowhere, or beside the other services.
   std::string admin_address() const;
   // Where Prometheus finds the metrics, HOST:PORT; empty: nowhere.
-  std::string metrics_address() const;
+  const std::string& metrics_address() const { return metrics_.shown_at(); }
 
   // Reloads the tokens file and logs the outcome. Certificates reload by themselves.
   void ReloadIfChanged();
@@ -78,7 +77,6 @@ class Server {
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work
-  std::unique_ptr<MetricsPage> metrics_page_;
 };
 
 }  // namespace bccskel::server

@@ -65,7 +65,7 @@ std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContex
 // More than any name has.
 constexpr size_t kMaxNameBytes = 128;
 
-absl::Status CheckName(const DurableGate::Name& name) {
+absl::Status CheckName(const CallGate::Name& name) {
   if (name.name.empty()) return InvalidField(name.field, "must be set");
   if (name.name.size() <= kMaxNameBytes) return absl::OkStatus();
   return InvalidField(name.field,
@@ -201,18 +201,18 @@ grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
   return reactor;
 }
 
-absl::StatusOr<DurableCall> DurableGate::Enter(const grpc::CallbackServerContext& context,
-                                               const Method& method) const {
-  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, gate_.Enter(context, method));
+absl::StatusOr<DurableCall> CallGate::EnterDurable(const grpc::CallbackServerContext& context,
+                                                   const Method& method) const {
+  BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context, method));
   if (durable_jobs_ != nullptr) return DurableCall{std::move(facts), *durable_jobs_};
   return Refused(facts, CallError(Reason::kNotDurable,
                                   "this server keeps nothing on disk: it was started without "
                                   "--data-dir, so there are neither uploads nor durable jobs"));
 }
 
-absl::StatusOr<DurableCall> DurableGate::Enter(const grpc::CallbackServerContext& context,
-                                               const Method& method, const Name& name) const {
-  BCCSKEL_ASSIGN_OR_RETURN(DurableCall call, Enter(context, method));
+absl::StatusOr<DurableCall> CallGate::EnterDurable(const grpc::CallbackServerContext& context,
+                                                   const Method& method, const Name& name) const {
+  BCCSKEL_ASSIGN_OR_RETURN(DurableCall call, EnterDurable(context, method));
   const absl::Status checked = CheckName(name);
   if (!checked.ok()) return Refused(call.facts, checked);
   return call;

@@ -110,14 +110,23 @@ CallFacts FactsOf(const grpc::CallbackServerContext& context);
 // The digest that the sender states, if it states one.
 std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish);
 
+// A call to something that outlives the process.
+struct DurableCall {
+  CallFacts facts;
+  DurableJobs& durable_jobs;
+
+  const std::string& tenant() const { return facts.tenant; }
+};
+
 // Where every call of every service comes in: whose is it? A handler learns the tenant here and
 // nowhere else. Calls that are refused are logged here.
 // Threads: safe.
 class CallGate {
  public:
-  // Needs: `callers` outlives the gate.
-  explicit CallGate(const Callers& callers, const CallerTimeouts& timeouts = {})
-      : callers_(callers), lasting_(callers, timeouts) {}
+  // Needs: both outlive the gate. `durable_jobs` is null where nothing is durable.
+  explicit CallGate(const Callers& callers, const CallerTimeouts& timeouts = {},
+                    DurableJobs* durable_jobs = nullptr)
+      : callers_(callers), durable_jobs_(durable_jobs), lasting_(callers, timeouts) {}
 
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
@@ -125,6 +134,19 @@ class CallGate {
   // Errors besides: PERMISSION_DENIED for who is no admin.
   absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context,
                                          const Method& method) const;
+  // For calls about what is durable. Errors besides: FAILED_PRECONDITION where nothing is.
+  absl::StatusOr<DurableCall> EnterDurable(const grpc::CallbackServerContext& context,
+                                           const Method& method) const;
+  // For those about something that has a name, as `field` of the request says.
+  // Errors besides: INVALID_ARGUMENT for what can be nobody's name.
+  struct Name {
+    const char* field;
+    const std::string& name;
+  };
+  absl::StatusOr<DurableCall> EnterDurable(const grpc::CallbackServerContext& context,
+                                           const Method& method, const Name& name) const;
+
+  DurableJobs* durable_jobs() const { return durable_jobs_; }  // null where nothing is durable
 
   // From now on calls that gRPC cancels are the server's doing.
   void CutOff() { cut_off_ = true; }
@@ -133,6 +155,7 @@ class CallGate {
 
  private:
   const Callers& callers_;
+  DurableJobs* const durable_jobs_;
   mutable OpenStreams lasting_;
   std::atomic<bool> cut_off_ = false;
 };
@@ -143,39 +166,6 @@ absl::Status Refused(const CallFacts& facts, const absl::Status& status);
 // Ends a unary call: with OK, or with the error and its details.
 grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
                                    const absl::Status& status);
-
-// A call to something that outlives the process.
-struct DurableCall {
-  CallFacts facts;
-  DurableJobs& durable_jobs;
-
-  const std::string& tenant() const { return facts.tenant; }
-};
-
-// Where such calls come in.
-// Threads: safe.
-class DurableGate {
- public:
-  // Needs: both outlive the gate. `DurableJobs` is null where nothing is durable.
-  DurableGate(const CallGate& gate, DurableJobs* durable_jobs)
-      : gate_(gate), durable_jobs_(durable_jobs) {}
-
-  // Errors: those of CallGate::Enter(); FAILED_PRECONDITION without durable jobs.
-  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
-                                    const Method& method) const;
-  // For calls about something that has a name, as `field` of the request says.
-  // Errors besides: INVALID_ARGUMENT for what can be nobody's name.
-  struct Name {
-    const char* field;
-    const std::string& name;
-  };
-  absl::StatusOr<DurableCall> Enter(const grpc::CallbackServerContext& context,
-                                    const Method& method, const Name& name) const;
-
- private:
-  const CallGate& gate_;
-  DurableJobs* const durable_jobs_;
-};
 
 }  // namespace bccskel::server
 

@@ -4,8 +4,8 @@
 #include <grpcpp/grpcpp.h>
 
 #include "absl/status/statusor.h"
-#include "bccskel/v1/job_service.grpc.pb.h"
-#include "bccskel/v1/volume_service.grpc.pb.h"
+#include "bccskel/v1/job_service.pb.h"
+#include "bccskel/v1/volume_service.pb.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/upload_writers.h"
 #include "server/jobs/job_pool.h"

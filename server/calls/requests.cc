@@ -1,6 +1,8 @@
 #include "server/calls/requests.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,6 +10,7 @@
 #include "core/exec/status_macros.h"
 #include "core/io/encoded_body.h"
 #include "core/labels/convert_label.h"
+#include "core/mask/mask_grid.h"
 #include "proto/wire/labels.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
@@ -16,48 +19,75 @@
 namespace bccskel::server {
 namespace {
 
-absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
-  switch (encoding) {
-    case v1::VOLUME_ENCODING_OPENEXR:
-      return VolumeEncoding::kOpenExr;
-    case v1::VOLUME_ENCODING_RAW_PLANES:
-      return VolumeEncoding::kRawPlanes;
-    case v1::VOLUME_ENCODING_BRICKS:
-      return VolumeEncoding::kBricks;
-    case v1::VOLUME_ENCODING_CUBIC_MASK:
-      return VolumeEncoding::kCubicMask;
-    case v1::VOLUME_ENCODING_UNSPECIFIED:
-      return InvalidField(field, "must be set");
-    default:
-      return InvalidField(field, absl::StrCat("unknown encoding ", int{encoding}));
+// What an enumerator of the interface means here. `what`: it is, for the error.
+template <typename Meaning, typename Enumerator>
+absl::StatusOr<Meaning> MeaningOf(Enumerator wanted, const std::string& field, const char* what,
+                                  std::initializer_list<std::pair<Enumerator, Meaning>> known) {
+  for (const auto& [enumerator, meaning] : known) {
+    if (enumerator == wanted) return meaning;
   }
+  return InvalidField(field, absl::StrCat("unknown ", what, int{wanted}));
+}
+
+absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
+  if (encoding == v1::VOLUME_ENCODING_UNSPECIFIED) return InvalidField(field, "must be set");
+  return MeaningOf<VolumeEncoding>(encoding, field, "encoding ",
+                                   {{v1::VOLUME_ENCODING_OPENEXR, VolumeEncoding::kOpenExr},
+                                    {v1::VOLUME_ENCODING_RAW_PLANES, VolumeEncoding::kRawPlanes},
+                                    {v1::VOLUME_ENCODING_BRICKS, VolumeEncoding::kBricks},
+                                    {v1::VOLUME_ENCODING_CUBIC_MASK, VolumeEncoding::kCubicMask}});
+}
+
+absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
+                                                const std::string& field) {
+  return MeaningOf<VolumeCompression>(
+      compression, field, "compression ",
+      {{v1::VOLUME_COMPRESSION_UNSPECIFIED, VolumeCompression::kNone},
+       {v1::VOLUME_COMPRESSION_NONE, VolumeCompression::kNone},
+       {v1::VOLUME_COMPRESSION_ZSTD, VolumeCompression::kZstd}});
+}
+
+absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
+  return MeaningOf<MaskAdjacency>(adjacency, field, "adjacency ",
+                                  {{v1::MASK_ADJACENCY_UNSPECIFIED, MaskAdjacency::k26},
+                                   {v1::MASK_ADJACENCY_OBJECT_26, MaskAdjacency::k26},
+                                   {v1::MASK_ADJACENCY_OBJECT_6, MaskAdjacency::k6}});
+}
+
+absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field) {
+  return MeaningOf<VoxelPoints>(points, field, "number of points ",
+                                {{v1::VOXEL_POINTS_UNSPECIFIED, VoxelPoints::kTwo},
+                                 {v1::VOXEL_POINTS_TWO, VoxelPoints::kTwo},
+                                 {v1::VOXEL_POINTS_SIXTEEN, VoxelPoints::kSixteen}});
 }
 
 absl::StatusOr<std::optional<VolumeEncoding>> ThinVolumeOf(v1::ThinVolumeReturn thin) {
-  switch (thin) {
-    case v1::THIN_VOLUME_RETURN_UNSPECIFIED:
-    case v1::THIN_VOLUME_RETURN_OMIT:
-      return std::nullopt;
-    case v1::THIN_VOLUME_RETURN_OPENEXR:
-      return VolumeEncoding::kOpenExr;
-    case v1::THIN_VOLUME_RETURN_BRICKS:
-      return VolumeEncoding::kBricks;
-    default:
-      return InvalidField("config.thin_volume_return", absl::StrCat("unknown ", int{thin}));
-  }
+  return MeaningOf<std::optional<VolumeEncoding>>(
+      thin, "config.thin_volume_return", "",
+      {{v1::THIN_VOLUME_RETURN_UNSPECIFIED, std::nullopt},
+       {v1::THIN_VOLUME_RETURN_OMIT, std::nullopt},
+       {v1::THIN_VOLUME_RETURN_OPENEXR, VolumeEncoding::kOpenExr},
+       {v1::THIN_VOLUME_RETURN_BRICKS, VolumeEncoding::kBricks}});
 }
 
 absl::StatusOr<ShellPointsWanted> ShellPointsOf(v1::ShellPointsReturn shell_points) {
-  switch (shell_points) {
-    case v1::SHELL_POINTS_RETURN_UNSPECIFIED:
-    case v1::SHELL_POINTS_RETURN_OMIT:
-      return ShellPointsWanted::kNone;
-    case v1::SHELL_POINTS_RETURN_ALL:
-      return ShellPointsWanted::kAll;
-    default:
-      return InvalidField("config.shell_points_return",
-                          absl::StrCat("unknown ", int{shell_points}));
+  return MeaningOf<ShellPointsWanted>(
+      shell_points, "config.shell_points_return", "",
+      {{v1::SHELL_POINTS_RETURN_UNSPECIFIED, ShellPointsWanted::kNone},
+       {v1::SHELL_POINTS_RETURN_OMIT, ShellPointsWanted::kNone},
+       {v1::SHELL_POINTS_RETURN_ALL, ShellPointsWanted::kAll}});
+}
+
+absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
+                                const std::string& field) {
+  BCCSKEL_ASSIGN_OR_RETURN(const LatticeExtent voxels,
+                           wire::FromMessage(extent, field + ".extent"));
+  MaskGrid grid = {.nx = voxels.nx, .ny = voxels.ny, .nz = voxels.nz};
+  BCCSKEL_ASSIGN_OR_RETURN(grid.placement, wire::FromMessage(placement, field + ".placement"));
+  if (absl::Status checked = CheckMaskGrid(grid); !checked.ok()) {
+    return InvalidField(field + ".extent", std::string(checked.message()));
   }
+  return grid;
 }
 
 // A job that is not durable always ends with its stream.
@@ -200,55 +230,6 @@ absl::StatusOr<LabelVolumeHeader> HeaderOf(const v1::LabelVolumeDeclaration& vol
 }
 
 }  // namespace
-
-absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
-                                                const std::string& field) {
-  switch (compression) {
-    case v1::VOLUME_COMPRESSION_UNSPECIFIED:
-    case v1::VOLUME_COMPRESSION_NONE:
-      return VolumeCompression::kNone;
-    case v1::VOLUME_COMPRESSION_ZSTD:
-      return VolumeCompression::kZstd;
-    default:
-      return InvalidField(field, absl::StrCat("unknown compression ", int{compression}));
-  }
-}
-
-absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
-  switch (adjacency) {
-    case v1::MASK_ADJACENCY_UNSPECIFIED:
-    case v1::MASK_ADJACENCY_OBJECT_26:
-      return MaskAdjacency::k26;
-    case v1::MASK_ADJACENCY_OBJECT_6:
-      return MaskAdjacency::k6;
-    default:
-      return InvalidField(field, absl::StrCat("unknown adjacency ", int{adjacency}));
-  }
-}
-
-absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field) {
-  switch (points) {
-    case v1::VOXEL_POINTS_UNSPECIFIED:
-    case v1::VOXEL_POINTS_TWO:
-      return VoxelPoints::kTwo;
-    case v1::VOXEL_POINTS_SIXTEEN:
-      return VoxelPoints::kSixteen;
-    default:
-      return InvalidField(field, absl::StrCat("unknown number of points ", int{points}));
-  }
-}
-
-absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
-                                const std::string& field) {
-  BCCSKEL_ASSIGN_OR_RETURN(const LatticeExtent voxels,
-                           wire::FromMessage(extent, field + ".extent"));
-  MaskGrid grid = {.nx = voxels.nx, .ny = voxels.ny, .nz = voxels.nz};
-  BCCSKEL_ASSIGN_OR_RETURN(grid.placement, wire::FromMessage(placement, field + ".placement"));
-  if (absl::Status checked = CheckMaskGrid(grid); !checked.ok()) {
-    return InvalidField(field + ".extent", std::string(checked.message()));
-  }
-  return grid;
-}
 
 absl::Status CheckThreads(int32_t threads, const std::string& field) {
   if (threads >= 0) return absl::OkStatus();

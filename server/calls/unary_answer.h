@@ -13,6 +13,8 @@
 
 namespace bccskel::server {
 
+using Context = grpc::CallbackServerContext;  // as gRPC hands it to a method
+
 // How a unary call that was let in ends: a status for the caller, a line for the log.
 class UnaryEnd {
  public:
@@ -53,17 +55,28 @@ inline auto AnswerNothing(const UnaryEnd& end) {
   return [end](const absl::Status& status) { end(StorageError(status)); };
 }
 
-// A unary call about something durable that has a name. `serve` takes the call and its end, which
-// it calls, or has called, once.
+// A unary call that was let in, or why it was not. `serve` takes the call and its end, which it
+// calls, or has called, once.
 template <typename Serve>
-grpc::ServerUnaryReactor* ServeUnary(const DurableGate& gate, grpc::CallbackServerContext& context,
-                                     const Method& method, const DurableGate::Name& name,
-                                     Serve serve) {
-  const absl::StatusOr<DurableCall> call = gate.Enter(context, method, name);
+grpc::ServerUnaryReactor* ServeUnary(grpc::CallbackServerContext& context,
+                                     const absl::StatusOr<DurableCall>& call,
+                                     const std::string& subject, Serve serve) {
   if (!call.ok()) return EndUnary(context, call.status());
-  const UnaryEnd end(context, call->facts, name.name);
+  const UnaryEnd end(context, call->facts, subject);
   serve(*call, end);
   return end.reactor();
+}
+
+// The same for what `ask`, a function of DurableJobs, does with the named thing. `answer` makes of
+// the call's end what DurableJobs calls.
+template <typename Ask, typename Answer>
+grpc::ServerUnaryReactor* AskDurable(const CallGate& gate, grpc::CallbackServerContext& context,
+                                     const Method& method, const CallGate::Name& name, Ask ask,
+                                     Answer answer) {
+  return ServeUnary(context, gate.EnterDurable(context, method, name), name.name,
+                    [&](const DurableCall& call, const UnaryEnd& end) {
+                      (call.durable_jobs.*ask)(call.tenant(), name.name, answer(end));
+                    });
 }
 
 }  // namespace bccskel::server

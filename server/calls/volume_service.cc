@@ -1,7 +1,9 @@
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bccskel/v1/volume_service.grpc.pb.h"
 #include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/services.h"
@@ -23,61 +25,68 @@ std::string NameOf(const StoredKey& key, const std::vector<VolumeInfo>& volumes)
   return std::string();
 }
 
+class VolumeService final : public v1::VolumeService::CallbackService {
+ public:
+  VolumeService(const CallGate& gate, UploadWriters& writers, const JobPool::Limits& limits)
+      : gate_(gate), writers_(writers), limits_(limits) {}
+
+  grpc::ServerReadReactor<v1::UploadVolumeRequest>* UploadVolume(
+      Context* context, v1::UploadVolumeResponse* response) override {
+    return StartUpload(gate_.EnterDurable(*context, kUploadVolume), writers_, limits_, *response);
+  }
+  grpc::ServerUnaryReactor* GetUploadStatus(Context* context,
+                                            const v1::GetUploadStatusRequest* request,
+                                            v1::GetUploadStatusResponse* response) override {
+    return AskDurable(gate_, *context, kGetUploadStatus, {"upload", request->upload()},
+                      &DurableJobs::GetUpload, [response](const UnaryEnd& end) {
+                        return Answer(end, [response](const UploadInfo& upload) {
+                          *response->mutable_upload() = ToMessage(upload);
+                        });
+                      });
+  }
+  grpc::ServerUnaryReactor* DeleteUpload(Context* context, const v1::DeleteUploadRequest* request,
+                                         v1::DeleteUploadResponse*) override {
+    return AskDurable(gate_, *context, kDeleteUpload, {"upload", request->upload()},
+                      &DurableJobs::DeleteUpload, AnswerNothing);
+  }
+  grpc::ServerUnaryReactor* FindMissingVolumes(Context* context,
+                                               const v1::FindMissingVolumesRequest* request,
+                                               v1::FindMissingVolumesResponse* response) override {
+    return ServeUnary(*context, gate_.EnterDurable(*context, kFindMissingVolumes), std::string(),
+                      [&](const DurableCall& call, const UnaryEnd& end) {
+                        absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
+                        if (!keys.ok()) {
+                          end(keys.status());
+                          return;
+                        }
+                        std::vector<std::string> digests;
+                        for (const StoredKey& key : *keys) digests.push_back(key.digest);
+                        call.durable_jobs.FindVolumes(
+                            call.tenant(), digests,
+                            Answer(end, [response, keys = *std::move(keys)](
+                                            const std::vector<VolumeInfo>& found) {
+                              for (const StoredKey& key : keys)
+                                response->add_volumes(NameOf(key, found));
+                            }));
+                      });
+  }
+  grpc::ServerUnaryReactor* DeleteVolume(Context* context, const v1::DeleteVolumeRequest* request,
+                                         v1::DeleteVolumeResponse*) override {
+    return AskDurable(gate_, *context, kDeleteVolume, {"volume", request->volume()},
+                      &DurableJobs::DeleteVolume, AnswerNothing);
+  }
+
+ private:
+  const CallGate& gate_;
+  UploadWriters& writers_;
+  const JobPool::Limits limits_;
+};
+
 }  // namespace
 
-grpc::ServerReadReactor<v1::UploadVolumeRequest>* VolumeService::UploadVolume(
-    grpc::CallbackServerContext* context, v1::UploadVolumeResponse* response) {
-  return StartUpload(gate_.Enter(*context, kUploadVolume), writers_, limits_, *response);
-}
-
-grpc::ServerUnaryReactor* VolumeService::GetUploadStatus(grpc::CallbackServerContext* context,
-                                                         const v1::GetUploadStatusRequest* request,
-                                                         v1::GetUploadStatusResponse* response) {
-  return ServeUnary(gate_, *context, kGetUploadStatus, {"upload", request->upload()},
-                    [&](const DurableCall& call, const UnaryEnd& end) {
-                      call.durable_jobs.GetUpload(call.tenant(), request->upload(),
-                                                  Answer(end, [response](const UploadInfo& upload) {
-                                                    *response->mutable_upload() = ToMessage(upload);
-                                                  }));
-                    });
-}
-
-grpc::ServerUnaryReactor* VolumeService::DeleteUpload(grpc::CallbackServerContext* context,
-                                                      const v1::DeleteUploadRequest* request,
-                                                      v1::DeleteUploadResponse*) {
-  return ServeUnary(gate_, *context, kDeleteUpload, {"upload", request->upload()},
-                    [&](const DurableCall& call, const UnaryEnd& end) {
-                      call.durable_jobs.DeleteUpload(call.tenant(), request->upload(),
-                                                     AnswerNothing(end));
-                    });
-}
-
-grpc::ServerUnaryReactor* VolumeService::FindMissingVolumes(
-    grpc::CallbackServerContext* context, const v1::FindMissingVolumesRequest* request,
-    v1::FindMissingVolumesResponse* response) {
-  const absl::StatusOr<DurableCall> call = gate_.Enter(*context, kFindMissingVolumes);
-  if (!call.ok()) return EndUnary(*context, call.status());
-  const UnaryEnd end(*context, call->facts, std::string());
-  absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
-  if (!keys.ok()) return end(keys.status());
-  std::vector<std::string> digests;
-  for (const StoredKey& key : *keys) digests.push_back(key.digest);
-  call->durable_jobs.FindVolumes(
-      call->tenant(), digests,
-      Answer(end, [response, keys = *std::move(keys)](const std::vector<VolumeInfo>& found) {
-        for (const StoredKey& key : keys) response->add_volumes(NameOf(key, found));
-      }));
-  return end.reactor();
-}
-
-grpc::ServerUnaryReactor* VolumeService::DeleteVolume(grpc::CallbackServerContext* context,
-                                                      const v1::DeleteVolumeRequest* request,
-                                                      v1::DeleteVolumeResponse*) {
-  return ServeUnary(gate_, *context, kDeleteVolume, {"volume", request->volume()},
-                    [&](const DurableCall& call, const UnaryEnd& end) {
-                      call.durable_jobs.DeleteVolume(call.tenant(), request->volume(),
-                                                     AnswerNothing(end));
-                    });
+std::unique_ptr<grpc::Service> MakeVolumeService(const CallGate& gate, UploadWriters& writers,
+                                                 const JobPool::Limits& limits) {
+  return std::make_unique<VolumeService>(gate, writers, limits);
 }
 
 }  // namespace bccskel::server

@@ -272,7 +272,8 @@ void DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& eras
 }
 
 DurableUsage DurableJobs::usage() const {
-  return {.disk_bytes = quota_.used(),
+  return {.healthy = Health().ok(),
+          .disk_bytes = quota_.used(),
           .disk_available_bytes = std::min(quota_.available(), SpaceOf(options_.data_directory)),
           .uploads = static_cast<int>(uploads_.size()),
           .queued = active_.Count(JobState::kQueued),

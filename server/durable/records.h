@@ -110,6 +110,7 @@ struct JobQuery {
 };
 
 struct DurableUsage {
+  bool healthy = true;  // as DurableJobs::Health()
   uint64_t disk_bytes = 0;
   uint64_t disk_available_bytes = 0;  // up to the quota, or to the end of the file system
   int uploads = 0;                    // unfinished

@@ -2,12 +2,15 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
 #include <chrono>
+#include <string_view>
 
 #include "absl/status/status.h"
 #include "bccskel/v1/rpc_details.pb.h"
 #include "proto/wire/error_details.h"
-#include "server/calls/unparsed_requests.h"
+#include "server/calls/status_mapping.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -30,24 +33,56 @@ std::string ReasonNameOf(const grpc::Status& status) {
   return info.has_value() ? info->reason() : std::string();
 }
 
+// Whether there is such a method, "/package.Service/Method", in the code of this program. Callers
+// may ask for any other name.
+bool IsKnownMethod(std::string_view method) {
+  // gRPC has the code of its health service elsewhere.
+  if (method == "/grpc.health.v1.Health/Check" || method == "/grpc.health.v1.Health/Watch") {
+    return true;
+  }
+  std::string name(method.substr(std::min<size_t>(method.size(), 1)));
+  std::ranges::replace(name, '/', '.');
+  const auto* const found =
+      google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(name);
+  return found != nullptr && method == "/" + found->service()->full_name() + "/" + found->name();
+}
+
+// No handler of ours ends without details, or as UNIMPLEMENTED.
+bool IsUnparsed(const grpc::Status& status) {
+  return status.error_code() == grpc::StatusCode::UNIMPLEMENTED && status.error_details().empty();
+}
+
+enum class Whose { kOurs, kOthers };
+
 class Meter : public grpc::experimental::Interceptor {
  public:
-  Meter(ServerMetrics& metrics, const char* method) : metrics_(metrics), method_(method) {}
+  Meter(ServerMetrics* metrics, const char* method, Whose whose)
+      : metrics_(metrics), method_(method), whose_(whose) {}
 
   void Intercept(InterceptorBatchMethods* methods) override {
     if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
-      const grpc::Status status = methods->GetSendStatus();
-      metrics_.Count(EndedCall{.method = method_,
-                               .code = CodeName(status),
-                               .reason = ReasonNameOf(status),
-                               .seconds = Clock::now() - start_});
+      grpc::Status status = methods->GetSendStatus();
+      if (whose_ == Whose::kOurs && IsUnparsed(status)) {
+        status = ToGrpcStatus(CallError(
+            Reason::kRequestMalformed, "the request cannot be parsed as a message of this method"));
+        methods->ModifySendStatus(status);
+      }
+      if (metrics_ != nullptr) Count(status);
     }
     methods->Proceed();
   }
 
  private:
-  ServerMetrics& metrics_;
+  void Count(const grpc::Status& status) {
+    metrics_->Count(EndedCall{.method = method_,
+                              .code = CodeName(status),
+                              .reason = ReasonNameOf(status),
+                              .seconds = Clock::now() - start_});
+  }
+
+  ServerMetrics* const metrics_;
   const char* const method_;
+  const Whose whose_;
   const Clock::time_point start_ = Clock::now();
 };
 
@@ -55,8 +90,14 @@ class Meter : public grpc::experimental::Interceptor {
 
 grpc::experimental::Interceptor* CallMeter::CreateServerInterceptor(
     grpc::experimental::ServerRpcInfo* info) {
+  const std::string_view method = info->method();
+  const bool known = IsKnownMethod(method);
+  const bool ours = known && std::ranges::any_of(services_, [method](const std::string& service) {
+                      return method.starts_with("/" + service + "/");
+                    });
   // Series stay for ever: not one for every name that callers make up.
-  return new Meter(metrics_, IsKnownMethod(info->method()) ? info->method() : "unknown");
+  return new Meter(metrics_, known ? info->method() : "unknown",
+                   ours ? Whose::kOurs : Whose::kOthers);
 }
 
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {

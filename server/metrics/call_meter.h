@@ -5,21 +5,29 @@
 #include <grpcpp/support/server_interceptor.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "server/metrics/server_metrics.h"
 
 namespace bccskel::server {
 
-// Counts every call to every service of a listener, whatever its handler does.
+// Sees the status of every call to every service of a listener, whatever its handler does.
+// - Counts the calls.
+// - A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED, without
+//   a word. That becomes the INVALID_ARGUMENT that it is, with details as every other error.
 class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
+  // `services` of ours by their full names. `metrics` may be null: nothing is counted.
   // Needs: `metrics` outlives the listener.
-  explicit CallMeter(ServerMetrics& metrics) : metrics_(metrics) {}
+  CallMeter(std::vector<std::string> services, ServerMetrics* metrics)
+      : services_(std::move(services)), metrics_(metrics) {}
   grpc::experimental::Interceptor* CreateServerInterceptor(
       grpc::experimental::ServerRpcInfo* info) override;
 
  private:
-  ServerMetrics& metrics_;
+  const std::vector<std::string> services_;
+  ServerMetrics* const metrics_;
 };
 
 // Counts begin at 0 for each method of the service.

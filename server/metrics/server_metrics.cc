@@ -2,11 +2,13 @@
 
 #include <prometheus/collectable.h>
 #include <prometheus/counter.h>
+#include <prometheus/exposer.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <sys/resource.h>
 
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,13 +17,28 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
 #include "server/calls/status_mapping.h"
 #include "server/errors/call_error.h"
+#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
+
+// Who connects and asks for nothing, or does not read the answer, takes a thread for this time.
+// With so many threads the next scraper waits for none of them, or not for long.
+constexpr char kRequestTimeoutMs[] = "3000";
+constexpr char kThreads[] = "16";
+
+// civetweb takes numbers for hosts only.
+std::string ForCivetweb(const std::string& address) {
+  constexpr char kName[] = "localhost:";
+  if (!absl::StartsWith(address, kName)) return address;
+  return "127.0.0.1:" + address.substr(sizeof(kName) - 1);
+}
 
 std::chrono::duration<double> Seconds(const timeval& time) {
   return std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec);
@@ -106,21 +123,21 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
   };
 }
 
-std::vector<MetricFamily> FamiliesOf(const ServerGauges::Stored& stored) {
+std::vector<MetricFamily> FamiliesOf(const DurableUsage& stored) {
   return {
       GaugeNow("bccskel_disk_used_bytes", "Volumes, results and declared uploads on disk",
                static_cast<double>(stored.disk_bytes)),
       GaugeNow("bccskel_disk_available_bytes",
                "What can still be written: up to the limit, or to the end of the file system",
-               static_cast<double>(stored.available_bytes)),
+               static_cast<double>(stored.disk_available_bytes)),
       GaugeNow("bccskel_data_healthy", "0 when the data directory is damaged or gone",
                stored.healthy ? 1 : 0),
       GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
-      GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued_jobs),
-      GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running_jobs),
+      GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued),
+      GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running),
       Sample(MetricType::Counter, "bccskel_results_reused_total",
              "Stored jobs that were given a result that was there",
-             static_cast<double>(stored.reused_results)),
+             static_cast<double>(stored.cached)),
   };
 }
 
@@ -218,6 +235,7 @@ class ServerMetrics::Families {
   Histogram& computed =
       AddHistogram(*registry, "bccskel_job_compute_seconds", "A job's time at computing")
           .Add({}, kSeconds);
+  std::unique_ptr<prometheus::Exposer> page;  // last: it reads the others
 };
 
 ServerMetrics::ServerMetrics(GaugeSource gauges)
@@ -270,10 +288,21 @@ void ServerMetrics::CountAdmitted(uint64_t volume_bytes) {
   families_->volume_bytes.Increment(static_cast<double>(volume_bytes));
 }
 
-std::shared_ptr<prometheus::Collectable> ServerMetrics::counted() const {
-  return families_->registry;
+absl::Status ServerMetrics::Show(const std::string& address) {
+  std::unique_ptr<prometheus::Exposer>& page = families_->page;
+  try {
+    page = std::make_unique<prometheus::Exposer>(
+        std::vector<std::string>{"listening_ports", ForCivetweb(address), "num_threads", kThreads,
+                                 "request_timeout_ms", kRequestTimeoutMs});
+    page->RegisterCollectable(families_->registry);
+    page->RegisterCollectable(families_->seen);
+    shown_at_ = absl::StrCat(HostOf(address), ":", page->GetListeningPorts().at(0));
+  } catch (const std::exception&) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot listen on ", address, " for metrics"));
+  }
+  return absl::OkStatus();
 }
 
-std::shared_ptr<prometheus::Collectable> ServerMetrics::seen() const { return families_->seen; }
+void ServerMetrics::Hide() { families_->page.reset(); }
 
 }  // namespace bccskel::server

@@ -10,11 +10,8 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
-
-namespace prometheus {
-class Collectable;
-}
 
 namespace bccskel::server {
 
@@ -44,17 +41,7 @@ struct ServerGauges {
   // Of the certificate that is served, in seconds since 1970; 0 where it cannot be read; nothing
   // without TLS.
   std::optional<double> certificate_end;
-  // What the data directory holds; nothing without one.
-  struct Stored {
-    bool healthy = true;
-    uint64_t disk_bytes = 0;
-    uint64_t available_bytes = 0;  // that can still be written
-    int uploads = 0;               // unfinished
-    int queued_jobs = 0;
-    int running_jobs = 0;
-    uint64_t reused_results = 0;  // since the start
-  };
-  std::optional<Stored> stored;
+  std::optional<DurableUsage> stored;  // nothing without a data directory
 };
 
 // A call that has ended.
@@ -96,9 +83,11 @@ class ServerMetrics {
   const ServerSums& sums() const { return sums_; }
   ServerGauges gauges() const { return gauges_(); }
 
-  // For the page.
-  std::shared_ptr<prometheus::Collectable> counted() const;
-  std::shared_ptr<prometheus::Collectable> seen() const;
+  // Shows them at `address`, HOST:PORT with port 0 for any free one, to Prometheus: HTTP, /metrics,
+  // without encryption. Errors: INVALID_ARGUMENT for an address that cannot be listened on.
+  absl::Status Show(const std::string& address);
+  const std::string& shown_at() const { return shown_at_; }  // with the port; empty: nowhere
+  void Hide();
 
  private:
   class Families;  // keeps prometheus-cpp out of this header
@@ -106,6 +95,7 @@ class ServerMetrics {
   const GaugeSource gauges_;
   ServerSums sums_;
   std::unique_ptr<Families> families_;
+  std::string shown_at_;
 };
 
 }  // namespace bccskel::server

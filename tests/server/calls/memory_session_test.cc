@@ -71,7 +71,7 @@ class MemorySessionTest : public testing::Test {
     int port = 0;
     grpc::ServerBuilder builder;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(&service_);
+    builder.RegisterService(service_.get());
     server_ = builder.BuildAndStart();
     channel_ = test::ConnectTo("127.0.0.1:" + std::to_string(port));
   }
@@ -80,7 +80,8 @@ class MemorySessionTest : public testing::Test {
   const std::unique_ptr<Callers> callers_ = *Callers::Create("");
   const CallGate gate_{*callers_};
   UploadWriters writers_;
-  SkeletonizationService service_{gate_, runner_, VolumeLimits(), nullptr, writers_};
+  const std::unique_ptr<grpc::Service> service_ =
+      MakeSkeletonizationService(gate_, runner_, VolumeLimits(), writers_);
   std::unique_ptr<grpc::Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
 };
