@@ -10,7 +10,6 @@
 #include "absl/strings/str_join.h"
 #include "core/exec/machine_memory.h"
 #include "core/version/version.h"
-#include "server/identity/token.h"
 #include "server/identity/token_table.h"
 #include "server/settings/values.h"
 #include "server/store/job_store.h"

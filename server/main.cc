@@ -17,7 +17,6 @@
 #include "server/config.h"
 #include "server/decoding/decoding_child.h"
 #include "server/logging/json_log.h"
-#include "server/logging/library_log.h"
 #include "server/server.h"
 
 namespace bccskel::server {

@@ -12,7 +12,6 @@
 #include "proto/wire/labels.h"
 #include "proto/wire/result.h"
 #include "proto/wire/shell_points.h"
-#include "server/calls/label_responses.h"
 #include "server/calls/requests.h"
 #include "server/calls/session.h"
 #include "server/calls/skeleton_responses.h"

@@ -16,6 +16,12 @@ inline constexpr int kChildOutOfMemory = 3;
 // How the running program is started as a child.
 std::vector<std::string> ThisProgramAsChild();
 
+// Takes from this process for good what decoding does not need: new privileges, files, core dumps,
+// executable memory and every system call but a dozen. It ends with its parent. Where the kernel
+// has no seccomp, limits and privileges are all that is taken.
+// Needs: one thread, no untrusted byte read yet.
+void EnterChildSandbox();
+
 // The first thing that main() does: where the program was started as a child, decodes volumes until
 // the server closes the channel; then main() must return the exit code.
 std::optional<int> RunIfDecodingChild(int argc, const char* const* argv);

@@ -7,7 +7,7 @@
 #include "core/exec/status_macros.h"
 #include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/random_name.h"
+#include "server/jobs/names.h"
 #include "server/store/job_store.h"
 
 namespace bccskel::server {

@@ -4,7 +4,7 @@
 #include "core/exec/status_macros.h"
 #include "server/admission/memory_estimate.h"
 #include "server/durable/durable_jobs.h"
-#include "server/durable/names.h"
+#include "server/jobs/names.h"
 
 namespace bccskel::server {
 // A job that is to run here. With a run that has to be fed its volume, or none: it joins one.

@@ -6,7 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/random_name.h"
+#include "server/jobs/names.h"
 
 namespace bccskel::server {
 namespace {

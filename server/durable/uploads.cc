@@ -5,9 +5,8 @@
 #include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_jobs.h"
-#include "server/durable/names.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/random_name.h"
+#include "server/jobs/names.h"
 
 namespace bccskel::server {
 

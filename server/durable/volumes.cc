@@ -4,8 +4,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_jobs.h"
-#include "server/durable/names.h"
 #include "server/errors/call_error.h"
+#include "server/jobs/names.h"
 
 namespace bccskel::server {
 

@@ -1,15 +1,19 @@
 #include "server/identity/token_table.h"
 
+#include <openssl/crypto.h>
+#include <sys/random.h>
+
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <utility>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "core/exec/status_macros.h"
-#include "server/identity/token.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {
@@ -21,16 +25,12 @@ constexpr int kMaxCount = 1'000'000;
 
 absl::StatusOr<Sha256Digest> DigestFromHex(const std::string& hex) {
   Sha256Digest digest;
-  const auto value = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-  };
-  bool valid = hex.size() == 2 * digest.bytes.size();
-  for (size_t n = 0; valid && n < digest.bytes.size(); ++n) {
-    const int high = value(hex[2 * n]), low = value(hex[2 * n + 1]);
-    valid = high >= 0 && low >= 0;
-    digest.bytes[n] = static_cast<uint8_t>(16 * high + low);
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (hex.size() == 2 * digest.bytes.size() && std::ranges::all_of(hex, is_digit)) {
+    const std::string bytes = absl::HexStringToBytes(hex);
+    std::ranges::copy(bytes, digest.bytes.begin());
+    return digest;
   }
-  if (valid) return digest;
   return absl::InvalidArgumentError(
       "the second word must be the SHA-256 of a token, 64 hexadecimal digits in lower case");
 }
@@ -48,6 +48,28 @@ absl::Status SetOnce(absl::StatusOr<Number> value, Number& target) {
 }
 
 }  // namespace
+
+absl::StatusOr<std::string> NewToken() {
+  Sha256Digest secret;  // for its size and its digits
+  const ssize_t got = getrandom(secret.bytes.data(), secret.bytes.size(), 0);
+  if (got != static_cast<ssize_t>(secret.bytes.size())) {
+    return absl::UnavailableError("the system gives no random bytes");
+  }
+  return "bccskel_" + secret.Hex();
+}
+
+Sha256Digest DigestOfToken(std::string_view token) { return Sha256Of(token); }
+
+bool SameDigest(const Sha256Digest& a, const Sha256Digest& b) {
+  return CRYPTO_memcmp(a.bytes.data(), b.bytes.data(), a.bytes.size()) == 0;
+}
+
+bool IsTenantName(std::string_view name) {
+  constexpr size_t kLongest = 64;
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+  return !name.empty() && name.size() <= kLongest && plain(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return plain(c) || c == '-' || c == '_'; });
+}
 
 absl::Status TokenTable::AddTerm(const std::string& word, Entry& entry) {
   if (word == "admin") {

@@ -14,6 +14,19 @@
 
 namespace bccskel::server {
 
+// 256 bits of the system's randomness as text: "bccskel_" and 64 hexadecimal digits.
+// Errors: UNAVAILABLE when the system gives none.
+absl::StatusOr<std::string> NewToken();
+
+// What is kept of a token. No salt and no slow hash: unlike a password, a token cannot be guessed.
+Sha256Digest DigestOfToken(std::string_view token);
+
+// Takes the same time wherever the two differ.
+bool SameDigest(const Sha256Digest& a, const Sha256Digest& b);
+
+// 1 to 64 characters of a-z, 0-9, '-' and '_', a letter or digit first: fit for a metric's label.
+bool IsTenantName(std::string_view name);
+
 enum class Role { kTenant, kAdmin };
 
 // Whose call it is, and whether it may ask for what concerns all tenants.

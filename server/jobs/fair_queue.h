@@ -11,9 +11,17 @@
 #include <utility>
 
 #include "server/admission/tenant_limits.h"
-#include "server/jobs/job_origin.h"
 
 namespace bccskel::server {
+
+// Among the jobs of one tenant.
+enum class JobPriority { kLow = -1, kNormal = 0, kHigh = 1 };
+
+// Who asks, and how urgently: decides on turns and caps, never on results.
+struct JobOrigin {
+  std::string tenant;  // "": the one that all callers without a name share
+  JobPriority priority = JobPriority::kNormal;
+};
 
 // Says who is next, among jobs in memory and durable ones alike.
 // - Tenants take turns, as many in a round as their weight is; one that comes back after a while

@@ -11,7 +11,7 @@
 #include "server/decoding/child_pool.h"
 #include "server/errors/call_error.h"
 #include "server/jobs/labels_work.h"
-#include "server/jobs/random_name.h"
+#include "server/jobs/names.h"
 #include "server/jobs/skeletonize_work.h"
 
 namespace bccskel::server {

@@ -18,7 +18,7 @@
 #include "core/pipeline/skeletonize.h"
 #include "server/admission/admission.h"
 #include "server/admission/memory_estimate.h"
-#include "server/jobs/job_origin.h"
+#include "server/jobs/fair_queue.h"
 
 namespace bccskel::server {
 

@@ -1,5 +1,7 @@
 #include "server/logging/json_log.h"
 
+#include <google/protobuf/stubs/logging.h>
+#include <grpc/support/log.h>
 #include <poll.h>
 #include <spdlog/async.h>
 #include <spdlog/sinks/base_sink.h>
@@ -118,6 +120,18 @@ class StandardError final : public spdlog::sinks::base_sink<spdlog::details::nul
   std::atomic<Clock::time_point> end_ = Clock::time_point::max();
 };
 
+// Most of their errors are a caller's doing; none of them ends the server.
+LogLevel LevelOf(bool error) { return error ? LogLevel::kWarning : LogLevel::kDebug; }
+
+void WriteGrpc(gpr_log_func_args* said) {
+  Log(LevelOf(said->severity == GPR_LOG_SEVERITY_ERROR), "grpc",
+      {{"message", std::string(said->message)}});
+}
+
+void WriteProtobuf(google::protobuf::LogLevel level, const char*, int, const std::string& message) {
+  Log(LevelOf(level >= google::protobuf::LOGLEVEL_ERROR), "protobuf", {{"message", message}});
+}
+
 }  // namespace
 
 class Logging::Writer {
@@ -157,6 +171,11 @@ void Log(LogLevel level, std::string_view event, std::initializer_list<LogField>
     line += fmt::format(",{}:{}", JsonString(field.name), JsonValue(field));
   }
   logger->log(spdlog_level, "{}", line);
+}
+
+void LogWhatLibrariesSay() {
+  gpr_set_log_function(WriteGrpc);
+  google::protobuf::SetLogHandler(WriteProtobuf);
 }
 
 uint64_t DroppedLogLines() { return dropped_lines; }

@@ -39,6 +39,11 @@ class Logging {
 
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
+// From here on what gRPC and protobuf themselves have to say, such as a handshake that failed or a
+// text that is not UTF-8, goes into the log as an event "grpc" or "protobuf". Left alone they write
+// to standard error, and a call waits until somebody reads that. Called once.
+void LogWhatLibrariesSay();
+
 // Since the process began.
 uint64_t DroppedLogLines();
 

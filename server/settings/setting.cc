@@ -6,6 +6,7 @@
 #include <ratio>
 #include <utility>
 
+#include "absl/status/statusor.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -15,105 +16,91 @@
 namespace bccskel::server {
 namespace {
 
-std::string Quoted(const std::string& text) { return absl::StrCat("\"", text, "\""); }
+using Hours = std::chrono::duration<double, std::ratio<3600>>;
 
-// A setting with one value.
-template <typename Parse, typename Show>
-Setting Single(std::string name, std::string value, std::string description, Parse parse,
-               Show show) {
-  const auto set = [parse](const std::vector<std::string>& values) -> absl::Status {
-    if (values.size() == 1) return parse(values.front());
-    return absl::InvalidArgumentError(
-        absl::StrCat("is given ", values.size(), " values, takes one"));
+std::string Shown(const std::string& text) { return absl::StrCat("\"", text, "\""); }
+std::string Shown(int number) { return absl::StrCat(number); }
+std::string Shown(uint64_t number) { return absl::StrCat(number); }
+std::string Shown(std::chrono::milliseconds time) { return absl::StrCat(time.count()); }
+std::string Shown(std::chrono::seconds time) { return absl::StrCat(Hours(time).count()); }
+
+// A setting with one value, which `parse` reads.
+template <typename Value, typename Parse>
+Setting Single(std::string name, std::string value, Value& target, std::string description,
+               Parse parse) {
+  const auto set = [&target, parse](const std::vector<std::string>& values) -> absl::Status {
+    if (values.size() != 1) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("is given ", values.size(), " values, takes one"));
+    }
+    BCCSKEL_ASSIGN_OR_RETURN(target, parse(values.front()));
+    return absl::OkStatus();
   };
-  return {std::move(name), std::move(value), std::move(description), set, show};
+  return {std::move(name), std::move(value), std::move(description), set,
+          [&target] { return Shown(target); }};
 }
 
 }  // namespace
 
 Setting NumberSetting(std::string name, int& target, int low, int high, std::string description) {
-  const auto parse = [&target, low, high](const std::string& text) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(target, ParseNumber(text, low, high));
-    return absl::OkStatus();
-  };
-  return Single(std::move(name), "N", std::move(description), parse,
-                [&target] { return absl::StrCat(target); });
+  return Single(std::move(name), "N", target, std::move(description),
+                [low, high](const std::string& text) { return ParseNumber(text, low, high); });
 }
 
 Setting CountSetting(std::string name, uint64_t& target, std::string description) {
-  const auto parse = [&target](const std::string& text) -> absl::Status {
+  const auto parse = [](const std::string& text) -> absl::StatusOr<uint64_t> {
     uint64_t count = 0;
-    if (!absl::SimpleAtoi(text, &count) || count == 0) {
-      return absl::InvalidArgumentError(absl::StrCat(text, ": must be a number from 1 to ",
-                                                     std::numeric_limits<uint64_t>::max()));
-    }
-    target = count;
-    return absl::OkStatus();
+    if (absl::SimpleAtoi(text, &count) && count > 0) return count;
+    return absl::InvalidArgumentError(
+        absl::StrCat(text, ": must be a number from 1 to ", std::numeric_limits<uint64_t>::max()));
   };
-  return Single(std::move(name), "N", std::move(description), parse,
-                [&target] { return absl::StrCat(target); });
+  return Single(std::move(name), "N", target, std::move(description), parse);
 }
 
 Setting SizeSetting(std::string name, uint64_t& target, uint64_t low, std::string description) {
-  const auto parse = [&target, low](const std::string& text) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(target, ParseSize(text, low));
-    return absl::OkStatus();
-  };
-  return Single(std::move(name), "SIZE", std::move(description), parse,
-                [&target] { return absl::StrCat(target); });
+  return Single(std::move(name), "SIZE", target, std::move(description),
+                [low](const std::string& text) { return ParseSize(text, low); });
 }
 
 Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,
                             std::string description) {
   constexpr int kDay = 86'400'000;
-  const auto parse = [&target](const std::string& text) -> absl::Status {
+  const auto parse = [](const std::string& text) -> absl::StatusOr<std::chrono::milliseconds> {
     BCCSKEL_ASSIGN_OR_RETURN(const int time, ParseNumber(text, 0, kDay));
-    target = std::chrono::milliseconds(time);
-    return absl::OkStatus();
+    return std::chrono::milliseconds(time);
   };
-  return Single(std::move(name), "MS", std::move(description), parse,
-                [&target] { return absl::StrCat(target.count()); });
+  return Single(std::move(name), "MS", target, std::move(description), parse);
 }
 
 Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string description) {
-  using Hours = std::chrono::duration<double, std::ratio<3600>>;
-  const auto parse = [&target](const std::string& text) -> absl::Status {
+  const auto parse = [](const std::string& text) -> absl::StatusOr<std::chrono::seconds> {
     constexpr double kYear = 24 * 366, kLeast = 0.01;
     double hours = 0;
-    if (!absl::SimpleAtod(text, &hours) || !(hours >= kLeast && hours <= kYear)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(text, ": must be a number from ", kLeast, " to ", kYear));
+    if (absl::SimpleAtod(text, &hours) && hours >= kLeast && hours <= kYear) {
+      return std::chrono::round<std::chrono::seconds>(Hours(hours));
     }
-    target = std::chrono::round<std::chrono::seconds>(Hours(hours));
-    return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat(text, ": must be a number from ", kLeast, " to ", kYear));
   };
-  return Single(std::move(name), "HOURS", std::move(description), parse,
-                [&target] { return absl::StrCat(Hours(target).count()); });
+  return Single(std::move(name), "HOURS", target, std::move(description), parse);
 }
 
 Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::string> choices,
                       std::string description) {
   const std::string words = absl::StrJoin(choices, "|");
-  const auto parse = [&target, choices = std::move(choices)](const std::string& text) {
-    if (std::ranges::find(choices, text) == choices.end()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(text, ": must be one of ", absl::StrJoin(choices, ", ")));
-    }
-    target = text;
-    return absl::OkStatus();
+  const auto parse =
+      [choices = std::move(choices)](const std::string& text) -> absl::StatusOr<std::string> {
+    if (std::ranges::find(choices, text) != choices.end()) return text;
+    return absl::InvalidArgumentError(
+        absl::StrCat(text, ": must be one of ", absl::StrJoin(choices, ", ")));
   };
-  return Single(std::move(name), words, std::move(description), parse,
-                [&target] { return Quoted(target); });
+  return Single(std::move(name), words, target, std::move(description), parse);
 }
 
 Setting TextSetting(std::string name, std::string value, std::string& target,
                     std::string description) {
-  const auto parse = [&target](const std::string& text) {
-    target = text;
-    return absl::OkStatus();
-  };
-  return Single(std::move(name), std::move(value), std::move(description), parse,
-                [&target] { return Quoted(target); });
+  return Single(std::move(name), std::move(value), target, std::move(description),
+                [](const std::string& text) { return absl::StatusOr<std::string>(text); });
 }
 
 Setting PathSetting(std::string name, std::string& target, std::string description) {
@@ -121,13 +108,11 @@ Setting PathSetting(std::string name, std::string& target, std::string descripti
 }
 
 Setting AddressSetting(std::string name, std::string& target, std::string description) {
-  const auto parse = [&target](const std::string& text) -> absl::Status {
+  const auto parse = [](const std::string& text) -> absl::StatusOr<std::string> {
     if (!text.empty()) BCCSKEL_RETURN_IF_ERROR(CheckAddress(text));
-    target = text;
-    return absl::OkStatus();
+    return text;
   };
-  return Single(std::move(name), "ADDRESS", std::move(description), parse,
-                [&target] { return Quoted(target); });
+  return Single(std::move(name), "ADDRESS", target, std::move(description), parse);
 }
 
 Setting AddressesSetting(std::string name, std::vector<std::string>& target,
@@ -139,7 +124,7 @@ Setting AddressesSetting(std::string name, std::vector<std::string>& target,
     return absl::OkStatus();
   };
   const auto show = [&target] {
-    const auto quote = [](std::string* out, const std::string& text) { out->append(Quoted(text)); };
+    const auto quote = [](std::string* out, const std::string& text) { out->append(Shown(text)); };
     return absl::StrCat("[", absl::StrJoin(target, ", ", quote), "]");
   };
   return {std::move(name), "ADDRESS", std::move(description), set, show};

@@ -5,7 +5,7 @@
 
 #include "core/exec/status_macros.h"
 #include "server/store/job_store.h"
-#include "server/store/schema.h"
+#include "server/store/sql_database.h"
 
 namespace bccskel::server {
 namespace {

@@ -4,7 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "server/store/job_store.h"
-#include "server/store/schema.h"
+#include "server/store/sql_database.h"
 
 namespace bccskel::server {
 namespace {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "server/identity/callers.h"
-#include "server/identity/token.h"
 #include "tests/server/support/running_server.h"
 
 namespace bccskel::server {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "server/decoding/child_channel.h"
-#include "server/decoding/child_sandbox.h"
 #include "server/decoding/decoding_child.h"
 #include "tests/server/decoding/faulty_children.h"
 

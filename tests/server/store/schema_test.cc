@@ -1,5 +1,3 @@
-#include "server/store/schema.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
-#include "server/durable/names.h"
+#include "server/jobs/names.h"
 
 #include <algorithm>
+#include <iterator>
+#include <random>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
@@ -20,6 +22,16 @@ bool IsNameCharacter(char c) {
 }
 
 }  // namespace
+
+std::string RandomId() {
+  constexpr int kWords = 4;
+  thread_local std::random_device device;  // opening one takes longer than all the rest
+  std::string id;
+  for (int n = 0; n < kWords; ++n) absl::StrAppend(&id, absl::Hex(device(), absl::kZeroPad8));
+  return id;
+}
+
+std::string RandomName(const std::string& kind) { return absl::StrCat(kind, "/", RandomId()); }
 
 std::string VolumeName(const std::string& declaration, const std::string& blob_digest) {
   return absl::StrCat("volumes/", KeyOf({declaration, blob_digest}).substr(0, kIdDigits));

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_SERVER_DURABLE_NAMES_H_
-#define BCCSKEL_SERVER_DURABLE_NAMES_H_
+#ifndef BCCSKEL_SERVER_JOBS_NAMES_H_
+#define BCCSKEL_SERVER_JOBS_NAMES_H_
 
 #include <initializer_list>
 #include <string>
@@ -7,6 +7,12 @@
 #include "absl/status/status.h"
 
 namespace bccskel::server {
+
+// 32 hexadecimal digits.
+std::string RandomId();
+// `kind`/ and such digits: jobs/9f86d081.... Nobody can guess it, or tell from it how many others
+// there are.
+std::string RandomName(const std::string& kind);
 
 // Bytes and declaration make the volume, so the same give the same name.
 std::string VolumeName(const std::string& declaration, const std::string& blob_digest);
@@ -19,4 +25,4 @@ std::string KeyOf(std::initializer_list<std::string> parts);
 
 }  // namespace bccskel::server
 
-#endif  // BCCSKEL_SERVER_DURABLE_NAMES_H_
+#endif  // BCCSKEL_SERVER_JOBS_NAMES_H_
