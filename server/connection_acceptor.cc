@@ -105,29 +105,22 @@ absl::StatusOr<Addresses> Resolve(const std::string& address) {
 absl::StatusOr<SocketLock> SocketLock::Take(const std::string& socket_path) {
   const std::string path = socket_path + ".lock";
   while (true) {
-    const int file = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kOwnerOnly);
-    if (file < 0) {
+    Descriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kOwnerOnly));
+    if (!file.valid()) {
       return absl::InvalidArgumentError(
           absl::StrCat("cannot make ", path, ": ", std::strerror(errno)));
     }
-    SocketLock lock(path, file);
-    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
-      close(std::exchange(lock.file_, -1));
+    if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
       return absl::AlreadyExistsError(
           absl::StrCat("another server listens on unix:", socket_path, " (it holds ", path, ")"));
     }
-    if (IsNamedBy(file, path)) return lock;
-    close(std::exchange(lock.file_, -1));
+    if (IsNamedBy(file.get(), path)) return SocketLock(path, std::move(file));
   }
 }
 
-SocketLock::SocketLock(SocketLock&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
-
 SocketLock::~SocketLock() {
-  if (file_ < 0) return;
-  unlink(path_.c_str());  // before the lock goes: afterwards the file may be another server's
-  close(file_);
+  // Before the lock goes: afterwards the file may be another server's.
+  if (file_.valid()) unlink(path_.c_str());
 }
 
 absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> ConnectionAcceptor::Listen(

@@ -23,14 +23,14 @@ class SocketLock {
   static absl::StatusOr<SocketLock> Take(const std::string& socket_path);
 
   ~SocketLock();
-  SocketLock(SocketLock&& other) noexcept;
+  SocketLock(SocketLock&& other) noexcept = default;
   SocketLock& operator=(SocketLock&&) = delete;
 
  private:
-  SocketLock(std::string path, int file) : path_(std::move(path)), file_(file) {}
+  SocketLock(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
 
   std::string path_;
-  int file_;  // -1 once moved from
+  Descriptor file_;
 };
 
 // Listens at one address and hands on what comes in. gRPC 1.51 could do that itself, but stops for

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "proto/wire/duration.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
@@ -75,10 +75,8 @@ std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
   return std::chrono::duration<double>(end->time_since_epoch()).count();
 }
 
-void Set(google::protobuf::Duration& message, std::chrono::duration<double> time) {
-  const double whole = std::floor(time.count());
-  message.set_seconds(static_cast<int64_t>(whole));
-  message.set_nanos(static_cast<int32_t>((time.count() - whole) * 1e9));
+google::protobuf::Duration DurationOf(std::chrono::duration<double> time) {
+  return wire::DurationMessage(std::chrono::duration_cast<std::chrono::nanoseconds>(time));
 }
 
 void Set(v1::StoredNow& message, const DurableUsage& stored) {
@@ -92,10 +90,10 @@ void Set(v1::StoredNow& message, const DurableUsage& stored) {
 void Set(v1::GetServerStatusResponse& message, const ServerGauges& now) {
   message.set_draining(now.draining != 0);
   message.mutable_jobs()->set_admitted(static_cast<uint32_t>(now.admitted_jobs));
-  message.mutable_jobs()->set_waiting(static_cast<uint32_t>(now.waiting_jobs));
-  message.mutable_jobs()->set_running(static_cast<uint32_t>(now.running_jobs));
+  message.mutable_jobs()->set_waiting(static_cast<uint32_t>(now.computing.waiting));
+  message.mutable_jobs()->set_running(static_cast<uint32_t>(now.computing.running));
   message.set_threads(static_cast<uint32_t>(now.threads));
-  message.set_busy_threads(static_cast<uint32_t>(now.busy_threads));
+  message.set_busy_threads(static_cast<uint32_t>(now.computing.busy_threads));
   message.set_admitted_bytes(now.admitted_bytes);
   message.set_max_admitted_bytes(now.max_admitted_bytes);
   if (now.stored.has_value()) Set(*message.mutable_stored(), *now.stored);
@@ -114,12 +112,12 @@ v1::GetServerStatusResponse StatusOf(const ServerMetrics& metrics,
                                      std::chrono::steady_clock::time_point started) {
   v1::GetServerStatusResponse response;
   response.set_server_version(std::string(Version()));
-  Set(*response.mutable_uptime(), std::chrono::steady_clock::now() - started);
+  *response.mutable_uptime() = DurationOf(std::chrono::steady_clock::now() - started);
   Set(response, metrics.gauges());
   const ProcessFigures process = ReadProcessFigures();
   response.set_resident_bytes(process.resident_bytes);
   response.set_open_files(static_cast<uint32_t>(process.open_files));
-  Set(*response.mutable_processor_time(), process.processor_time);
+  *response.mutable_processor_time() = DurationOf(process.processor_time);
   Set(*response.mutable_totals(), metrics.sums());
   return response;
 }
@@ -253,15 +251,11 @@ absl::Status Server::ShowMetrics() {
 }
 
 ServerGauges Server::Gauges() const {
-  const Admission::Usage admitted = jobs_.admission_usage();
-  const ComputeQueue::Usage computing = jobs_.compute_usage();
   ServerGauges now;
   now.admitted_jobs = jobs_.admitted_jobs();
-  now.waiting_jobs = computing.waiting;
-  now.running_jobs = computing.running;
+  now.computing = jobs_.compute_usage();
   now.threads = config_.limits.threads;
-  now.busy_threads = computing.busy_threads;
-  now.admitted_bytes = admitted.bytes;
+  now.admitted_bytes = jobs_.admission_usage().bytes;
   now.max_admitted_bytes = config_.limits.max_bytes;
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();

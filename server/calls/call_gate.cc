@@ -80,14 +80,6 @@ CallFacts FactsOf(const grpc::CallbackServerContext& context) {
           .context = &context};
 }
 
-void CallFacts::LookAfter(const std::shared_ptr<OpenStream>& call) const {
-  if (lasting != nullptr) lasting->Add(call, *this);
-}
-
-void CallFacts::Leave(const OpenStream& call) const {
-  if (lasting != nullptr) lasting->Remove(call);
-}
-
 absl::Status CallFacts::CancelStatus() const {
   if (IsCutOff()) {
     return CallError(Reason::kDraining, "the server stops and cuts the call off");

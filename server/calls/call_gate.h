@@ -95,10 +95,6 @@ struct CallFacts {
 
   bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
 
-  // Has a streaming call looked after, where there is somebody, until it leaves.
-  void LookAfter(const std::shared_ptr<OpenStream>& call) const;
-  void Leave(const OpenStream& call) const;
-
   // Why gRPC says that the call is over.
   absl::Status CancelStatus() const;
   void LogAccepted(const std::string& job, uint64_t volume_bytes) const;

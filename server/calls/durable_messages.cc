@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,9 +20,24 @@
 namespace bccskel::server {
 namespace {
 
-v1::JobPriority PriorityMessage(int priority) {
-  if (priority < 0) return v1::JOB_PRIORITY_LOW;
-  return priority > 0 ? v1::JOB_PRIORITY_HIGH : v1::JOB_PRIORITY_NORMAL;
+constexpr std::pair<v1::JobPriority, int> kPriorities[] = {{v1::JOB_PRIORITY_LOW, -1},
+                                                           {v1::JOB_PRIORITY_NORMAL, 0},
+                                                           {v1::JOB_PRIORITY_UNSPECIFIED, 0},
+                                                           {v1::JOB_PRIORITY_HIGH, 1}};
+constexpr std::pair<v1::JobState, JobState> kStates[] = {
+    {v1::JOB_STATE_RECEIVING, JobState::kReceiving},
+    {v1::JOB_STATE_QUEUED, JobState::kQueued},
+    {v1::JOB_STATE_RUNNING, JobState::kRunning},
+    {v1::JOB_STATE_SUCCEEDED, JobState::kSucceeded},
+    {v1::JOB_STATE_FAILED, JobState::kFailed},
+    {v1::JOB_STATE_CANCELLED, JobState::kCancelled}};
+
+// The opposite of MeaningOf(): the first that means it.
+template <typename Enumerator, typename Meaning, size_t kCount>
+Enumerator EnumeratorOf(Meaning meaning, const std::pair<Enumerator, Meaning> (&known)[kCount]) {
+  const auto* const found =
+      std::ranges::find(known, meaning, &std::pair<Enumerator, Meaning>::second);
+  return found == std::end(known) ? Enumerator() : found->first;
 }
 
 v1::ShellProgress ProgressMessage(const JobProgress& progress) {
@@ -93,7 +109,7 @@ v1::Job ToMessage(const JobInfo& job) {
   v1::SkeletonizeConfig config = ConfigOf(job.options);
   message.mutable_options()->Swap(config.mutable_options());
   message.set_thin_volume_return(config.thin_volume_return());
-  message.set_priority(PriorityMessage(job.priority));
+  message.set_priority(EnumeratorOf(job.priority, kPriorities));
   message.set_threads(job.threads);
   message.set_attempts(job.attempts);
   message.set_last_sequence(job.sequence);
@@ -118,46 +134,7 @@ v1::WatchJobResponse ToMessage(const JobEvent& event) {
   return message;
 }
 
-v1::JobState ToMessage(JobState state) {
-  switch (state) {
-    case JobState::kReceiving:
-      return v1::JOB_STATE_RECEIVING;
-    case JobState::kQueued:
-      return v1::JOB_STATE_QUEUED;
-    case JobState::kRunning:
-      return v1::JOB_STATE_RUNNING;
-    case JobState::kSucceeded:
-      return v1::JOB_STATE_SUCCEEDED;
-    case JobState::kFailed:
-      return v1::JOB_STATE_FAILED;
-    case JobState::kCancelled:
-      return v1::JOB_STATE_CANCELLED;
-  }
-  return v1::JOB_STATE_UNSPECIFIED;  // not reached: the enumerators are exhausted above
-}
-
-absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field) {
-  constexpr JobState kStates[] = {JobState::kReceiving, JobState::kQueued, JobState::kRunning,
-                                  JobState::kSucceeded, JobState::kFailed, JobState::kCancelled};
-  for (const JobState known : kStates) {
-    if (ToMessage(known) == state) return known;
-  }
-  return InvalidField(field, absl::StrCat("unknown state ", int{state}));
-}
-
-absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field) {
-  switch (priority) {
-    case v1::JOB_PRIORITY_LOW:
-      return -1;
-    case v1::JOB_PRIORITY_UNSPECIFIED:
-    case v1::JOB_PRIORITY_NORMAL:
-      return 0;
-    case v1::JOB_PRIORITY_HIGH:
-      return 1;
-    default:
-      return InvalidField(field, absl::StrCat("unknown priority ", int{priority}));
-  }
-}
+v1::JobState ToMessage(JobState state) { return EnumeratorOf(state, kStates); }
 
 absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request) {
   NewJob job;
@@ -165,7 +142,8 @@ absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request) {
   BCCSKEL_RETURN_IF_ERROR(CheckThreads(request.threads(), "threads"));
   BCCSKEL_ASSIGN_OR_RETURN(job.options,
                            OptionsBytes(request.options(), request.thin_volume_return()));
-  BCCSKEL_ASSIGN_OR_RETURN(job.priority, PriorityOf(request.priority(), "priority"));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      job.priority, MeaningOf<int>(request.priority(), "priority", "priority ", kPriorities));
   job.request_id = request.request_id();
   job.volume = request.volume();
   job.threads = request.threads();
@@ -182,7 +160,8 @@ absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request) {
   query.page_size = wanted == 0 ? kDefaultPageSize : wanted;
   query.page_token = request.page_token();
   for (const int state : request.states()) {
-    BCCSKEL_ASSIGN_OR_RETURN(JobState known, StateOf(static_cast<v1::JobState>(state), "states"));
+    BCCSKEL_ASSIGN_OR_RETURN(JobState known, MeaningOf<JobState>(static_cast<v1::JobState>(state),
+                                                                 "states", "state ", kStates));
     query.states.push_back(known);
   }
   return query;

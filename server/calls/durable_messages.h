@@ -21,10 +21,6 @@ v1::Job ToMessage(const JobInfo& job);
 v1::WatchJobResponse ToMessage(const JobEvent& event);
 v1::JobState ToMessage(JobState state);
 
-// Errors: INVALID_ARGUMENT, with the field, for an enumerator that this version does not know.
-absl::StatusOr<int> PriorityOf(v1::JobPriority priority, const std::string& field);
-absl::StatusOr<JobState> StateOf(v1::JobState state, const std::string& field);
-
 // A volume as DurableJobs stores it.
 struct StoredKey {
   std::string declaration;

@@ -30,7 +30,7 @@ DurableSession::~DurableSession() {
 template <typename Function>
 auto DurableSession::Then(Function next) {
   return [self = shared_from_this(), next = std::move(next)](auto value) {
-    if (!value.ok()) return self->owner_->EndWith(StorageError(value.status()));
+    if (!value.ok()) return self->call_->EndWith(StorageError(value.status()));
     next(*self, *value);
   };
 }
@@ -43,14 +43,14 @@ absl::Status DurableSession::Begin(const v1::SkeletonizeConfig& config) {
   NewUpload upload;
   upload.declaration = DeclarationBytes(config.volume());
   upload.then_job = {
-      .options = options, .threads = config.threads(), .trace = owner_->facts().trace};
+      .options = options, .threads = config.threads(), .trace = call_->facts().trace};
   durable_jobs_.CreateUpload(
       tenant(), upload, Then([](DurableSession& it, const UploadInfo& info) { it.Opened(info); }));
   return absl::OkStatus();
 }
 
 void DurableSession::Opened(const UploadInfo& upload) {
-  owner_->Accepted(upload.job, size_bytes_);
+  call_->Accepted(upload.job, size_bytes_);
   {
     std::lock_guard lock(mutex_);
     upload_ = upload.name;
@@ -62,13 +62,13 @@ void DurableSession::Opened(const UploadInfo& upload) {
 
 void DurableSession::OnTurn(UploadWriters::Turn turn) {
   turn_ = std::move(turn);
-  owner_->Change([this] {
+  call_->Change([this] {
     accepted_ = AcceptedFor(job_);
     accepted_->set_durable(true);
     accepted_->set_upload(upload_);
-    return SessionOwner::Sending::kNow;
+    return Sending::kNow;
   });
-  owner_->ReadNext();
+  call_->ReadNext();
 }
 
 void DurableSession::OnTakenOver() {
@@ -76,7 +76,7 @@ void DurableSession::OnTakenOver() {
     std::lock_guard lock(mutex_);
     taken_over_ = true;
   }
-  owner_->EndWith(
+  call_->EndWith(
       CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
 }
 
@@ -84,7 +84,7 @@ void DurableSession::Append(v1::VolumeChunk& chunk) {
   std::optional<uint32_t> crc32c;
   if (chunk.has_crc32c()) crc32c = chunk.crc32c();
   durable_jobs_.Append(tenant(), upload_, chunk.offset(), std::move(*chunk.mutable_data()), crc32c,
-                       Then([](DurableSession& it, uint64_t) { it.owner_->ReadNext(); }));
+                       Then([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
 }
 
 void DurableSession::Finish(const v1::VolumeFinish& finish) {
@@ -95,7 +95,7 @@ void DurableSession::Finish(const v1::VolumeFinish& finish) {
   durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
                              Then([](DurableSession& it, const VolumeInfo&) {
                                it.Watch();
-                               it.owner_->ReadNext();  // sees requests that must not come
+                               it.call_->ReadNext();  // sees requests that must not come
                              }));
 }
 
@@ -108,20 +108,20 @@ void DurableSession::Watch() {
 
 void DurableSession::OnEvent(const JobEvent& event) {
   if (const auto* progress = std::get_if<JobProgress>(&event.what)) {
-    return owner_->Change([&] {
+    return call_->Change([&] {
       progress_ = wire::ToMessage(progress->shell, progress->elapsed);
-      return SessionOwner::Sending::kNow;
+      return Sending::kNow;
     });
   }
   if (!event.IsCompleted()) return;
   const auto& change = std::get<JobEvent::StateChange>(event.what);
   if (change.state == JobState::kSucceeded) return OpenResult();
-  owner_->EndWith(change.error.ok() ? absl::CancelledError("the job was cancelled")
-                                    : WithJobReason(change.error));
+  call_->EndWith(change.error.ok() ? absl::CancelledError("the job was cancelled")
+                                   : WithJobReason(change.error));
 }
 
 void DurableSession::OnWatchEnd(const absl::Status& status) {
-  if (!status.ok()) owner_->EndWith(StorageError(status));
+  if (!status.ok()) call_->EndWith(StorageError(status));
 }
 
 void DurableSession::OpenResult() {
@@ -139,16 +139,16 @@ void DurableSession::Fetch() {
       status = absl::InternalError("the stored result has no summary");
     }
     if (status.ok()) status = self->TakePiece(**std::move(record));
-    if (!status.ok()) self->owner_->EndWith(StorageError(status));
+    if (!status.ok()) self->call_->EndWith(StorageError(status));
   });
 }
 
 absl::Status DurableSession::TakePiece(ResultRecord record) {
   v1::SkeletonizeResponse response;
   BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), response));
-  owner_->Change([&] {
+  call_->Change([&] {
     piece_ = std::move(response);
-    return SessionOwner::Sending::kNow;
+    return Sending::kNow;
   });
   return absl::OkStatus();
 }

@@ -26,9 +26,8 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   static bool Suits(const v1::SkeletonizeConfig& config, const VolumeLimits& limits);
 
   // Needs: `DurableJobs` and `writers` outlive the session.
-  DurableSession(std::shared_ptr<SessionOwner> owner, DurableJobs& durable_jobs,
-                 UploadWriters& writers)
-      : owner_(std::move(owner)), durable_jobs_(durable_jobs), writers_(writers) {}
+  DurableSession(std::shared_ptr<Call> call, DurableJobs& durable_jobs, UploadWriters& writers)
+      : call_(std::move(call)), durable_jobs_(durable_jobs), writers_(writers) {}
   // No call of DurableJobs is under way any more, so that the next writer may begin.
   ~DurableSession() override;
 
@@ -60,12 +59,12 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   // What DurableJobs calls: `next` with the value, or the end of the call.
   template <typename Function>
   auto Then(Function next);
-  const std::string& tenant() const { return owner_->facts().tenant; }
+  const std::string& tenant() const { return call_->facts().tenant; }
   // Erases what came of the volume, or ends the job. Changes nothing once the job has ended.
   // Needs: mutex_ held.
   void LeaveJob();
 
-  const std::shared_ptr<SessionOwner> owner_;
+  const std::shared_ptr<Call> call_;
   DurableJobs& durable_jobs_;
   UploadWriters& writers_;
   // Used by one request, or answer to one, at a time.

@@ -29,30 +29,32 @@ class MemorySession : public Session<Request, Response>,
                       public std::enable_shared_from_this<
                           MemorySession<Request, Response, Listener, Result, Responses>> {
  public:
+  using Call = typename Session<Request, Response>::Call;
+
   // Needs: `runner` outlives the session.
-  MemorySession(std::shared_ptr<SessionOwner> owner, JobRunner& runner, const VolumeLimits& limits)
-      : owner_(std::move(owner)), runner_(runner), limits_(limits) {}
+  MemorySession(std::shared_ptr<Call> call, JobRunner& runner, const VolumeLimits& limits)
+      : call_(std::move(call)), runner_(runner), limits_(limits) {}
 
   absl::Status Begin(const typename Session<Request, Response>::Config& config) override {
     BCCSKEL_ASSIGN_OR_RETURN(auto request, JobRequestOf(config, limits_));
-    request.deadline = owner_->facts().deadline;
-    request.origin.tenant = owner_->facts().tenant;
+    request.deadline = call_->facts().deadline;
+    request.origin.tenant = call_->facts().tenant;
     BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<Job> job,
                              runner_.Start(std::move(request), this->shared_from_this()));
-    owner_->Accepted(job->name(), config.volume().size_bytes());
+    call_->Accepted(job->name(), config.volume().size_bytes());
     std::unique_lock lock(mutex_);
     job_ = job;
     const std::optional<absl::Status> too_late = left_;
     lock.unlock();
     if (too_late.has_value()) job->EndWith(*too_late);
     Send([&] { responses_.Accept(job->name()); });
-    owner_->ReadNext();
+    call_->ReadNext();
     return absl::OkStatus();
   }
   void Append(v1::VolumeChunk& chunk) override { job_->Append(std::move(*chunk.mutable_data())); }
   void Finish(const v1::VolumeFinish& finish) override {
     job_->FinishVolume(DigestOf(finish));
-    owner_->ReadNext();  // sees requests that must not come
+    call_->ReadNext();  // sees requests that must not come
   }
 
   std::optional<Response> Next() override { return responses_.Next(); }
@@ -74,19 +76,17 @@ class MemorySession : public Session<Request, Response>,
     job.swap(job_);
   }
 
-  void OnBytesConsumed() override { owner_->ReadNext(); }
+  void OnBytesConsumed() override { call_->ReadNext(); }
   void OnEnd(absl::StatusOr<Result> result) override {
-    if (!result.ok()) return owner_->EndWith(WithJobReason(result.status()));
+    if (!result.ok()) return call_->EndWith(WithJobReason(result.status()));
     Send([&] { responses_.Complete(*std::move(result)); });
   }
 
  protected:
-  using Sending = SessionOwner::Sending;
-
   // `fill` puts something into the responses, which goes out.
   template <typename Fill>
   void Send(Fill fill) {
-    owner_->Change([&fill] {
+    call_->Change([&fill] {
       fill();
       return Sending::kNow;
     });
@@ -95,7 +95,7 @@ class MemorySession : public Session<Request, Response>,
   // with what comes next. `elapsed` since the computation began.
   template <typename Progress>
   void Report(Progress progress, std::chrono::nanoseconds elapsed) {
-    owner_->Change([&] {
+    call_->Change([&] {
       responses_.Report(std::move(progress));
       if (elapsed < next_progress_) return Sending::kWithWhatFollows;
       next_progress_ = elapsed + kProgressInterval;
@@ -110,7 +110,7 @@ class MemorySession : public Session<Request, Response>,
   // millisecond. The newest progress is always sent.
   static constexpr std::chrono::milliseconds kProgressInterval{1};
 
-  const std::shared_ptr<SessionOwner> owner_;
+  const std::shared_ptr<Call> call_;
   JobRunner& runner_;
   const VolumeLimits limits_;
   std::chrono::nanoseconds next_progress_ = kProgressInterval;  // guarded by the call's lock

@@ -39,9 +39,33 @@ class ReadCall final : public ReadBase {
   }
 
  private:
-  void Fetch() override;
-  absl::Status Take(ResultRecord record);
-  absl::Status EndOfResult() const;
+  void Fetch() override {
+    reader_->Next([self = Self()](absl::StatusOr<std::optional<ResultRecord>> record) {
+      absl::Status status = record.status();
+      if (status.ok() && !record->has_value()) return self->End(self->EndOfResult());
+      if (status.ok()) status = self->Take(**std::move(record));
+      if (!status.ok()) self->End(StorageError(status));
+    });
+  }
+
+  absl::Status Take(ResultRecord record) {
+    v1::ReadSkeletonResponse piece;
+    piece.set_piece_index(index_);
+    BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), piece));
+    ++index_;
+    complete_ = piece.has_summary();
+    std::lock_guard lock(mutex_);
+    ++pieces_;
+    piece_ = std::move(piece);
+    Advance();
+    return absl::OkStatus();
+  }
+  // Who asks for the piece after the last one has miscounted.
+  absl::Status EndOfResult() const {
+    if (complete_) return absl::OkStatus();
+    return CallError(Reason::kPieceIndex, absl::StrCat(subject_, " has ", index_, " pieces"),
+                     {.key = "pieces", .value = absl::StrCat(index_)});
+  }
   std::optional<v1::ReadSkeletonResponse> Next() override {
     return std::exchange(piece_, std::nullopt);
   }
@@ -62,35 +86,6 @@ class ReadCall final : public ReadBase {
   bool complete_ = false;                          // the summary came
   std::optional<v1::ReadSkeletonResponse> piece_;  // guarded by mutex_
 };
-
-void ReadCall::Fetch() {
-  reader_->Next([self = Self()](absl::StatusOr<std::optional<ResultRecord>> record) {
-    absl::Status status = record.status();
-    if (status.ok() && !record->has_value()) return self->End(self->EndOfResult());
-    if (status.ok()) status = self->Take(**std::move(record));
-    if (!status.ok()) self->End(StorageError(status));
-  });
-}
-
-absl::Status ReadCall::Take(ResultRecord record) {
-  v1::ReadSkeletonResponse piece;
-  piece.set_piece_index(index_);
-  BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), piece));
-  ++index_;
-  complete_ = piece.has_summary();
-  std::lock_guard lock(mutex_);
-  ++pieces_;
-  piece_ = std::move(piece);
-  Advance();
-  return absl::OkStatus();
-}
-
-// Who asks for the piece after the last one has miscounted.
-absl::Status ReadCall::EndOfResult() const {
-  if (complete_) return absl::OkStatus();
-  return CallError(Reason::kPieceIndex, absl::StrCat(subject_, " has ", index_, " pieces"),
-                   {.key = "pieces", .value = absl::StrCat(index_)});
-}
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "server/calls/requests.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,16 +17,6 @@
 
 namespace bccskel::server {
 namespace {
-
-// What an enumerator of the interface means here. `what`: it is, for the error.
-template <typename Meaning, typename Enumerator>
-absl::StatusOr<Meaning> MeaningOf(Enumerator wanted, const std::string& field, const char* what,
-                                  std::initializer_list<std::pair<Enumerator, Meaning>> known) {
-  for (const auto& [enumerator, meaning] : known) {
-    if (enumerator == wanted) return meaning;
-  }
-  return InvalidField(field, absl::StrCat("unknown ", what, int{wanted}));
-}
 
 absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
   if (encoding == v1::VOLUME_ENCODING_UNSPECIFIED) return InvalidField(field, "must be set");
@@ -99,16 +88,8 @@ absl::Status CheckDisconnectPolicy(v1::DisconnectPolicy policy) {
 // The compression whose decoder needs the most memory stands for those that a volume's own bytes
 // name later.
 VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
-  switch (encoding) {
-    case VolumeEncoding::kOpenExr:
-      return VolumeCompression::kZip;
-    case VolumeEncoding::kRawPlanes:
-    case VolumeEncoding::kCubicMask:
-      return declared;
-    case VolumeEncoding::kBricks:
-      return VolumeCompression::kZstd;
-  }
-  return declared;
+  if (encoding == VolumeEncoding::kOpenExr) return VolumeCompression::kZip;
+  return encoding == VolumeEncoding::kBricks ? VolumeCompression::kZstd : declared;
 }
 
 // What the core finds wrong with a declaration, with the details that a caller gets.

@@ -1,14 +1,18 @@
 #ifndef BCCSKEL_SERVER_CALLS_REQUESTS_H_
 #define BCCSKEL_SERVER_CALLS_REQUESTS_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "bccskel/v1/volume.pb.h"
 #include "core/io/volume_header.h"
+#include "server/errors/call_error.h"
 #include "server/jobs/job_runner.h"
 
 namespace bccskel::server {
@@ -26,6 +30,17 @@ absl::StatusOr<LabelsRequest> JobRequestOf(const v1::SkeletonizeLabelsConfig& co
 
 // Threads that a caller wants, in this field of its request. Errors: INVALID_ARGUMENT.
 absl::Status CheckThreads(int32_t threads, const std::string& field);
+
+// What an enumerator of the interface means here. `what` it is, for the error of an
+// unknown one. Errors: INVALID_ARGUMENT with the field.
+template <typename Meaning, typename Enumerator, size_t kCount>
+absl::StatusOr<Meaning> MeaningOf(Enumerator wanted, const std::string& field, const char* what,
+                                  const std::pair<Enumerator, Meaning> (&known)[kCount]) {
+  for (const auto& [enumerator, meaning] : known) {
+    if (enumerator == wanted) return meaning;
+  }
+  return InvalidField(field, absl::StrCat("unknown ", what, int{wanted}));
+}
 
 }  // namespace bccskel::server
 

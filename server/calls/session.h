@@ -13,21 +13,11 @@
 
 namespace bccskel::server {
 
-// The call for which a session works. Threads: safe.
-class SessionOwner {
- public:
-  virtual ~SessionOwner() = default;
-  virtual const CallFacts& facts() const = 0;
-  // The job was let in.
-  virtual void Accepted(const std::string& job, uint64_t volume_bytes) = 0;
-  // There is room for the next request.
-  virtual void ReadNext() = 0;
-  // Runs `change` with the call's lock held, unless the call has ended; then sends what Next()
-  // yields, or leaves that to whatever comes next.
-  enum class Sending { kNow, kWithWhatFollows };
-  virtual void Change(const std::function<Sending()>& change) = 0;
-  virtual void EndWith(const absl::Status& status) = 0;
-};
+template <typename Request, typename Response>
+class SessionCall;
+
+// What goes out after a change: what Next() yields at once, or that is left to whatever comes next.
+enum class Sending { kNow, kWithWhatFollows };
 
 // What a call that sends a volume gets done: a job in memory, a durable one, labels. It begins with
 // the config, then hears of requests one at a time.
@@ -35,6 +25,7 @@ template <typename Request, typename Response>
 class Session {
  public:
   using Config = std::decay_t<decltype(std::declval<Request>().config())>;
+  using Call = SessionCall<Request, Response>;  // for which it works
 
   virtual ~Session() = default;
   // Errors: end the call.
@@ -62,14 +53,13 @@ class Session {
 template <typename Request, typename Response>
 class SessionCall final
     : public ReceivingCall<
-          WritingCall<StreamCall<grpc::ServerBidiReactor<Request, Response>>, Response>, Request>,
-      public SessionOwner {
+          WritingCall<StreamCall<grpc::ServerBidiReactor<Request, Response>>, Response>, Request> {
  public:
   using Work = Session<Request, Response>;
   using Config = typename Work::Config;
   // Chooses by the config.
-  using MakeSession = std::function<std::shared_ptr<Work>(const Config& config,
-                                                          std::shared_ptr<SessionOwner> owner)>;
+  using MakeSession =
+      std::function<std::shared_ptr<Work>(const Config& config, std::shared_ptr<SessionCall> call)>;
 
   SessionCall(CallFacts facts, MakeSession make_session)
       : Base(std::move(facts)), make_session_(std::move(make_session)) {}
@@ -78,19 +68,23 @@ class SessionCall final
     this->Read();
     this->Open();
   }
-  const CallFacts& facts() const override { return this->facts_; }
-  void Accepted(const std::string& job, uint64_t volume_bytes) override {
+  // ---- For the session. Threads: safe.
+  const CallFacts& facts() const { return this->facts_; }
+  // The job was let in.
+  void Accepted(const std::string& job, uint64_t volume_bytes) {
     this->facts_.LogAccepted(job, volume_bytes);
     std::lock_guard lock(this->mutex_);
     this->subject_ = job;
   }
-  void ReadNext() override { this->Read(); }
-  void Change(const std::function<Sending()>& change) override {
+  // There is room for the next request.
+  void ReadNext() { this->Read(); }
+  // Runs `change` with the call's lock held, unless the call has ended.
+  void Change(const std::function<Sending()>& change) {
     std::lock_guard lock(this->mutex_);
     if (this->finished_ || this->end_.has_value()) return;
     if (change() == Sending::kNow) this->Advance();
   }
-  void EndWith(const absl::Status& status) override { this->End(status); }
+  void EndWith(const absl::Status& status) { this->End(status); }
 
  private:
   using Base =

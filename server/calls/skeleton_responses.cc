@@ -13,8 +13,8 @@ namespace {
 constexpr size_t kThinVolumeChunkBytes = 256 * 1024;
 
 v1::SkeletonSummary SummaryOf(const JobResult& result) {
-  return wire::SummaryOf(result.skeleton, {.queued = result.queued,
-                                           .decoded = result.decoded,
+  return wire::SummaryOf(result.skeleton, {.queued = result.times.queued,
+                                           .decoded = result.times.decoded,
                                            .threads = result.threads,
                                            .thin_volume_size_bytes = result.thin_volume.size(),
                                            .algorithm_version = result.skeleton.algorithm_version,

@@ -24,12 +24,12 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
     return StartCall<Call>(
         gate_.Enter(*context, kSkeletonize),
         [this](const Call::Config& config,
-               std::shared_ptr<SessionOwner> owner) -> std::shared_ptr<Call::Work> {
+               std::shared_ptr<Call> call) -> std::shared_ptr<Call::Work> {
           DurableJobs* const durable_jobs = gate_.durable_jobs();
           if (durable_jobs != nullptr && DurableSession::Suits(config, limits_)) {
-            return std::make_shared<DurableSession>(std::move(owner), *durable_jobs, writers_);
+            return std::make_shared<DurableSession>(std::move(call), *durable_jobs, writers_);
           }
-          return std::make_shared<SkeletonSession>(std::move(owner), runner_, limits_);
+          return std::make_shared<SkeletonSession>(std::move(call), runner_, limits_);
         });
   }
 
@@ -38,9 +38,8 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
     using Call = SessionCall<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>;
     return StartCall<Call>(
         gate_.Enter(*context, kSkeletonizeLabels),
-        [this](const Call::Config&,
-               std::shared_ptr<SessionOwner> owner) -> std::shared_ptr<Call::Work> {
-          return std::make_shared<LabelsSession>(std::move(owner), runner_, limits_);
+        [this](const Call::Config&, std::shared_ptr<Call> call) -> std::shared_ptr<Call::Work> {
+          return std::make_shared<LabelsSession>(std::move(call), runner_, limits_);
         });
   }
 

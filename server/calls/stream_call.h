@@ -45,7 +45,7 @@ class StreamCall : public Reactor,
   }
   void OnDone() override {
     const std::shared_ptr<StreamCall> self = std::move(self_);
-    facts_.Leave(*this);
+    if (facts_.lasting != nullptr) facts_.lasting->Remove(*this);
     std::unique_lock lock(mutex_);
     done_ = true;
     const absl::Status end = end_.value_or(absl::OkStatus());
@@ -59,7 +59,7 @@ class StreamCall : public Reactor,
  protected:
   void Open() {
     self_ = this->shared_from_this();
-    facts_.LookAfter(self_);
+    if (facts_.lasting != nullptr) facts_.lasting->Add(self_, facts_);
   }
   // Ends the call with this status, unless it ends already.
   void End(const absl::Status& status) {

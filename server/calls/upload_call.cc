@@ -30,6 +30,18 @@ using UploadBase = ReceivingCall<StreamCall<grpc::ServerReadReactor<v1::UploadVo
 // An UploadVolume call: hands one chunk after the other to DurableJobs and reads no further before
 // DurableJobs has room.
 class UploadCall final : public UploadBase, public UploadWriters::Writer {
+  // What DurableJobs calls: `next` with the value, or the end of the call.
+  template <typename Next>
+  auto Then(Next next) {
+    return [self = Self(), next = std::move(next)](auto value) {
+      if (!value.ok()) return self->End(StorageError(value.status()));
+      next(*self, *value);
+    };
+  }
+  std::shared_ptr<UploadCall> Self() {
+    return std::static_pointer_cast<UploadCall>(shared_from_this());
+  }
+
  public:
   UploadCall(DurableCall call, UploadWriters& writers, const JobPool::Limits& limits,
              v1::UploadVolumeResponse& response)
@@ -47,34 +59,96 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
     Read();
     Open();
   }
-  void OnTurn(UploadWriters::Turn turn) override;
+
+  void OnTurn(UploadWriters::Turn turn) override {
+    turn_ = std::move(turn);
+    durable_jobs_.GetUpload(
+        facts_.tenant, upload_, [self = Self()](absl::StatusOr<UploadInfo> upload) {
+          if (absl::IsNotFound(upload.status())) return self->Create();
+          self->Then([](UploadCall& it, const UploadInfo& found) { it.Resume(found); })(
+              std::move(upload));
+        });
+  }
   void OnTakenOver() override {
     End(CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
   }
 
  private:
-  absl::Status CheckWanted(const v1::UploadVolumeRequest& request) override;
-  absl::Status Take(v1::UploadVolumeRequest& request) override;
+  absl::Status CheckWanted(const v1::UploadVolumeRequest& request) override {
+    if (!complete_ || !request.has_chunk()) return absl::OkStatus();
+    return CallError(Reason::kUploadFinished,
+                     absl::StrCat(upload_, " is finished and takes no more chunks"));
+  }
+
+  absl::Status Take(v1::UploadVolumeRequest& request) override {
+    if (request.has_config()) return TakeConfig(request.config());
+    if (request.has_chunk()) {
+      v1::VolumeChunk& chunk = *request.mutable_chunk();
+      std::optional<uint32_t> crc32c;
+      if (chunk.has_crc32c()) crc32c = chunk.crc32c();
+      durable_jobs_.Append(facts_.tenant, upload_, chunk.offset(), std::move(*chunk.mutable_data()),
+                           crc32c, Then([](UploadCall& it, uint64_t) { it.Read(); }));
+    } else {
+      const v1::VolumeFinish& finish = request.finish();
+      durable_jobs_.FinishUpload(facts_.tenant, upload_, finish.size_bytes(), DigestOf(finish),
+                                 Then([](UploadCall& it, const VolumeInfo& volume) {
+                                   it.AnswerStatus(absl::HexStringToBytes(volume.blob_digest));
+                                 }));
+    }
+    return absl::OkStatus();
+  }
   void TakeHalfClose(const absl::Status& status) override {
     return open_ ? AnswerStatus("") : End(status);
   }
-  absl::Status TakeConfig(const v1::UploadVolumeConfig& config);
-  void Create();
-  void Resume(const UploadInfo& upload);
-  // Answers how far the upload is and ends the call.
-  void AnswerStatus(const std::string& blob_digest);
-  // What DurableJobs calls: `next` with the value, or the end of the call.
-  template <typename Next>
-  auto Then(Next next) {
-    return [self = Self(), next = std::move(next)](auto value) {
-      if (!value.ok()) return self->End(StorageError(value.status()));
-      next(*self, *value);
-    };
+
+  absl::Status TakeConfig(const v1::UploadVolumeConfig& config) {
+    if (config.upload().empty()) return InvalidField("config.upload", "must be set");
+    v1::SkeletonizeConfig whole;
+    *whole.mutable_volume() = config.volume();
+    BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, limits_.volume).status());
+    BCCSKEL_RETURN_IF_ERROR(CheckVolumeBytes(config.volume().size_bytes(), limits_));
+    upload_ = config.upload();
+    declaration_ = DeclarationBytes(config.volume());
+    {
+      std::lock_guard lock(mutex_);
+      subject_ = upload_;
+    }
+    writers_.Claim({facts_.tenant, upload_}, Self());
+    return absl::OkStatus();
   }
-  std::shared_ptr<UploadCall> Self() {
-    return std::static_pointer_cast<UploadCall>(shared_from_this());
+  void Create() {
+    NewUpload upload;
+    upload.name = upload_;
+    upload.declaration = declaration_;
+    durable_jobs_.CreateUpload(
+        facts_.tenant, upload,
+        Then([](UploadCall& it, const UploadInfo& info) { it.Resume(info); }));
   }
 
+  void Resume(const UploadInfo& upload) {
+    if (upload.declaration != declaration_) {
+      return End(CallError(Reason::kUploadExists,
+                           absl::StrCat(upload_, " was started with another declaration")));
+    }
+    open_ = true;
+    complete_ = !upload.volume.empty();
+    sequence_.ResumeAt(upload.committed_bytes);
+    Read();
+  }
+
+  // Answers how far the upload is and ends the call.
+  void AnswerStatus(const std::string& blob_digest) {
+    durable_jobs_.GetUpload(facts_.tenant, upload_,
+                            Then([blob_digest](UploadCall& it, const UploadInfo& upload) {
+                              {
+                                std::lock_guard lock(it.mutex_);
+                                if (it.end_.has_value()) return;
+                                *it.response_.mutable_upload() = ToMessage(upload);
+                                it.response_.set_blob_sha256(blob_digest);
+                              }
+                              it.End(absl::OkStatus());
+                            }));
+  }
   DurableJobs& durable_jobs_;
   UploadWriters& writers_;
   const JobPool::Limits limits_;
@@ -86,88 +160,6 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
   bool complete_ = false;               // it was, before this call
   v1::UploadVolumeResponse& response_;  // guarded by mutex_; gone once there is an end_
 };
-
-absl::Status UploadCall::CheckWanted(const v1::UploadVolumeRequest& request) {
-  if (!complete_ || !request.has_chunk()) return absl::OkStatus();
-  return CallError(Reason::kUploadFinished,
-                   absl::StrCat(upload_, " is finished and takes no more chunks"));
-}
-
-absl::Status UploadCall::Take(v1::UploadVolumeRequest& request) {
-  if (request.has_config()) return TakeConfig(request.config());
-  if (request.has_chunk()) {
-    v1::VolumeChunk& chunk = *request.mutable_chunk();
-    std::optional<uint32_t> crc32c;
-    if (chunk.has_crc32c()) crc32c = chunk.crc32c();
-    durable_jobs_.Append(facts_.tenant, upload_, chunk.offset(), std::move(*chunk.mutable_data()),
-                         crc32c, Then([](UploadCall& it, uint64_t) { it.Read(); }));
-  } else {
-    const v1::VolumeFinish& finish = request.finish();
-    durable_jobs_.FinishUpload(facts_.tenant, upload_, finish.size_bytes(), DigestOf(finish),
-                               Then([](UploadCall& it, const VolumeInfo& volume) {
-                                 it.AnswerStatus(absl::HexStringToBytes(volume.blob_digest));
-                               }));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status UploadCall::TakeConfig(const v1::UploadVolumeConfig& config) {
-  if (config.upload().empty()) return InvalidField("config.upload", "must be set");
-  v1::SkeletonizeConfig whole;
-  *whole.mutable_volume() = config.volume();
-  BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, limits_.volume).status());
-  BCCSKEL_RETURN_IF_ERROR(CheckVolumeBytes(config.volume().size_bytes(), limits_));
-  upload_ = config.upload();
-  declaration_ = DeclarationBytes(config.volume());
-  {
-    std::lock_guard lock(mutex_);
-    subject_ = upload_;
-  }
-  writers_.Claim({facts_.tenant, upload_}, Self());
-  return absl::OkStatus();
-}
-
-void UploadCall::OnTurn(UploadWriters::Turn turn) {
-  turn_ = std::move(turn);
-  durable_jobs_.GetUpload(
-      facts_.tenant, upload_, [self = Self()](absl::StatusOr<UploadInfo> upload) {
-        if (absl::IsNotFound(upload.status())) return self->Create();
-        self->Then([](UploadCall& it, const UploadInfo& found) { it.Resume(found); })(
-            std::move(upload));
-      });
-}
-
-void UploadCall::Create() {
-  NewUpload upload;
-  upload.name = upload_;
-  upload.declaration = declaration_;
-  durable_jobs_.CreateUpload(facts_.tenant, upload,
-                             Then([](UploadCall& it, const UploadInfo& info) { it.Resume(info); }));
-}
-
-void UploadCall::Resume(const UploadInfo& upload) {
-  if (upload.declaration != declaration_) {
-    return End(CallError(Reason::kUploadExists,
-                         absl::StrCat(upload_, " was started with another declaration")));
-  }
-  open_ = true;
-  complete_ = !upload.volume.empty();
-  sequence_.ResumeAt(upload.committed_bytes);
-  Read();
-}
-
-void UploadCall::AnswerStatus(const std::string& blob_digest) {
-  durable_jobs_.GetUpload(facts_.tenant, upload_,
-                          Then([blob_digest](UploadCall& it, const UploadInfo& upload) {
-                            {
-                              std::lock_guard lock(it.mutex_);
-                              if (it.end_.has_value()) return;
-                              *it.response_.mutable_upload() = ToMessage(upload);
-                              it.response_.set_blob_sha256(blob_digest);
-                            }
-                            it.End(absl::OkStatus());
-                          }));
-}
 
 }  // namespace
 

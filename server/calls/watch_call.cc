@@ -48,15 +48,42 @@ class WatchCall final : public WatchBase, public JobWatcher {
  private:
   using Clock = std::chrono::system_clock;
 
-  std::optional<v1::WatchJobResponse> Next() override;
-  void Advance() override;
+  std::optional<v1::WatchJobResponse> Next() override {
+    std::optional<v1::WatchJobResponse> next = events_.Next();
+    if (!next.has_value() && heartbeat_due_) {
+      next.emplace().set_sequence(events_.sequence());
+      *next->mutable_time() = ToMessage(Clock::now());
+      next->mutable_heartbeat();
+    }
+    heartbeat_due_ = false;
+    if (next.has_value()) written_ = Clock::now();
+    return next;
+  }
+  void Advance() override {
+    WatchBase::Advance();
+    if (finished_) silence_ = nullptr;
+  }
   void Closed() override {
     std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
     std::lock_guard lock(mutex_);
     handle = std::move(handle_);
   }
-  void AwaitSilence();
-  void OnAlarm();
+
+  void AwaitSilence() {
+    if (finished_) return;
+    // A new one each time: an alarm must not be set from its own reaction.
+    silence_ = std::make_unique<grpc::Alarm>();
+    silence_->Set(written_ + kHeartbeat, [self = Self()](bool ok) {
+      if (ok) self->OnAlarm();
+    });
+  }
+  void OnAlarm() {
+    std::lock_guard lock(mutex_);
+    heartbeat_due_ = !writing() && Clock::now() >= written_ + kHeartbeat;
+    if (heartbeat_due_) Advance();
+    if (writing()) written_ = Clock::now();
+    AwaitSilence();
+  }
   std::shared_ptr<WatchCall> Self() {
     return std::static_pointer_cast<WatchCall>(shared_from_this());
   }
@@ -68,40 +95,6 @@ class WatchCall final : public WatchBase, public JobWatcher {
   Clock::time_point written_ = Clock::now();
   bool heartbeat_due_ = false;
 };
-
-std::optional<v1::WatchJobResponse> WatchCall::Next() {
-  std::optional<v1::WatchJobResponse> next = events_.Next();
-  if (!next.has_value() && heartbeat_due_) {
-    next.emplace().set_sequence(events_.sequence());
-    *next->mutable_time() = ToMessage(Clock::now());
-    next->mutable_heartbeat();
-  }
-  heartbeat_due_ = false;
-  if (next.has_value()) written_ = Clock::now();
-  return next;
-}
-
-void WatchCall::Advance() {
-  WatchBase::Advance();
-  if (finished_) silence_ = nullptr;
-}
-
-void WatchCall::AwaitSilence() {
-  if (finished_) return;
-  // A new one each time: an alarm must not be set from its own reaction.
-  silence_ = std::make_unique<grpc::Alarm>();
-  silence_->Set(written_ + kHeartbeat, [self = Self()](bool ok) {
-    if (ok) self->OnAlarm();
-  });
-}
-
-void WatchCall::OnAlarm() {
-  std::lock_guard lock(mutex_);
-  heartbeat_due_ = !writing() && Clock::now() >= written_ + kHeartbeat;
-  if (heartbeat_due_) Advance();
-  if (writing()) written_ = Clock::now();
-  AwaitSilence();
-}
 
 }  // namespace
 

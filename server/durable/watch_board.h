@@ -31,7 +31,6 @@ class Watch {
   Watch(uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher)
       : told_(after_sequence), watcher_(std::move(watcher)) {}
 
-  uint64_t told() const { return told_; }
   // Leaves out what was told already, but for the end: no watch ends without it.
   void Tell(const JobEvent& event);
   void End(const absl::Status& status);

@@ -47,31 +47,38 @@ JobPool::JobPool(const Limits& limits, JobObserver observer)
 
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
                                                     std::shared_ptr<JobListener> listener) {
-  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
-  BCCSKEL_ASSIGN_OR_RETURN(
-      Ticket ticket,
-      admission_.Admit(request.origin.tenant, BytesToSkeletonize(request.header, request.size_bytes,
-                                                                 request.shell_points)));
-  observer_.on_admitted(request.size_bytes);
-  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline, observer_};
+  const uint64_t bytes =
+      BytesToSkeletonize(request.header, request.size_bytes, request.shell_points);
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
-  VolumeReceiver::MakeDecoder make_decoder = DecoderFor(request);
-  return Launch(std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
-                                                  std::move(make_decoder), listener),
-                std::move(ticket), std::move(facts), finishers, listener);
+  return Launch(request, bytes, finishers, listener, [&] {
+    VolumeReceiver::MakeDecoder make_decoder = DecoderFor(request);
+    return std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
+                                             std::move(make_decoder), listener);
+  });
 }
 
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
                                                     std::shared_ptr<LabelsListener> listener) {
-  BCCSKEL_RETURN_IF_ERROR(CheckSize(request.size_bytes, limits_.max_volume_bytes));
   const int threads = ThreadsWithin(limits_.threads, request.threads_wanted);
-  BCCSKEL_ASSIGN_OR_RETURN(
-      Ticket ticket,
-      admission_.Admit(request.origin.tenant, BytesToSkeletonizeLabels(request.header, threads)));
-  observer_.on_admitted(request.size_bytes);
-  PoolJob::Facts facts = {RandomName("jobs"), request.origin, request.deadline, observer_};
-  return Launch(std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener),
-                std::move(ticket), std::move(facts), decoders_, listener);
+  const uint64_t bytes = BytesToSkeletonizeLabels(request.header, threads);
+  return Launch(request, bytes, decoders_, listener, [&] {
+    return std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener);
+  });
+}
+
+// `make_work` may move from the request, of which the wish is a part.
+template <typename MakeWork>
+absl::StatusOr<std::shared_ptr<Job>> JobPool::Launch(const JobWish& wish, uint64_t bytes,
+                                                     TaskThreads& finishers,
+                                                     std::shared_ptr<UploadListener> listener,
+                                                     MakeWork make_work) {
+  BCCSKEL_RETURN_IF_ERROR(CheckSize(wish.size_bytes, limits_.max_volume_bytes));
+  BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket, admission_.Admit(wish.origin.tenant, bytes));
+  observer_.on_admitted(wish.size_bytes);
+  PoolJob::Facts facts = {RandomName("jobs"), wish.origin, wish.deadline, observer_};
+  return std::make_shared<PoolJob>(std::move(facts), make_work(), std::move(ticket),
+                                   std::move(listener),
+                                   PoolJob::Threads{decoders_, finishers, compute_});
 }
 
 void JobPool::SetTenants(const TenantTable& tenants) {
@@ -91,14 +98,6 @@ VolumeReceiver::MakeDecoder JobPool::DecoderFor(const JobRequest& request) {
                                                                   const VolumeLimits& limits) {
     return ChildDecoder::Create(header, limits, tenant, children);
   };
-}
-
-std::shared_ptr<Job> JobPool::Launch(std::unique_ptr<JobWork> work, Ticket ticket,
-                                     PoolJob::Facts facts, TaskThreads& finishers,
-                                     std::shared_ptr<UploadListener> listener) {
-  return std::make_shared<PoolJob>(std::move(facts), std::move(work), std::move(ticket),
-                                   std::move(listener),
-                                   PoolJob::Threads{decoders_, finishers, compute_});
 }
 
 }  // namespace bccskel::server

@@ -58,14 +58,13 @@ class JobPool : public JobRunner {
   Admission::Usage admission_usage() const { return admission_.usage(); }
   // That have not ended or are not read yet.
   int admitted_jobs() const { return admission_.jobs(); }
-  // Process ids of children that wait for volumes.
-  std::vector<pid_t> idle_children() const {
-    return children_ == nullptr ? std::vector<pid_t>() : children_->idle();
-  }
 
  private:
-  std::shared_ptr<Job> Launch(std::unique_ptr<JobWork> work, Ticket ticket, PoolJob::Facts facts,
-                              TaskThreads& finishers, std::shared_ptr<UploadListener> listener);
+  template <typename MakeWork>
+  absl::StatusOr<std::shared_ptr<Job>> Launch(const JobWish& wish, uint64_t bytes,
+                                              TaskThreads& finishers,
+                                              std::shared_ptr<UploadListener> listener,
+                                              MakeWork make_work);
   bool InChild(const VolumeHeader& header) const;
   VolumeReceiver::MakeDecoder DecoderFor(const JobRequest& request);
 

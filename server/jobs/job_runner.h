@@ -43,16 +43,20 @@ struct JobObserver {
   std::function<void(const JobEnd& end)> on_end = [](const JobEnd&) {};
 };
 
-// What a caller wants computed, and the volume it promises to send.
-struct JobRequest {
+// What callers want of any volume that they promise to send.
+struct JobWish {
   JobOrigin origin;
-  VolumeHeader header;      // as declared and completed; not yet compared with the bytes
-  uint64_t size_bytes = 0;  // of the encoded volume
+  uint64_t size_bytes = 0;  // of the volume as sent
   SkeletonizeOptions options;
-  std::optional<VolumeEncoding> thin_volume;  // how to encode the thinned volume, if it is wanted
-  ShellPointsWanted shell_points = ShellPointsWanted::kNone;
   int threads_wanted = 0;  // 0 leaves it to the server
   exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
+};
+
+// What a caller wants of a volume of one object.
+struct JobRequest : JobWish {
+  VolumeHeader header;  // as declared and completed; not yet compared with the bytes
+  std::optional<VolumeEncoding> thin_volume;  // how to encode the thinned volume, if it is wanted
+  ShellPointsWanted shell_points = ShellPointsWanted::kNone;
 };
 
 // Memory that a graph keeps.
@@ -64,8 +68,7 @@ inline uint64_t GraphBytes(const SkeletonGraph& graph) {
 struct JobResult {
   SkeletonizeResult skeleton;
   std::string thin_volume;  // encoded; empty unless asked for
-  std::chrono::nanoseconds queued{0};
-  std::chrono::nanoseconds decoded{0};
+  JobTimes times;
   int threads = 1;
   Ticket ticket;  // keeps the result's memory admitted for as long as the result lives
 };
@@ -93,15 +96,10 @@ class JobListener : public UploadListener {
 };
 
 // What a caller wants of a volume of labels.
-struct LabelsRequest {
-  JobOrigin origin;
+struct LabelsRequest : JobWish {
   LabelVolumeHeader header;      // as declared, with the worst case for what was not
-  uint64_t size_bytes = 0;       // of the volume as sent
   std::vector<uint64_t> labels;  // none means all
   uint64_t min_voxels = 0;
-  SkeletonizeOptions options;
-  int threads_wanted = 0;  // 0 leaves it to the server
-  exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
 };
 
 struct LabelResult {
@@ -152,7 +150,7 @@ class Job {
   void Cancel() { EndWith(absl::CancelledError("the job was cancelled")); }
 };
 
-// Where handlers get their jobs done. This interface is the place where durable jobs will enter.
+// Where handlers get their jobs done: a JobPool, or what a test puts in its place.
 class JobRunner {
  public:
   virtual ~JobRunner() = default;

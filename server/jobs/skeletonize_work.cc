@@ -115,8 +115,7 @@ void SkeletonizeWork::End(absl::Status status, const JobTimes& times, Ticket tic
   ticket.LeavePlace();
   ticket.ShrinkTo(GraphBytes(result.skeleton.graph) + result.thin_volume.size() +
                   shell_points_bytes_);
-  result.queued = times.queued;
-  result.decoded = times.decoded;
+  result.times = times;
   result.ticket = std::move(ticket);
   listener->OnEnd(std::move(result));
 }

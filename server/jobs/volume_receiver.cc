@@ -57,15 +57,15 @@ absl::Status CheckPromise(const char* name, uint64_t found, uint64_t promised) {
       absl::StrFormat("%s: the volume has %d, %d were declared", name, found, promised));
 }
 
-}  // namespace
-
-absl::Status UploadDigest::Check(const std::optional<Sha256Digest>& expected) {
-  const Sha256Digest found = sha256_.Finish();
+absl::Status CheckDigest(Sha256& received, const std::optional<Sha256Digest>& expected) {
+  const Sha256Digest found = received.Finish();
   if (!expected.has_value() || *expected == found) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrFormat("the received bytes have the SHA-256 digest %s, the request states %s",
                       found.Hex(), expected->Hex()));
 }
+
+}  // namespace
 
 VolumeReceiver::VolumeReceiver(const VolumeHeader& declared, uint64_t size_bytes,
                                const VolumeLimits& limits, MakeDecoder make_decoder)
@@ -83,7 +83,7 @@ absl::Status VolumeReceiver::Append(std::string_view bytes) {
 
 absl::StatusOr<Volume> VolumeReceiver::Finish(const std::optional<Sha256Digest>& expected,
                                               const exec::Context& context) {
-  BCCSKEL_RETURN_IF_ERROR(digest_.Check(expected));
+  BCCSKEL_RETURN_IF_ERROR(CheckDigest(digest_, expected));
   if (decoder_ == nullptr) BCCSKEL_RETURN_IF_ERROR(AsCallersError(StartDecoder(front_)));
   absl::StatusOr<Volume> volume = decoder_->Finish(context);
   if (!volume.ok()) return AsCallersError(volume.status());
@@ -166,7 +166,7 @@ absl::Status LabelReceiver::AddSlice(const exec::Context& context) {
 absl::StatusOr<CollectedLabels> LabelReceiver::Finish(const std::optional<Sha256Digest>& expected,
                                                       const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
-  BCCSKEL_RETURN_IF_ERROR(digest_.Check(expected));
+  BCCSKEL_RETURN_IF_ERROR(CheckDigest(digest_, expected));
   BCCSKEL_RETURN_IF_ERROR(Start());
   BCCSKEL_RETURN_IF_ERROR(body_->Finish());
   if (received_bytes_ != header_.DecodedBytes()) {

@@ -22,17 +22,6 @@
 
 namespace bccskel::server {
 
-// Holds the received bytes against the digest that the sender states at the end.
-class UploadDigest {
- public:
-  void Add(std::string_view bytes) { sha256_.Add(bytes); }
-  // Called once. Errors: INVALID_ARGUMENT for another digest than `expected`.
-  absl::Status Check(const std::optional<Sha256Digest>& expected);
-
- private:
-  Sha256 sha256_;
-};
-
 // Takes in the bytes of a declared volume: digests them, holds the volume's own header against the
 // declaration, decodes.
 // Threads: one at a time.
@@ -67,7 +56,7 @@ class VolumeReceiver {
   const uint64_t size_bytes_;
   const MakeDecoder make_decoder_;
   VolumeLimits limits_;
-  UploadDigest digest_;
+  Sha256 digest_;
   std::string front_;  // until the header is complete
   std::unique_ptr<VolumeDecoder> decoder_;
 };
@@ -101,7 +90,7 @@ class LabelReceiver {
 
   const LabelsRequest& request_;
   const LabelVolumeHeader& header_;
-  UploadDigest digest_;
+  Sha256 digest_;
   std::optional<BodyReader> body_;  // what takes memory is made with the first bytes
   std::optional<LabelCollector> collector_;
   std::vector<std::byte> slice_;  // the next one, as far as it is here

@@ -11,6 +11,7 @@
 
 #include "absl/status/status.h"
 #include "server/durable/records.h"
+#include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
 
 namespace bccskel::server {
@@ -30,10 +31,8 @@ ProcessFigures ReadProcessFigures();
 // The server at this moment.
 struct ServerGauges {
   int admitted_jobs = 0;
-  int waiting_jobs = 0;
-  int running_jobs = 0;
+  ComputeQueue::Usage computing;
   int threads = 0;
-  int busy_threads = 0;
   uint64_t admitted_bytes = 0;
   uint64_t max_admitted_bytes = 0;
   int draining = 0;  // 1 from the stop signal on

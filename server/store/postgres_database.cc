@@ -64,21 +64,91 @@ absl::StatusCode CodeOf(const std::string& state) {
 
 class PostgresDatabase final : public SqlDatabase {
  public:
-  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& name);
-  ~PostgresDatabase() override;
+  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& name) {
+    BCCSKEL_RETURN_IF_ERROR(CheckPostgresName(name));
+    std::unique_ptr<PostgresDatabase> database(new PostgresDatabase(name));
+    BCCSKEL_RETURN_IF_ERROR(database->Connect());
+    return database;
+  }
+  ~PostgresDatabase() override { PQfinish(connection_); }
   PostgresDatabase(const PostgresDatabase&) = delete;
   PostgresDatabase& operator=(const PostgresDatabase&) = delete;
 
-  absl::Status Execute(const std::string& sql) override;
+  absl::Status Execute(const std::string& sql) override {
+    const Result result(PQexec(connection_, sql.c_str()), PQclear);
+    const ExecStatusType status = PQresultStatus(result.get());
+    if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return absl::OkStatus();
+    return ErrorOf(result.get(), sql);
+  }
+
   absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
-                                          const std::vector<SqlValue>& values) override;
-  absl::Status Begin(const std::string& server) override;
-  bool InTransaction() const override;
+                                          const std::vector<SqlValue>& values) override {
+    if (PQstatus(connection_) != CONNECTION_OK && !InTransaction()) {
+      BCCSKEL_RETURN_IF_ERROR(BeConnected());
+    }
+    std::string name;
+    BCCSKEL_RETURN_IF_ERROR(Prepare(sql, values, name));
+    std::vector<std::string> numbers;
+    numbers.reserve(values.size());
+    std::vector<const char*> bytes;
+    std::vector<int> sizes;
+    for (const SqlValue& value : values) {
+      const bool number = value.kind == SqlValue::Kind::kNumber;
+      if (number) numbers.push_back(BigEndian(value.number));
+      const std::string& content = number ? numbers.back() : value.bytes;
+      bytes.push_back(content.data());
+      sizes.push_back(static_cast<int>(content.size()));
+    }
+    const std::vector<int> formats(values.size(), kBinary);
+    const Result result(PQexecPrepared(connection_, name.c_str(), static_cast<int>(values.size()),
+                                       bytes.data(), sizes.data(), formats.data(), kBinary),
+                        PQclear);
+    const ExecStatusType status = PQresultStatus(result.get());
+    if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) return ErrorOf(result.get(), sql);
+    if (sql == "COMMIT" && std::strcmp(PQcmdStatus(result.get()), "COMMIT") != 0) {
+      return absl::InternalError("PostgreSQL has taken a transaction back that had failed");
+    }
+    std::vector<SqlRow> rows;
+    for (int row = 0; row < PQntuples(result.get()); ++row) {
+      std::vector<SqlValue> columns;
+      for (int column = 0; column < PQnfields(result.get()); ++column) {
+        columns.push_back(ValueAt(result.get(), row, column));
+      }
+      rows.emplace_back(std::move(columns));
+    }
+    return rows;
+  }
+
+  // One round trip.
+  absl::Status Begin(const std::string& server) override {
+    BCCSKEL_RETURN_IF_ERROR(BeConnected());
+    std::string sql = "BEGIN; " BCCSKEL_WRITER_LOCK;
+    if (!server.empty()) {
+      absl::StrAppend(&sql, "SELECT 1 FROM servers WHERE server = '", server, "'");
+    }
+    const Result result(PQexec(connection_, sql.c_str()), PQclear);
+    if (PQresultStatus(result.get()) != PGRES_TUPLES_OK) return ErrorOf(result.get(), "begin");
+    if (!server.empty() && PQntuples(result.get()) == 0) {
+      return absl::AbortedError("this server has lost its lease: others have taken over");
+    }
+    return absl::OkStatus();
+  }
+  bool InTransaction() const override {
+    const PGTransactionStatusType status = PQtransactionStatus(connection_);
+    return status == PQTRANS_INTRANS || status == PQTRANS_INERROR || status == PQTRANS_ACTIVE;
+  }
   std::string NextNumber(const std::string& table) const override {
     return absl::StrCat("nextval('", table, "_number_seq')");
   }
-  absl::Status Health() const override;
-  absl::Status Forget() override;
+  absl::Status Health() const override {
+    std::lock_guard lock(health_mutex_);
+    return health_;
+  }
+  // Vacuuming, which is what forgets, is PostgreSQL's.
+  absl::Status Forget() override {
+    if (PQstatus(connection_) != CONNECTION_OK || InTransaction()) return absl::OkStatus();
+    return Execute("DELETE FROM deleted_jobs WHERE at < now() - interval '1 hour'");
+  }
   bool shared() const override { return true; }
 
  private:
@@ -86,12 +156,69 @@ class PostgresDatabase final : public SqlDatabase {
   using Result = std::unique_ptr<pg_result, void (*)(pg_result*)>;
 
   explicit PostgresDatabase(std::string name) : name_(std::move(name)) {}
-  absl::Status Connect();
-  absl::Status BeConnected();
+
+  // What the name says itself goes before these.
+  absl::Status Connect() {
+    PQfinish(connection_);
+    statements_.clear();
+    const char* const words[] = {"connect_timeout",
+                                 "application_name",
+                                 "tcp_user_timeout",
+                                 "keepalives_idle",
+                                 "keepalives_interval",
+                                 "dbname",
+                                 nullptr};
+    const char* const values[] = {"2", "bccskel-server", "10000", "5", "2", name_.c_str(), nullptr};
+    connection_ = PQconnectdbParams(words, values, 1);
+    if (PQstatus(connection_) != CONNECTION_OK) {
+      return absl::UnavailableError(
+          absl::StrCat("the database cannot be reached: ", PQerrorMessage(connection_)));
+    }
+    PQsetNoticeProcessor(
+        connection_, [](void*, const char*) {}, nullptr);
+    return Execute(kSession);
+  }
+
+  absl::Status BeConnected() {
+    if (PQstatus(connection_) == CONNECTION_OK) return absl::OkStatus();
+    if (Clock::now() < next_attempt_) {
+      return absl::UnavailableError("the database cannot be reached just now");
+    }
+    absl::Status connected = Connect();
+    next_attempt_ = Clock::now() + kBetweenAttempts;
+    NoteHealth(connected);
+    return connected;
+  }
+
   absl::Status Prepare(const std::string& sql, const std::vector<SqlValue>& values,
-                       std::string& name);
-  absl::Status ErrorOf(const pg_result* result, const std::string& doing) const;
-  void NoteHealth(const absl::Status& status);
+                       std::string& name) {
+    const auto found = statements_.find(sql);
+    if (found != statements_.end()) {
+      name = found->second;
+      return absl::OkStatus();
+    }
+    name = absl::StrCat("s", statements_.size());
+    std::vector<Oid> types;
+    for (const SqlValue& value : values) {
+      types.push_back(value.kind == SqlValue::Kind::kNumber ? kInteger8 : kBytes);
+    }
+    const Result result(PQprepare(connection_, name.c_str(), sql.c_str(),
+                                  static_cast<int>(types.size()), types.data()),
+                        PQclear);
+    if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) return ErrorOf(result.get(), sql);
+    statements_[sql] = name;
+    return absl::OkStatus();
+  }
+  absl::Status ErrorOf(const PGresult* result, const std::string& doing) const {
+    const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+    return absl::Status(
+        CodeOf(state == nullptr ? "" : state),
+        absl::StrCat("PostgreSQL: ", PQerrorMessage(connection_), " (at: ", doing, ")"));
+  }
+  void NoteHealth(const absl::Status& status) {
+    std::lock_guard lock(health_mutex_);
+    health_ = status;
+  }
 
   const std::string name_;
   pg_conn* connection_ = nullptr;
@@ -100,156 +227,6 @@ class PostgresDatabase final : public SqlDatabase {
   mutable std::mutex health_mutex_;
   absl::Status health_;  // guarded by health_mutex_
 };
-
-absl::StatusOr<std::unique_ptr<SqlDatabase>> PostgresDatabase::Open(const std::string& name) {
-  BCCSKEL_RETURN_IF_ERROR(CheckPostgresName(name));
-  std::unique_ptr<PostgresDatabase> database(new PostgresDatabase(name));
-  BCCSKEL_RETURN_IF_ERROR(database->Connect());
-  return database;
-}
-
-PostgresDatabase::~PostgresDatabase() { PQfinish(connection_); }
-
-// What the name says itself goes before these.
-absl::Status PostgresDatabase::Connect() {
-  PQfinish(connection_);
-  statements_.clear();
-  const char* const words[] = {"connect_timeout",
-                               "application_name",
-                               "tcp_user_timeout",
-                               "keepalives_idle",
-                               "keepalives_interval",
-                               "dbname",
-                               nullptr};
-  const char* const values[] = {"2", "bccskel-server", "10000", "5", "2", name_.c_str(), nullptr};
-  connection_ = PQconnectdbParams(words, values, 1);
-  if (PQstatus(connection_) != CONNECTION_OK) {
-    return absl::UnavailableError(
-        absl::StrCat("the database cannot be reached: ", PQerrorMessage(connection_)));
-  }
-  PQsetNoticeProcessor(
-      connection_, [](void*, const char*) {}, nullptr);
-  return Execute(kSession);
-}
-
-absl::Status PostgresDatabase::BeConnected() {
-  if (PQstatus(connection_) == CONNECTION_OK) return absl::OkStatus();
-  if (Clock::now() < next_attempt_) {
-    return absl::UnavailableError("the database cannot be reached just now");
-  }
-  absl::Status connected = Connect();
-  next_attempt_ = Clock::now() + kBetweenAttempts;
-  NoteHealth(connected);
-  return connected;
-}
-
-void PostgresDatabase::NoteHealth(const absl::Status& status) {
-  std::lock_guard lock(health_mutex_);
-  health_ = status;
-}
-
-absl::Status PostgresDatabase::Health() const {
-  std::lock_guard lock(health_mutex_);
-  return health_;
-}
-
-absl::Status PostgresDatabase::ErrorOf(const PGresult* result, const std::string& doing) const {
-  const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
-  return absl::Status(
-      CodeOf(state == nullptr ? "" : state),
-      absl::StrCat("PostgreSQL: ", PQerrorMessage(connection_), " (at: ", doing, ")"));
-}
-
-absl::Status PostgresDatabase::Execute(const std::string& sql) {
-  const Result result(PQexec(connection_, sql.c_str()), PQclear);
-  const ExecStatusType status = PQresultStatus(result.get());
-  if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return absl::OkStatus();
-  return ErrorOf(result.get(), sql);
-}
-
-absl::Status PostgresDatabase::Prepare(const std::string& sql, const std::vector<SqlValue>& values,
-                                       std::string& name) {
-  const auto found = statements_.find(sql);
-  if (found != statements_.end()) {
-    name = found->second;
-    return absl::OkStatus();
-  }
-  name = absl::StrCat("s", statements_.size());
-  std::vector<Oid> types;
-  for (const SqlValue& value : values) {
-    types.push_back(value.kind == SqlValue::Kind::kNumber ? kInteger8 : kBytes);
-  }
-  const Result result(PQprepare(connection_, name.c_str(), sql.c_str(),
-                                static_cast<int>(types.size()), types.data()),
-                      PQclear);
-  if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) return ErrorOf(result.get(), sql);
-  statements_[sql] = name;
-  return absl::OkStatus();
-}
-
-absl::StatusOr<std::vector<SqlRow>> PostgresDatabase::Run(const std::string& sql,
-                                                          const std::vector<SqlValue>& values) {
-  if (PQstatus(connection_) != CONNECTION_OK && !InTransaction()) {
-    BCCSKEL_RETURN_IF_ERROR(BeConnected());
-  }
-  std::string name;
-  BCCSKEL_RETURN_IF_ERROR(Prepare(sql, values, name));
-  std::vector<std::string> numbers;
-  numbers.reserve(values.size());
-  std::vector<const char*> bytes;
-  std::vector<int> sizes;
-  for (const SqlValue& value : values) {
-    const bool number = value.kind == SqlValue::Kind::kNumber;
-    if (number) numbers.push_back(BigEndian(value.number));
-    const std::string& content = number ? numbers.back() : value.bytes;
-    bytes.push_back(content.data());
-    sizes.push_back(static_cast<int>(content.size()));
-  }
-  const std::vector<int> formats(values.size(), kBinary);
-  const Result result(PQexecPrepared(connection_, name.c_str(), static_cast<int>(values.size()),
-                                     bytes.data(), sizes.data(), formats.data(), kBinary),
-                      PQclear);
-  const ExecStatusType status = PQresultStatus(result.get());
-  if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) return ErrorOf(result.get(), sql);
-  if (sql == "COMMIT" && std::strcmp(PQcmdStatus(result.get()), "COMMIT") != 0) {
-    return absl::InternalError("PostgreSQL has taken a transaction back that had failed");
-  }
-  std::vector<SqlRow> rows;
-  for (int row = 0; row < PQntuples(result.get()); ++row) {
-    std::vector<SqlValue> columns;
-    for (int column = 0; column < PQnfields(result.get()); ++column) {
-      columns.push_back(ValueAt(result.get(), row, column));
-    }
-    rows.emplace_back(std::move(columns));
-  }
-  return rows;
-}
-
-// One round trip.
-absl::Status PostgresDatabase::Begin(const std::string& server) {
-  BCCSKEL_RETURN_IF_ERROR(BeConnected());
-  std::string sql = "BEGIN; " BCCSKEL_WRITER_LOCK;
-  if (!server.empty()) {
-    absl::StrAppend(&sql, "SELECT 1 FROM servers WHERE server = '", server, "'");
-  }
-  const Result result(PQexec(connection_, sql.c_str()), PQclear);
-  if (PQresultStatus(result.get()) != PGRES_TUPLES_OK) return ErrorOf(result.get(), "begin");
-  if (!server.empty() && PQntuples(result.get()) == 0) {
-    return absl::AbortedError("this server has lost its lease: others have taken over");
-  }
-  return absl::OkStatus();
-}
-
-bool PostgresDatabase::InTransaction() const {
-  const PGTransactionStatusType status = PQtransactionStatus(connection_);
-  return status == PQTRANS_INTRANS || status == PQTRANS_INERROR || status == PQTRANS_ACTIVE;
-}
-
-// Vacuuming, which is what forgets, is PostgreSQL's.
-absl::Status PostgresDatabase::Forget() {
-  if (PQstatus(connection_) != CONNECTION_OK || InTransaction()) return absl::OkStatus();
-  return Execute("DELETE FROM deleted_jobs WHERE at < now() - interval '1 hour'");
-}
 
 }  // namespace
 

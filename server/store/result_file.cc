@@ -40,10 +40,6 @@ absl::Status ResultWriter::Add(uint8_t kind, std::string_view bytes) {
   return Write(bytes);
 }
 
-uint64_t ResultWriter::FooterBytes() const {
-  return positions_.size() * sizeof(uint64_t) + kFooterEnd;
-}
-
 absl::StatusOr<Sha256Digest> ResultWriter::Finish() {
   std::string footer;
   for (const uint64_t position : positions_) AppendNumber(position, footer);

@@ -24,8 +24,6 @@ class ResultWriter {
   static absl::StatusOr<ResultWriter> Create(const std::string& path);
 
   absl::Status Add(uint8_t kind, std::string_view bytes);
-  // What Finish() adds besides.
-  uint64_t FooterBytes() const;
   // Everything, the file's name included, is on the disk. Yields the digest of the file. Nothing is
   // added after it.
   absl::StatusOr<Sha256Digest> Finish();

@@ -61,155 +61,134 @@ void Checksum(sqlite3_context* context, int count, sqlite3_value** values) {
 
 class SqliteDatabase final : public SqlDatabase {
  public:
-  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& path);
-  ~SqliteDatabase() override;
+  static absl::StatusOr<std::unique_ptr<SqlDatabase>> Open(const std::string& path) {
+    std::unique_ptr<SqliteDatabase> database(new SqliteDatabase);
+    database->path_ = path;
+    const int code =
+        sqlite3_open_v2(path.c_str(), &database->database_,
+                        SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+    if (code != SQLITE_OK) return database->ErrorOf(code, "open");
+    sqlite3_extended_result_codes(database->database_, 1);
+    sqlite3_busy_timeout(database->database_, kBusyMs);
+    sqlite3_create_function_v2(database->database_, "checksum", -1,
+                               SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS, nullptr,
+                               Checksum, nullptr, nullptr, nullptr);
+    BCCSKEL_RETURN_IF_ERROR(database->Execute(kPragmas));
+    BCCSKEL_ASSIGN_OR_RETURN(const FileFacts facts, FactsOf(path));
+    database->identity_ = facts.identity;
+    return database;
+  }
+  ~SqliteDatabase() override {
+    for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+    sqlite3_close(database_);
+  }
   SqliteDatabase(const SqliteDatabase&) = delete;
   SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
-  absl::Status Execute(const std::string& sql) override;
+  absl::Status Execute(const std::string& sql) override {
+    errno = 0;
+    const int code = sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr);
+    return code == SQLITE_OK ? absl::OkStatus() : ErrorOf(code, sql);
+  }
+
   absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
-                                          const std::vector<SqlValue>& values) override;
-  absl::Status Begin(const std::string& server) override;
-  bool InTransaction() const override;
+                                          const std::vector<SqlValue>& values) override {
+    BCCSKEL_ASSIGN_OR_RETURN(sqlite3_stmt * statement, Prepared(sql));
+    const absl::Status bound = Bind(statement, values, sql);
+    auto rows = bound.ok() ? Rows(statement, sql) : bound;
+    sqlite3_reset(statement);
+    sqlite3_clear_bindings(statement);
+    return rows;
+  }
+  absl::Status Begin(const std::string&) override {
+    BCCSKEL_RETURN_IF_ERROR(Health());
+    return Execute("BEGIN IMMEDIATE");
+  }
+  bool InTransaction() const override { return sqlite3_get_autocommit(database_) == 0; }
   std::string NextNumber(const std::string& table) const override {
     return absl::StrCat("1 + coalesce((SELECT seq FROM sqlite_sequence WHERE name = '", table,
                         "'), 0)");
   }
-  absl::Status Health() const override;
-  absl::Status Forget() override;
+  absl::Status Health() const override {
+    const absl::StatusOr<FileFacts> now = FactsOf(path_);
+    if (now.ok() && now->identity == identity_) return absl::OkStatus();
+    return absl::DataLossError(
+        "the file of the tables is gone, or another one has its name: what is written now is lost");
+  }
+  absl::Status Forget() override { return Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
   bool shared() const override { return false; }
 
  private:
   SqliteDatabase() = default;
-  absl::Status ErrorOf(int code, const std::string& doing) const;
+
+  absl::Status ErrorOf(int code, const std::string& doing) const {
+    // SQLite forgets the system's error where a COMMIT fails; errno has it still.
+    int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
+    if (system_error == 0) system_error = errno;
+    return absl::Status(
+        CodeOf(code, system_error),
+        absl::StrCat(path_, ": ",
+                     database_ == nullptr ? "out of memory" : sqlite3_errmsg(database_),
+                     " (SQLite code ", code, ", errno ", system_error, " at: ", doing, ")"));
+  }
+
   // Prepared once.
-  absl::StatusOr<sqlite3_stmt*> Prepared(const std::string& sql);
+  absl::StatusOr<sqlite3_stmt*> Prepared(const std::string& sql) {
+    const auto found = statements_.find(sql);
+    if (found != statements_.end()) return found->second;
+    sqlite3_stmt* statement = nullptr;
+    const int code = sqlite3_prepare_v3(database_, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT,
+                                        &statement, nullptr);
+    if (code != SQLITE_OK) return ErrorOf(code, sql);
+    statements_[sql] = statement;
+    return statement;
+  }
+
   absl::Status Bind(sqlite3_stmt* statement, const std::vector<SqlValue>& values,
-                    const std::string& sql);
-  absl::StatusOr<std::vector<SqlRow>> Rows(sqlite3_stmt* statement, const std::string& sql);
+                    const std::string& sql) {
+    int index = 0;
+    for (const SqlValue& value : values) {
+      ++index;
+      const std::string& bytes = value.bytes;
+      int code = SQLITE_OK;
+      if (value.kind == SqlValue::Kind::kNumber) {
+        code = sqlite3_bind_int64(statement, index, value.number);
+      } else if (value.kind == SqlValue::Kind::kText) {
+        code = sqlite3_bind_text64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC,
+                                   SQLITE_UTF8);
+      } else {
+        code = sqlite3_bind_blob64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC);
+      }
+      if (code != SQLITE_OK) return ErrorOf(code, sql);
+    }
+    return absl::OkStatus();
+  }
+
+  absl::StatusOr<std::vector<SqlRow>> Rows(sqlite3_stmt* statement, const std::string& sql) {
+    std::vector<SqlRow> rows;
+    errno = 0;
+    while (true) {
+      const int code = sqlite3_step(statement);
+      if (code == SQLITE_DONE) return rows;
+      if (code != SQLITE_ROW) return ErrorOf(code, sql);
+      std::vector<SqlValue> values;
+      for (int column = 0; column < sqlite3_column_count(statement); ++column) {
+        // Of any type: in a damaged file a column may have another one.
+        const int64_t number = sqlite3_column_int64(statement, column);
+        const void* const bytes = sqlite3_column_blob(statement, column);
+        const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, column));
+        SqlValue& value = values.emplace_back(SqlValue::Number(number));
+        if (bytes != nullptr) value.bytes.assign(static_cast<const char*>(bytes), size);
+      }
+      rows.emplace_back(std::move(values));
+    }
+  }
 
   std::string path_;
   std::pair<uint64_t, uint64_t> identity_;  // of the file
   sqlite3* database_ = nullptr;
   std::map<std::string, sqlite3_stmt*> statements_;
 };
-
-absl::StatusOr<std::unique_ptr<SqlDatabase>> SqliteDatabase::Open(const std::string& path) {
-  std::unique_ptr<SqliteDatabase> database(new SqliteDatabase);
-  database->path_ = path;
-  const int code =
-      sqlite3_open_v2(path.c_str(), &database->database_,
-                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
-  if (code != SQLITE_OK) return database->ErrorOf(code, "open");
-  sqlite3_extended_result_codes(database->database_, 1);
-  sqlite3_busy_timeout(database->database_, kBusyMs);
-  sqlite3_create_function_v2(database->database_, "checksum", -1,
-                             SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_INNOCUOUS, nullptr,
-                             Checksum, nullptr, nullptr, nullptr);
-  BCCSKEL_RETURN_IF_ERROR(database->Execute(kPragmas));
-  BCCSKEL_ASSIGN_OR_RETURN(const FileFacts facts, FactsOf(path));
-  database->identity_ = facts.identity;
-  return database;
-}
-
-SqliteDatabase::~SqliteDatabase() {
-  for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
-  sqlite3_close(database_);
-}
-
-absl::Status SqliteDatabase::Execute(const std::string& sql) {
-  errno = 0;
-  const int code = sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr);
-  return code == SQLITE_OK ? absl::OkStatus() : ErrorOf(code, sql);
-}
-
-absl::Status SqliteDatabase::Begin(const std::string&) {
-  BCCSKEL_RETURN_IF_ERROR(Health());
-  return Execute("BEGIN IMMEDIATE");
-}
-
-bool SqliteDatabase::InTransaction() const { return sqlite3_get_autocommit(database_) == 0; }
-
-absl::Status SqliteDatabase::Forget() { return Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
-
-absl::Status SqliteDatabase::Health() const {
-  const absl::StatusOr<FileFacts> now = FactsOf(path_);
-  if (now.ok() && now->identity == identity_) return absl::OkStatus();
-  return absl::DataLossError(
-      "the file of the tables is gone, or another one has its name: what is written now is lost");
-}
-
-absl::Status SqliteDatabase::ErrorOf(int code, const std::string& doing) const {
-  // SQLite forgets the system's error where a COMMIT fails; errno has it still.
-  int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
-  if (system_error == 0) system_error = errno;
-  return absl::Status(
-      CodeOf(code, system_error),
-      absl::StrCat(path_, ": ", database_ == nullptr ? "out of memory" : sqlite3_errmsg(database_),
-                   " (SQLite code ", code, ", errno ", system_error, " at: ", doing, ")"));
-}
-
-absl::StatusOr<sqlite3_stmt*> SqliteDatabase::Prepared(const std::string& sql) {
-  const auto found = statements_.find(sql);
-  if (found != statements_.end()) return found->second;
-  sqlite3_stmt* statement = nullptr;
-  const int code = sqlite3_prepare_v3(database_, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT,
-                                      &statement, nullptr);
-  if (code != SQLITE_OK) return ErrorOf(code, sql);
-  statements_[sql] = statement;
-  return statement;
-}
-
-absl::Status SqliteDatabase::Bind(sqlite3_stmt* statement, const std::vector<SqlValue>& values,
-                                  const std::string& sql) {
-  int index = 0;
-  for (const SqlValue& value : values) {
-    ++index;
-    const std::string& bytes = value.bytes;
-    int code = SQLITE_OK;
-    if (value.kind == SqlValue::Kind::kNumber) {
-      code = sqlite3_bind_int64(statement, index, value.number);
-    } else if (value.kind == SqlValue::Kind::kText) {
-      code = sqlite3_bind_text64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC,
-                                 SQLITE_UTF8);
-    } else {
-      code = sqlite3_bind_blob64(statement, index, bytes.data(), bytes.size(), SQLITE_STATIC);
-    }
-    if (code != SQLITE_OK) return ErrorOf(code, sql);
-  }
-  return absl::OkStatus();
-}
-
-absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Rows(sqlite3_stmt* statement,
-                                                         const std::string& sql) {
-  std::vector<SqlRow> rows;
-  errno = 0;
-  while (true) {
-    const int code = sqlite3_step(statement);
-    if (code == SQLITE_DONE) return rows;
-    if (code != SQLITE_ROW) return ErrorOf(code, sql);
-    std::vector<SqlValue> values;
-    for (int column = 0; column < sqlite3_column_count(statement); ++column) {
-      // Of any type: in a damaged file a column may have another one.
-      const int64_t number = sqlite3_column_int64(statement, column);
-      const void* const bytes = sqlite3_column_blob(statement, column);
-      const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, column));
-      SqlValue& value = values.emplace_back(SqlValue::Number(number));
-      if (bytes != nullptr) value.bytes.assign(static_cast<const char*>(bytes), size);
-    }
-    rows.emplace_back(std::move(values));
-  }
-}
-
-absl::StatusOr<std::vector<SqlRow>> SqliteDatabase::Run(const std::string& sql,
-                                                        const std::vector<SqlValue>& values) {
-  BCCSKEL_ASSIGN_OR_RETURN(sqlite3_stmt * statement, Prepared(sql));
-  const absl::Status bound = Bind(statement, values, sql);
-  auto rows = bound.ok() ? Rows(statement, sql) : bound;
-  sqlite3_reset(statement);
-  sqlite3_clear_bindings(statement);
-  return rows;
-}
 
 }  // namespace
 
