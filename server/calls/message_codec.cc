@@ -14,7 +14,7 @@ namespace bccskel::server {
 absl::StatusOr<JobRequest> MessageCodec::RequestOf(const std::string& declaration,
                                                    const std::string& options) const {
   v1::SkeletonizeConfig config = ConfigOf(options);
-  *config.mutable_volume() = DeclarationOf(declaration);
+  config.mutable_volume()->ParseFromString(declaration);
   return JobRequestOf(config, limits_);
 }
 
@@ -32,12 +32,6 @@ absl::Status MessageCodec::WriteResult(const JobResult& result, const RecordSink
 
 std::string DeclarationBytes(const v1::VolumeDeclaration& declaration) {
   return declaration.SerializeAsString();
-}
-
-v1::VolumeDeclaration DeclarationOf(const std::string& bytes) {
-  v1::VolumeDeclaration declaration;
-  declaration.ParseFromString(bytes);
-  return declaration;
 }
 
 absl::StatusOr<std::string> OptionsBytes(const v1::SkeletonizeOptions& options,

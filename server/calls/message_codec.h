@@ -25,8 +25,6 @@ class MessageCodec final : public JobCodec {
 };
 
 std::string DeclarationBytes(const v1::VolumeDeclaration& declaration);
-// Needs: bytes of DeclarationBytes().
-v1::VolumeDeclaration DeclarationOf(const std::string& bytes);
 
 // Canonical: options that mean the same give the same bytes.
 // Errors: INVALID_ARGUMENT with the field.

@@ -296,7 +296,7 @@ std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
   const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
   const auto found = std::make_shared<Found>();
   loop_.Post(
-      [this, tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
+      [tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(found->job, store.Get<JobRow>(tenant, job));
         // The end is told also to a caller who knows it already.
         const bool ended = IsTerminal(found->job.state);
@@ -320,7 +320,7 @@ void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
   const auto found = std::make_shared<ResultRow>();
   done = Track(std::move(done));
   loop_.Post(
-      [this, tenant, job, found](JobStore& store) -> absl::Status {
+      [tenant, job, found](JobStore& store) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
         BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
         if (row.state != JobState::kSucceeded || !result.has_value()) {
