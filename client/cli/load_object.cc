@@ -222,8 +222,8 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, "
       ".gii, each also with .gz), "
-      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .mha, .inr, .npy, .vol, .raw, OME-Zarr "
-      "folders, ...); save another image as TIFF or .npy");
+      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, .vol, .raw, "
+      "folders of slices or OME-Zarr, ...); save another image as PNG, TIFF or .npy");
 }
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image) {

@@ -16,8 +16,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME bccskel)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 # Which dpkg-shlibdeps does not see, since the command line opens them late.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
-    "libblosc1, libcairo2, libisal2, liblz4-1, libmeshoptimizer2d, libopenexr-3-1-30, libssl3, \
-libtiff6, libzstd1")
+    "libblosc1, libcairo2, libisal2, liblz4-1, libmeshoptimizer2d, libopenexr-3-1-30, libpng16-16, \
+libssl3, libtiff6, libzip4, libzstd1")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbccskel-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION

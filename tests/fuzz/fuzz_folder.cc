@@ -1,7 +1,7 @@
 // Any bytes as the metadata and the first chunk of an image that is a folder (a Zarr array,
-// OME-Zarr, precomputed): an error or voxels that fit their size, never a crash or much memory. An
-// input is files: a digit that says where a file goes, its bytes, and a NUL; the last one needs no
-// NUL.
+// OME-Zarr, precomputed) or as two slices: an error or voxels that fit their size, never a crash or
+// much memory. An input is files: a digit that says where a file goes, its bytes, and a NUL; the
+// last one needs no NUL.
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace {
 
-constexpr std::array<const char*, 7> kPlaces = {".zarray",   ".zattrs", "0/.zarray",    "0.0.0",
-                                                "0/0.0.0.0", "info",    "1/0-4_0-3_0-2"};
+constexpr std::array<const char*, 8> kPlaces = {".zarray",   ".zattrs", "0/.zarray",     "0.0.0",
+                                                "0/0.0.0.0", "info",    "1/0-4_0-3_0-2", "1.png"};
 
 // A folder of this process, in memory where the system has such a place.
 const std::filesystem::path& Folder() {
@@ -37,13 +37,14 @@ void WriteFiles(std::string_view input) {
     const auto place = static_cast<size_t>(input.front() - '0');
     const size_t end = input.find('\0', 1);
     // Chunks may hold any bytes, so they reach to the end.
-    const bool chunk = place == 3 || place == 4 || place == 6;
+    const bool chunk = place == 3 || place == 4 || place == 6 || place == 7;
     const std::string_view bytes =
         chunk || end == input.npos ? input.substr(1) : input.substr(1, end - 1);
     if (place < kPlaces.size()) {
       const std::filesystem::path path = Folder() / kPlaces[place];
       std::filesystem::create_directories(path.parent_path());
       std::ofstream(path, std::ios::binary) << bytes;
+      if (place == 7) std::ofstream(Folder() / "2.png", std::ios::binary) << bytes;
     }
     input.remove_prefix(std::min(input.size(), bytes.size() + 2));
   }

@@ -3,8 +3,10 @@
 import gzip
 import json
 import os
+import struct
 import subprocess
 import xml.etree.ElementTree
+import zlib
 
 import harness
 import numpy
@@ -34,6 +36,15 @@ def ring(size=(9, 8, 7)):
     mask[3, 1:7, 1:8] = 5
     mask[3, 3:5, 3:6] = 0
     return mask
+
+
+def png(rows):
+    """A picture of gray levels of 8 bits."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    size = struct.pack(">IIBBBBB", rows.shape[1], rows.shape[0], 8, 0, 0, 0, 0)
+    pixels = zlib.compress(b"".join(b"\0" + row.tobytes() for row in rows))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
 
 class ImagesTest(harness.TestCase):
@@ -100,11 +111,14 @@ class ImagesTest(harness.TestCase):
         raw = self.write("mask.bin", b"head" + mask.astype(">u2").tobytes())
         packed = self.write("mask.raw.gz", gzip.compress(mask.tobytes()))
         layout = ("--raw-size", "9,8,7")
+        (self.folder / "slices").mkdir()
+        for z, rows in enumerate(mask, 8):
+            self.write(f"slices/z{z}.png", png(rows))
         runs = [self.skeletonize(self.path("c.npy")), self.skeletonize(self.path("f.npy")),
                 self.skeletonize(self.path("h.npy")),
                 self.skeletonize(raw, *layout, "--raw-type", "u16", "--raw-order", "big",
                                  "--raw-header", 4),
-                self.skeletonize(packed, *layout)]
+                self.skeletonize(packed, *layout), self.skeletonize(self.path("slices"))]
         self.assertEqual({run["sha256"] for run in runs}, {runs[0]["sha256"]})
         placed = self.skeletonize(packed, *layout, "--voxel-size", "3,2,0.5")
         self.assertEqual(placed["image"]["spacing"], [3, 2, 0.5])

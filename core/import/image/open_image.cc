@@ -10,13 +10,16 @@
 #include <span>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/dicom_image.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
+#include "core/import/image/png_image.h"
 #include "core/import/image/precomputed_image.h"
+#include "core/import/image/slice_series.h"
 #include "core/import/image/stored_image.h"
 #include "core/import/image/tiff_source.h"
 #include "core/import/image/zarr_image.h"
@@ -24,10 +27,10 @@
 namespace bccskel {
 namespace {
 
-// Each also with .gz behind it.
-constexpr std::array<std::string_view, 14> kEndings = {".nii", ".hdr",  ".img", ".nrrd", ".nhdr",
-                                                       ".tif", ".tiff", ".mha", ".mhd",  ".inr",
-                                                       ".npy", ".vol",  ".raw", ".dcm"};
+// Each also with .gz behind it. Pictures of the last three kinds are refused with what to do.
+constexpr std::array<std::string_view, 18> kEndings = {
+    ".nii", ".hdr", ".img", ".nrrd", ".nhdr", ".tif", ".tiff", ".mha",  ".mhd",
+    ".inr", ".npy", ".vol", ".raw",  ".dcm",  ".png", ".jpg",  ".jpeg", ".bmp"};
 
 struct Format {
   bool (*is)(std::string_view front);
@@ -63,12 +66,17 @@ absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOpti
   for (const Format& format : kFormats) {
     if (format.is(front.bytes)) return format.parse(front, options.limits);
   }
+  if (front.bytes.starts_with("\xff\xd8\xff")) {
+    return absl::InvalidArgumentError(
+        "JPEG is not supported: it changes values, so masks and labels are no longer what they "
+        "were; save the image as PNG or TIFF where it was made");
+  }
   return absl::InvalidArgumentError(
-      "format not supported: images are read from NIfTI, NRRD, TIFF, MetaImage, Inrimage, npy and "
-      "vol; raw voxels need their size and type");
+      "format not supported: images are read from NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage, npy "
+      "and vol; raw voxels need their size and type; save another image as PNG, TIFF or .npy");
 }
 
-// TIFF pages lie anywhere in their file, so a compressed one is expanded as a whole.
+// What libraries read anywhere in a file is expanded as a whole.
 absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
                                                           Compression compression) {
   if (compression == Compression::kNone) return file;
@@ -84,8 +92,8 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
     if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
     if (bytes.size() >= kMaxBytes) {
       return absl::ResourceExhaustedError(
-          absl::StrFormat("a TIFF file compressed by gzip as a whole may have %d bytes; expand it "
-                          "with gunzip first",
+          absl::StrFormat("a file of this format compressed by gzip as a whole may have %d bytes; "
+                          "expand it with gunzip first",
                           kMaxBytes));
     }
   }
@@ -132,10 +140,11 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   limits.max_header_bytes = std::min(limits.max_header_bytes, kShortFront);
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, limits));
   const bool tiff = !options.raw.has_value() && IsTiff(front.bytes);
+  const bool png = !options.raw.has_value() && IsPng(front.bytes);
   BCCSKEL_RETURN_IF_ERROR(CheckChoices({.pages = tiff}, options));
-  if (tiff) {
+  if (tiff || png) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
-    return OpenTiff(std::move(file), options);
+    return tiff ? OpenTiff(std::move(file), options) : OpenPng(std::move(file), options);
   }
   BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseFront(front, file, options));
   if (options.spacing.has_value()) {
@@ -145,19 +154,32 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   return OpenStoredImage(std::move(image), options.limits);
 }
 
+absl::StatusOr<std::unique_ptr<ImageSource>> OpenSlice(const std::string& path,
+                                                       const ImageOptions& options) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto file, ImageFile::Open(path));
+  return OpenFile(std::move(file), options);
+}
+
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
                                                         const ImageOptions& options) {
   if (options.raw.has_value()) {
     return absl::InvalidArgumentError("is a folder; raw voxels are read from files");
   }
-  const bool zarr = IsZarrFolder(path);
-  if (!zarr && !IsPrecomputedFolder(path) && IsDicomFolder(path)) return OpenDicom(path, options);
-  BCCSKEL_RETURN_IF_ERROR(CheckChoices(zarr ? kZarrChoices : Choices{.levels = true}, options));
-  if (zarr) return OpenZarr(path, options);
-  if (IsPrecomputedFolder(path)) return OpenPrecomputed(path, options);
+  const bool zarr = IsZarrFolder(path), precomputed = IsPrecomputedFolder(path);
+  if (!zarr && !precomputed && IsDicomFolder(path)) return OpenDicom(path, options);
+  if (zarr || precomputed) {
+    BCCSKEL_RETURN_IF_ERROR(CheckChoices(zarr ? kZarrChoices : Choices{.levels = true}, options));
+    return zarr ? OpenZarr(path, options) : OpenPrecomputed(path, options);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<std::string> slices, InOrderOfNumbers(SliceNamesIn(path)));
+  if (!slices.empty()) {
+    return OpenSeries(std::move(slices), options.limits, [path, options](const std::string& name) {
+      return OpenSlice(path + "/" + name, options);
+    });
+  }
   return absl::InvalidArgumentError(
       "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info) "
-      "nor of DICOM files");
+      "nor of DICOM, PNG or TIFF files");
 }
 
 // Every error names the image, and no exception leaves.
@@ -223,7 +245,10 @@ absl::Status CheckImageChoice(const std::string& path, const ImageOptions& optio
   if (IsFolder(path)) {
     if (IsZarrFolder(path)) return CheckChoices(kZarrChoices, options);
     if (IsPrecomputedFolder(path)) return CheckChoices({.levels = true}, options);
-    return IsDicomFolder(path) ? CheckChoices(kDicomChoices, options) : absl::OkStatus();
+    if (IsDicomFolder(path)) return CheckChoices(kDicomChoices, options);
+    const std::vector<std::string> slices = SliceNamesIn(path);
+    if (slices.empty()) return absl::OkStatus();
+    return CheckChoices({.pages = IsTiffName(slices.front())}, options);
   }
   const std::string name = ExpandedName(path);
   if (name.ends_with(".dcm") || IsDicomFile(path)) return CheckChoices(kDicomChoices, options);
