@@ -234,6 +234,10 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
       .add_option("--series", arguments.open.series,
                   "Number or unique identifier of a series, of a DICOM folder that has several")
       ->option_text("SERIES");
+  command
+      .add_option("--array", arguments.open.array,
+                  "Name of an array, of an .npz file that has several")
+      ->option_text("NAME");
   AddRaw(command, arguments);
 }
 

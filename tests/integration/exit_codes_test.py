@@ -35,7 +35,7 @@ class ExitCodesTest(harness.TestCase):
             pathlib.Path(self.path(name)).write_text("nonsense " * 20)
             self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
             self.fail_with(3, name, "info", self.path(name))
-        for name in ("a.docx", "a.npz"):
+        for name in ("a.docx", "a.xlsx"):
             pathlib.Path(self.path(name)).touch()
             done = self.fail_with(3, "format not supported",
                                   *self.skeletonize(self.path(name), "--local"))

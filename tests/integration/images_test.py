@@ -114,11 +114,15 @@ class ImagesTest(harness.TestCase):
         (self.folder / "slices").mkdir()
         for z, rows in enumerate(mask, 8):
             self.write(f"slices/z{z}.png", png(rows))
+        numpy.savez(self.path("named.npz"), other=mask[0], mask=mask)
+        numpy.savez_compressed(self.path("only.npz"), mask)
         runs = [self.skeletonize(self.path("c.npy")), self.skeletonize(self.path("f.npy")),
                 self.skeletonize(self.path("h.npy")),
                 self.skeletonize(raw, *layout, "--raw-type", "u16", "--raw-order", "big",
                                  "--raw-header", 4),
-                self.skeletonize(packed, *layout), self.skeletonize(self.path("slices"))]
+                self.skeletonize(packed, *layout), self.skeletonize(self.path("slices")),
+                self.skeletonize(self.path("named.npz"), "--array", "mask"),
+                self.skeletonize(self.path("only.npz"))]
         self.assertEqual({run["sha256"] for run in runs}, {runs[0]["sha256"]})
         placed = self.skeletonize(packed, *layout, "--voxel-size", "3,2,0.5")
         self.assertEqual(placed["image"]["spacing"], [3, 2, 0.5])

@@ -68,6 +68,7 @@ class _FileOptions(TypedDict, total=False):
     time: int
     level: int
     series: Union[str, int]
+    array: str
     raw_size: tuple[int, int, int]
     raw_type: str
     raw_order: Literal["little", "big"]

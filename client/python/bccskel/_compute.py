@@ -193,7 +193,7 @@ def read(path: Union[str, os.PathLike],
     .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
-        series (of DICOM), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
+        series (of DICOM), array (of npz), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
         without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for a file of another kind.

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/zip_archive.h"
 
 namespace bccskel {
 namespace {
@@ -57,20 +58,6 @@ class DeflateStream : public ByteStream {
       filled += got;
     }
     return filled;
-  }
-
-  absl::Status Skip(uint64_t bytes) override {
-    std::array<std::byte, 4096> dropped;
-    while (bytes > 0) {
-      const auto part = static_cast<size_t>(std::min<uint64_t>(bytes, dropped.size()));
-      BCCSKEL_ASSIGN_OR_RETURN(const size_t got, Read(std::span(dropped).first(part)));
-      if (got < part) {
-        return absl::InvalidArgumentError(absl::StrFormat(
-            "the compressed stream ends %d bytes before its voxels begin", bytes - got));
-      }
-      bytes -= part;
-    }
-    return absl::OkStatus();
   }
 
  private:
@@ -156,12 +143,27 @@ Compression SniffGzip(std::span<const std::byte> front) {
   return gzip ? Compression::kDeflate : Compression::kNone;
 }
 
+absl::Status ByteStream::Skip(uint64_t bytes) {
+  std::array<std::byte, 4096> dropped;
+  while (bytes > 0) {
+    const auto part = static_cast<size_t>(std::min<uint64_t>(bytes, dropped.size()));
+    BCCSKEL_ASSIGN_OR_RETURN(const size_t got, Read(std::span(dropped).first(part)));
+    if (got < part) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "the compressed stream ends %d bytes before its voxels begin", bytes - got));
+    }
+    bytes -= part;
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::unique_ptr<ByteStream>> ByteStream::Open(std::shared_ptr<const ImageFile> file,
                                                              uint64_t offset,
                                                              Compression compression) {
   if (compression == Compression::kNone) {
     return std::make_unique<PlainStream>(std::move(file), offset);
   }
+  if (compression == Compression::kZip) return OpenZipMember(std::move(file), offset);
   return std::make_unique<DeflateStream>(std::move(file), offset);
 }
 

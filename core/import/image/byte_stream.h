@@ -16,6 +16,7 @@ namespace bccskel {
 enum class Compression {
   kNone,
   kDeflate,  // gzip or zlib, told apart by the first bytes; also several gzip members in a row
+  kZip,      // a member of a zip archive, stored or deflated; its number stands for an offset
 };
 
 // No deflate stream expands its bytes by more than this.
@@ -35,9 +36,9 @@ class ByteStream {
   // Errors: INVALID_ARGUMENT for a damaged or truncated stream; errors of the system.
   virtual absl::StatusOr<size_t> Read(std::span<std::byte> into) = 0;
 
-  // Passes over bytes.
+  // Passes over bytes, by reading them where there is no better way.
   // Errors: as Read(); INVALID_ARGUMENT where the stream ends before.
-  virtual absl::Status Skip(uint64_t bytes) = 0;
+  virtual absl::Status Skip(uint64_t bytes);
 };
 
 }  // namespace bccskel

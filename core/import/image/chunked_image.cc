@@ -8,7 +8,6 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/exec/uninitialized.h"
-#include "core/import/image/slice_buffer.h"
 
 namespace bccskel {
 namespace {
@@ -39,7 +38,7 @@ class ChunkedSource : public ImageSource {
   ChunkedSource(ChunkedImage image, std::unique_ptr<ChunkStore> store, uint64_t max_slab_bytes)
       : image_(std::move(image)),
         store_(std::move(store)),
-        bytes_(VoxelBytes(image_.info.type)),
+        bytes_(VoxelBytes(image_.stored_type)),
         most_slices_(static_cast<int64_t>(
             std::max<uint64_t>(1, max_slab_bytes / (image_.info.size.SliceVoxels() * bytes_)))) {}
 
@@ -52,10 +51,12 @@ class ChunkedSource : public ImageSource {
     }
     try {
       if (z_ >= end_) BCCSKEL_RETURN_IF_ERROR(ReadSlab());
-      slice_.Resize(image_.info.type, size.SliceVoxels());
+      slice_.Resize(image_.stored_type, size.SliceVoxels());
       std::memcpy(slice_.bytes().data(), SlabAt(0, 0, z_), slice_.bytes().size());
       slice_.SwapFrom(image_.byte_order);
-      return ImageSlice{.nx = size.nx, .ny = size.ny, .z = z_++, .values = slice_.values()};
+      const SliceValues values =
+          image_.halves == StoredHalves::kYes ? slice_.Halves() : slice_.values();
+      return ImageSlice{.nx = size.nx, .ny = size.ny, .z = z_++, .values = values};
     } catch (const std::bad_alloc&) {
       return absl::ResourceExhaustedError(absl::StrFormat(
           "not enough memory for a chunk, or for slices of %d x %d", size.nx, size.ny));
@@ -119,6 +120,7 @@ class ChunkedSource : public ImageSource {
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenChunkedImage(ChunkedImage image,
                                                               std::unique_ptr<ChunkStore> store,
                                                               const ImageLimits& limits) {
+  image.info.type = image.halves == StoredHalves::kYes ? VoxelType::kFloat32 : image.stored_type;
   const ChunkIndex axes = AxesOf(image.info.size);
   uint64_t chunks = 1;  // at most max_voxels
   for (size_t n = 0; n < 3; ++n) {

@@ -13,6 +13,7 @@
 #include "core/import/image/image_info.h"
 #include "core/import/image/image_limits.h"
 #include "core/import/image/image_source.h"
+#include "core/import/image/slice_buffer.h"
 
 namespace bccskel {
 
@@ -38,7 +39,9 @@ class ChunkStore {
 
 // An image that is cut into chunks of one size, but for those at its end.
 struct ChunkedImage {
-  ImageInfo info;  // info.type is that of the stored voxels
+  ImageInfo info;  // info.type follows from the next two
+  VoxelType stored_type = VoxelType::kUint8;
+  StoredHalves halves = StoredHalves::kNo;
   std::endian byte_order = std::endian::little;
   ChunkIndex chunk_size = {1, 1, 1};   // voxels
   std::array<std::byte, 8> fill = {};  // the bytes of one voxel, in byte_order

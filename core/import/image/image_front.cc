@@ -7,13 +7,11 @@
 #include "core/import/image/image_headers.h"
 
 namespace bccskel {
+namespace {
 
-absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
-                                     const ImageLimits& limits) {
-  std::array<std::byte, 2> magic = {};
-  BCCSKEL_RETURN_IF_ERROR(file->ReadAt(0, magic).status());
-  ImageFront front = {.file = std::move(file), .compression = SniffGzip(magic), .bytes = ""};
-  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(front.file, 0, front.compression));
+absl::StatusOr<ImageFront> Filled(ImageFront front, const ImageLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(auto stream,
+                           ByteStream::Open(front.file, front.member, front.compression));
   const bool plain = front.compression == Compression::kNone;
   const uint64_t most = plain ? front.file->size() : front.file->size() * kMaxDeflateRatio;
   front.bytes.resize(static_cast<size_t>(std::min(limits.max_header_bytes, most)));
@@ -21,6 +19,20 @@ absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
                            stream->Read(std::as_writable_bytes(std::span(front.bytes))));
   front.bytes.resize(got);
   return front;
+}
+
+}  // namespace
+
+absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
+                                     const ImageLimits& limits) {
+  std::array<std::byte, 2> magic = {};
+  BCCSKEL_RETURN_IF_ERROR(file->ReadAt(0, magic).status());
+  return Filled({.file = std::move(file), .compression = SniffGzip(magic), .bytes = ""}, limits);
+}
+
+absl::StatusOr<ImageFront> ReadMemberFront(std::shared_ptr<const ImageFile> file, uint64_t member,
+                                           const ImageLimits& limits) {
+  return Filled({std::move(file), Compression::kZip, "", member}, limits);
 }
 
 absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
@@ -35,6 +47,7 @@ absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, C
     return absl::InvalidArgumentError("the voxels are compressed, and then the file again");
   }
   image.compression = front.compression;
+  image.stream_offset = front.member;
   image.skip = header_bytes;
   return absl::OkStatus();
 }

@@ -17,15 +17,19 @@
 namespace bccskel {
 
 // The beginning of a file: at most ImageLimits::max_header_bytes of it, expanded if the file as a
-// whole is compressed by gzip.
+// whole is compressed by gzip or is the member of a zip archive.
 struct ImageFront {
   std::shared_ptr<const ImageFile> file;
   Compression compression = Compression::kNone;
   std::string bytes;
+  uint64_t member = 0;  // of a zip archive
 };
 
 absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
                                      const ImageLimits& limits);
+// The beginning of a member of a zip archive.
+absl::StatusOr<ImageFront> ReadMemberFront(std::shared_ptr<const ImageFile> file, uint64_t member,
+                                           const ImageLimits& limits);
 
 // Where the voxels begin, for a header that is followed by them. `inner` tells how the voxels alone
 // are compressed.
@@ -55,6 +59,10 @@ absl::StatusOr<StoredImage> ParseMetaImage(const ImageFront& front, const ImageL
 absl::StatusOr<StoredImage> ParseInrimage(const ImageFront& front, const ImageLimits& limits);
 absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits& limits);
 absl::StatusOr<StoredImage> ParseVol(const ImageFront& front, const ImageLimits& limits);
+// The array of that name, or the only one, of the zip archive of npy files that NumPy writes.
+absl::StatusOr<StoredImage> ParseNpz(const std::shared_ptr<const ImageFile>& file,
+                                     const std::optional<std::string>& array,
+                                     const ImageLimits& limits);
 
 }  // namespace bccskel
 

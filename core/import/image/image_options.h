@@ -33,6 +33,8 @@ struct ImageOptions {
   std::optional<int64_t> level;
   // Of a folder of DICOM with several: the number or the unique identifier.
   std::optional<std::string> series;
+  // Of an .npz archive with several: the name.
+  std::optional<std::string> array;
   ImageLimits limits;
 };
 

@@ -1,4 +1,5 @@
-// NumPy's .npy. The header is a Python dictionary of three entries; it is read, never run.
+// NumPy's .npy, and .npz, which is a zip archive of these. The header is a Python dictionary of
+// three entries; it is read, never run.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
+#include "core/import/image/zip_archive.h"
 
 namespace bccskel {
 namespace {
@@ -107,6 +109,39 @@ absl::StatusOr<Header> HeaderOf(std::string_view front) {
       "the header declares %d bytes, %d are there to be read", bytes, front.size()));
 }
 
+// "'mask', 'labels', ..."
+std::string NamesOf(const std::vector<std::string>& arrays) {
+  constexpr size_t kMost = 10;
+  std::string names;
+  for (size_t n = 0; n < std::min(kMost, arrays.size()); ++n) {
+    absl::StrAppendFormat(&names, "%s'%s'", n == 0 ? "" : ", ", arrays[n]);
+  }
+  return arrays.size() > kMost ? names + ", ..." : names;
+}
+
+// The number of the member that holds the wanted array, or the only one.
+absl::StatusOr<uint64_t> ChosenArray(const std::vector<std::string>& members,
+                                     const std::optional<std::string>& wanted) {
+  constexpr std::string_view kEnding = ".npy";
+  std::vector<std::string> arrays;
+  std::optional<uint64_t> chosen;
+  for (size_t n = 0; n < members.size(); ++n) {
+    if (!members[n].ends_with(kEnding)) continue;
+    arrays.push_back(members[n].substr(0, members[n].size() - kEnding.size()));
+    if (!wanted.has_value() || *wanted == arrays.back()) chosen = n;
+  }
+  if (arrays.empty()) return absl::InvalidArgumentError("the zip archive holds no .npy array");
+  if (wanted.has_value() && !chosen.has_value()) {
+    return absl::InvalidArgumentError(absl::StrFormat("--array '%s' is not there; there %s %s",
+                                                      *wanted, arrays.size() == 1 ? "is" : "are",
+                                                      NamesOf(arrays)));
+  }
+  if (wanted.has_value() || arrays.size() == 1) return *chosen;
+  return absl::InvalidArgumentError(
+      absl::StrFormat("the file holds %d arrays, %s; choose one with --array NAME", arrays.size(),
+                      NamesOf(arrays)));
+}
+
 }  // namespace
 
 bool IsNpy(std::string_view front) { return front.starts_with(kMagic); }
@@ -124,6 +159,17 @@ absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits&
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(AxesOf(std::move(shape)), limits));
   BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, header.bytes, Compression::kNone, image));
   return image;
+}
+
+absl::StatusOr<StoredImage> ParseNpz(const std::shared_ptr<const ImageFile>& file,
+                                     const std::optional<std::string>& array,
+                                     const ImageLimits& limits) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<std::string> members, ZipNames(file));
+  BCCSKEL_ASSIGN_OR_RETURN(const uint64_t member, ChosenArray(members, array));
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadMemberFront(file, member, limits));
+  if (IsNpy(front.bytes)) return ParseNpy(front, limits);
+  return absl::InvalidArgumentError(
+      absl::StrFormat("'%s' in it is not an npy file", members[member]));
 }
 
 }  // namespace bccskel

@@ -23,14 +23,15 @@
 #include "core/import/image/stored_image.h"
 #include "core/import/image/tiff_source.h"
 #include "core/import/image/zarr_image.h"
+#include "core/import/image/zip_archive.h"
 
 namespace bccskel {
 namespace {
 
 // Each also with .gz behind it. Pictures of the last three kinds are refused with what to do.
-constexpr std::array<std::string_view, 18> kEndings = {
-    ".nii", ".hdr", ".img", ".nrrd", ".nhdr", ".tif", ".tiff", ".mha",  ".mhd",
-    ".inr", ".npy", ".vol", ".raw",  ".dcm",  ".png", ".jpg",  ".jpeg", ".bmp"};
+constexpr std::array<std::string_view, 19> kEndings = {
+    ".nii", ".hdr", ".img", ".nrrd", ".nhdr", ".tif", ".tiff", ".mha",  ".mhd", ".inr",
+    ".npy", ".npz", ".vol", ".raw",  ".dcm",  ".png", ".jpg",  ".jpeg", ".bmp"};
 
 struct Format {
   bool (*is)(std::string_view front);
@@ -72,8 +73,9 @@ absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOpti
         "were; save the image as PNG or TIFF where it was made");
   }
   return absl::InvalidArgumentError(
-      "format not supported: images are read from NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage, npy "
-      "and vol; raw voxels need their size and type; save another image as PNG, TIFF or .npy");
+      "format not supported: images are read from NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage, "
+      "npy, npz and vol; raw voxels need their size and type; save another image as PNG, TIFF or "
+      ".npy");
 }
 
 // What libraries read anywhere in a file is expanded as a whole.
@@ -104,6 +106,7 @@ struct Choices {
   bool pages = false;  // channels and time points
   bool levels = false;
   bool series = false;
+  bool arrays = false;
 };
 constexpr Choices kZarrChoices = {.pages = true, .levels = true};
 constexpr Choices kDicomChoices = {.pages = true, .series = true};  // pages: segments
@@ -114,6 +117,9 @@ absl::Status CheckChoices(const Choices& there, const ImageOptions& options) {
   }
   if (options.series.has_value() && !there.series) {
     return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+  }
+  if (options.array.has_value() && !there.arrays) {
+    return absl::InvalidArgumentError("--array chooses in .npz files only");
   }
   if ((options.channel.has_value() || options.time.has_value()) && !there.pages) {
     return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
@@ -139,14 +145,16 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   ImageLimits limits = options.limits;
   limits.max_header_bytes = std::min(limits.max_header_bytes, kShortFront);
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFront front, ReadFront(file, limits));
-  const bool tiff = !options.raw.has_value() && IsTiff(front.bytes);
-  const bool png = !options.raw.has_value() && IsPng(front.bytes);
-  BCCSKEL_RETURN_IF_ERROR(CheckChoices({.pages = tiff}, options));
-  if (tiff || png) {
+  const bool named = !options.raw.has_value(), tiff = named && IsTiff(front.bytes),
+             png = named && IsPng(front.bytes), npz = named && IsZip(front.bytes);
+  BCCSKEL_RETURN_IF_ERROR(CheckChoices({.pages = tiff, .arrays = npz}, options));
+  if (tiff || png || npz) {
     BCCSKEL_ASSIGN_OR_RETURN(file, Expanded(std::move(file), front.compression));
-    return tiff ? OpenTiff(std::move(file), options) : OpenPng(std::move(file), options);
   }
-  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, ParseFront(front, file, options));
+  if (tiff) return OpenTiff(std::move(file), options);
+  if (png) return OpenPng(std::move(file), options);
+  BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, npz ? ParseNpz(file, options.array, options.limits)
+                                                  : ParseFront(front, file, options));
   if (options.spacing.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
                              WithSpacing(image.info.placement, *options.spacing));
@@ -254,7 +262,7 @@ absl::Status CheckImageChoice(const std::string& path, const ImageOptions& optio
   if (name.ends_with(".dcm") || IsDicomFile(path)) return CheckChoices(kDicomChoices, options);
   if (!IsImagePath(path)) return absl::OkStatus();
   const bool tiff = name.ends_with(".tif") || name.ends_with(".tiff") || StartsLikeTiff(path);
-  return CheckChoices({.pages = tiff}, options);
+  return CheckChoices({.pages = tiff, .arrays = name.ends_with(".npz")}, options);
 }
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,

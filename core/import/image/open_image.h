@@ -12,15 +12,15 @@
 namespace bccskel {
 
 // True when the name ends like that of an image that is read: .nii, .hdr, .img, .nrrd, .nhdr, .tif,
-// .tiff, .mha, .mhd, .inr, .npy, .vol, .raw, .dcm, .png, each also with .gz behind it; for every
-// folder; and for .jpg, .jpeg and .bmp, which OpenImage() refuses with what to do.
+// .tiff, .mha, .mhd, .inr, .npy, .npz, .vol, .raw, .dcm, .png, each also with .gz behind it; for
+// every folder; and for .jpg, .jpeg and .bmp, which OpenImage() refuses with what to do.
 bool IsImagePath(std::string_view path);
 
-// Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, PNG, MetaImage, Inrimage, npy, vol or,
-// with options.raw, any bytes; the content determines which. A folder is opened as OME-Zarr, a Zarr
-// array, a Neuroglancer precomputed volume or a series of PNG or TIFF slices. Reads the header and
-// compares it with the file's length and the limits before any memory is taken for voxels. Errors:
-// NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, truncated, several channels);
+// Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, PNG, MetaImage, Inrimage, npy, npz, vol
+// or, with options.raw, any bytes; the content determines which. A folder is opened as OME-Zarr, a
+// Zarr array, a Neuroglancer precomputed volume or a series of PNG or TIFF slices. Reads the header
+// and compares it with the file's length and the limits before any memory is taken for voxels.
+// Errors: NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, truncated, several channels);
 //         RESOURCE_EXHAUSTED (over a limit); UNIMPLEMENTED (an unsupported part of the format).
 //         Messages name the file.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,

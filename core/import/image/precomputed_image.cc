@@ -243,10 +243,10 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenPrecomputed(const std::string& 
   BCCSKEL_ASSIGN_OR_RETURN(const Placement placement, PlacementOf(scale, options));
   ChunkedImage image = {.info = {.format = "precomputed",
                                  .size = size,
-                                 .type = type,
                                  .placement = placement,
                                  .unit = "nm",
                                  .world = ""},
+                        .stored_type = type,
                         .chunk_size = scale.chunk};
   return OpenChunkedImage(std::move(image),
                           std::make_unique<PrecomputedStore>(folder, std::move(scale), bytes),

@@ -1,6 +1,7 @@
 #include "core/import/image/slice_buffer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace bccskel {
@@ -29,6 +30,20 @@ float FromHalf(uint16_t half) {
 }
 
 }  // namespace
+
+uint16_t NearestHalf(float value) {
+  if (std::isnan(value)) return 0x7e00;
+  if (std::isinf(value)) return value < 0 ? 0xfc00 : 0x7c00;
+  uint16_t nearest = 0;
+  // A value is looked for once in an image, so a search does.
+  for (uint16_t half = 0; half < 0x7c00; ++half) {
+    if (std::abs(FromHalf(half) - std::abs(value)) <
+        std::abs(FromHalf(nearest) - std::abs(value))) {
+      nearest = half;
+    }
+  }
+  return static_cast<uint16_t>(nearest | (std::signbit(value) ? 0x8000 : 0));
+}
 
 void SliceBuffer::Resize(VoxelType type, uint64_t voxels) {
   type_ = type;

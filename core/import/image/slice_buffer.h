@@ -40,6 +40,12 @@ decltype(auto) WithVoxelType(VoxelType type, Visit visit) {
   return visit(double{});
 }
 
+// Whether the stored values of 16 bits are numbers of half precision, which slices give as float32.
+enum class StoredHalves { kNo, kYes };
+
+// The number of half precision (IEEE 754) that is nearest; that of NaN for NaN.
+uint16_t NearestHalf(float value);
+
 // The bytes of some voxels of one type. What is written as bytes is read as values.
 class SliceBuffer {
  public:

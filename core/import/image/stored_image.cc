@@ -17,7 +17,7 @@ namespace {
 absl::Status CheckLength(const StoredImage& image) {
   const uint64_t declared = image.VoxelBytesDeclared();
   const uint64_t rest = image.file->size() - std::min(image.stream_offset, image.file->size());
-  const bool deflated = image.compression == Compression::kDeflate;
+  const bool deflated = image.compression != Compression::kNone;
   const uint64_t most = deflated ? rest * kMaxDeflateRatio : rest;
   if (image.skip <= most && declared <= most - image.skip) return absl::OkStatus();
   const uint64_t begin = image.stream_offset + image.skip;

@@ -11,14 +11,12 @@
 #include "core/import/image/image_file.h"
 #include "core/import/image/image_info.h"
 #include "core/import/image/image_source.h"
+#include "core/import/image/slice_buffer.h"
 
 namespace bccskel {
 
 // Which axis varies fastest in the file.
 enum class VoxelOrder { kXFastest, kZFastest };
-
-// Whether the stored values of 16 bits are numbers of half precision, which slices give as float32.
-enum class StoredHalves { kNo, kYes };
 
 // What every format but TIFF comes down to: one array of voxels in one stream of bytes. The readers
 // of headers fill it in; from there on all formats share one way.
@@ -29,8 +27,8 @@ struct StoredImage {
   std::endian byte_order = std::endian::little;
   VoxelOrder voxel_order = VoxelOrder::kXFastest;
 
-  // The voxels' stream begins at `stream_offset` of `file`; of its expanded bytes, the first `skip`
-  // are not voxels.
+  // The voxels' stream begins at `stream_offset` of `file`, or is the zip member of that number; of
+  // its expanded bytes, the first `skip` are not voxels.
   std::shared_ptr<const ImageFile> file;
   uint64_t stream_offset = 0;
   Compression compression = Compression::kNone;

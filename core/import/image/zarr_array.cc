@@ -11,7 +11,6 @@
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/json_metadata.h"
-#include "core/import/image/slice_buffer.h"
 #include "core/import/image/zarr_metadata.h"
 
 namespace bccskel {
@@ -26,7 +25,7 @@ absl::Status ReadType(const Json& dtype, ZarrArray& array) {
   }
   const auto name = dtype.get<std::string>();
   const std::string_view kind = std::string_view(name).substr(std::min<size_t>(1, name.size()));
-  constexpr std::array<std::pair<std::string_view, VoxelType>, 11> kTypes = {{
+  constexpr std::array<std::pair<std::string_view, VoxelType>, 12> kTypes = {{
       {"b1", VoxelType::kUint8},
       {"u1", VoxelType::kUint8},
       {"i1", VoxelType::kInt8},
@@ -36,6 +35,7 @@ absl::Status ReadType(const Json& dtype, ZarrArray& array) {
       {"i4", VoxelType::kInt32},
       {"u8", VoxelType::kUint64},
       {"i8", VoxelType::kInt64},
+      {"f2", VoxelType::kUint16},
       {"f4", VoxelType::kFloat32},
       {"f8", VoxelType::kFloat64},
   }};
@@ -43,9 +43,11 @@ absl::Status ReadType(const Json& dtype, ZarrArray& array) {
       std::ranges::find(kTypes, kind, [](const auto& type) { return type.first; });
   const bool ordered = name.starts_with('<') || name.starts_with('>') || name.starts_with('|');
   if (known == kTypes.end() || !ordered || (name[0] == '|' && kind[1] != '1')) {
-    return BadField("dtype", name, "is not a type that is read: bool, integers, float32, float64");
+    return BadField("dtype", name,
+                    "is not a type that is read: bool, integers, float16, float32, float64");
   }
   array.type = known->second;
+  array.halves = kind == "f2" ? StoredHalves::kYes : StoredHalves::kNo;
   array.byte_order = name[0] == '>' ? std::endian::big : std::endian::little;
   return absl::OkStatus();
 }
@@ -72,7 +74,13 @@ absl::StatusOr<T> FillOf(const Json& value) {
 
 absl::Status ReadFill(const Json& value, ZarrArray& array) {
   return WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(const T fill, FillOf<T>(value));
+    T fill = 0;
+    if (array.halves == StoredHalves::kYes) {
+      BCCSKEL_ASSIGN_OR_RETURN(const float number, FillOf<float>(value));
+      fill = static_cast<T>(NearestHalf(number));
+    } else {
+      BCCSKEL_ASSIGN_OR_RETURN(fill, FillOf<T>(value));
+    }
     std::memcpy(array.fill.data(), &fill, sizeof(T));
     if (array.byte_order != std::endian::native) {
       std::reverse(array.fill.data(), array.fill.data() + sizeof(T));

@@ -155,7 +155,8 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenArray(const std::string& folder
   BCCSKEL_ASSIGN_OR_RETURN(ZarrAxes axes, AxesOf(level.axes, array, options));
   ChunkedImage image;
   image.info.format = level.path.empty() ? "Zarr" : "OME-Zarr";
-  image.info.type = array.type;
+  image.stored_type = array.type;
+  image.halves = array.halves;
   image.info.unit = level.unit;
   image.byte_order = array.byte_order;
   image.fill = array.fill;

@@ -13,6 +13,7 @@
 #include "core/import/image/chunk_codec.h"
 #include "core/import/image/image_info.h"
 #include "core/import/image/image_options.h"
+#include "core/import/image/slice_buffer.h"
 
 namespace bccskel {
 
@@ -21,6 +22,7 @@ struct ZarrArray {
   std::vector<int64_t> shape;
   std::vector<int64_t> chunks;  // as many, positive; their product is below the limit
   VoxelType type = VoxelType::kUint8;
+  StoredHalves halves = StoredHalves::kNo;
   std::endian byte_order = std::endian::little;
   bool last_axis_fastest = true;  // in a chunk: order C
   char separator = '.';           // in the names of chunks

@@ -58,6 +58,8 @@ def write_numpy(folder):
             numpy.save(folder.add(f"{code}{'lb'[order == '>']}_fortran.npy", code),
                        numpy.asfortranarray(array))
     numpy.save(folder.add("bool.npy", "b1"), voxels("b1"))
+    numpy.savez(folder.add("stored.npz", "u2"), mask=voxels("u2"))
+    numpy.savez_compressed(folder.add("deflated.npz", "f4"), voxels("f4"))
 
 
 def write_nibabel(folder):

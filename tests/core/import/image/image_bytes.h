@@ -77,6 +77,11 @@ inline absl::StatusOr<ReadImage> ReadBytes(const std::string& bytes,
   return ReadAll(OpenImageBytes("test", bytes, options));
 }
 
+// Why bytes are no image; empty where they are one.
+inline std::string ErrorOfBytes(const std::string& bytes, const ImageOptions& options = {}) {
+  return std::string(ReadBytes(bytes, options).status().message());
+}
+
 // 0, 1, 2, ... of a type, as many as wanted.
 template <typename Number>
 std::string Counting(size_t count, std::endian order = std::endian::little) {

@@ -355,12 +355,12 @@ TEST(CheckImageChoice, KnowsTheFormatByItsEndingOrItsFirstBytes) {
 }
 
 TEST(IsImagePath, KnowsEndingsWhateverTheirCase) {
-  for (const char* name :
-       {"a.nii", "b/c.NII.GZ", "x.nrrd", "x.nrrd.gz", "x.tif", "x.tif.gz", "x.mha", "x.mha.gz",
-        "x.inr.gz", "x.npy", "x.npy.gz", "x.vol", "x.vol.gz", "x.hdr", "x.img", "x.img.gz"}) {
+  for (const char* name : {"a.nii", "b/c.NII.GZ", "x.nrrd", "x.nrrd.gz", "x.tif", "x.tif.gz",
+                           "x.mha", "x.mha.gz", "x.inr.gz", "x.npy", "x.npz", "x.npy.gz", "x.PNG",
+                           "x.vol", "x.vol.gz", "x.hdr", "x.img", "x.img.gz"}) {
     EXPECT_TRUE(IsImagePath(name)) << name;
   }
-  for (const char* name : {"a.off", "nii", "x.exr", "x.gz", "x.npz"}) {
+  for (const char* name : {"a.off", "nii", "x.exr", "x.gz", "x.zip", "png"}) {
     EXPECT_FALSE(IsImagePath(name)) << name;
   }
 }

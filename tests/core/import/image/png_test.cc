@@ -13,13 +13,10 @@ namespace {
 
 using testing::CountedTo;
 using ::testing::ElementsAre;
+using testing::ErrorOfBytes;
 using ::testing::HasSubstr;
 using testing::PngBytes;
 using testing::ReadBytes;
-
-std::string ErrorOf(const std::string& bytes, const ImageOptions& options = {}) {
-  return std::string(ReadBytes(bytes, options).status().message());
-}
 
 TEST(Png, KeepsGrayLevelsAndPaletteIndicesOfAllBits) {
   for (const int color : {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_PALETTE}) {
@@ -70,11 +67,11 @@ TEST(Png, TakesColorsThatAreGrayAndOpaque) {
 }
 
 TEST(Png, RefusesColorsAndTransparencyWithTheirPlace) {
-  EXPECT_THAT(ErrorOf(PngBytes(
+  EXPECT_THAT(ErrorOfBytes(PngBytes(
                   {.width = 1, .color = PNG_COLOR_TYPE_RGB, .samples = {5, 5, 5, 255, 255, 254}})),
               HasSubstr("pixel (0, 1) has the color 255, 255, 254; masks and labels are read from "
                         "gray levels or the indices of a palette: save the image as gray"));
-  EXPECT_THAT(ErrorOf(PngBytes(
+  EXPECT_THAT(ErrorOfBytes(PngBytes(
                   {.width = 1, .color = PNG_COLOR_TYPE_GRAY_ALPHA, .samples = {5, 255, 5, 0}})),
               HasSubstr("pixel (0, 1) is transparent (alpha 0)"));
 }
@@ -105,11 +102,11 @@ TEST(Png, RefusesEveryCutAndEveryChangedByte) {
     changed[at] = static_cast<char>(changed[at] ^ 0x10);
     EXPECT_FALSE(ReadBytes(changed).ok()) << at;
   }
-  EXPECT_THAT(ErrorOf(bytes.substr(0, bytes.size() - 20)),
+  EXPECT_THAT(ErrorOfBytes(bytes.substr(0, bytes.size() - 20)),
               HasSubstr("the pixels cannot be read: the file is cut"));
   std::string changed = bytes;
   changed[changed.size() - 13] ^= 1;  // the check sum of IDAT, before IEND
-  EXPECT_THAT(ErrorOf(changed), HasSubstr("IDAT: CRC error"));
+  EXPECT_THAT(ErrorOfBytes(changed), HasSubstr("IDAT: CRC error"));
 }
 
 // With the width and height that IHDR declares, and its check sum made to agree.
@@ -126,16 +123,17 @@ std::string Declaring(std::string bytes, uint32_t width, uint32_t height) {
 
 TEST(Png, RefusesSizesThatTheFileCannotHoldBeforeItTakesMemory) {
   const std::string bytes = PngBytes({.samples = {0, 1, 2, 3, 4, 5}});
-  EXPECT_THAT(ErrorOf(Declaring(bytes, 30000, 30000)),
+  EXPECT_THAT(ErrorOfBytes(Declaring(bytes, 30000, 30000)),
               HasSubstr("30000 x 30000 pixels declare 900000000 bytes; the file of "));
-  EXPECT_THAT(ErrorOf(Declaring(bytes, 1000000, 1000000)), HasSubstr("the limit is"));
-  EXPECT_THAT(ErrorOf(Declaring(bytes, 0x7fffffff, 1)), HasSubstr("the limit is"));
-  EXPECT_THAT(ErrorOf(Declaring(bytes, 0, 1)), HasSubstr("the header cannot be read"));
+  EXPECT_THAT(ErrorOfBytes(Declaring(bytes, 1000000, 1000000)), HasSubstr("the limit is"));
+  EXPECT_THAT(ErrorOfBytes(Declaring(bytes, 0x7fffffff, 1)), HasSubstr("the limit is"));
+  EXPECT_THAT(ErrorOfBytes(Declaring(bytes, 0, 1)), HasSubstr("the header cannot be read"));
 }
 
 TEST(Png, OtherPicturesAreRefusedWithWhatToDo) {
-  EXPECT_THAT(ErrorOf("\xff\xd8\xff\xe0 JFIF"), HasSubstr("JPEG is not supported: it changes"));
-  EXPECT_THAT(ErrorOf("BM      "), HasSubstr("save another image as PNG, TIFF or .npy"));
+  EXPECT_THAT(ErrorOfBytes("\xff\xd8\xff\xe0 JFIF"),
+              HasSubstr("JPEG is not supported: it changes"));
+  EXPECT_THAT(ErrorOfBytes("BM      "), HasSubstr("save another image as PNG, TIFF or .npy"));
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_replace.h"
+#include "core/import/image/slice_buffer.h"
 #include "tests/core/import/image/image_folder.h"
 
 namespace bccskel {
@@ -142,6 +145,44 @@ TEST(Zarr, LiesWhereItsTransformationsPlaceIt) {
   EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
 }
 
+TEST(Zarr, GivesHalfPrecisionAsFloats) {
+  for (const char* const order : {"<f2", ">f2"}) {
+    const ImageFolder folder("halves.zarr");
+    folder.Write(".zarray", Array({{"|u1", order},
+                                   {"\"shape\":[2,3,4]", "\"shape\":[4,3,4]"},
+                                   {"\"fill_value\":0", "\"fill_value\":-2.1"}}));
+    std::string voxels;
+    for (const int half : {0x0000, 0x3c00, 0xbe00, 0x7bff, 0x0001, 0x8400, 0xfc00, 0x7e01}) {
+      voxels += testing::Bytes(static_cast<uint16_t>(half),
+                               order[0] == '<' ? std::endian::little : std::endian::big);
+    }
+    folder.Write("0.0.0", voxels + voxels + voxels);
+    const auto image = folder.Read();
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->info.type, VoxelType::kFloat32);
+    ASSERT_EQ(image->values.size(), 48);
+    EXPECT_THAT(std::vector<double>(image->values.begin(), image->values.begin() + 8),
+                ElementsAre(0, 1, -1.5, 65504, 0x1p-24, -0x1p-14, -HUGE_VAL, ::testing::IsNan()));
+    EXPECT_EQ(image->values.back(), -2.099609375);  // the missing chunk
+  }
+}
+
+TEST(Zarr, RoundsFillValuesOfHalfPrecision) {
+  for (uint32_t half = 0; half < 0x7c00; half += 77) {
+    for (const uint32_t sign : {0U, 0x8000U}) {
+      SliceBuffer buffer;
+      buffer.Resize(VoxelType::kUint16, 1);
+      const auto stored = static_cast<uint16_t>(half | sign);
+      std::memcpy(buffer.bytes().data(), &stored, sizeof(stored));
+      const auto value = std::get<std::span<const float>>(buffer.Halves())[0];
+      EXPECT_EQ(NearestHalf(value), stored);
+    }
+  }
+  EXPECT_EQ(NearestHalf(1e9F), 0x7bff);
+  EXPECT_EQ(NearestHalf(-HUGE_VALF), 0xfc00);
+  EXPECT_EQ(NearestHalf(NAN), 0x7e00);
+}
+
 TEST(Zarr, RefusesMetadataThatIsNone) {
   EXPECT_THAT(ErrorOfArray({{"{", "["}, {"}", "]"}}), HasSubstr("not a JSON object"));
   EXPECT_THAT(ErrorOfArray({{"\"zarr_format\":2", "\"zarr_format\":3"}}), HasSubstr("is not 2"));
@@ -154,7 +195,7 @@ TEST(Zarr, RefusesMetadataThatIsNone) {
               HasSubstr("not a whole number"));
   EXPECT_THAT(ErrorOfArray({{"\"chunks\":[2,3,4]", "\"chunks\":[2,0,4]"}}),
               HasSubstr("chunks are 0 long"));
-  EXPECT_THAT(ErrorOfArray({{"|u1", "<f2"}}), HasSubstr("dtype '<f2'"));
+  EXPECT_THAT(ErrorOfArray({{"|u1", "<f3"}}), HasSubstr("dtype '<f3'"));
   EXPECT_THAT(ErrorOfArray({{"|u1", "|u2"}}), HasSubstr("dtype '|u2'"));
   EXPECT_THAT(ErrorOfArray({{"|u1", ""}}), HasSubstr("dtype ''"));
   EXPECT_THAT(ErrorOfArray({{"\"fill_value\":0", "\"fill_value\":256"}}), HasSubstr("fill_value"));
