@@ -211,7 +211,7 @@ absl::Status CheckConversion(const std::string& path, const ImageArguments& argu
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   const std::string name = absl::AsciiStrToLower(path);
-  if (HasMeshFileName(name)) return InputKind::kMesh;
+  if (IsMeshPath(path)) return InputKind::kMesh;
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
   if (IsImagePath(path)) return InputKind::kImage;
   std::error_code none;
@@ -221,8 +221,9 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   return absl::InvalidArgumentError(
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, "
-      ".gii, each also with .gz), "
-      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, .vol, .raw, "
+      ".gii, each also with .gz, and surfaces of FreeSurfer), "
+      "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, .npz, .vol, "
+      ".raw, "
       "folders of slices or OME-Zarr, ...); save another image as PNG, TIFF or .npy");
 }
 

@@ -195,6 +195,14 @@ class MeshesTest(harness.TestCase):
             else:
                 self.expect_same(name)
 
+    @unittest.skipIf(nibabel is None, "needs python3-nibabel")
+    def test_freesurfer(self):
+        for name in ("lh.white", "RH.Pial"):
+            nibabel.freesurfer.write_geometry(self.path(name), self.points, self.triangles)
+            self.expect_same(name)
+        nibabel.freesurfer.write_morph_data(self.path("lh.thickness"), numpy.ones(8, "f4"))
+        self.fail_with(3, "values per vertex (as lh.thickness)", "info", self.path("lh.thickness"))
+
     def test_results_are_told_from_meshes(self):
         vtp, glb = self.path("s.vtp"), self.path("s.glb")
         self.succeed("skeletonize", self.path("mesh.off"), "--local", "--points", 3000, "-o", vtp,

@@ -215,7 +215,7 @@ absl::Status StudyClosedMeshes(const StudyOptions& options) {
     const std::string path = entry.path();
     // Open ones have no inside.
     const bool is_open = path.find("open") != std::string::npos;
-    if (HasMeshFileName(path) && !is_open && options.Wants(path)) paths.push_back(path);
+    if (IsMeshPath(path) && !is_open && options.Wants(path)) paths.push_back(path);
   }
   if (error) {
     return absl::NotFoundError(options.data + "/mesh: " + error.message() +

@@ -186,8 +186,8 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
 
 def read(path: Union[str, os.PathLike],
          **options: Any) -> Union[Image, Mesh, Lattice, Skeleton]:
-    """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, vol, ...) or a mesh (OBJ, STL, PLY, OFF, glTF, VTK
-    polygon data, GIFTI) from a file, as the command line reads it; also compressed by gzip. A folder is read as OME-Zarr 0.4, a
+    """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF, glTF, VTK
+    polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also compressed by gzip. A folder is read as OME-Zarr 0.4, a
     Zarr array, a Neuroglancer precomputed volume or PNG or TIFF slices, a file for each. A .json file is a result of the command line or
     of `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
     .exr or .bccb file is a `Lattice`.
@@ -222,8 +222,8 @@ def read(path: Union[str, os.PathLike],
         raise FileNotFoundError(f"cannot open '{name}': No such file or directory")
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, "
-                         ".vol, .raw, ...), folders of slices, OME-Zarr and precomputed, meshes (.obj, .stl, .ply, "
-                         ".off, .glb, .gltf, .vtk, .vtp, .gii), results (.json) and lattices "
+                         ".npz, .vol, .raw, ...), folders of slices, OME-Zarr and precomputed, meshes (.obj, .stl, .ply, "
+                         ".off, .glb, .gltf, .vtk, .vtp, .gii, FreeSurfer), results (.json) and lattices "
                          "(.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]

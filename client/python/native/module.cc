@@ -279,7 +279,7 @@ void AddFunctions(py::module_& module) {
   module.def("is_flag", [](const std::string& set, const std::string& name) {
     return cli::IsFlag(SetOf(set), name);
   });
-  module.def("is_mesh", &HasMeshFileName);
+  module.def("is_mesh", &IsMeshPath);
   module.def("is_image", &IsImagePath);
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
@@ -14,7 +17,18 @@
 namespace bccskel {
 namespace {
 
-enum class MeshFormat { kOff, kObj, kPly, kAsciiStl, kBinaryStl, kGltf, kVtkLegacy, kVtp, kGifti };
+enum class MeshFormat {
+  kOff,
+  kObj,
+  kPly,
+  kAsciiStl,
+  kBinaryStl,
+  kGltf,
+  kVtkLegacy,
+  kVtp,
+  kGifti,
+  kFreeSurfer
+};
 
 // Of the mesh file, for the files that glTF names; nothing for bytes in memory.
 using Folder = std::optional<std::string>;
@@ -58,6 +72,7 @@ std::optional<MeshFormat> SniffContent(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::kPly;
   if (bytes.starts_with("glTF")) return MeshFormat::kGltf;
   if (IsVtkLegacy(bytes)) return MeshFormat::kVtkLegacy;
+  if (IsFreeSurfer(bytes)) return MeshFormat::kFreeSurfer;
   if (HasBinaryStlLength(bytes)) return MeshFormat::kBinaryStl;
   const std::string_view word = FirstWord(bytes);
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -90,8 +105,8 @@ absl::StatusOr<MeshFormat> ChooseFormat(std::string_view bytes, std::string_view
   if (ending == "vtp") return MeshFormat::kVtp;
   if (ending == "gii") return MeshFormat::kGifti;
   return absl::InvalidArgumentError(
-      "format not supported: meshes are read from OBJ, STL, PLY, OFF, glTF, VTK polygon data and "
-      "GIFTI files, each also .gz");
+      "format not supported: meshes are read from OBJ, STL, PLY, OFF, glTF, VTK polygon data, "
+      "GIFTI and FreeSurfer files, each also .gz");
 }
 
 absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
@@ -113,6 +128,8 @@ absl::StatusOr<TriangleMesh> ParseAs(MeshFormat format, std::string_view bytes,
       return ParseVtp(bytes, limits);
     case MeshFormat::kGifti:
       return ParseGifti(bytes, limits);
+    case MeshFormat::kFreeSurfer:
+      return ParseFreeSurfer(bytes, limits);
     case MeshFormat::kBinaryStl:
       break;
   }
@@ -141,10 +158,20 @@ absl::StatusOr<TriangleMesh> ParseNamed(std::string_view bytes, std::string_view
   }
 }
 
+bool BeginsLikeFreeSurfer(const std::string& path) {
+  std::error_code ignored;  // a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::array<char, 3> front = {};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(front.data(), front.size()) &&
+         IsFreeSurfer(std::string_view(front.data(), front.size()));
+}
+
 }  // namespace
 
-bool HasMeshFileName(std::string_view path) {
-  return std::ranges::find(kMeshEndings, EndingOf(path)) != kMeshEndings.end();
+bool IsMeshPath(const std::string& path) {
+  return std::ranges::find(kMeshEndings, EndingOf(path)) != kMeshEndings.end() ||
+         BeginsLikeFreeSurfer(path);
 }
 
 absl::StatusOr<TriangleMesh> ParseMesh(std::string_view bytes, std::string_view name,

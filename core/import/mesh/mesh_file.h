@@ -11,16 +11,18 @@
 namespace bccskel {
 
 // True when the name ends like a mesh file: .obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp or
-// .gii, each also with .gz.
-bool HasMeshFileName(std::string_view path);
+// .gii, each also with .gz; and for a file that begins like a surface of FreeSurfer, whose names
+// have no ending of their own.
+bool IsMeshPath(const std::string& path);
 
 // Reads OBJ, STL (text, binary), PLY (text, both byte orders), OFF (also COFF and the like), glTF
 // 2.0 (.glb, .gltf and its buffers beside it), polygon data of VTK (legacy and XML) or surfaces of
-// GIFTI, each also compressed by gzip. The content decides the format; the name helps only where
-// the content says nothing. Polygons become fans of triangles; normals, colors and textures are
-// dropped.
-// Units:   coordinates as in the file, in double. Those of glTF are moved by its nodes, and y stays
-//          up; GIFTI's CoordinateSystemTransformMatrix is not applied.
+// GIFTI and FreeSurfer, each also compressed by gzip. The content decides the format; the name
+// helps only where the content says nothing. Polygons become fans of triangles; normals, colors and
+// textures are dropped. Units:   coordinates as in the file, in double. Those of glTF are moved by
+// its nodes, and y stays
+//          up; GIFTI's CoordinateSystemTransformMatrix is not applied; those of FreeSurfer are
+//          surface RAS, in mm.
 // Errors:  NOT_FOUND, PERMISSION_DENIED; INVALID_ARGUMENT (malformed, cut, coordinates that are not
 //          finite, bad indices, no triangles, a format that is not supported); RESOURCE_EXHAUSTED.
 absl::StatusOr<TriangleMesh> ReadMeshFile(const std::string& path, const MeshLimits& limits = {});

@@ -33,6 +33,7 @@ absl::StatusOr<TriangleMesh> ParseBinaryStl(std::string_view bytes, const MeshLi
 absl::StatusOr<TriangleMesh> ParseVtkLegacy(std::string_view bytes, const MeshLimits& limits);
 absl::StatusOr<TriangleMesh> ParseVtp(std::string_view bytes, const MeshLimits& limits);
 absl::StatusOr<TriangleMesh> ParseGifti(std::string_view bytes, const MeshLimits& limits);
+absl::StatusOr<TriangleMesh> ParseFreeSurfer(std::string_view bytes, const MeshLimits& limits);
 // glTF, as text or as .glb. Buffers may be files in `folder` and below; without one, none are read.
 absl::StatusOr<TriangleMesh> ParseGltf(std::string_view bytes, std::optional<std::string> folder,
                                        const MeshLimits& limits);
@@ -43,6 +44,8 @@ bool HasBinaryStlLength(std::string_view bytes);
 bool IsOffKeyword(std::string_view token);
 // Does the file begin like a legacy file of VTK?
 bool IsVtkLegacy(std::string_view bytes);
+// Does the file begin like one of FreeSurfer's, of which only triangles are read?
+bool IsFreeSurfer(std::string_view bytes);
 
 // INVALID_ARGUMENT: `what` has points and lines only, as a skeleton of ours.
 absl::Status NoPolygonsError(std::string_view what, uint64_t points, uint64_t lines);

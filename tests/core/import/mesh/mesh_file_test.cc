@@ -187,13 +187,13 @@ TEST(MeshFile, TellsAMissingFileFromAFolder) {
 }
 
 TEST(MeshFile, KnowsItsFileNames) {
-  EXPECT_TRUE(HasMeshFileName("a/b.c/X.OFF"));
-  EXPECT_TRUE(HasMeshFileName("x.stl.gz"));
+  EXPECT_TRUE(IsMeshPath("a/b.c/X.OFF"));
+  EXPECT_TRUE(IsMeshPath("x.stl.gz"));
   for (const char* name : {"a.glb", "a.gltf", "a.vtk", "a.vtp", "lh.surf.gii", "a.vtk.gz"}) {
-    EXPECT_TRUE(HasMeshFileName(name)) << name;
+    EXPECT_TRUE(IsMeshPath(name)) << name;
   }
-  EXPECT_FALSE(HasMeshFileName("x.exr"));
-  EXPECT_FALSE(HasMeshFileName("dir.obj/x"));
+  EXPECT_FALSE(IsMeshPath("x.exr"));
+  EXPECT_FALSE(IsMeshPath("dir.obj/x"));
 }
 
 }  // namespace
