@@ -81,6 +81,10 @@ std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& lev
   const std::string gray = WarningOf(levels);
   if (!gray.empty()) {
     warnings.push_back(gray);
+  } else if (levels.HasSeveralLabels()) {
+    warnings.emplace_back(
+        "several labels are taken for one object; --label selects some, and the command labels "
+        "takes each by itself");
   } else if (object == info.size.Voxels()) {
     warnings.emplace_back(
         "the object fills the whole image; --threshold or --below selects a part of it");

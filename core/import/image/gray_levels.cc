@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 namespace bccskel {
@@ -52,12 +53,28 @@ void GrayLevels::AddRow(std::span<const T> row) {
   }
 }
 
+template <typename T>
+void GrayLevels::AddRuns(std::span<const T> row) {
+  for (auto begin = row.begin(); begin != row.end();) {
+    const auto end = std::find_if(begin, row.end(), [&](const T value) { return value != *begin; });
+    if (*begin > 0) {
+      Neighbors& neighbors = labels_[static_cast<uint64_t>(*begin)];
+      neighbors.equal += end - begin - 1;
+      if (begin != row.begin() && *(begin - 1) != 0) ++neighbors.others;
+      if (end != row.end() && *end != 0) ++neighbors.others;
+    }
+    begin = end;
+  }
+}
+
 void GrayLevels::Add(const ImageSlice& slice) {
   const auto nx = static_cast<size_t>(slice.nx);
   std::visit(
-      [&](const auto& values) {
+      [&]<typename T>(std::span<const T> values) {
         for (size_t y = 0; y < static_cast<size_t>(slice.ny); ++y) {
-          if (next_row_++ % step_ == 0) AddRow(values.subspan(y * nx, nx));
+          if (next_row_++ % step_ != 0) continue;
+          AddRow(values.subspan(y * nx, nx));
+          if constexpr (std::is_integral_v<T>) AddRuns(values.subspan(y * nx, nx));
         }
       },
       slice.values);
@@ -68,6 +85,11 @@ std::optional<double> GrayLevels::Threshold() const {
   std::vector<double> values = values_;
   std::ranges::sort(values);
   return OtsuThreshold(values);
+}
+
+bool GrayLevels::HasSeveralLabels() const {
+  const auto is_label = [](const auto& entry) { return entry.second.equal >= entry.second.others; };
+  return std::ranges::count_if(labels_, is_label) > 1;
 }
 
 bool GrayLevels::HasBothSigns() const {

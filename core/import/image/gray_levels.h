@@ -3,14 +3,15 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "core/import/image/image_source.h"
 
 namespace bccskel {
 
-// Notices that an image holds gray levels or a level set, not a mask or labels. Looks at rows
-// spread over the image, about 250,000 voxels of them.
+// Notices that an image holds gray levels, a level set or several labels, not one mask. Looks at
+// rows spread over the image, about 250,000 voxels of them.
 class GrayLevels {
  public:
   explicit GrayLevels(const ImageSize& size);
@@ -25,15 +26,28 @@ class GrayLevels {
   // Values below and above 0, but none in a hundred is 0: of a mask, all would be object.
   bool HasBothSigns() const;
 
+  // Whole numbers of several values above 0, each mostly beside itself or 0: of labels, not of the
+  // soft edges of a mask.
+  bool HasSeveralLabels() const;
+
  private:
+  // Neighbors in a row that are not 0, of voxels of one value.
+  struct Neighbors {
+    int64_t equal = 0;
+    int64_t others = 0;
+  };
+
   template <typename T>
   void AddRow(std::span<const T> row);
+  template <typename T>
+  void AddRuns(std::span<const T> row);
 
   int64_t step_;  // rows from one that is seen to the next
   int64_t next_row_ = 0;
   std::vector<double> values_;
   int64_t pairs_ = 0;  // of neighbors that are not 0
   int64_t unequal_ = 0;
+  std::unordered_map<uint64_t, Neighbors> labels_;
 };
 
 }  // namespace bccskel

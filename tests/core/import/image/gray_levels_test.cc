@@ -48,6 +48,32 @@ TEST(GrayLevels, AreNoMaskAndNoLabels) {
   EXPECT_FALSE(labels.HasBothSigns());
 }
 
+// From 1 inside a ball to 0 outside, over `edge` voxels.
+double Ball(int x, int y, int z, double edge) {
+  return std::clamp((15 - FromMiddle(x, y, z)) / edge, 0.0, 1.0);
+}
+
+TEST(GrayLevels, OfSeveralLabelsAreToldFromMasks) {
+  const auto labels = LevelsOf<uint16_t>([](int x, int y, int z) {
+    return static_cast<uint16_t>(Ball(x, y, z, 1e-9) * (x < 32 ? 700 : 2));
+  });
+  EXPECT_TRUE(labels.HasSeveralLabels());
+  const auto thin = LevelsOf<int64_t>([](int x, int y, int) { return x % 4 == 0 ? y % 3 : 0; });
+  EXPECT_TRUE(thin.HasSeveralLabels());
+  for (const int label : {1, 7, 255}) {
+    const auto mask = LevelsOf<uint8_t>(
+        [&](int x, int y, int z) { return static_cast<uint8_t>(Ball(x, y, z, 1e-9) * label); });
+    EXPECT_FALSE(mask.HasSeveralLabels()) << label;
+  }
+  const auto soft = LevelsOf<uint8_t>(
+      [](int x, int y, int z) { return static_cast<uint8_t>(255 * Ball(x, y, z, 1)); });
+  EXPECT_FALSE(soft.HasSeveralLabels());
+  const auto signs = LevelsOf<int8_t>([](int x, int, int) { return x < 9 ? 0 : x < 30 ? -1 : 1; });
+  EXPECT_FALSE(signs.HasSeveralLabels());
+  const auto floats = LevelsOf<float>([](int x, int, int) { return x < 30 ? 1.0F : 2.0F; });
+  EXPECT_FALSE(floats.HasSeveralLabels());
+}
+
 TEST(GrayLevels, OfANoisyScanAreParted) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 8);
