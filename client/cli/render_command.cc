@@ -49,12 +49,14 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
           "Size in pixels (default 1200x900)")
       ->option_text("WIDTHxHEIGHT");
   command
-      .add_option(
-          "--turn", picture.turn,
-          "Rotate the view to the right, starting in front of the broadest side (default 30)")
+      .add_option("--turn", picture.turn,
+                  "Rotate the view to the right, starting in front of the broadest side (default "
+                  "30; of one slice 0)")
       ->check(Within(-360, 360))
       ->option_text("DEGREES");
-  command.add_option("--climb", picture.climb, "Raise the view above the object (default 15)")
+  command
+      .add_option("--climb", picture.climb,
+                  "Raise the view above the object (default 15; of one slice 0)")
       ->check(Within(-360, 360))
       ->option_text("DEGREES");
 }

@@ -161,6 +161,35 @@ class ImagesTest(harness.TestCase):
         self.fail_with(2, "--level chooses in OME-Zarr and precomputed folders only", "info",
                        self.path("mask.npy"), "--level", 0)
 
+    def test_several_labels_taken_for_one_object_are_warned_of(self):
+        labels = numpy.zeros((9, 9, 12), "u1")
+        labels[3:6, 3:6, 2:6] = 2
+        labels[3:6, 3:6, 6:10] = 3
+        numpy.save(self.path("labels.npy"), labels)
+        warning, = self.skeletonize(self.path("labels.npy"))["image"]["warnings"]
+        self.assertEqual(warning, "several labels are taken for one object; --label selects some, "
+                                  "and the command labels takes each by itself")
+        for rule in (("--label", "2,3"), ("--threshold", 1), ("--range", "2,3")):
+            self.assertEqual(self.skeletonize(self.path("labels.npy"), *rule)["image"]["warnings"], [])
+
+    def test_one_slice_is_drawn_as_programs_show_the_image(self):
+        mask = numpy.zeros((60, 90), "u1")
+        for n in range(40):
+            mask[8 + n // 2:14 + n // 2, 10 + n:14 + n] = 255  # down to the right
+        picture = self.write("mask.png", png(mask))
+        self.skeletonize(picture, "-o", self.path("s.svg"), "-o", self.path("s.json"))
+        panel = xml.etree.ElementTree.parse(self.path("s.svg")).getroot().find("{*}svg")
+        ends = sorted((float(dot.get("cx")), float(dot.get("cy")))
+                      for dot in panel.findall(".//{*}circle"))
+        self.assertEqual(len(ends), 2)
+        (x, y), (x_end, y_end) = ends
+        self.assertAlmostEqual((y_end - y) / (x_end - x), 0.5, delta=0.1)
+        self.succeed("render", self.path("s.json"), "--object", picture, "-o", self.path("s.png"))
+        straight = (self.folder / "s.png").read_bytes()
+        self.succeed("render", self.path("s.json"), "--object", picture, "--turn", 0, "--climb", 0,
+                     "-o", self.path("s.png"))
+        self.assertEqual((self.folder / "s.png").read_bytes(), straight)
+
     def test_rules_choose_the_object(self):
         ring_file = self.write_ring()
         for rule, loops in ((("--label", "4,5"), 1), (("--label", 4, "--label", 5), 1),

@@ -6,6 +6,7 @@ import urllib.parse
 
 import browser
 import harness
+import numpy
 import view_samples
 from view_tools import ToolsTestCase
 
@@ -222,6 +223,17 @@ class ViewpointTest(ToolsTestCase):
         """The direction in the world from what is seen to the viewer."""
         return self.browser.run("""[8, 9, 10].map((n) => Math.round(
             1e6 * camera.matrixWorld.elements[n]) / 1e6 + 0)""")
+
+    def test_one_slice_is_seen_as_programs_show_the_image(self):
+        mask = numpy.zeros((1, 30, 40), "u1")
+        mask[0, 10:16, 5:35] = 1
+        numpy.save(self.path("mask.npy"), mask)
+        self.succeed("skeletonize", self.path("mask.npy"), "--local", "--border", "continues", "-o",
+                     self.path("s.html"))
+        self.browser.open(self.path("s.html"))
+        axes = self.browser.run("""[0, 1, 2, 4, 5, 6, 8, 9, 10].map((n) => Math.round(
+            camera.matrixWorld.elements[n]) + 0)""")
+        self.assertEqual(axes, [1, 0, 0, 0, -1, 0, 0, 0, -1])
 
     def test_buttons_and_keys_look_along_the_axes(self):
         page = self.open_sample(view_samples.forest(30))

@@ -8,6 +8,9 @@
 namespace bccskel::exporting {
 namespace {
 
+// Of a three-quarter view, degrees.
+constexpr double kTurn = 30, kClimb = 15;
+
 WorldPoint Combine(double s, const WorldPoint& a, double t, const WorldPoint& b) {
   return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }
@@ -67,19 +70,36 @@ WorldBox BoxOf(std::span<const WorldPoint> points) {
   return box;
 }
 
-View ViewFrom(const WorldBox& box, double turn, double climb) {
+Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice) {
+  // Points of one slice are on both of its faces; the box is half a step larger, and half another
+  // is left for rounding. Or what looks as flat.
+  constexpr double kMoreSteps = 1.5, kFlat = 0.02;
+  const double x = box.high[0] - box.low[0], y = box.high[1] - box.low[1];
+  const double z = box.high[2] - box.low[2];
+  const bool flat =
+      slice.has_value() && z <= std::min(x, y) &&
+      z <= std::max((slice->slabs + kMoreSteps) * slice->step, kFlat * std::min(x, y));
+  if (!flat) return {BroadsideOf(box), kTurn, kClimb};
+  const bool anterior = slice->axes.size() == 3 && slice->axes[1] == 'A';
+  if (anterior) return {BroadsideOf(box), 0, 0};
+  return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, 0, 0};
+}
+
+View ViewFrom(const View& front, double turn, double climb) {
   constexpr double kRadians = std::numbers::pi / 180;
   const double cos_turn = std::cos(turn * kRadians), sin_turn = std::sin(turn * kRadians);
   const double cos_climb = std::cos(climb * kRadians), sin_climb = std::sin(climb * kRadians);
-  const View front = BroadsideOf(box);
   const WorldPoint level = Combine(cos_turn, front.toward, sin_turn, front.right);
   return {Combine(cos_turn, front.right, -sin_turn, front.toward),
           Combine(cos_climb, front.up, -sin_climb, level),
           Combine(cos_climb, level, sin_climb, front.up)};
 }
 
-std::array<View, 3> ViewsOf(const WorldBox& box) {
-  return {ViewFrom(box, 30, 15), ViewFrom(box, 90, 0), ViewFrom(box, 0, 90)};
+std::array<View, 3> ViewsOf(const Front& front) {
+  const auto& [view, turn, climb] = front;
+  const bool straight = turn == 0 && climb == 0;
+  return {ViewFrom(view, turn, climb), ViewFrom(view, 90, 0),
+          straight ? ViewFrom(view, kTurn, kClimb) : ViewFrom(view, 0, 90)};
 }
 
 }  // namespace bccskel::exporting

@@ -2,7 +2,9 @@
 #define BCCSKEL_CLIENT_EXPORT_PICTURE_PROJECTION_H_
 
 #include <array>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/lattice/lattice_point.h"
@@ -62,12 +64,33 @@ class Projection {
 // The smallest box around some points; at the origin around none.
 WorldBox BoxOf(std::span<const WorldPoint> points);
 
-// The broadest side of the box, after a walk of `turn` degrees around it to the right and a climb
-// of `climb` degrees. Up is +y, or +z when y is the thinnest axis.
-View ViewFrom(const WorldBox& box, double turn, double climb);
+// What an object of an image says about its first view.
+struct SliceFacts {
+  double step;            // between lattice points along z, in world units
+  int slabs;              // steps in a slice
+  std::string_view axes;  // what those of the world point to: "RAS", ...; may be unknown
+};
 
-// A three-quarter view on the broadest side of the box, then from its side, then from above.
-std::array<View, 3> ViewsOf(const WorldBox& box);
+// Where pictures begin.
+struct Front {
+  View view;
+  double turn;   // degrees, as those of ViewFrom(), by which the first picture is off
+  double climb;  // the front
+};
+
+// A three-quarter view on the broadest side of the box; up is +y, or +z when y is the thinnest
+// axis. An object of an image (`slice` is known) that is as thin as one slice along z is looked at
+// as programs show images: straight, x to the right, and y down unless it points to the anterior.
+// Needs: a box no more than half a step larger than the points.
+Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice);
+
+// The front after a walk of `turn` degrees around the object to the right and a climb of `climb`
+// degrees.
+View ViewFrom(const View& front, double turn, double climb);
+
+// The first view, then another one from the side, then one from above or, of a front that is
+// straight, three quarters.
+std::array<View, 3> ViewsOf(const Front& front);
 
 }  // namespace bccskel::exporting
 

@@ -13,7 +13,7 @@ namespace bccskel::exporting {
 // What all views of a picture share.
 struct Scene {
   std::vector<WorldPoint> surface;  // at least one point
-  WorldBox box;                     // around the surface
+  WorldBox box;                     // around the surface, half a step along z larger
   double point_spacing;             // world units between D8 neighbors, by the largest spacing
   std::vector<DisplayCurve> curves;
   RadiusRange radii;

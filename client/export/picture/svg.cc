@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -232,11 +233,18 @@ void AddHead(Text& svg, const Subject& subject) {
           SkeletonPhrase(subject.result), "</text>\n");
 }
 
+std::optional<SliceFacts> SliceFactsOf(const Subject& subject) {
+  const SkeletonizeOptions& options = subject.result.options;
+  if (options.source != ObjectSource::kVoxels) return std::nullopt;
+  return SliceFacts{subject.object.placement().spacing[2], options.voxel_slabs[2],
+                    subject.world.axes};
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
   const Scene scene = SceneOf(subject);
-  const std::array<View, 3> views = ViewsOf(scene.box);
+  const std::array<View, 3> views = ViewsOf(FrontOf(scene.box, SliceFactsOf(subject)));
   Text svg;
   AddHead(svg, subject);
   for (size_t n = 0; n < kPanels.size(); ++n) {

@@ -2,6 +2,7 @@
 
 // Around `target` by `turn` and over it by `climb` (radians), at a distance in edges of the scene.
 const view = { turn: 0, climb: 0, distance: 1, target: new THREE.Vector3(), flat: false };
+const first = { turn: 0.52, climb: 0.26 };  // of three quarters
 const upright = new THREE.Quaternion();  // from the frame that `turn` and `climb` are of
 const wholeBox = new THREE.Box3();
 const kHalfField = Math.tan(16 * Math.PI / 180);
@@ -29,7 +30,15 @@ function placeCamera() {
   camera.projectionMatrixInverse.getInverse(camera.projectionMatrix);
 }
 
-// A three-quarter view on the broadest side; up is +y, or +z when y is the thinnest axis.
+// Whether an object of an image is as thin as a slice; see client/export/picture/projection.h.
+function isSlice({ x, y, z }) {
+  const { source, voxel_slabs: slabs } = result.options ?? {};
+  if (source !== "voxels" || !result.placement || !layers.length || z > Math.min(x, y)) return false;
+  const slice = (Number((slabs ?? "1").split(",").pop()) + 1.5) * result.placement.spacing[2] / edge;
+  return z <= Math.max(slice, 0.02 * Math.min(x, y));
+}
+// A three-quarter view on the broadest side, up is +y, or +z when y is the thinnest axis; or a
+// straight view on a slice.
 function startView(box) {
   const size = box.getSize(new THREE.Vector3());
   let toward = new THREE.Vector3(0, 0, 1), up = new THREE.Vector3(0, 1, 0);
@@ -41,6 +50,13 @@ function startView(box) {
       up.set(0, 0, 1);
     }
   }
+  if (isSlice(size)) {
+    Object.assign(first, { turn: 0, climb: 0 });
+    if (result.world?.[1] !== "A") {
+      toward.set(0, 0, -1);
+      up.set(0, -1, 0);
+    }
+  }
   upright.setFromRotationMatrix(new THREE.Matrix4().makeBasis(
     new THREE.Vector3().crossVectors(up, toward), up, toward));
   wholeBox.copy(box);
@@ -48,7 +64,7 @@ function startView(box) {
 }
 // From the same side as at first, as near as the whole object may be seen.
 function wholeView() {
-  const turn = 0.52, climb = 0.26, target = wholeBox.getCenter(new THREE.Vector3());
+  const { turn, climb } = first, target = wholeBox.getCenter(new THREE.Vector3());
   const toCamera = cameraTurn(turn, climb).inverse();
   const aspect = stage.clientWidth / Math.max(stage.clientHeight, 1), { min, max } = wholeBox;
   let distance = 1e-3;

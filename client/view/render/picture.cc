@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -30,16 +32,35 @@ double FontSize(const PictureOptions& options) {
   return std::max(11.0, std::min(options.width, options.height) / 56.0);
 }
 
-exporting::Projection ProjectionOf(const DisplaySurface& surface, const PictureOptions& options) {
+std::string_view OptionOf(const ResultDocument& result, std::string_view name) {
+  const auto option =
+      std::ranges::find(result.options, name, [](const auto& o) { return o.first; });
+  return option == result.options.end() ? std::string_view() : option->second;
+}
+
+std::optional<exporting::SliceFacts> SliceFactsOf(const ResultDocument& result) {
+  if (OptionOf(result, "source") != "voxels" || !result.placement.has_value()) return std::nullopt;
+  const std::string_view slabs = OptionOf(result, "voxel_slabs");  // x,y,z
+  int z = 1;
+  const size_t comma = slabs.rfind(',') + 1;
+  std::from_chars(slabs.data() + comma, slabs.data() + slabs.size(), z);
+  return exporting::SliceFacts{result.placement->spacing[2], z, result.world};
+}
+
+exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySurface& surface,
+                                   const PictureOptions& options) {
   constexpr WorldPoint kOrigin = {0, 0, 0};
   const exporting::Spheres shown = {surface.vertices.empty()
                                         ? std::span<const WorldPoint>(&kOrigin, 1)
                                         : std::span<const WorldPoint>(surface.vertices),
                                     1e-9};
-  const exporting::WorldBox box = exporting::BoxOf(shown.centers);
+  const exporting::Front front =
+      exporting::FrontOf(exporting::BoxOf(shown.centers), SliceFactsOf(result));
   const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
   return exporting::Projection(
-      exporting::ViewFrom(box, options.turn, options.climb), shown,
+      exporting::ViewFrom(front.view, options.turn.value_or(front.turn),
+                          options.climb.value_or(front.climb)),
+      shown,
       {static_cast<double>(kSamplesPerPixel * options.width),
        kSamplesPerPixel * std::max(options.height - words, options.height / 2.0)},
       kSamplesPerPixel * FontSize(options));
@@ -79,7 +100,7 @@ std::vector<ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
 
 Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
                     const PictureOptions& options) {
-  const exporting::Projection projection = ProjectionOf(surface, options);
+  const exporting::Projection projection = ProjectionOf(result, surface, options);
   const double above = kSamplesPerPixel * kWordsAbove * FontSize(options);
   const auto projected = [&](const std::vector<WorldPoint>& vertices) {
     std::vector<SurfaceVertex> places;

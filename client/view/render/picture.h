@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_VIEW_RENDER_PICTURE_H_
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -14,8 +15,10 @@ namespace bccskel::view {
 struct PictureOptions {
   int width = 1200;  // pixels
   int height = 900;
-  double turn = 30;   // degrees around the object to the right, from the front of its broadest side
-  double climb = 15;  // degrees up
+  // Degrees around the object to the right from its front, exporting::FrontOf(), and up; left out:
+  // those of the front.
+  std::optional<double> turn;
+  std::optional<double> climb;
   std::string title;  // left out if it is not UTF-8
 };
 

@@ -112,6 +112,28 @@ TEST(ProjectionTest, OnePointLandsInTheMiddle) {
   EXPECT_DOUBLE_EQ(p.y, 40);
 }
 
+TEST(ProjectionTest, ASliceIsSeenAsProgramsShowImages) {
+  const auto box = [](double z) { return WorldBox{{0, 0, 0}, {40, 30, z}}; };
+  const Front front = FrontOf(box(2), SliceFacts{1, 1, "unknown"});
+  EXPECT_EQ(front.view.right, (WorldPoint{1, 0, 0}));
+  EXPECT_EQ(front.view.up, (WorldPoint{0, -1, 0}));
+  EXPECT_EQ(front.view.toward, (WorldPoint{0, 0, -1}));
+  EXPECT_EQ(ViewsOf(front)[0].toward, front.view.toward);
+  EXPECT_EQ(FrontOf(box(2), SliceFacts{1, 1, "LPS"}).view.up, front.view.up);
+  const Front anterior = FrontOf(box(2), SliceFacts{1, 1, "RAS"});
+  EXPECT_EQ(anterior.view.up, (WorldPoint{0, 1, 0}));
+  EXPECT_EQ(anterior.turn, 0);
+  // Two slices, a mesh, and an image that is no wider than thick.
+  EXPECT_EQ(FrontOf(box(3), SliceFacts{1, 1, ""}).turn, 30);
+  EXPECT_EQ(FrontOf(box(2), std::nullopt).turn, 30);
+  EXPECT_EQ(FrontOf({{0, 0, 0}, {1.9, 30, 2}}, SliceFacts{1, 1, ""}).turn, 30);
+  // One slice and two of them, cut into slabs.
+  EXPECT_EQ(FrontOf(box(11), SliceFacts{1, 10, ""}).turn, 0);
+  EXPECT_EQ(FrontOf(box(21), SliceFacts{1, 10, ""}).turn, 30);
+  // The surface of a large image may be coarse.
+  EXPECT_EQ(FrontOf({{0, 0, -2}, {400, 300, 2}}, SliceFacts{1, 1, ""}).turn, 0);
+}
+
 TEST(DisplayCurveTest, SmoothingLeavesTheEndsWhereTheyAre) {
   const SkeletonGraph graph = SampleOf(Shape::kTree).result.graph;
   const std::vector<DisplayCurve> curves = DisplayCurvesOf(graph);
