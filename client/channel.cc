@@ -76,7 +76,8 @@ std::shared_ptr<grpc::ChannelCredentials> CredentialsFor(const TlsMaterial& tls)
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const Endpoint& endpoint) {
   BCCSKEL_RETURN_IF_ERROR(CheckEndpoint(endpoint));
   std::vector<std::unique_ptr<ClientInterceptorFactoryInterface>> senders;
-  if (!endpoint.token.empty()) senders.push_back(std::make_unique<TokenSenders>(endpoint.token));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string token, TokenToSend(endpoint.token));
+  if (!token.empty()) senders.push_back(std::make_unique<TokenSenders>(token));
   return grpc::experimental::CreateCustomChannelWithInterceptors(
       endpoint.address, CredentialsFor(endpoint.tls), ArgumentsFor(endpoint.sharing),
       std::move(senders));

@@ -1,7 +1,9 @@
 #include "client/endpoint.h"
 
+#include <algorithm>
 #include <string_view>
 
+#include "absl/strings/ascii.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
@@ -16,12 +18,18 @@ bool IsOfThisMachine(const std::string& address) {
 
 // gRPC takes port 99999 for 34463, a URL for the name of a host, and a name alone for port 443,
 // where servers with TLS are.
+// Nor does it take a host's control characters for an error: it leaves them out, and what follows
+// NUL.
 bool IsAddress(const std::string& address, Encryption encryption) {
   constexpr std::string_view kUnix = "unix:";
-  if (address.starts_with(kUnix)) return address.size() > kUnix.size();
+  if (address.starts_with(kUnix)) {
+    return address.size() > kUnix.size() && address.find('\0') == std::string::npos;
+  }
   const size_t colon = address.rfind(':');
   const std::string host = address.substr(0, colon);
-  if (host.empty() || host.find_first_of(" \t\n") != std::string::npos) return false;
+  const bool unclear = std::ranges::any_of(
+      host, [](unsigned char c) { return absl::ascii_isspace(c) || absl::ascii_iscntrl(c); });
+  if (host.empty() || unclear) return false;
   const std::string alone = encryption == Encryption::kTls ? "443" : "";
   const std::string port = colon == std::string::npos ? alone : address.substr(colon + 1);
   const bool digits = port.find_first_not_of("0123456789") == std::string::npos;
@@ -44,8 +52,20 @@ absl::Status CheckAddress(const std::string& address, Encryption encryption) {
                                     "unix:PATH");
 }
 
+absl::StatusOr<std::string> TokenToSend(std::string_view token) {
+  std::string inner(token);
+  absl::StripAsciiWhitespace(&inner);
+  if (inner.empty() && !token.empty()) return absl::InvalidArgumentError("the token is blank");
+  if (std::ranges::all_of(inner, [](unsigned char c) { return absl::ascii_isgraph(c); })) {
+    return inner;
+  }
+  return absl::InvalidArgumentError(
+      "the token has a character within it that is not a visible one of ASCII");
+}
+
 absl::Status CheckEndpoint(const Endpoint& endpoint) {
   const TlsMaterial& tls = endpoint.tls;
+  BCCSKEL_RETURN_IF_ERROR(TokenToSend(endpoint.token).status());
   BCCSKEL_RETURN_IF_ERROR(
       CheckAddress(endpoint.address, tls.ca.empty() ? Encryption::kNone : Encryption::kTls));
   BCCSKEL_RETURN_IF_ERROR(CheckPem(tls.ca, "the file of authorities", "CERTIFICATE-----"));

@@ -2,8 +2,10 @@
 #define BCCSKEL_CLIENT_ENDPOINT_H_
 
 #include <string>
+#include <string_view>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 
 namespace bccskel::client {
 
@@ -18,7 +20,7 @@ struct TlsMaterial {
 struct Endpoint {
   std::string address = "127.0.0.1:50051";  // HOST:PORT or unix:PATH
   TlsMaterial tls;
-  std::string token;  // sent with each call; empty: none
+  std::string token;  // TokenToSend() goes with each call; empty: none
 
   enum class PlaintextToken { kRefuse, kAllow };
   PlaintextToken plaintext_token = PlaintextToken::kRefuse;  // over a network without TLS
@@ -32,8 +34,13 @@ enum class Encryption { kNone, kTls };
 // Errors: INVALID_ARGUMENT for what is neither HOST:PORT nor unix:PATH; with TLS, HOST is enough.
 absl::Status CheckAddress(const std::string& address, Encryption encryption);
 
-// Errors: those of CheckAddress(); FAILED_PRECONDITION for a token that would cross a network in
-// the clear;
+// The token without the whitespace around it, such as the newline of a file.
+// Errors: INVALID_ARGUMENT, without a character of it, for one that is blank or has others than the
+//         visible ones of ASCII: headers of HTTP/2 cannot hold them, and gRPC aborts.
+absl::StatusOr<std::string> TokenToSend(std::string_view token);
+
+// Errors: those of CheckAddress() and TokenToSend(); FAILED_PRECONDITION for a token that would
+// cross a network in the clear;
 //         INVALID_ARGUMENT for a certificate without a key or TLS, or a key without a certificate.
 absl::Status CheckEndpoint(const Endpoint& endpoint);
 

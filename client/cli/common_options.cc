@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/bench_core.h"
 #include "client/cli/option_values.h"
@@ -39,16 +38,10 @@ std::string TokenPath(const ServerArguments& server) {
 
 // The first line of the file. Never part of a message.
 absl::StatusOr<std::string> ReadToken(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::string token, ReadText(path));
-  token.resize(std::min(token.find('\n'), token.size()));
-  absl::StripAsciiWhitespace(&token);
-  for (const char c : token) {
-    if (!absl::ascii_isgraph(static_cast<unsigned char>(c))) token.clear();
-  }
-  if (token.empty() && !path.empty()) {
-    return absl::InvalidArgumentError(path + ": its first line is not a token");
-  }
-  return token;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string text, ReadText(path));
+  absl::StatusOr<std::string> token = client::TokenToSend(text.substr(0, text.find('\n')));
+  if (path.empty() || (token.ok() && !token->empty())) return token;
+  return absl::InvalidArgumentError(path + ": its first line is not a token");
 }
 
 }  // namespace

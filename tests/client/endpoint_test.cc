@@ -43,6 +43,42 @@ TEST(Endpoint, ATokenMayStayOnThisMachine) {
   }
 }
 
+TEST(Endpoint, ATokenIsSentWithoutTheWhitespaceAroundIt) {
+  for (const char* text :
+       {"bccskel_secret", "bccskel_secret\n", " bccskel_secret\r\n", "\tbccskel_secret "}) {
+    EXPECT_EQ(*TokenToSend(text), "bccskel_secret");
+    Endpoint endpoint = WithToken("localhost:1");
+    endpoint.token = text;
+    EXPECT_TRUE(CheckEndpoint(endpoint).ok());
+  }
+  EXPECT_EQ(*TokenToSend(""), "");
+}
+
+TEST(Endpoint, ATokenThatNoHeaderHoldsIsRefusedAndNotShown) {
+  using std::string_literals::operator""s;
+  for (const std::string& text :
+       {"secr\u00e9t"s, "secret secret"s, "secret\nsecret"s, "secret\0secret"s, "secret\x7f"s,
+        "\xef\xbb\xbfsecret"s, "\n"s, " "s}) {
+    Endpoint endpoint = WithToken("localhost:1");
+    endpoint.token = text;
+    const absl::Status refused = CheckEndpoint(endpoint);
+    EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument) << text;
+    EXPECT_EQ(std::string(refused.message()).find("secr"), std::string::npos);
+    EXPECT_EQ(Connect(endpoint).status(), refused);
+    EXPECT_EQ(TokenToSend(text).status(), refused);
+  }
+}
+
+TEST(Endpoint, AnAddressHasNoControlCharacters) {
+  using std::string_literals::operator""s;
+  for (const std::string& address :
+       {"a\rb:1"s, "a\x01:1"s, "a\0.example:1"s, "a\x7f:1"s, "unix:/run/x\0y"s}) {
+    Endpoint endpoint;
+    endpoint.address = address;
+    EXPECT_EQ(CheckEndpoint(endpoint).code(), absl::StatusCode::kInvalidArgument) << address;
+  }
+}
+
 TEST(Endpoint, ACertificateNeedsItsKeyAndTls) {
   Endpoint endpoint;
   endpoint.address = "a:1";

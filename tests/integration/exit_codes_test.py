@@ -139,6 +139,10 @@ class ExitCodesTest(harness.TestCase):
         with harness.Server(self.folder, "--tokens", tokens) as server:
             self.fail_with(9, "token", *words, server.address)
             self.fail_with(9, "token", *words, server.address, "--token-file", token)
+            token.write_text("secr\u00e9t\n")
+            done = self.fail_with(3, "its first line is not a token", *words, server.address,
+                                  "--token-file", token)
+            self.assertNotIn("secr", done.stderr)
 
     def test_3_for_tls_files_that_hold_no_pem(self):
         words = self.skeletonize(self.generate("ball"), "--server", "localhost:1", "--tls-ca")

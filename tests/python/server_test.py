@@ -94,6 +94,7 @@ class TlsTest(harness.TestCase):
             return bccskel.Client(address, tls=tls, **words).describe(timeout=10)
 
         self.assertIn("algorithm_version", describe(mine, token=token))
+        self.assertIn("algorithm_version", describe(mine, token=f" {token}\r\n"))
         with self.assertRaises(PermissionError):
             describe(mine, token=token[::-1])
         with self.assertRaises(PermissionError):
@@ -112,6 +113,16 @@ class RefusalsTest(harness.TestCase):
     def test_tokens(self):
         with self.assertRaisesRegex(ValueError, "token"):
             bccskel.Client("example.org:1", token="secret")
+        for token in ("secr\u00e9t", "secret\nsecret", "secret\0", "\ud800secret", "\n"):
+            with self.assertRaisesRegex(ValueError, "token") as raised:
+                bccskel.Client("unix:/nowhere", token=token)
+            self.assertNotIn("secr", str(raised.exception))
+        for words in ({"address": 5, "token": "secret"}, {"token": b"secret"},
+                      {"address": "\ud800", "token": "secret"},
+                      {"token": "secret", "plaintext_token": "yes"}):
+            with self.assertRaises((TypeError, ValueError)) as raised:
+                bccskel.Client(**words)
+            self.assertNotIn("secr", str(raised.exception))
         with self.assertRaises(FileNotFoundError):
             bccskel.Client(tls=self.path("none.pem"))
         with self.assertRaisesRegex(ValueError, "tls must be"):

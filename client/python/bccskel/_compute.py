@@ -239,7 +239,8 @@ class Client:
     """The same functions, computed by a server.
 
     address: 'HOST:PORT' or 'unix:PATH'.
-    token: what the server wants to let the caller in.
+    token: what the server wants to let the caller in, in visible ASCII; whitespace around it, such
+        as the newline of a file, is left out.
     tls: None for no encryption; True to trust the authorities of this machine; the path of a file
         of authorities (PEM); or (authorities, certificate, key), three paths.
     plaintext_token: send the token over a network without TLS, too.
@@ -260,8 +261,16 @@ class Client:
         if len(paths) not in (1, 3):
             raise ValueError("tls must be True, a path or (authorities, certificate, key)")
         pems = [_pem(path) for path in paths] + [""] * (3 - len(paths))
+        for name, text in (("address", address), ("token", token or "")):
+            if not isinstance(text, str):
+                raise TypeError(f"{name} must be a text, got {type(text).__name__}")
+        if not isinstance(plaintext_token, (bool, np.bool_)):
+            raise TypeError(f"plaintext_token must be True or False, got {plaintext_token!r}")
         self.address = address
-        self._endpoint = _native.Endpoint(address, token or "", pems, plaintext_token)
+        # All of types that the binding takes: its error would show the token.
+        self._endpoint = _native.Endpoint(os.fsencode(address),
+                                          (token or "").encode("utf-8", "surrogatepass"), pems,
+                                          bool(plaintext_token))
         self._server = _native.Server(self._endpoint)
 
     def __repr__(self) -> str:
