@@ -1,5 +1,7 @@
 #include "client/volume_declaration.h"
 
+#include <algorithm>
+
 #include "proto/wire/placement.h"
 #include "proto/wire/volume_encoding.h"
 
@@ -10,7 +12,8 @@ v1::VolumeDeclaration DeclarationOf(const EncodedVolume& volume) {
   declaration.set_encoding(wire::ToMessage(volume.encoding));
   *declaration.mutable_extent() = wire::ToMessage(volume.extent);
   declaration.set_size_bytes(volume.bytes.size());
-  declaration.set_max_bricks(volume.bricks);
+  // 0 would mean unknown.
+  declaration.set_max_bricks(std::max<uint64_t>(volume.bricks, 1));
   return declaration;
 }
 

@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 
 import harness
+import numpy
 from harness import CLIENT, Server
 
 
@@ -51,6 +52,20 @@ class JobsTest(harness.TestCase):
             self.succeed("delete", job, "--server", server.address)
             self.assertEqual(self.jobs(server), {})
             self.fail_with(3, "server", "watch", job, "--server", server.address)
+
+    def test_an_object_without_points_has_a_result_without_any(self):
+        numpy.save(self.path("nothing.npy"), numpy.zeros((4, 5, 6)))
+        nothing = self.path("nothing.exr")
+        harness.bccskel("voxelize", self.path("nothing.npy"), "-o", nothing)
+        with self.server() as server:
+            job = self.submit_file(server, nothing)
+            self.assertEqual(self.succeed("watch", job, "--server", server.address),
+                             f"{job} succeeded\n")
+            self.succeed("fetch", job, "--server", server.address, "-o", self.path("there.json"))
+        harness.bccskel("skeletonize", nothing, "--local", "-o", self.path("here.json"))
+        there, here = (json.loads((self.folder / name).read_text())
+                       for name in ("there.json", "here.json"))
+        self.assertEqual((there["nodes"], there["sha256"]), ([], here["sha256"]))
 
     def test_a_result_is_fetched_in_every_format(self):
         endings = ("json", "graphml", "vtp", "swc", "csv", "glb", "obj", "svg", "png", "html")

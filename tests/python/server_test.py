@@ -55,6 +55,21 @@ class ServerTest(harness.TestCase):
         with self.assertRaises(NotImplementedError):
             self.client.skeletonize_labels(image, sampling="nearest")
 
+    def test_nothing(self):
+        numpy.save(self.path("nothing.npy"), numpy.zeros((4, 5, 6)))
+        harness.bccskel("voxelize", self.path("nothing.npy"), "-o", self.path("nothing.bccb"))
+        lattice = bccskel.read(self.path("nothing.bccb"))
+        for nothing in (numpy.zeros((4, 5, 6)), numpy.full((1, 1, 1), numpy.nan), lattice):
+            found = []
+            for skeletonize in (self.client.skeletonize, bccskel.skeletonize):
+                with self.assertWarnsRegex(UserWarning, "the object has no points"):
+                    found.append(skeletonize(nothing))
+            there, here = found
+            self.assertEqual((there.sha256, there.certificate, there.notes),
+                             (here.sha256, here.certificate, here.notes))
+            self.assertEqual(len(there.nodes), 0)
+        self.assertEqual(self.client.skeletonize_labels(numpy.zeros((4, 5, 6), "u1")), {})
+
     def test_descriptions(self):
         self.assertEqual(self.client.describe()["server_version"], bccskel.__version__)
 
