@@ -88,15 +88,8 @@ struct SkeletonizeArguments : ComputeArguments {
   LayerPart part;  // of the object, that this process reads
 };
 
-// What stands in a path for the number of the label: such a path is one file per label.
-inline constexpr const char* kLabelPlace = "{label}";
-
-// OK for a path with {label} and any format, and for one without and a format that can hold many
-// skeletons. Errors: INVALID_ARGUMENT.
-absl::Status CheckLabelOutput(const std::string& path);
-
 // The skeleton of every label of an image: of those that `image` names, or of all. An output with
-// kLabelPlace is a file per label.
+// exporting::kLabelPlace is a file per label.
 struct LabelsArguments : ComputeArguments {
   uint64_t min_voxels = 1;
 };

@@ -2,13 +2,10 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,7 +20,7 @@
 #include "client/cli/load_object.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
-#include "client/export/atomic_file.h"
+#include "client/export/label_paths.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
@@ -39,57 +36,15 @@ namespace bccskel::cli {
 
 namespace {
 
-constexpr std::string_view kPlace = kLabelPlace;
-
-bool IsForEach(const std::string& path) { return path.find(kPlace) != path.npos; }
-
-std::string PathFor(std::string path, uint64_t label) {
-  const std::string number = std::to_string(label);
-  for (size_t at = path.find(kPlace); at != path.npos; at = path.find(kPlace, at)) {
-    path.replace(at, kPlace.size(), number);
-    at += number.size();
-  }
-  return path;
-}
-
-// Makes the folder that the label's number names, if it names one.
-absl::Status MakeFolderFor(const std::string& path, uint64_t label) {
-  const size_t slash = path.rfind('/');
-  if (slash == path.npos || path.find(kPlace) > slash) return absl::OkStatus();
-  const std::string folder = PathFor(path.substr(0, slash), label);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  return error ? absl::ErrnoToStatus(error.value(), "cannot make the folder " + folder)
-               : absl::OkStatus();
-}
-
-}  // namespace
-
-absl::Status CheckLabelOutput(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(const exporting::SkeletonFormat format,
-                           exporting::SkeletonFormatOf(path));
-  if (exporting::ShowsObject(format)) {
-    return absl::InvalidArgumentError(
-        path + ": pictures show one object; use skeletonize --label for one label");
-  }
-  if (IsForEach(path) || exporting::HoldsManyLabels(format)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      path + ": this format holds one label; write " + kLabelPlace +
-      " where its number shall stand, or put all labels into a .vtp, "
-      ".graphml, .json, .csv, .glb or .mrk.json file or a .precomputed folder");
-}
-
-namespace {
-
 // The output files of the skeletons of many labels.
 class LabelFiles {
  public:
-  // Needs: CheckLabelOutput() is OK for all.
+  // Needs: exporting::CheckLabelOutput() is OK for all.
   LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
              exporting::World world, exporting::CurveSampling swc)
       : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
     for (const std::string& path : paths) {
-      (IsForEach(path) ? paths_of_each_ : paths_of_all_).push_back(path);
+      (exporting::IsForEachLabel(path) ? paths_of_each_ : paths_of_all_).push_back(path);
     }
   }
 
@@ -127,9 +82,8 @@ class LabelFiles {
                                         .world = world_,
                                         .swc = swc_};
     for (const std::string& path : paths_of_each_) {
-      BCCSKEL_RETURN_IF_ERROR(MakeFolderFor(path, skeleton.label));
-      BCCSKEL_RETURN_IF_ERROR(
-          exporting::WriteSkeletonFile(PathFor(path, skeleton.label), subject).status());
+      BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, skeleton.label));
+      BCCSKEL_RETURN_IF_ERROR(exporting::WriteSkeletonFile(own, subject).status());
     }
     return absl::OkStatus();
   }

@@ -13,6 +13,7 @@
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
 #include "client/endpoint.h"
+#include "client/export/label_paths.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/open_image.h"
@@ -123,7 +124,7 @@ absl::Status Validate(const LabelsArguments& arguments) {
         "--sampling is for this machine; a server converts labels exactly");
   }
   for (const std::string& output : arguments.outputs) {
-    BCCSKEL_RETURN_IF_ERROR(CheckLabelOutput(output));
+    BCCSKEL_RETURN_IF_ERROR(exporting::CheckLabelOutput(output));
     if (on_server &&
         exporting::SkeletonFormatOf(output).value() == exporting::SkeletonFormat::kVolume) {
       return absl::InvalidArgumentError(
@@ -207,11 +208,10 @@ template <typename Chosen>
 absl::Status CheckOutputNames(const Chosen& arguments) {
   std::set<std::filesystem::path> places;
   for (const std::string& path : OutputsOf(arguments)) {
-    if (!std::same_as<Chosen, LabelsArguments> && path.find(kLabelPlace) != path.npos) {
-      return absl::InvalidArgumentError(path +
-                                        ": only `bccskel labels` puts the number of a label in "
-                                        "place of " +
-                                        kLabelPlace);
+    if (!std::same_as<Chosen, LabelsArguments> && exporting::IsForEachLabel(path)) {
+      return absl::InvalidArgumentError(
+          path + ": only `bccskel labels` puts the number of a label in place of " +
+          std::string(exporting::kLabelPlace));
     }
     if (!places.insert(PlaceOf(path)).second) {
       return absl::InvalidArgumentError(path +
@@ -242,7 +242,7 @@ namespace {
 
 // The folders that a label's number names are made for it, in one that must be there.
 std::string FirstMadeFor(const std::string& path) {
-  return path.substr(0, path.find('/', path.find(kLabelPlace)));
+  return path.substr(0, path.find('/', path.find(exporting::kLabelPlace)));
 }
 
 // Of what is written first.

@@ -42,6 +42,29 @@ class FilesTest(harness.TestCase):
                     self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
         self.assertGreater(len(self.bytes("mine.html")), 100_000)
 
+    def test_a_place_for_the_label_makes_a_file_for_each(self):
+        labels = crossing_bars().astype("u2") * 3
+        labels[:, :, 25:] *= 100
+        numpy.save(self.image, labels)
+        endings = (".json", ".swc", ".exr", ".vtp")
+        words = [word for ending in endings
+                 for word in ("-o", self.path("theirs-{label}/a{label}" + ending))]
+        self.succeed("labels", self.image, "--local", "--root", "thickest-node", *words)
+        skeletons = bccskel.skeletonize_labels(bccskel.read(self.image), root="thickest-node")
+        for ending in endings:
+            bccskel.save_labels(self.path("mine-{label}/a{label}" + ending), skeletons)
+            for label in (3, 300):
+                self.assertEqual(self.bytes(f"mine-{label}/a{label}{ending}"),
+                                 self.bytes(f"theirs-{label}/a{label}{ending}"))
+        bccskel.save_labels(self.path("none-{label}.swc"), {})
+        self.assertEqual(list(self.folder.glob("*none*")), [])
+        with self.assertRaisesRegex(ValueError, "holds one label; write {label} where its number"):
+            bccskel.save_labels(self.path("all.swc"), skeletons)
+        with self.assertRaisesRegex(ValueError, "pictures show one object"):
+            bccskel.save_labels(self.path("{label}.svg"), skeletons)
+        with self.assertRaises(OSError):
+            bccskel.save_labels(self.path("missing/{label}.swc"), skeletons)
+
     def test_what_an_image_says_of_its_world_is_in_the_files(self):
         mask = crossing_bars().astype("u1")
         with open(self.path("mask.nrrd"), "wb") as file:

@@ -381,9 +381,18 @@ def _in_notebook() -> bool:
 
 def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]) -> None:
     """Writes the skeletons of labels of one image into one file, .vtp, .graphml, .json, .csv, .glb or
-    .mrk.json, or a .precomputed folder, as `bccskel labels` does.
+    .mrk.json, or a .precomputed folder, as `bccskel labels` does. With `{label}` in its path one file
+    per label, in any format but pictures; folders that `{label}` names are made.
 
     Raises ValueError for another ending, OSError where it cannot be written.
+
+    >>> import os, tempfile
+    >>> import numpy as np, bccskel
+    >>> bars = bccskel.skeletonize_labels(np.repeat(np.uint8([[[7]], [[9]]]), 30, axis=2))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_labels(os.path.join(folder, "bar-{label}.swc"), bars)
+    ...     sorted(os.listdir(folder))
+    ['bar-7.swc', 'bar-9.swc']
     """
     ordered = sorted(skeletons.items())
     world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")

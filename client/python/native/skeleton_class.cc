@@ -15,7 +15,9 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/console.h"
+#include "client/cli/file_writers.h"
 #include "client/cli/option_values.h"
+#include "client/export/label_paths.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
 #include "client/export/skeleton_file.h"
@@ -212,8 +214,8 @@ absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& 
       stop);
 }
 
-absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying, Job& job,
-                    std::string& note) {
+absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying,
+                    const std::stop_token& stop, std::string& note) {
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
   if (!format.ok()) return format.status();
   using exporting::SkeletonFormat;
@@ -222,14 +224,15 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
     return absl::UnimplementedError("servers do not send the lattice points of labels");
   }
   if (outcome.read.has_value()) {
-    absl::StatusOr<std::string> written = SaveRead(outcome, path, saying, job.stop());
+    absl::StatusOr<std::string> written = SaveRead(outcome, path, saying, stop);
     if (!written.ok()) return std::move(written).status();
     note = *std::move(written);
     return absl::OkStatus();
   }
-  cli::LocalTeam team(0, job.stop());
+  const bool shown = exporting::ShowsObject(*format);
+  cli::LocalTeam team(shown ? 0 : 1, stop);
   auto object = std::make_shared<const Volume>();
-  if (exporting::ShowsObject(*format)) {
+  if (shown) {
     absl::StatusOr<std::shared_ptr<const Volume>> made = outcome.Object();
     if (!made.ok()) return made.status();
     object = *std::move(made);
@@ -257,7 +260,7 @@ std::string Save(const Outcome& outcome, const std::string& path, const std::str
     throw py::value_error(absl::StrCat("swc_step ", *swc_step, ": must be 0 or more"));
   }
   const Saying saying = {title, {world, unit}, {.step = swc_step}};
-  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, saying, job, note); });
+  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, saying, job.stop(), note); });
   return note;
 }
 
@@ -280,8 +283,28 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
 
 using LabelList = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
+absl::Status WriteEachLabel(const std::string& path, const LabelList& labels,
+                            const exporting::World& world, const std::stop_token& stop) {
+  cli::FileWriters writers;
+  for (const auto& [label, outcome] : labels) {
+    const auto write = [&, label, outcome]() -> absl::Status {
+      BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, label));
+      std::string note;  // in the file
+      return SaveIn(*outcome, own, {absl::StrCat("label ", label), world, {}}, stop, note);
+    };
+    BCCSKEL_RETURN_IF_ERROR(writers.Add(write));
+  }
+  return writers.Finish();
+}
+
 absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList& labels,
-                                        const exporting::World& world) {
+                                        const exporting::World& world,
+                                        const std::stop_token& stop) {
+  BCCSKEL_RETURN_IF_ERROR(exporting::CheckLabelOutput(path));
+  if (exporting::IsForEachLabel(path)) {
+    BCCSKEL_RETURN_IF_ERROR(WriteEachLabel(path, labels, world, stop));
+    return std::string();
+  }
   exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
                                   world);
   for (const auto& [label, outcome] : labels) {
@@ -291,15 +314,15 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
     }
     all.Add(label, outcome->voxels, outcome->result);
   }
-  return exporting::WriteLabeledFile(path, all);
+  return exporting::WriteLabeledFile(path, all, stop);
 }
 
 // What the format could not hold; empty if it held everything.
 std::string SaveLabels(const std::string& path, const LabelList& labels, const std::string& world,
                        const std::string& unit) {
   std::string note;
-  RunJob(py::none(), [&](Job&) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(note, WriteLabels(path, labels, {world, unit}));
+  RunJob(py::none(), [&](Job& job) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(note, WriteLabels(path, labels, {world, unit}, job.stop()));
     return absl::OkStatus();
   });
   return note;
