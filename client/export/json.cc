@@ -159,6 +159,7 @@ void AddPlacement(Text& text, const Placement& placement) {
 void AddOrder(Text& text, const TreeOrder& order) {
   text.Add(",\n\"order\":{\"roots\":");
   AddList(text, ",", order.roots, [&](uint32_t root) { text.Add(root); });
+  if (order.rule == RootChoice::Rule::kDeepestNode) text.Add(",\"rule\":\"thickest-node\"");
   text.Add(",\"loops_cut\":", order.loops_cut, ",\"most_generations\":", order.MostGenerations(),
            ",\"highest_strahler\":", order.HighestStrahler(), '}');
 }

@@ -13,9 +13,19 @@
 namespace bccskel::exporting {
 namespace {
 
-enum class SwcType : int { kUndefined = 0, kFork = 5, kEnd = 6 };
+enum class SwcType : int { kUndefined = 0, kSoma = 1, kFork = 5, kEnd = 6 };
 
-SwcType TypeOf(const SkeletonGraph& graph, std::optional<uint32_t> node) {
+// Where the thickest nodes were asked for as roots, they are somas; readers look for type 1.
+enum class Roots { kSomas, kLikeOthers };
+
+Roots RootsOf(const std::optional<TreeOrder>& order) {
+  const bool somas = order.has_value() && order->rule == RootChoice::Rule::kDeepestNode;
+  return somas ? Roots::kSomas : Roots::kLikeOthers;
+}
+
+SwcType TypeOf(const SkeletonGraph& graph, const PointForest::Point& point, Roots roots) {
+  if (roots == Roots::kSomas && !point.parent.has_value()) return SwcType::kSoma;
+  const std::optional<uint32_t> node = point.node;
   if (!node.has_value()) return SwcType::kUndefined;
   const NodeKind kind = graph.nodes[*node].kind;
   if (kind == NodeKind::kJunction) return SwcType::kFork;
@@ -65,7 +75,7 @@ std::string_view CurveWord(const CurveSampling& sampling) {
   return sampling.step == 0.0 ? "lattice points, not smoothed" : "smooth";
 }
 
-void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
+void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options, Roots roots,
                const std::string& note) {
   text.Add("# curve skeleton by bccskel, ", forest.trees,
            forest.trees == 1 ? " tree\n" : " trees\n");
@@ -73,7 +83,8 @@ void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
   text.Add("# world: ", OnOneLine(OrUnknown(options.world.axes)),
            "\n# unit: ", OnOneLine(OrUnknown(options.world.unit)),
            "\n# curve: ", CurveWord(options.sampling), '\n');
-  text.Add("# types: 6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
+  text.Add("# types: ", roots == Roots::kSomas ? "1 soma, " : "",
+           "6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
 }
 
 // Decimals that tell a ten-thousandth of the spacing apart; none where a double has not as many.
@@ -111,11 +122,12 @@ SwcDocument WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>&
   SwcDocument document;
   document.note = NoteOf(graph, forest);
   Text text;
-  AddHeader(text, forest, options, document.note);
+  const Roots roots = RootsOf(order);
+  AddHeader(text, forest, options, roots, document.note);
   const std::optional<int> decimals = DecimalsFor(graph.placement);
   for (size_t n = 0; n < forest.points.size(); ++n) {
     const PointForest::Point& point = forest.points[n];
-    AddRow(text, n, TypeOf(graph, point.node), point, decimals);
+    AddRow(text, n, TypeOf(graph, point, roots), point, decimals);
   }
   document.text = std::move(text).Take();
   return document;

@@ -24,8 +24,8 @@ struct SwcOptions {
 
 // SWC: `id type x y z radius parent`, one tree per component (see PointForest), from the roots of
 // the order, or else from the deepest node of each component.
-// Types: 6 end, 5 junction, 0 everything else. World coordinates and units, rounded to a
-// ten-thousandth of the smallest spacing.
+// Types: 1 the roots of an order of thickest nodes, 6 end, 5 junction, 0 everything else. World
+// coordinates and units, rounded to a ten-thousandth of the smallest spacing.
 SwcDocument WriteSwc(const SkeletonGraph& graph,
                      const std::optional<TreeOrder>& order = std::nullopt,
                      const SwcOptions& options = {});

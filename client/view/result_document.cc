@@ -69,6 +69,7 @@ template <typename T>
 NotOnPages(T&) -> NotOnPages<T>;
 struct Order {
   std::optional<std::vector<uint32_t>>& roots;
+  std::string& rule;
 };
 
 // Reads values from their events. After the first error what is read is incomplete.
@@ -80,7 +81,7 @@ class Reader {
     Unkept timed, labels;
     NotOnPages timings{timed};
     NotOnPages sheets{to_.sheets};
-    Order order{to_.roots};
+    Order order{to_.roots, to_.root_rule};
     return ReadDocument(
         Required("nodes", to_.nodes), Required("edges", to_.edges), Optional("sheets", sheets),
         Required("certificate", to_.certificate), Required("object_points", to_.object_points),
@@ -265,7 +266,9 @@ class Reader {
     if (components == "largest") preparing.components = KeptComponents::kLargest;
     to.border_continues = border == "continues";
   }
-  void Read(const Place& place, Order& to) { ReadObject(place, Required("roots", to.roots)); }
+  void Read(const Place& place, Order& to) {
+    ReadObject(place, Required("roots", to.roots), Optional("rule", to.rule));
+  }
 
   template <typename... T>
   void ReadObject(const Place& place, Member<T>... members) {

@@ -59,6 +59,7 @@ struct ResultDocument {
   std::string world = "unknown";
   std::string unit = "unknown";
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
+  std::string root_rule;                       // of the roots, where the document says it
   std::shared_ptr<const std::string> text;     // the document itself
   // Values in it, in order, that a page has in another form: timings, sheets, and the points of
   // edges that have a smooth curve.

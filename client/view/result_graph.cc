@@ -123,6 +123,7 @@ class GraphReader {
 absl::Status ReadRoots(const ResultDocument& document, ResultGraph& result) {
   if (!document.roots.has_value()) return absl::OkStatus();
   RootChoice choice = {.rule = RootChoice::Rule::kNodes, .nodes = *document.roots};
+  if (document.root_rule == "thickest-node") choice = {.rule = RootChoice::Rule::kDeepestNode};
   if (!CheckRootChoice(choice, result.graph).ok()) return NoResult("roots", "a list of nodes");
   result.root = std::move(choice);
   return absl::OkStatus();

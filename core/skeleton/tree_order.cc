@@ -28,6 +28,7 @@ class Ordering {
       edges_at_[graph.edges[e].source].push_back(e);
       edges_at_[graph.edges[e].target].push_back(e);
     }
+    order_.rule = choice.rule;
     order_.nodes.resize(graph.nodes.size());
     order_.edges.resize(graph.edges.size());
     parent_edge_.resize(graph.nodes.size(), kNoRow);

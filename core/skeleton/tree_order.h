@@ -60,6 +60,7 @@ struct EdgeOrder {
 
 // The graph as trees that grow from their roots.
 struct TreeOrder {
+  RootChoice::Rule rule = RootChoice::Rule::kThickestEnd;  // that chose the roots
   std::vector<uint32_t> roots;   // by component, in the order of ComponentsOf()
   std::vector<NodeOrder> nodes;  // by node
   std::vector<EdgeOrder> edges;  // by edge

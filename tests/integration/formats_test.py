@@ -282,7 +282,8 @@ class FormatsTest(harness.TestCase):
                 ("--fill-cavities", "--denoise", 1), ("--kind", "surface"),
                 ("--kind", "isthmus-curve", "--pruning", "length", "--pruning-threshold", 1e-5),
                 ("--method", "directional", "--distance", "chamfer"))):
-            options = ("--root", "thickest-end", "--swc-step", 0.25)
+            root = "thickest-end" if number < 2 else "thickest-node"
+            options = ("--root", root, "--swc-step", 0.25)
             theirs = [w for e in (*endings, "json") for w in ("-o", self.path(f"a{number}.{e}"))]
             mine = [w for e in endings for w in ("-o", self.path(f"b{number}.{e}"))]
             # Filling cavities warns.

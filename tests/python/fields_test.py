@@ -40,7 +40,8 @@ class FieldsTest(harness.TestCase):
                 if not line.startswith("#")]
         root = [row for row in rows if row[6] == "-1"]
         self.assertEqual(len(root), 1)
-        node_radii = [float(row[5]) for row in rows if row[1] in "56"]
+        node_radii = [float(row[5]) for row in rows if row[1] in "156"]
+        self.assertEqual(root[0][1], "1")
         self.assertEqual(float(root[0][5]), max(node_radii))
         table = pandas.read_csv(self.folder / "sh" / "neuron.csv")
         self.assertIn(f"{len(table)} edges", texts["sh"])

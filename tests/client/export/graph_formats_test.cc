@@ -254,6 +254,8 @@ TEST(GraphFormatsTest, HoldTheOrderOfTheTrees) {
   EXPECT_THAT(json, HasSubstr("\"closes_loop\":true}"));
   EXPECT_THAT(json, HasSubstr("\"order\":{\"roots\":[1,2],\"loops_cut\":1,"
                               "\"most_generations\":0,\"highest_strahler\":1}"));
+  EXPECT_THAT(JsonText(result, OrderTrees(result.graph, {RootChoice::Rule::kDeepestNode})),
+              HasSubstr("],\"rule\":\"thickest-node\",\"loops_cut\":1,"));
   const std::string graphml = GraphMlText(result.graph, {.order = order});
   EXPECT_THAT(graphml, HasSubstr("<data key=\"parent\">n1</data>"));
   EXPECT_THAT(graphml, HasSubstr("<data key=\"closes_loop\">true</data>"));

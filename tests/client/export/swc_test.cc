@@ -247,6 +247,21 @@ TEST(SwcTest, BeginsEveryTreeAtItsRoot) {
   }
 }
 
+TEST(SwcTest, TheThickestNodeIsASoma) {
+  const SkeletonGraph& graph = SampleOf(Shape::kTree).result.graph;
+  const auto types = [&](RootChoice::Rule rule) {
+    std::vector<int> types;
+    for (const Row& row : RowsOf(WriteSwc(graph, OrderTrees(graph, {.rule = rule})).text)) {
+      EXPECT_EQ(row.type == 1, row.parent == -1 && rule == RootChoice::Rule::kDeepestNode);
+      types.push_back(row.type);
+    }
+    return types;
+  };
+  EXPECT_EQ(types(RootChoice::Rule::kDeepestNode).front(), 1);
+  EXPECT_EQ(types(RootChoice::Rule::kThickestEnd).front(), 6);
+  EXPECT_NE(RowsOf(WriteSwc(graph).text).front().type, 1);  // nobody asked for a root
+}
+
 TEST(SwcTest, AnEmptyGraphIsAHeader) {
   EXPECT_THAT(RowsOf(WriteSwc(SkeletonGraph()).text), IsEmpty());
 }
