@@ -103,19 +103,23 @@ class ReadTest(harness.TestCase):
         self.assertIsNone(skeleton.order)
 
     def test_it_is_saved_as_convert_does(self):
-        for skeleton in (self.result(), pickle.loads(pickle.dumps(self.result()))):
+        for words in ((), ("--root", "thickest-end"), ("--root", "thickest-node")):
+            read = self.result(*words)
             for ending in GRAPH_ENDINGS:
                 self.succeed("convert", self.path("a.json"), "-o", self.path("theirs" + ending))
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")
-                    skeleton.save(self.path("mine" + ending))
-                self.assertEqual((self.folder / ("mine" + ending)).read_bytes(),
-                                 (self.folder / ("theirs" + ending)).read_bytes(), ending)
-            for ending in (".json", ".svg", ".html", ".exr"):
-                with self.assertRaises((ValueError, NotImplementedError)):
-                    skeleton.save(self.path("mine" + ending))
-            with self.assertRaisesRegex(ValueError, "read from a file does not know the voxels"):
-                skeleton.curve_image()
+            for skeleton in (read, pickle.loads(pickle.dumps(read))):
+                for ending in GRAPH_ENDINGS:
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore")
+                        skeleton.save(self.path("mine" + ending))
+                    self.assertEqual((self.folder / ("mine" + ending)).read_bytes(),
+                                     (self.folder / ("theirs" + ending)).read_bytes(),
+                                     (words, ending))
+        for ending in (".json", ".svg", ".html", ".exr"):
+            with self.assertRaises((ValueError, NotImplementedError)):
+                read.save(self.path("mine" + ending))
+        with self.assertRaisesRegex(ValueError, "read from a file does not know the voxels"):
+            read.curve_image()
 
     def test_it_has_the_roots_of_the_result(self):
         for root in ("thickest-node", "node:2"):

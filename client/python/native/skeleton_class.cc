@@ -179,10 +179,16 @@ std::vector<std::string> WithOptionNames(std::vector<std::string> messages) {
   return messages;
 }
 
+std::optional<TreeOrder> TreesOf(const Outcome& outcome) {
+  if (!outcome.root.has_value()) return std::nullopt;
+  return OrderTrees(outcome.result.graph, *outcome.root);
+}
+
 // The places in the trees; None where none were asked for.
 py::object OrderOf(const Outcome& outcome) {
-  if (!outcome.root.has_value()) return py::none();
-  const TreeOrder order = OrderTrees(outcome.result.graph, *outcome.root);
+  const std::optional<TreeOrder> trees = TreesOf(outcome);
+  if (!trees.has_value()) return py::none();
+  const TreeOrder& order = *trees;
   const auto number = [](uint32_t n) { return n == kNoRow ? int64_t{-1} : int64_t{n}; };
   py::dict dict;
   dict["roots"] = ArrayOf(order.roots, number);
@@ -205,13 +211,14 @@ struct Saying {
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const std::stop_token& stop) {
-  return exporting::WriteGraphFile(
-      path,
-      {.graph = outcome.result.graph,
-       .context = {.labels = {}, .facts = exporting::MethodFactsOf(*outcome.read)},
-       .world = saying.world,
-       .swc = saying.swc},
-      stop);
+  return exporting::WriteGraphFile(path,
+                                   {.graph = outcome.result.graph,
+                                    .context = {.labels = {},
+                                                .facts = exporting::MethodFactsOf(*outcome.read),
+                                                .order = TreesOf(outcome)},
+                                    .world = saying.world,
+                                    .swc = saying.swc},
+                                   stop);
 }
 
 absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying,
