@@ -26,7 +26,8 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
-      " among the curves; --fill-cavities fills cavities before thinning");
+      " among the curves, and lengths of branches that meet there include ways over it; "
+      "--fill-cavities fills cavities before thinning");
 }
 
 // Tunnels that noise opens split limbs into rings, which have no ends.
