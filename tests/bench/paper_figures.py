@@ -113,7 +113,7 @@ def measure_models(commands, meshes, output, repeat):
 def plot_growth(rows, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "bccskel"
+    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     colors = dict(zip(GROWING, ("tab:blue", "tab:orange", "tab:green")))

@@ -201,7 +201,7 @@ def all_targets(rows, loaded, memory, scikit, checks, sizes):
 def plot_growth(rows, sizes, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "bccskel"
+    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     for name in OBJECTS:

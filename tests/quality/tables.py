@@ -242,7 +242,7 @@ def report(figures, others, rotations, reconstruction, meshes, wild_tables=()):
 def plot(figures, others, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "bccskel"
+    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     drawing, axes = pyplot.subplots(figsize=(8, 4.5))
     for method in methods_of(figures):
