@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/bench/reference_skeleton.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel::cli {
 namespace {
@@ -98,10 +99,7 @@ TEST(MeasureCore, CountsTheMemoryOfTheDistancesAtLeast) {
 }
 
 TEST(MeasureCore, StopsWhenAskedTo) {
-  std::stop_source source;
-  source.request_stop();
-  exec::Context context;
-  context.stop = source.get_token();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(MeasureCore(Object("ball", 10'000), {}, 1, context).status().code(),
             absl::StatusCode::kCancelled);
 }

@@ -1,18 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
 
 #include "core/certificate/certificate.h"
 #include "core/exec/instruction_sets.h"
-#include "core/exec/worker_team.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 
@@ -26,29 +26,14 @@ using test::RandomBlob;
 using test::RandomCloud;
 using test::ReferenceBetti;
 using test::ReferencePointSet;
+using test::VolumeWhere;
 
 BettiNumbers Betti(const Volume& object, int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   return CountBettiNumbers(object, context).value();
 }
 BettiNumbers Betti(const std::vector<LatticePoint>& points) {
   return Betti(VolumeOfPoints(points));
-}
-
-// All lattice points of a box of `cells` cells that pass.
-Volume VolumeWhere(LatticeExtent cells, const std::function<bool(double, double, double)>& inside) {
-  VolumeBuilder builder(cells);
-  for (int32_t z = 0; z < 2 * cells.nz; ++z) {
-    for (int32_t y = 0; y < 2 * cells.ny; ++y) {
-      for (int32_t x = 0; x < 2 * cells.nx; ++x) {
-        if (IsOnLattice({x, y, z}) && inside(x, y, z)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
 }
 
 // One character per radius: shells around (c, c, c), `thickness` thick, of the given outer radii.
@@ -211,13 +196,9 @@ TEST(BettiNumbersLaw, AreTheSameOnAnyInstructionSet) {
 
 TEST(BettiNumbers, StopWhenTheJobIsCancelledOrLate) {
   const Volume object = VolumeOfPoints(RandomCloud(3, {20, 20, 20}, 0.5));
-  std::stop_source cancel;
-  exec::Context context;
-  context.stop = cancel.get_token();
-  cancel.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(CountBettiNumbers(object, context).status().code(), absl::StatusCode::kCancelled);
-  exec::Context late;
-  late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
+  const exec::Context late = test::Late();
   EXPECT_EQ(CountBettiNumbers(object, late).status().code(), absl::StatusCode::kDeadlineExceeded);
 }
 

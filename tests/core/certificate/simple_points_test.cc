@@ -2,7 +2,7 @@
 
 #include "core/certificate/certificate.h"
 #include "core/exec/instruction_sets.h"
-#include "core/exec/worker_team.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
@@ -55,10 +55,7 @@ TEST(SimpleNonEndPoints, AreAsManyForAnyNumberOfThreads) {
   const Volume object = VolumeOfPoints(test::RandomCloud(5, {64, 32, 32}, 0.3));
   const uint64_t expected = CountSimplePoints(object, SimplePoints::kNonEnd, {}, {});
   for (int threads : {2, 3, 8}) {
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
-    context.min_bricks_per_worker = 1;
+    test::TeamContext context(threads);
     EXPECT_EQ(CountSimplePoints(object, SimplePoints::kNonEnd, {}, context), expected);
   }
 }

@@ -6,9 +6,11 @@
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_distance.h"
 #include "tests/support/reference_point_set.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -86,10 +88,7 @@ TEST_P(ChamferDistanceLaw, AgreesWithTheReferenceOnRandomObjects) {
     const Volume object = VolumeOfPoints(points);
     for (int threads : {1, 3}) {
       for (double patience : {1e9, -1e9}) {  // never and at once on with one worker
-        exec::WorkerTeam team(threads);
-        exec::Context context;
-        context.team = &team;
-        context.min_bricks_per_worker = 1;
+        test::TeamContext context(threads);
         context.patience = patience;
         ExpectReferenceDistances(object, context);
       }
@@ -110,13 +109,8 @@ TEST(ChamferDistance, IsTheSameOnEveryInstructionSet) {
 
 // A plate is thin but so wide that distances within a layer overflow 16 bits on the way.
 TEST(ChamferDistance, DoesNotOverflowInAWidePlate) {
-  VolumeBuilder builder({700, 700, 2});
-  for (int32_t k = 0; k < 2; ++k) {
-    for (int32_t j = 0; j < 700; ++j) {
-      for (int32_t i = 0; i < 700; ++i) builder.Add(PointAt(Sublattice::kEven, i, j, k));
-    }
-  }
-  const Volume plate = *std::move(builder).Build();
+  const Volume plate =
+      test::VolumeWhere({700, 700, 2}, [](int32_t x, int32_t, int32_t) { return x % 2 == 0; });
   const auto field = ComputeDistance(plate, DistanceKind::kChamfer, exec::Context());
   ASSERT_TRUE(field.ok());
   EXPECT_EQ(field->weights(), kShortChamfer);
@@ -236,14 +230,10 @@ TEST_P(ChamferDistanceLaw, MeasuresUnequalSpacingsByTheirShortestPaths) {
 
 TEST(ChamferDistance, StopsWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(ComputeDistance(object, DistanceKind::kChamfer, context).status().code(),
             absl::StatusCode::kCancelled);
-  exec::Context late;
-  late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
+  const exec::Context late = test::Late();
   EXPECT_EQ(ComputeDistance(object, DistanceKind::kChamfer, late).status().code(),
             absl::StatusCode::kDeadlineExceeded);
 }

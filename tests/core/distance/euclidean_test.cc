@@ -10,6 +10,7 @@
 #include "core/exec/instruction_sets.h"
 #include "core/import/shapes/shapes.h"
 #include "core/lattice/directions.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
 
@@ -194,9 +195,7 @@ void ExpectTheSameEverywhere(const Volume& object) {
     SCOPED_TRACE(name);
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
     for (int threads : {1, 3}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
+      test::TeamContext context(threads);
       const auto field = ComputeDistance(object, DistanceKind::kEuclidean, context);
       ASSERT_EQ(field->values(), expected->values());
     }
@@ -206,10 +205,7 @@ void ExpectTheSameEverywhere(const Volume& object) {
 
 TEST(Euclidean, StopsWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(ComputeDistance(object, DistanceKind::kEuclidean, context).status().code(),
             absl::StatusCode::kCancelled);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
 
@@ -33,9 +34,7 @@ TEST_P(ExactRadiusLaw, IsFoundWithTheSameBitsWhateverTheField) {
       const std::vector<float> expected = *ExactRadii(object, ExactRadius(object, *euclidean), {});
       for (DistanceKind kind : {DistanceKind::kChamfer, DistanceKind::kChamferOptimal}) {
         const auto chamfer = ComputeDistance(object, kind, {});
-        exec::WorkerTeam team(3);
-        exec::Context context;
-        context.team = &team;
+        test::TeamContext context(3);
         ASSERT_EQ(*ExactRadii(object, ExactRadius(object, *chamfer), context), expected);
       }
     }
@@ -141,10 +140,7 @@ TEST(ExactRadius, FindsTheFirstOfEquallyNearPointsOfThickObjects) {
 TEST(ExactRadii, StopWhenAsked) {
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(ExactRadii(object, ExactRadius(object, *field), context).status().code(),
             absl::StatusCode::kCancelled);
 }

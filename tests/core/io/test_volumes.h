@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/volume/volume.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 
@@ -42,15 +43,8 @@ inline Volume EmptyVolume(LatticeExtent extent) {
 }
 
 inline Volume FullVolume(LatticeExtent extent) {
-  VolumeBuilder builder(extent, SkewedPlacement());
-  for (Sublattice sublattice : kSublattices) {
-    for (int32_t k = 0; k < extent.nz; ++k) {
-      for (int32_t j = 0; j < extent.ny; ++j) {
-        for (int32_t i = 0; i < extent.nx; ++i) builder.Add(PointAt(sublattice, i, j, k));
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  return test::VolumeWhere(
+      extent, [](auto...) { return true; }, SkewedPlacement());
 }
 
 inline Volume CornerVolume(LatticeExtent extent) {

@@ -7,6 +7,7 @@
 #include "core/io/volume_digest.h"
 #include "core/io/volume_encoder.h"
 #include "tests/core/io/test_volumes.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel {
 namespace {
@@ -107,10 +108,7 @@ TEST_P(VolumeRoundTrip, RefusesBytesThatEndEarlyOrLate) {
 
 TEST_P(VolumeRoundTrip, StopsWhenTheContextSaysSo) {
   const Volume volume = RandomVolume({20, 6, 40}, 3);
-  std::stop_source source;
-  source.request_stop();
-  exec::Context stopped;
-  stopped.stop = source.get_token();
+  const exec::Context stopped = test::Stopped();
   const auto bytes = Encode(volume);
   ASSERT_TRUE(bytes.ok()) << bytes.status();
   auto decoder = MakeVolumeDecoder(*HeaderOf(volume, *bytes), {});

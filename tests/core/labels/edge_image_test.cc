@@ -14,6 +14,7 @@
 #include "core/labels/point_index.h"
 #include "core/labels/skeletonize_labels.h"
 #include "tests/core/labels/label_volume.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel {
 namespace {
@@ -132,9 +133,7 @@ std::vector<Voxel> VoxelsAt(const Feature& feature, const std::map<Voxel, int>& 
 }
 
 void ExpectNearestEdges(const Example& example, int threads) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(threads);
   const auto image = NearestEdges(example.volume.grid, example.object(), example.graph,
                                   MaskAdjacency::k26, context);
   ASSERT_TRUE(image.ok()) << image.status();
@@ -268,10 +267,7 @@ TEST(NearestEdges, KeepRunsOfARowApart) {
 
 TEST(NearestEdges, StopWhenCancelled) {
   const Example example = Balls({});
-  std::stop_source source;
-  source.request_stop();
-  exec::Context context;
-  context.stop = source.get_token();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(NearestEdges(example.volume.grid, example.object(), example.graph, MaskAdjacency::k26,
                          context)
                 .status()

@@ -12,6 +12,7 @@
 #include "core/labels/ordered_delivery.h"
 #include "tests/core/labels/label_volume.h"
 #include "tests/core/mask/mask_words.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel {
 namespace {
@@ -26,10 +27,7 @@ const LabeledObjects& Objects() {
 constexpr uint64_t kLarge = 1200;
 
 std::vector<LabelSkeleton> Skeletons(int threads, const LabelsOptions& options) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   std::vector<LabelSkeleton> skeletons;
   const absl::Status status = SkeletonizeLabels(
       Objects(), options,
@@ -85,9 +83,7 @@ TEST(SkeletonizeLabels, GivesTheSameBitsInTheSameOrderForAnyThreads) {
 
 TEST(SkeletonizeLabels, EndsWithTheConsumersError) {
   for (int threads : {1, 4}) {
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
+    test::TeamContext context(threads);
     int taken = 0;
     const absl::Status status = SkeletonizeLabels(
         Objects(), {},
@@ -101,10 +97,8 @@ TEST(SkeletonizeLabels, EndsWithTheConsumersError) {
 }
 
 TEST(SkeletonizeLabels, StopsWhenCancelledFromInside) {
-  exec::WorkerTeam team(2);
   std::stop_source source;
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(2);
   context.stop = source.get_token();
   const absl::Status status = SkeletonizeLabels(
       Objects(), {},
@@ -127,9 +121,7 @@ TEST(SkeletonizeLabels, NamesTheLabelThatFails) {
 
 TEST(SkeletonizeLabels, EndsWithAnErrorWhenAWorkerFindsNoMemory) {
   for (int threads : {1, 2}) {
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
+    test::TeamContext context(threads);
     const absl::Status status = SkeletonizeLabels(
         Objects(), {}, [](LabelSkeleton&&) -> absl::Status { throw std::bad_alloc(); }, context);
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;

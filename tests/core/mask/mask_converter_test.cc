@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/core/mask/mask_words.h"
+#include "tests/support/contexts.h"
 #include "tests/support/object_parts.h"
 #include "tests/support/reference_mask.h"
 
@@ -91,10 +92,7 @@ TEST(MaskConverter, StopsAtTheLimitOfBricks) {
 }
 
 TEST(MaskConverter, StopsWhenCancelled) {
-  std::stop_source source;
-  source.request_stop();
-  exec::Context context;
-  context.stop = source.get_token();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(StatusOfSlices({1, 1, 1, {}}, {{1}}, {}, context).code(), absl::StatusCode::kCancelled);
 }
 

@@ -13,6 +13,7 @@
 #include "core/import/image/open_image.h"
 #include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel {
 
@@ -83,9 +84,7 @@ TEST_P(RealVolumes, KeepTheirTopologyThroughMaskObjectAndSkeleton) {
   const ConvertedMask converted = ConvertedVolume(GetParam());
   EXPECT_EQ(converted.voxels, GetParam().voxels);
   EXPECT_EQ(converted.mask, GetParam().topology);
-  exec::WorkerTeam team(std::max(static_cast<int>(std::thread::hardware_concurrency()), 1));
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(std::max(static_cast<int>(std::thread::hardware_concurrency()), 1));
   const auto skeleton = Skeletonize(converted.volume, {}, context);
   ASSERT_TRUE(skeleton.ok()) << skeleton.status();
   EXPECT_EQ(skeleton->certificate.input, GetParam().topology);

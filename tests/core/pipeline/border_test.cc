@@ -7,27 +7,16 @@
 #include <numbers>
 #include <string>
 
-#include "core/exec/worker_team.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/pipeline/skeletonize_within.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
 
-using IsIn = std::function<bool(double, double, double)>;
-
-Volume VolumeWhere(LatticeExtent cells, const IsIn& inside) {
-  VolumeBuilder builder(cells);
-  for (int32_t z = 0; z < 2 * cells.nz; ++z) {
-    for (int32_t y = z & 1; y < 2 * cells.ny; y += 2) {
-      for (int32_t x = z & 1; x < 2 * cells.nx; x += 2) {
-        if (inside(x, y, z)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
+using test::VolumeWhere;
 
 SkeletonizeOptions Continued(SkeletonizeOptions options = {}) {
   options.border = Border::kContinues;
@@ -36,10 +25,7 @@ SkeletonizeOptions Continued(SkeletonizeOptions options = {}) {
 
 SkeletonizeResult SkeletonOf(const Volume& object, const SkeletonizeOptions& options,
                              int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   auto result = Skeletonize(object, options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
@@ -119,15 +105,10 @@ TEST(Border, LimbsInAThinStackKeepTheirCurvesAndRadii) {
 // To the nearest background point of the extent, by looking at all.
 double DepthOf(LatticePoint p, const Volume& object) {
   double least = std::numeric_limits<double>::infinity();
-  const LatticeExtent& extent = object.extent();
-  for (int32_t z = 0; z < 2 * extent.nz; ++z) {
-    for (int32_t y = z & 1; y < 2 * extent.ny; y += 2) {
-      for (int32_t x = z & 1; x < 2 * extent.nx; x += 2) {
-        if (object.Contains({x, y, z})) continue;
-        least = std::min(least, std::hypot(x - p.x, y - p.y, z - p.z));
-      }
-    }
-  }
+  test::ForEachPointOf(object.extent(), [&](int32_t x, int32_t y, int32_t z) {
+    if (object.Contains({x, y, z})) return;
+    least = std::min(least, std::hypot(x - p.x, y - p.y, z - p.z));
+  });
   return least;
 }
 
@@ -210,9 +191,7 @@ class Allowance final : public exec::MemoryBudget {
 };
 
 absl::Status StatusWithin(uint64_t bytes, const Volume& object) {
-  exec::WorkerTeam team(1);
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(1);
   Allowance memory(bytes);
   return SkeletonizeWithin(memory, object, Continued(), context).status();
 }

@@ -8,6 +8,7 @@
 #include "core/exec/context.h"
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/support/contexts.h"
 
 // The allocator of this program fails on demand, for all but the words of messages: Abseil ends the
 // process where it cannot have those.
@@ -51,10 +52,7 @@ namespace {
 enum class End { kNotReached, kDidWithout, kOutOfMemory };
 
 End SkeletonizeWith(const Volume& object, const SkeletonizeOptions& options, long allocations) {
-  exec::WorkerTeam team(3);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(3);
   allocations_left = allocations;
   End end = End::kDidWithout;
   try {

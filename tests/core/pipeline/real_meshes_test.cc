@@ -11,6 +11,7 @@
 #include "core/import/voxelize/voxelize.h"
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/import/mesh/test_data.h"
+#include "tests/support/contexts.h"
 #include "tests/support/reference_thinner.h"
 
 namespace bccskel {
@@ -71,10 +72,7 @@ std::string NameOf(const ::testing::TestParamInfo<RealMesh>& info) {
 
 SkeletonizeResult SkeletonOf(const Volume& object, int threads,
                              const SkeletonizeOptions& options = {}) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   auto result = Skeletonize(object, options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);

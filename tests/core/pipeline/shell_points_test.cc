@@ -6,6 +6,7 @@
 
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -19,10 +20,7 @@ struct Peeled {
 };
 
 Peeled Peel(const Volume& object, const SkeletonizeOptions& options, int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   Peeled peeled;
   peeled.result = *Skeletonize(object, options, context, [&](int32_t shell, Volume points) {
     peeled.shells.emplace_back(shell, points.SortedPoints());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 
@@ -13,10 +14,7 @@ namespace {
 
 SkeletonizeResult SkeletonOf(const Volume& object, int threads,
                              const SkeletonizeOptions& options = {}) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   auto result = Skeletonize(object, options, context);
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);

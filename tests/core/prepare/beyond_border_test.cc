@@ -11,7 +11,7 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/exec/instruction_sets.h"
-#include "core/exec/worker_team.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -196,10 +196,7 @@ TEST(BeyondBorderLaw, DistancesHaveTheSameBitsForAnyInstructionSetAndThreads) {
   for (const std::string& name : exec::SupportedInstructionSets()) {
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
     for (const int threads : {1, 3}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
-      context.min_bricks_per_worker = 1;
+      test::TeamContext context(threads);
       const DistanceField field = Measured(object, space, DistanceKind::kEuclidean, context);
       EXPECT_EQ(field.values(), expected.values()) << name;
     }

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/exec/instruction_sets.h"
-#include "core/exec/worker_team.h"
 #include "core/lattice/directions.h"
 #include "tests/core/prepare/reference_prepare.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -14,10 +14,7 @@ namespace {
 using test::Points;
 
 ChangedVolume Denoised(const Volume& object, int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   return Denoise(object, context).value();
 }
 
@@ -125,10 +122,7 @@ TEST(Denoise, DestroysALine) {
 TEST(Denoise, OfNothingIsNothing) { EXPECT_TRUE(Denoised(Volume()).object.empty()); }
 
 TEST(Denoise, StopsWhenTheJobIsCancelled) {
-  std::stop_source cancel;
-  exec::Context context;
-  context.stop = cancel.get_token();
-  cancel.request_stop();
+  const exec::Context context = test::Stopped();
   const Volume object = VolumeOfPoints(test::RandomCloud(3, {20, 20, 20}, 0.5));
   EXPECT_EQ(Denoise(object, context).status().code(), absl::StatusCode::kCancelled);
 }

@@ -7,11 +7,12 @@
 #include <functional>
 #include <string>
 
-#include "core/exec/worker_team.h"
 #include "core/lattice/directions.h"
 #include "tests/core/prepare/reference_prepare.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -21,10 +22,7 @@ using test::Points;
 using test::RandomCloud;
 
 ChangedVolume Filled(const Volume& object, double width, int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   exec::UnlimitedMemory memory;
   auto filled = FillTunnels(object, width, memory, context);
   EXPECT_TRUE(filled.ok()) << filled.status();
@@ -97,7 +95,7 @@ IsIn PlateWithHole(double hole) {
 
 TEST(FillTunnels, FillsTheNarrowOnes) {
   for (const double hole : {4.0, 9.0, 16.0}) {
-    const Volume plate = test::VolumeWhere(41, PlateWithHole(hole));
+    const Volume plate = test::VolumeWhere({41, 41, 41}, PlateWithHole(hole));
     ASSERT_EQ(test::BettiOf(plate), (BettiNumbers{1, 1, 0}));
     EXPECT_TRUE(Filled(plate, 0.7 * hole).object == plate) << hole;
     EXPECT_EQ(Filled(plate, 1.5 * hole).count, 1u) << hole;
@@ -107,7 +105,7 @@ TEST(FillTunnels, FillsTheNarrowOnes) {
 
 // What a wide ball leaves joins the tunnel to the gap between the two.
 TEST(FillTunnels, FillsNarrowOnesBesideAnotherComponent) {
-  const Volume object = test::VolumeWhere(41, [](double x, double y, double z) {
+  const Volume object = test::VolumeWhere({41, 41, 41}, [](double x, double y, double z) {
     if (std::max(std::abs(x - 40), std::abs(y - 40)) > 20) return false;
     return (z >= 52 && z <= 68) || (z >= 20 && z <= 36 && std::hypot(x - 40, y - 40) > 3);
   });
@@ -120,7 +118,7 @@ TEST(FillTunnels, FillsNarrowOnesBesideAnotherComponent) {
 // At the border of the extent there is no wall.
 TEST(FillTunnels, SeesNoWallAtTheExtent) {
   const Volume plate = test::VolumeWhere(
-      16, [](double x, double y, double) { return std::hypot(x - 15, y - 15) > 12; });
+      {16, 16, 16}, [](double x, double y, double) { return std::hypot(x - 15, y - 15) > 12; });
   ASSERT_EQ(test::BettiOf(plate).loops, 1);
   EXPECT_TRUE(Filled(plate, 12).object == plate);
   EXPECT_EQ(test::BettiOf(Filled(plate, 36).object), (BettiNumbers{1, 0, 0}));
@@ -136,7 +134,7 @@ IsIn Bottle(int mouths) {
 
 TEST(FillTunnels, LeavesABottleOneMouth) {
   for (const int mouths : {1, 2}) {
-    const Volume bottle = test::VolumeWhere(41, Bottle(mouths));
+    const Volume bottle = test::VolumeWhere({41, 41, 41}, Bottle(mouths));
     ASSERT_EQ(test::BettiOf(bottle), (BettiNumbers{1, mouths - 1, 0}));
     EXPECT_EQ(test::BettiOf(Filled(bottle, 14).object), (BettiNumbers{1, 0, 0}));
   }
@@ -144,7 +142,7 @@ TEST(FillTunnels, LeavesABottleOneMouth) {
 
 // Pores are wider than the passages between them and from the outer ones to the outside.
 TEST(FillTunnels, TakesAllLoopsOfASponge) {
-  const Volume sponge = test::VolumeWhere(41, [](double x, double y, double z) {
+  const Volume sponge = test::VolumeWhere({41, 41, 41}, [](double x, double y, double z) {
     const auto to_pore = [](double t) { return std::abs(std::remainder(t - 40, 20)); };
     const double dx = to_pore(x), dy = to_pore(y), dz = to_pore(z);
     const double passage = std::min({std::hypot(dx, dy), std::hypot(dy, dz), std::hypot(dx, dz)});
@@ -157,7 +155,7 @@ TEST(FillTunnels, TakesAllLoopsOfASponge) {
 }
 
 TEST(FillTunnels, LeavesCavitiesAndNeighborsAlone) {
-  const Volume two = test::VolumeWhere(41, [](double x, double y, double z) {
+  const Volume two = test::VolumeWhere({41, 41, 41}, [](double x, double y, double z) {
     const double r = std::hypot(x - 20, y - 40, z - 40);
     return (r <= 18 && r >= 3) || std::hypot(x - 61, y - 40, z - 40) <= 19;
   });
@@ -174,7 +172,8 @@ TEST(FillTunnels, AsksForMemory) {
     void GiveBack(uint64_t) override {}
   };
   NoMemory memory;
-  const auto filled = FillTunnels(test::VolumeWhere(41, PlateWithHole(9)), 12, memory, {});
+  const auto filled =
+      FillTunnels(test::VolumeWhere({41, 41, 41}, PlateWithHole(9)), 12, memory, {});
   EXPECT_EQ(filled.status().code(), absl::StatusCode::kResourceExhausted);
 }
 

@@ -8,14 +8,15 @@
 #include <limits>
 #include <set>
 
-#include "core/exec/worker_team.h"
 #include "core/prepare/brick_sets.h"
 #include "core/prepare/fill_cavities.h"
 #include "tests/core/prepare/reference_prepare.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -29,10 +30,7 @@ const PreparingOptions kFill = {.cavities = CavityFilling::kOn};
 const PreparingOptions kLargest = {.components = KeptComponents::kLargest};
 
 PreparedObject Prepared(const Volume& object, const PreparingOptions& options, int threads = 1) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   exec::UnlimitedMemory memory;
   auto prepared = Prepare(object, options, memory, context);
   EXPECT_TRUE(prepared.ok()) << prepared.status();
@@ -114,7 +112,7 @@ TEST(FillCavitiesLaw, CountsTheCavitiesAndPointsAndDoesNothingTheSecondTime) {
 // Cavities of single points hold no object and have no handles.
 TEST(FillCavitiesLaw, OfSinglePointsLeavesComponentsAndLoopsAlone) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
-    const Volume torus = test::VolumeWhere(26, [](double x, double y, double z) {
+    const Volume torus = test::VolumeWhere({26, 26, 26}, [](double x, double y, double z) {
       return std::hypot(std::hypot(x - 26, y - 26) - 14, z - 26) <= 8;
     });
     Points points = torus.SortedPoints();
@@ -142,7 +140,7 @@ TEST(FillCavitiesLaw, OfSinglePointsLeavesComponentsAndLoopsAlone) {
 // The shell's inside has bricks that are not stored.
 TEST(FillCavities, OfAHollowBallGivesTheBall) {
   const auto ball = [](double inner) {
-    return test::VolumeWhere(122, [inner](double x, double y, double z) {
+    return test::VolumeWhere({122, 122, 122}, [inner](double x, double y, double z) {
       const double r = std::hypot(x - 120, y - 120, z - 120);
       return r <= 118 && r >= inner;
     });
@@ -156,7 +154,7 @@ TEST(FillCavities, OfAHollowBallGivesTheBall) {
 }
 
 TEST(FillCavities, MakesNoObjectOfMoreBricksThanAllowed) {
-  const Volume hollow = test::VolumeWhere(60, [](double x, double y, double z) {
+  const Volume hollow = test::VolumeWhere({60, 60, 60}, [](double x, double y, double z) {
     const double r = std::hypot(x - 60, y - 60, z - 60);
     return r <= 58 && r >= 54;
   });
@@ -292,10 +290,7 @@ TEST(Prepare, RefusesOptionsOutOfRange) {
 }
 
 TEST(Prepare, StopsWhenTheJobIsCancelled) {
-  std::stop_source cancel;
-  exec::Context context;
-  context.stop = cancel.get_token();
-  cancel.request_stop();
+  const exec::Context context = test::Stopped();
   const Volume object = VolumeOfPoints(RandomCloud(3, {20, 20, 20}, 0.5));
   for (const PreparingOptions& options : {kFill, kLargest, PreparingOptions{1}}) {
     exec::UnlimitedMemory memory;

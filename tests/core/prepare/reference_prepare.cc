@@ -74,18 +74,6 @@ Points ReferenceDenoised(const Points& points) {
   return Sorted(denoised);
 }
 
-Volume VolumeWhere(int32_t cells, const IsIn& inside) {
-  VolumeBuilder builder({cells, cells, cells});
-  for (int32_t z = 0; z < 2 * cells; ++z) {
-    for (int32_t y = z & 1; y < 2 * cells; y += 2) {
-      for (int32_t x = z & 1; x < 2 * cells; x += 2) {
-        if (inside(x, y, z)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
-
 BettiNumbers BettiOf(const Volume& object) { return ReferenceBetti(ReferencePointSet(object)); }
 
 }  // namespace bccskel::test

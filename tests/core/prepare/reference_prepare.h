@@ -26,8 +26,6 @@ std::vector<Points> ReferenceComponents(const Points& points);
 Points ReferenceDenoised(const Points& points);
 
 using IsIn = std::function<bool(double x, double y, double z)>;
-// The lattice points inside, of a box of `cells`^3.
-Volume VolumeWhere(int32_t cells, const IsIn& inside);
 BettiNumbers BettiOf(const Volume& object);
 
 }  // namespace bccskel::test

@@ -12,6 +12,7 @@
 #include "core/import/shapes/solids.h"
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/pruning/simple_noise.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -86,18 +87,12 @@ TEST(FlatEnd, LiesInTheMiddleOfAThickBar) {
 // A strip bent into an arc: its normal turns by a right angle along the way.
 TEST(FlatEnd, LiesInTheMiddleOfABentStrip) {
   const double radius = 140, half_angle = 0.7;
-  VolumeBuilder builder({100, 80, 50});
-  for (int32_t z = 0; z < 100; ++z) {
-    for (int32_t y = 0; y < 160; ++y) {
-      for (int32_t x = 0; x < 200; ++x) {
-        const double u = x - 100, v = y - 20 + radius * std::cos(half_angle);
-        const bool inside = std::abs(std::hypot(u, v) - radius) <= kThickness &&
-                            std::abs(std::atan2(u, v)) <= half_angle && std::abs(z - 50) <= kWidth;
-        if (inside && IsOnLattice({x, y, z})) builder.Add({x, y, z});
-      }
-    }
-  }
-  const SkeletonizeResult result = *Skeletonize(*std::move(builder).Build(), {}, {});
+  const Volume bent = test::VolumeWhere({100, 80, 50}, [&](int32_t x, int32_t y, int32_t z) {
+    const double u = x - 100, v = y - 20 + radius * std::cos(half_angle);
+    return std::abs(std::hypot(u, v) - radius) <= kThickness &&
+           std::abs(std::atan2(u, v)) <= half_angle && std::abs(z - 50) <= kWidth;
+  });
+  const SkeletonizeResult result = *Skeletonize(bent, {}, {});
   int ends = 0;
   for (const SkeletonNode& node : result.graph.nodes) {
     if (node.kind != NodeKind::kEnd) continue;
@@ -125,15 +120,9 @@ struct Turned {
   }
   Volume Sampled() const {
     const auto cells = static_cast<int32_t>(reach) + 4;
-    VolumeBuilder builder({cells, cells, cells});
-    for (int32_t z = 0; z < 2 * cells; ++z) {
-      for (int32_t y = 0; y < 2 * cells; ++y) {
-        for (int32_t x = 0; x < 2 * cells; ++x) {
-          if (IsOnLattice({x, y, z}) && inside(FromMiddle({x, y, z}))) builder.Add({x, y, z});
-        }
-      }
-    }
-    return *std::move(builder).Build();
+    return test::VolumeWhere({cells, cells, cells}, [&](int32_t x, int32_t y, int32_t z) {
+      return inside(FromMiddle({x, y, z}));
+    });
   }
   std::vector<Vector> Ends(double noise, uint64_t seed) const {
     const Volume clean = Sampled();

@@ -14,8 +14,10 @@
 #include "core/pipeline/skeletonize.h"
 #include "core/thinning/thinning.h"
 #include "tests/core/pruning/simple_noise.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -109,10 +111,7 @@ TEST(Pruning, IsTheSameForAnyThreadCount) {
   };
   const auto expected = Skeletonize(object, options, {});
   for (int threads : {2, 3}) {
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
-    context.min_bricks_per_worker = 1;
+    test::TeamContext context(threads);
     const auto result = Skeletonize(object, options, context);
     EXPECT_EQ(result->sha256, expected->sha256);
     EXPECT_EQ(levels_of(result->graph), levels_of(expected->graph));
@@ -140,10 +139,7 @@ TEST(Pruning, StopsWhenAsked) {
   const auto field = ComputeDistance(object, DistanceKind::kChamfer, {});
   const Volume thin = ThinObject(object, *field, {}, {})->thin;
   const auto radii = ExactRadii(thin, ExactRadius(object, *field), {});
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(
       Prune({thin, *radii}, {object, ExactRadius(object, *field)}, {}, {}, context).status().code(),
       absl::StatusCode::kCancelled);
@@ -177,17 +173,11 @@ INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4, test:
 // Where |x|, |y| and |z| of the turned points are: a test of them.
 template <typename IsIn>
 Volume TurnedSolid(double angle, IsIn is_in) {
-  VolumeBuilder builder({40, 40, 40});
   const double c = std::cos(angle), s = std::sin(angle);
-  for (int32_t z = 0; z < 80; ++z) {
-    for (int32_t y = z & 1; y < 80; y += 2) {
-      for (int32_t x = z & 1; x < 80; x += 2) {
-        const double a = c * (x - 40) - s * (y - 40), b = s * (x - 40) + c * (y - 40);
-        if (is_in(c * a - s * (z - 40), b, s * a + c * (z - 40))) builder.Add({x, y, z});
-      }
-    }
-  }
-  return std::move(builder).Build().value();
+  return test::VolumeWhere({40, 40, 40}, [&](int32_t x, int32_t y, int32_t z) {
+    const double a = c * (x - 40) - s * (y - 40), b = s * (x - 40) + c * (y - 40);
+    return is_in(c * a - s * (z - 40), b, s * a + c * (z - 40));
+  });
 }
 
 TEST(PrunedCompactObject, IsAPointInEveryPose) {

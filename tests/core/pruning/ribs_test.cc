@@ -10,6 +10,7 @@
 
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/pruning/raw_curves.h"
+#include "tests/support/volume_where.h"
 
 // Ribs: false branches in flat limbs, plates and bent walls.
 
@@ -38,21 +39,15 @@ Volume FlatLimb(int32_t height, const std::vector<Arm>& arms, const Placement& p
                      static_cast<int32_t>(random() % static_cast<uint64_t>(height + 1)));
     }
   }
-  VolumeBuilder builder({kLength / 2, kMiddle, kThickness / 2}, placement);
-  for (int32_t z = 0; z < kThickness; ++z) {
-    for (int32_t y = 0; y < 2 * kMiddle; ++y) {
-      for (int32_t x = 0; x < kLength; ++x) {
-        const auto tooth = static_cast<size_t>(x / 6);
-        const bool in_limb = y <= kMiddle + upper[tooth] && y >= kMiddle - lower[tooth];
-        const bool in_arm = std::ranges::any_of(arms, [&](const Arm& arm) {
-          return std::abs(x - arm.x) <= arm.half_width && y >= kMiddle &&
-                 y <= kMiddle + kHalfWidth + arm.length;
-        });
-        if ((in_limb || in_arm) && IsOnLattice({x, y, z})) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  const auto inside = [&](int32_t x, int32_t y, int32_t /*z*/) {
+    const auto tooth = static_cast<size_t>(x / 6);
+    const bool in_limb = y <= kMiddle + upper[tooth] && y >= kMiddle - lower[tooth];
+    return in_limb || std::ranges::any_of(arms, [&](const Arm& arm) {
+             return std::abs(x - arm.x) <= arm.half_width && y >= kMiddle &&
+                    y <= kMiddle + kHalfWidth + arm.length;
+           });
+  };
+  return test::VolumeWhere({kLength / 2, kMiddle, kThickness / 2}, inside, placement);
 }
 
 // What is inside by its own coordinates, at most `reach` lattice units from its middle, turned
@@ -61,18 +56,12 @@ Volume Turned(double reach, double turn,
               const std::function<bool(double, double, double)>& inside) {
   const auto half = static_cast<int32_t>(reach) + 2;
   const double c = std::cos(turn), s = std::sin(turn);
-  VolumeBuilder builder({half + 1, half + 1, half + 1}, {});
-  for (int32_t z = 0; z <= 2 * half; ++z) {
-    for (int32_t y = 0; y <= 2 * half; ++y) {
-      for (int32_t x = 0; x <= 2 * half; ++x) {
-        if (!IsOnLattice({x, y, z})) continue;
-        const double px = x - half, py = y - half, pz = z - half;
-        const double u = c * px + s * py, w = -s * px + c * py;
-        if (inside(u, c * w + s * pz, -s * w + c * pz)) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  const LatticeExtent extent = {half + 1, half + 1, half + 1};
+  return test::VolumeWhere(extent, [&](int32_t x, int32_t y, int32_t z) {
+    const double px = x - half, py = y - half, pz = z - half;
+    const double u = c * px + s * py, w = -s * px + c * py;
+    return inside(u, c * w + s * pz, -s * w + c * pz);
+  });
 }
 
 // In lattice units: `length` by twice `half_width`, or round if it has no length.

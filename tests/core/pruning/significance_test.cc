@@ -14,6 +14,7 @@
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -60,17 +61,11 @@ TEST(Significance, KeepsSmallLimbsWhereTheSurfaceIsSmooth) {
 // `height` high.
 Volume Rack(int32_t height) {
   constexpr int32_t kLength = 240, kWidth = 16, kPitch = 30, kFirst = 60;
-  VolumeBuilder builder({kLength / 2, (kWidth + height) / 2, kWidth / 2});
-  for (int32_t z = 0; z < kWidth; ++z) {
-    for (int32_t y = 0; y < kWidth + height; ++y) {
-      for (int32_t x = 0; x < kLength; ++x) {
-        const int32_t tooth = (x - kFirst + kPitch / 2) / kPitch, middle = kFirst + kPitch * tooth;
-        const bool in_tooth = std::abs(x - middle) <= 4 && tooth < 5;
-        if ((y < kWidth || in_tooth) && IsOnLattice({x, y, z})) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  const LatticeExtent extent = {kLength / 2, (kWidth + height) / 2, kWidth / 2};
+  return test::VolumeWhere(extent, [](int32_t x, int32_t y, int32_t /*z*/) {
+    const int32_t tooth = (x - kFirst + kPitch / 2) / kPitch, middle = kFirst + kPitch * tooth;
+    return y < kWidth || (std::abs(x - middle) <= 4 && tooth < 5);
+  });
 }
 
 // Noise is short for teeth of any thickness: it does not count against them by its full length.
@@ -200,18 +195,13 @@ TEST(Significance, OfLimbsIsTheSameAtAnyResolution) {
 // A trunk along x and a branch that leaves it and runs along beside it, `apart` from it, all with
 // the same radius.
 double StrandBeside(int32_t apart) {
-  VolumeBuilder object({110, 60, 60}), thin({110, 60, 60});
-  for (int32_t z = 0; z < 120; ++z) {
-    for (int32_t y = 0; y < 120; ++y) {
-      for (int32_t x = 0; x < 220; ++x) {
-        if (IsOnLattice({x, y, z})) object.Add({x, y, z});
-      }
-    }
-  }
+  const LatticeExtent extent = {110, 60, 60};
+  VolumeBuilder thin(extent);
   for (int32_t x = 10; x <= 200; x += 2) thin.Add({x, 40, 60});
   for (int32_t y = 42; y < 40 + apart; y += 2) thin.Add({40, y, 60});
   for (int32_t x = 40; x <= 190; x += 2) thin.Add({x, 40 + apart, 60});
-  const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
+  const Volume solid = test::VolumeWhere(extent, [](auto...) { return true; });
+  const Volume curves = *std::move(thin).Build();
   const std::vector<float> radii(curves.PointCount(), 10.0f);
   const ThinSet set({curves, radii});
   return Significance(solid, {.thin = 3, .thick = 3})
@@ -222,19 +212,16 @@ double StrandBeside(int32_t apart) {
 // branch comes from a trunk in the slab's middle line and ends `out` beyond the slab.
 double LimbOfASlab(int32_t out) {
   constexpr int32_t kSide = 100, kMiddle = 100, kRadius = 10, kDepth = 20;
-  VolumeBuilder object({kSide, 110, 30}), thin({kSide, 110, 30});
+  const LatticeExtent extent = {kSide, 110, 30};
   const int32_t end = kSide + out;
-  for (int32_t z = 0; z <= 2 * kDepth; ++z) {
-    for (int32_t y = 0; y <= 2 * kMiddle; ++y) {
-      for (int32_t x = 0; x <= end + kRadius; ++x) {
-        const bool in_limb = std::hypot(y - kMiddle, z - kDepth) <= kRadius;
-        if ((x <= kSide || in_limb) && IsOnLattice({x, y, z})) object.Add({x, y, z});
-      }
-    }
-  }
+  const Volume solid = test::VolumeWhere(extent, [end](int32_t x, int32_t y, int32_t z) {
+    const bool in_limb = std::hypot(y - kMiddle, z - kDepth) <= kRadius;
+    return z <= 2 * kDepth && y <= 2 * kMiddle && (x <= kSide || (in_limb && x <= end + kRadius));
+  });
+  VolumeBuilder thin(extent);
   for (int32_t y = 40; y <= 160; y += 2) thin.Add({26, y, kDepth});
   for (int32_t x = 28; x <= end; x += 2) thin.Add({x, kMiddle, kDepth});
-  const Volume solid = *std::move(object).Build(), curves = *std::move(thin).Build();
+  const Volume curves = *std::move(thin).Build();
   std::vector<float> radii;
   curves.ForEachPoint([&](LatticePoint p) {
     radii.push_back(static_cast<float>(std::clamp(kSide + kRadius - p.x, kRadius, kDepth)));
@@ -252,15 +239,9 @@ TEST(Significance, OfALimbThatBeginsLateIsItsOwn) {
 
 // A rod along x and a branch in it that ends before it; returns the points that Append() adds.
 BranchPath GoneOn(int32_t rod_end, int32_t branch_end) {
-  VolumeBuilder object({60, 20, 20});
-  for (int32_t z = 0; z < 40; ++z) {
-    for (int32_t y = 0; y < 40; ++y) {
-      for (int32_t x = 0; x <= rod_end; ++x) {
-        if (IsOnLattice({x, y, z}) && std::hypot(y - 20, z - 20) <= 5) object.Add({x, y, z});
-      }
-    }
-  }
-  const Volume rod = *std::move(object).Build();
+  const Volume rod = test::VolumeWhere({60, 20, 20}, [=](int32_t x, int32_t y, int32_t z) {
+    return x <= rod_end && std::hypot(y - 20, z - 20) <= 5;
+  });
   ExactRadius radius(rod);
   BranchPath path;
   for (int32_t x = 20; x <= branch_end; x += 2) {

@@ -8,6 +8,7 @@
 #include "core/distance/distance_field.h"
 #include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -66,10 +67,7 @@ ThinningResult OnRanks(const Volume& object, const ThinningOptions& options, int
                        int threads = 1, DistanceKind kind = DistanceKind::kEuclidean) {
   ThinningResult result;
   ranks::RunAsThreads(ranks, [&](ranks::Exchange& exchange) {
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
-    context.min_bricks_per_worker = 1;
+    test::TeamContext context(threads);
     context.patience = 1e9;
     Volume part = OnlyLayers(object, {exchange.rank(), exchange.size()});
     auto peeled = ranks::PeelOverRanks(exchange, part, kind, options, {}, context);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_distance.h"
 
@@ -137,10 +138,7 @@ void ExpectStreamedShells(const Volume& object, DistanceKind kind) {
   for (const size_t at_once : {kMostPointsAtOnce, size_t{40'000}, kSlabBySlab}) {
     for (int threads : {1, 3}) {
       for (double patience : {1e9, -1e9}) {  // never and at once on with one worker
-        exec::WorkerTeam team(threads);
-        exec::Context context;
-        context.team = &team;
-        context.min_bricks_per_worker = 1;
+        test::TeamContext context(threads);
         context.patience = patience;
         const auto shells = StreamShells(object, kind, 1, context, at_once);
         ASSERT_TRUE(shells.ok()) << shells.status();
@@ -181,10 +179,7 @@ TEST(StreamedShells, AreExactWhereDistancesNeedMoreThan16Bits) {
 void ExpectStreamedEuclideanShells(const Volume& object, size_t at_once, int threads) {
   const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
   const BrickDepths depths = BuildDepths(object, *distance, exec::Context());
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   const auto streamed = StreamEuclideanShells(object, 1, Depths::kWanted, context, at_once);
   ASSERT_TRUE(streamed.ok()) << streamed.status();
   ExpectSameShells(object, streamed->shells, BuildShells(object, *distance, 1, exec::Context()));
@@ -216,10 +211,7 @@ TEST(StreamedShells, AreThoseOfEuclideanDistancesHoweverColumnsAreCut) {
 }
 
 TEST(StreamedShells, StopWhenAsked) {
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   const Volume object = VolumeOfPoints(test::RandomBlob(1, {20, 20, 20}, 3, 9));
   EXPECT_EQ(StreamShells(object, DistanceKind::kChamfer, 1, context, 1).status().code(),
             absl::StatusCode::kCancelled);

@@ -7,6 +7,7 @@
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/skeleton_figures.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel {
 namespace {
@@ -75,10 +76,7 @@ TEST(CenterCurves, StopsWhenAsked) {
   SkeletonGraph graph = Beside(bar);
   graph.points.resize(5000, graph.points.back());
   graph.edges[0].point_count = 5000;
-  std::stop_source source;
-  exec::Context context;
-  context.stop = source.get_token();
-  source.request_stop();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(CenterCurves(bar, *field, context, graph).code(), absl::StatusCode::kCancelled);
 }
 
@@ -133,10 +131,7 @@ TEST(CenteredCurves, AreMadeOfEuclideanDistancesAlone) {
 TEST(CenteredCurves, AreTheSameForAnyThreadCount) {
   const Volume object = *GenerateShape(Shape::kTree, {.points = 40'000});
   const SkeletonGraph expected = Skeletonize(object, {}, {})->graph;
-  exec::WorkerTeam team(3);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(3);
   EXPECT_EQ(Skeletonize(object, {}, context)->graph, expected);
 }
 

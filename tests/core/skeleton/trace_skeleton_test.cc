@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/certificate/certificate.h"
 #include "core/lattice/directions.h"
 #include "tests/core/skeleton/traced.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -279,14 +279,10 @@ TEST(TraceSkeleton, KeepsRadiiAndPlacement) {
 
 TEST(TraceSkeleton, StopsWhenTheJobIsCancelledOrLate) {
   const Volume volume = VolumeOfPoints(kHexagon);
-  std::stop_source cancel;
-  cancel.request_stop();
-  exec::Context context;
-  context.stop = cancel.get_token();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(TraceSkeleton({volume, test::RadiiOf(volume)}, context).status().code(),
             absl::StatusCode::kCancelled);
-  exec::Context late;
-  late.deadline = exec::Context::Clock::now() - std::chrono::seconds(1);
+  const exec::Context late = test::Late();
   EXPECT_EQ(TraceSkeleton({volume, test::RadiiOf(volume)}, late).status().code(),
             absl::StatusCode::kDeadlineExceeded);
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/distance/distance_field.h"
-#include "core/exec/worker_team.h"
 #include "core/thinning/thinning.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
@@ -42,9 +42,7 @@ ThinningOptions Combination(size_t n, std::span<const LatticePoint> points) {
 constexpr size_t kCombinations = 144;
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(threads);
   context.min_bricks_per_worker = 1;  // else small objects would be thinned by one worker
   const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();

@@ -5,9 +5,9 @@
 
 #include "core/certificate/certificate.h"
 #include "core/distance/distance_field.h"
-#include "core/exec/worker_team.h"
 #include "core/import/shapes/shapes.h"
 #include "core/thinning/thinning.h"
+#include "tests/support/contexts.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
@@ -18,9 +18,7 @@ namespace bccskel {
 namespace {
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(threads);
   context.min_bricks_per_worker = 1;  // else shapes of this size would be thinned by one worker
   const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();

@@ -7,8 +7,8 @@
 
 #include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
-#include "core/exec/worker_team.h"
 #include "core/thinning/thinning.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
@@ -46,10 +46,7 @@ ThinningOptions Combination(uint64_t n, std::span<const LatticePoint> points) {
 }
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   auto result = ThinObject(object, *ComputeDistance(object, DistanceKind::kChamfer, context),
                            options, context);
   EXPECT_TRUE(result.ok()) << result.status();

@@ -5,9 +5,9 @@
 
 #include "core/certificate/certificate.h"
 #include "core/distance/distance_field.h"
-#include "core/exec/worker_team.h"
 #include "core/import/shapes/shapes.h"
 #include "core/thinning/thinning.h"
+#include "tests/support/contexts.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
@@ -41,10 +41,7 @@ Volume Generate(Shape shape, uint64_t points, double noise) {
 }
 
 Volume Thin(const Volume& object, DistanceKind distance, SkeletonKind kind, int threads) {
-  exec::WorkerTeam team(threads);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(threads);
   auto result = ThinObject(object, *ComputeDistance(object, distance, context),
                            {.method = ThinningMethod::kSymmetric, .kind = kind}, context);
   EXPECT_TRUE(result.ok()) << result.status();

@@ -7,6 +7,7 @@
 #include "core/exec/instruction_sets.h"
 #include "core/shells/shells.h"
 #include "core/thinning/thinning_state.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_point_set.h"
 
@@ -30,10 +31,7 @@ TEST(Thinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
     SCOPED_TRACE(name);
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
     for (int threads : {1, 2, 5, 8}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
-      context.min_bricks_per_worker = 1;
+      test::TeamContext context(threads);
       EXPECT_TRUE(Thin(object, {}, context).thin == expected) << threads << " threads";
     }
   }
@@ -48,10 +46,7 @@ TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
   for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
     const auto alone = ThinObject(object, *distance, {.method = method}, {});
     for (int threads : {2, 3, 4, 7, 16}) {
-      exec::WorkerTeam team(threads);
-      exec::Context context;
-      context.team = &team;
-      context.min_bricks_per_worker = 1;
+      test::TeamContext context(threads);
       const auto shared = ThinObject(object, *distance, {.method = method}, context);
       EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
       EXPECT_EQ(shared->removed, alone->removed) << threads << " threads";
@@ -82,10 +77,7 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
 // The team asks for its share after each cycle, until worker 0 goes on alone.
 TEST(Thinning, LeavesThreadsToOthersBetweenShellsAndGivesTheSameBits) {
   const Volume object = Blob(12);
-  exec::WorkerTeam team(2);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(2);
   context.patience = 1e9;
   int shells = 0, asked_together = 0, asked_alone = 0;
   context.on_shell = [&](const exec::ShellProgress&) { ++shells; };
@@ -194,10 +186,7 @@ TEST(Thinning, StopsInTheMiddleWhenAskedWithAnyNumberOfThreads) {
   const Volume object = Blob(2);
   for (int threads : {1, 2, 8}) {
     std::stop_source source;
-    exec::WorkerTeam team(threads);
-    exec::Context context;
-    context.team = &team;
-    context.min_bricks_per_worker = 1;
+    test::TeamContext context(threads);
     context.stop = source.get_token();
     int32_t shells = 0;
     context.on_shell = [&](const exec::ShellProgress& p) {
@@ -248,10 +237,7 @@ TEST(Thinning, GoesOnAloneWithinTheLastShell) {
   const ThinningOptions kernel = {.method = ThinningMethod::kSymmetric,
                                   .kind = SkeletonKind::kKernel};
   const auto alone = ThinObject(rod, *distance, kernel, {});
-  exec::WorkerTeam team(2);
-  exec::Context context;
-  context.team = &team;
-  context.min_bricks_per_worker = 1;
+  test::TeamContext context(2);
   context.patience = 1e9;
   int asked = 0;
   context.share = [&] { return ++asked > 20 ? 1 : 2; };  // a team that is alone does not ask

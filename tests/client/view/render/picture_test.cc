@@ -4,13 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stop_token>
 #include <utility>
 #include <vector>
 
 #include "client/export/json.h"
-#include "core/exec/worker_team.h"
 #include "tests/client/export/sample_skeletons.h"
+#include "tests/support/contexts.h"
 
 namespace bccskel::view {
 namespace {
@@ -44,9 +43,7 @@ TEST(PictureTest, NothingGivesAPictureOfNothing) {
 
 TEST(PictureTest, IsTheSameForAnyNumberOfThreadsAndAnotherFromAnotherSide) {
   const exporting::Sample sample = exporting::SampleOf(Shape::kTree);
-  exec::WorkerTeam team(3);
-  exec::Context context;
-  context.team = &team;
+  test::TeamContext context(3);
   const std::string picture = *PictureOf(sample, Small(), {});
   EXPECT_EQ(*PictureOf(sample, Small(), context), picture);
   EXPECT_NE(*PictureOf(sample, Small(90), {}), picture);
@@ -138,10 +135,7 @@ TEST(PictureTest, TheLegendHasEveryColorOfNodes) {
 }
 
 TEST(PictureTest, StopsWhenItIsToldTo) {
-  std::stop_source stop;
-  stop.request_stop();
-  exec::Context context;
-  context.stop = stop.get_token();
+  const exec::Context context = test::Stopped();
   const auto picture = PictureOf(exporting::SampleOf(Shape::kTorus), Small(), context);
   EXPECT_EQ(picture.status().code(), absl::StatusCode::kCancelled);
 }

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/export/reconstruct/overlap.h"
 #include "core/pipeline/skeletonize.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -22,18 +24,13 @@ const Placement kUneven = {.spacing = {2, 1, 4}, .origin = {3, 2, 1}};
 
 std::vector<LatticePoint> PointsIn(const std::vector<OpenBall>& balls, const Placement& placement) {
   const auto& [sx, sy, sz] = placement.spacing;
-  VolumeBuilder builder(kExtent);
-  for (int32_t z = 0; z < 2 * kExtent.nz; ++z) {
-    for (int32_t y = 0; y < 2 * kExtent.ny; ++y) {
-      for (int32_t x = 0; x < 2 * kExtent.nx; ++x) {
-        for (const auto& [c, radius] : balls) {
-          const double way = std::hypot((x - c[0]) * sx, (y - c[1]) * sy, (z - c[2]) * sz) / 2;
-          if (way < radius - 1e-4) builder.Add({x, y, z});
-        }
-      }
-    }
-  }
-  return std::move(builder).Build()->SortedPoints();
+  const auto inside = [&](int32_t x, int32_t y, int32_t z) {
+    return std::ranges::any_of(balls, [&](const OpenBall& ball) {
+      const auto& [c, radius] = ball;
+      return std::hypot((x - c[0]) * sx, (y - c[1]) * sy, (z - c[2]) * sz) / 2 < radius - 1e-4;
+    });
+  };
+  return test::VolumeWhere(kExtent, inside).SortedPoints();
 }
 
 TEST(UnionOfBallsTest, HoldsThePointsNearerToACenterThanItsRadius) {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <map>
-#include <stop_token>
 #include <utility>
 
 #include "core/export/surface/cell_grid.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
@@ -109,10 +109,7 @@ TEST(CellSurfaceTest, TheEstimateIsAboutRight) {
 }
 
 TEST(CellSurfaceTest, StopsWhenItIsToldTo) {
-  std::stop_source stop;
-  stop.request_stop();
-  exec::Context context;
-  context.stop = stop.get_token();
+  const exec::Context context = test::Stopped();
   EXPECT_EQ(ExtractCellSurface(GridOf(OddBox({0, 0, 0}, {8, 8, 8}), 0), context).status().code(),
             absl::StatusCode::kCancelled);
 }

@@ -5,10 +5,10 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <stop_token>
 #include <utility>
 
 #include "core/export/surface/surface_mesh.h"
+#include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 
@@ -132,10 +132,7 @@ TEST(ExtractSurfaceTest, BlobsAreEnclosedByAboutTheirVolume) {
 }
 
 TEST(ExtractSurfaceTest, StopsWhenItIsToldTo) {
-  std::stop_source stop;
-  stop.request_stop();
-  exec::Context context;
-  context.stop = stop.get_token();
+  const exec::Context context = test::Stopped();
   const auto points = test::RandomCloud(1, {8, 8, 8}, 0.5);
   EXPECT_EQ(ExtractSurface(VolumeOfPoints(points), context).status().code(),
             absl::StatusCode::kCancelled);

@@ -7,24 +7,18 @@
 #include <cmath>
 
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
 
 std::vector<LatticePoint> Ball(double radius) {
-  std::vector<LatticePoint> points;
-  const int32_t size = 2 * static_cast<int32_t>(radius) + 4;
-  for (int32_t z = 0; z < size; ++z) {
-    for (int32_t y = 0; y < size; ++y) {
-      for (int32_t x = 0; x < size; ++x) {
-        const double c = size / 2;
-        if (IsOnLattice({x, y, z}) && std::hypot(x - c, y - c, z - c) < radius) {
-          points.push_back({x, y, z});
-        }
-      }
-    }
-  }
-  return points;
+  const int32_t cells = static_cast<int32_t>(radius) + 2;
+  return test::VolumeWhere({cells, cells, cells},
+                           [&](int32_t x, int32_t y, int32_t z) {
+                             return std::hypot(x - cells, y - cells, z - cells) < radius;
+                           })
+      .SortedPoints();
 }
 
 TEST(SmoothSurfaceTest, NoVertexMovesBeyondItsReach) {
