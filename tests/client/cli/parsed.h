@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "absl/strings/str_split.h"
 #include "client/cli/arguments.h"
 
 namespace bccskel::cli {
@@ -32,6 +34,14 @@ inline Parsed Parse(std::vector<const char*> words) {
   parsed.out = testing::internal::GetCapturedStdout();
   parsed.err = testing::internal::GetCapturedStderr();
   return parsed;
+}
+
+// The words of a line, with single spaces between them.
+inline Parsed Parse(const char* line) {
+  const std::vector<std::string> words = absl::StrSplit(line, ' ', absl::SkipEmpty());
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  return Parse(std::move(pointers));
 }
 
 }  // namespace bccskel::cli

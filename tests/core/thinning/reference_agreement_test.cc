@@ -43,7 +43,6 @@ constexpr size_t kCombinations = 144;
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
   test::TeamContext context(threads);
-  context.min_bricks_per_worker = 1;  // else small objects would be thinned by one worker
   const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
   EXPECT_TRUE(distance.ok()) << distance.status();
   auto result = ThinObject(object, *distance, options, context);

@@ -61,10 +61,7 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
   for (const double patience : {kNever, kAtOnce}) {
     for (int threads : {2, 3, 8}) {
       for (int32_t last_shell : {1, 2, 0}) {
-        exec::WorkerTeam team(threads);  // another one each time: it has no confidence afterwards
-        exec::Context context;
-        context.team = &team;
-        context.min_bricks_per_worker = 1;
+        test::TeamContext context(threads);  // another one each time: no confidence afterwards
         context.patience = patience;
         const Volume alone = Thin(object, {.last_shell = last_shell}).thin;
         EXPECT_TRUE(Thin(object, {.last_shell = last_shell}, context).thin == alone)
