@@ -17,9 +17,9 @@
 
 namespace bccskel {
 
-// Whether the topology of the grid is counted and compared with that of a closed mesh, which is that
-// of the solid if the mesh does not cross itself. Where the grid has more of something, the volume
-// is repaired as far as that succeeds (see topology_repair.h).
+// Whether the topology of the grid is counted and compared with that of a closed mesh, which is
+// that of the solid if the mesh does not cross itself. Where the grid has more of something, the
+// volume is repaired as far as that succeeds (see topology_repair.h).
 enum class TopologyCheck { kCompare, kSkip };
 
 struct VoxelizeOptions {
