@@ -71,22 +71,26 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
   }
 }
 
-// The team asks for its share after each cycle, until worker 0 goes on alone.
+// The team asks for its share after each cycle, until worker 0 goes on alone. On a busy machine it
+// may be alone from the start: then another team tries.
 TEST(Thinning, LeavesThreadsToOthersBetweenShellsAndGivesTheSameBits) {
   const Volume object = Blob(12);
-  test::TeamContext context(2);
-  context.patience = 1e9;
-  int shells = 0, asked_together = 0, asked_alone = 0;
-  context.on_shell = [&](const exec::ShellProgress&) { ++shells; };
-  context.share = [&] {
-    if (shells > 0) ++(shells > 3 ? asked_alone : asked_together);
-    return shells >= 2 ? 1 : 2;
-  };
   const Volume alone = Thin(object, {}).thin;
-  EXPECT_TRUE(Thin(object, {}, context).thin == alone);
-  EXPECT_GT(shells, 4);
+  int asked_together = 0;
+  for (int tries = 0; tries < 50 && asked_together == 0; ++tries) {
+    test::TeamContext context(2);
+    context.patience = 1e9;
+    int shells = 0, asked_alone = 0;
+    context.on_shell = [&](const exec::ShellProgress&) { ++shells; };
+    context.share = [&] {
+      if (shells > 0) ++(shells > 3 ? asked_alone : asked_together);
+      return shells >= 2 ? 1 : 2;
+    };
+    EXPECT_TRUE(Thin(object, {}, context).thin == alone);
+    EXPECT_GT(shells, 4);
+    EXPECT_EQ(asked_alone, 0);
+  }
   EXPECT_GT(asked_together, 0);
-  EXPECT_EQ(asked_alone, 0);
 }
 
 TEST(Thinning, ReportsEveryShellOnce) {
