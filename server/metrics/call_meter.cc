@@ -47,7 +47,8 @@ bool IsKnownMethod(std::string_view method) {
   return found != nullptr && method == "/" + found->service()->full_name() + "/" + found->name();
 }
 
-// No handler of ours ends without details, or as UNIMPLEMENTED.
+// Whether gRPC itself ended the call: handlers of this server never return UNIMPLEMENTED, and all
+// their errors have details.
 bool IsUnparsed(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNIMPLEMENTED && status.error_details().empty();
 }

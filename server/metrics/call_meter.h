@@ -15,7 +15,7 @@ namespace bccskel::server {
 // Sees the status of every call to every service of a listener, whatever its handler does.
 // - Counts the calls.
 // - A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED, without
-//   a word. That becomes the INVALID_ARGUMENT that it is, with details as every other error.
+//   a message. The meter changes that to INVALID_ARGUMENT, with details as every other error.
 class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
   // `services` of ours by their full names. `metrics` may be null: nothing is counted.

@@ -3,15 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tiffio.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/core/import/image/image_folder.h"
 #include "tests/core/import/image/png_bytes.h"
+#include "tests/core/import/image/tiff_bytes.h"
 
 namespace bccskel {
 namespace {
@@ -22,6 +20,7 @@ using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 using testing::PngBytes;
+using testing::TiffBytes;
 
 // The slice whose values count on from 6 z.
 std::string PngSlice(uint16_t z, int bits = 8) {
@@ -30,27 +29,8 @@ std::string PngSlice(uint16_t z, int bits = 8) {
   return PngBytes({.bits = bits, .samples = samples});
 }
 
-std::string TiffSlices(uint8_t z, int count = 1) {
-  const std::string path = testing::TemporaryPath("slice.tif");
-  TIFF* tiff = TIFFOpen(path.c_str(), "w");
-  for (int page = 0; page < count; ++page) {
-    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 3);
-    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 2);
-    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-    for (uint32_t y = 0; y < 2; ++y) {
-      const auto first = static_cast<uint8_t>(6 * (z + page) + 3 * static_cast<int>(y));
-      std::vector<uint8_t> row = {first, static_cast<uint8_t>(first + 1),
-                                  static_cast<uint8_t>(first + 2)};
-      TIFFWriteScanline(tiff, row.data(), y, 0);
-    }
-    TIFFWriteDirectory(tiff);
-  }
-  TIFFClose(tiff);
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  return bytes;
+std::string TiffSlices(int z, int count = 1) {
+  return TiffBytes({.count = count, .height = 2, .first = static_cast<uint8_t>(6 * z)});
 }
 
 TEST(SliceSeries, StacksSlicesByTheirNumbers) {

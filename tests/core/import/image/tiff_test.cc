@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/core/import/image/image_bytes.h"
+#include "tests/core/import/image/tiff_bytes.h"
 
 namespace bccskel {
 namespace {
@@ -19,54 +17,12 @@ using testing::CountedTo;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::ReadBytes;
-
-struct Pages {
-  int count = 2;
-  uint32_t width = 3;
-  uint32_t height = 4;
-  int bits = 8;
-  int samples = 1;
-  int compression = COMPRESSION_NONE;
-  int photometric = PHOTOMETRIC_MINISBLACK;
-  const char* description = "";
-};
-
-// Pages whose bytes count from 0; the last one may be wider.
-std::string Tiff(const Pages& pages, uint32_t last_width = 0) {
-  const std::string path = testing::TemporaryPath("pages.tif");
-  TIFF* tiff = TIFFOpen(path.c_str(), "w");
-  uint8_t next = 0;
-  for (int page = 0; page < pages.count; ++page) {
-    const bool last = page + 1 == pages.count && last_width > 0;
-    const uint32_t width = last ? last_width : pages.width;
-    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
-    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, pages.height);
-    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, pages.bits);
-    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, pages.samples);
-    TIFFSetField(tiff, TIFFTAG_COMPRESSION, pages.compression);
-    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, pages.photometric);
-    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 3);
-    TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 4.0);
-    TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 2.0);
-    TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, pages.description);
-    std::vector<uint8_t> row(static_cast<size_t>(TIFFScanlineSize(tiff)));
-    for (uint32_t y = 0; y < pages.height; ++y) {
-      for (uint8_t& byte : row) byte = next++;
-      TIFFWriteScanline(tiff, row.data(), y, 0);
-    }
-    TIFFWriteDirectory(tiff);
-  }
-  TIFFClose(tiff);
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  return bytes;
-}
+using testing::TiffBytes;
 
 TEST(Tiff, StacksPagesOfEveryCompression) {
   for (const int compression :
        {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_PACKBITS, COMPRESSION_ADOBE_DEFLATE}) {
-    const auto image = ReadBytes(Tiff({.compression = compression}));
+    const auto image = ReadBytes(TiffBytes({.compression = compression}));
     ASSERT_TRUE(image.ok()) << image.status();
     EXPECT_EQ(image->info.size, (ImageSize{3, 4, 2}));
     EXPECT_EQ(image->values, CountedTo(24));
@@ -85,7 +41,7 @@ std::string WithCompression(std::string bytes, int compression) {
 
 TEST(Tiff, SaysWhatToDoWithACompressionThatItDoesNotRead) {
   const auto error = [](int compression) {
-    return std::string(ReadBytes(WithCompression(Tiff({}), compression)).status().message());
+    return std::string(ReadBytes(WithCompression(TiffBytes({}), compression)).status().message());
   };
   for (const int jpeg_2000 : {33003, 33004, 33005, 34712}) {
     EXPECT_THAT(error(jpeg_2000), HasSubstr("JPEG 2000 compression (" + std::to_string(jpeg_2000) +
@@ -96,7 +52,7 @@ TEST(Tiff, SaysWhatToDoWithACompressionThatItDoesNotRead) {
 
 TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
   // Rows of bytes 0, 1, 2, 3: the highest bit is the first pixel.
-  const auto image = ReadBytes(Tiff({.count = 1, .width = 8, .bits = 1}));
+  const auto image = ReadBytes(TiffBytes({.count = 1, .width = 8, .bits = 1}));
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_EQ(std::vector<double>(image->values.begin() + 24, image->values.end()),
             (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1}));
@@ -105,9 +61,9 @@ TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
 // As tifffile reads them: a mask of few voxels stays one, and the background of labels is 0.
 TEST(Tiff, KeepsStoredValuesWhereWhiteIsZero) {
   for (const int bits : {1, 8, 16}) {
-    const auto black = ReadBytes(Tiff({.count = 1, .width = 8, .bits = bits}));
+    const auto black = ReadBytes(TiffBytes({.count = 1, .width = 8, .bits = bits}));
     const auto white = ReadBytes(
-        Tiff({.count = 1, .width = 8, .bits = bits, .photometric = PHOTOMETRIC_MINISWHITE}));
+        TiffBytes({.count = 1, .width = 8, .bits = bits, .photometric = PHOTOMETRIC_MINISWHITE}));
     ASSERT_TRUE(black.ok()) << black.status();
     ASSERT_TRUE(white.ok()) << white.status();
     EXPECT_EQ(white->values, black->values) << bits;
@@ -133,7 +89,8 @@ ImageOptions Time(int64_t number) {
 
 // The pages that the slices come from: each page's first value is 12 times its number.
 std::string PagesOf(const std::string& description, const ImageOptions& options, int count = 6) {
-  const auto image = ReadBytes(Tiff({.count = count, .description = description.c_str()}), options);
+  const auto image =
+      ReadBytes(TiffBytes({.count = count, .description = description.c_str()}), options);
   if (!image.ok()) return std::string(image.status().message());
   std::string pages;
   for (size_t n = 0; n < image->values.size(); n += 12) {
@@ -176,20 +133,20 @@ TEST(Tiff, TakesThePhysicalSizeOfOme) {
   const std::string description =
       Ome("DimensionOrder=\"XYZCT\" SizeZ=\"2\" SizeC=\"1\" SizeT=\"1\" PhysicalSizeX=\"0.2\" "
           "PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"1.5\" PhysicalSizeZUnit=\"\xc2\xb5m\"");
-  const auto image = ReadBytes(Tiff({.description = description.c_str()}));
+  const auto image = ReadBytes(TiffBytes({.description = description.c_str()}));
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.2, 0.25, 1.5));
   EXPECT_EQ(image->info.unit, "um");
 }
 
 TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
-  const auto plain = ReadBytes(Tiff({}));
+  const auto plain = ReadBytes(TiffBytes({}));
   ASSERT_TRUE(plain.ok()) << plain.status();
   EXPECT_THAT(plain->info.placement.spacing, ElementsAre(1, 1, 1));
-  const auto printed = ReadBytes(Tiff({.description = "ImageJ=1.53\nimages=2\nunit=inch\n"}));
+  const auto printed = ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nunit=inch\n"}));
   ASSERT_TRUE(printed.ok()) << printed.status();
   EXPECT_THAT(printed->info.placement.spacing, ElementsAre(1, 1, 1));
-  const auto stack = ReadBytes(Tiff(
+  const auto stack = ReadBytes(TiffBytes(
       {.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=micron\nspacing=1.5\nloop=false\n"}));
   ASSERT_TRUE(stack.ok()) << stack.status();
   EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
@@ -205,7 +162,7 @@ TEST(Tiff, KnowsTheUnitsOfImageJ) {
   for (const auto& [written, read] : units) {
     const std::string description =
         std::string("ImageJ=1.53\nimages=2\nslices=2\nunit=") + written + "\nspacing=1.5\n";
-    const auto stack = ReadBytes(Tiff({.description = description.c_str()}));
+    const auto stack = ReadBytes(TiffBytes({.description = description.c_str()}));
     ASSERT_TRUE(stack.ok()) << stack.status();
     EXPECT_EQ(stack->info.unit, read);
     EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
@@ -218,18 +175,18 @@ TEST(Tiff, RefusesWhatIsNoStackOfNumbers) {
     EXPECT_FALSE(image.ok());
     return std::string(image.status().message());
   };
-  EXPECT_THAT(message(Tiff({.samples = 3, .photometric = PHOTOMETRIC_RGB})),
+  EXPECT_THAT(message(TiffBytes({.samples = 3, .photometric = PHOTOMETRIC_RGB})),
               HasSubstr("3 samples per pixel"));
-  EXPECT_THAT(message(Tiff({.bits = 4})), HasSubstr("samples of 4 bits"));
-  EXPECT_THAT(message(Tiff({.count = 3}, 5)), HasSubstr("slice 2"));
-  EXPECT_THAT(message(Tiff({.description = "ImageJ=1.53\nimages=4\nchannels=2\n"})),
+  EXPECT_THAT(message(TiffBytes({.bits = 4})), HasSubstr("samples of 4 bits"));
+  EXPECT_THAT(message(TiffBytes({.count = 3}, 5)), HasSubstr("slice 2"));
+  EXPECT_THAT(message(TiffBytes({.description = "ImageJ=1.53\nimages=4\nchannels=2\n"})),
               HasSubstr("channels"));
-  EXPECT_THAT(message(Tiff({.count = 1, .description = "ImageJ=1.53\nimages=4\n"})),
+  EXPECT_THAT(message(TiffBytes({.count = 1, .description = "ImageJ=1.53\nimages=4\n"})),
               HasSubstr("4 images"));
 }
 
 TEST(Tiff, EndsWellWhereverItIsCutOrChanged) {
-  const std::string bytes = Tiff({.compression = COMPRESSION_LZW});
+  const std::string bytes = TiffBytes({.compression = COMPRESSION_LZW});
   for (size_t size = 4; size < bytes.size(); ++size) {
     const auto image = ReadBytes(bytes.substr(0, size));
     // Without its second page the stack is just shorter.
