@@ -186,15 +186,16 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
 
 def read(path: Union[str, os.PathLike],
          **options: Any) -> Union[Image, Mesh, Lattice, Skeleton]:
-    """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF, glTF, VTK
-    polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also compressed by gzip. A folder is read as OME-Zarr 0.4, a
-    Zarr array, a Neuroglancer precomputed volume or PNG or TIFF slices, a file for each. A .json file is a result of the command line or
-    of `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
+    """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF,
+    glTF, VTK polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also
+    compressed by gzip. A folder is read as OME-Zarr 0.4, a Zarr array, a Neuroglancer precomputed
+    volume or PNG or TIFF slices, a file for each. A .json file is a result of the command line or of
+    `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
     .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
-        series (of DICOM), array (of npz), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type, raw_order and raw_header for files
-        without a header.
+        series (of DICOM), array (of npz), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type,
+        raw_order and raw_header for files without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for a file of another kind.
 
@@ -222,9 +223,9 @@ def read(path: Union[str, os.PathLike],
         raise FileNotFoundError(f"cannot open '{name}': No such file or directory")
     if not _native.is_image(name) and not texts:
         raise ValueError(f"{name}: read() takes images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, "
-                         ".npz, .vol, .raw, ...), folders of slices, OME-Zarr and precomputed, meshes (.obj, .stl, .ply, "
-                         ".off, .glb, .gltf, .vtk, .vtp, .gii, FreeSurfer), results (.json) and lattices "
-                         "(.exr, .bccb)")
+                         ".npz, .vol, .raw, ...), folders of slices, OME-Zarr and precomputed, "
+                         "meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, .gii, FreeSurfer), "
+                         "results (.json) and lattices (.exr, .bccb)")
     array, placement, unit, world = _native.read_image(name, texts)
     direction = np.reshape(placement.direction, (3, 3))[::-1, ::-1]
     return Image(array, tuple(placement.spacing[::-1]), tuple(placement.origin[::-1]), direction,
