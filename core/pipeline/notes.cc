@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
 
 #include "absl/strings/str_format.h"
 #include "core/certificate/describe_changes.h"
 #include "core/distance/chamfer_weights.h"
+#include "core/distance/places.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel {
@@ -56,6 +60,49 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   notes.push_back(what + absl::StrFormat(", as noise makes them; --cut-loops %g closes such "
                                          "tunnels before thinning",
                                          width));
+}
+
+// Of the object, in the balls along the curves: those of isolated points, and of each edge that of
+// its tube and its largest. More than there is where these overlap.
+double ShareInBalls(const SkeletonizeResult& result) {
+  constexpr double kVolumeOfPoint = 4;  // in lattice units
+  const SkeletonGraph& graph = result.graph;
+  const AxisScale scale = AxisScaleOf(graph.placement);
+  const auto ball = [](double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); };
+  double volume = 0;
+  for (const SkeletonNode& node : graph.nodes) {
+    if (node.kind == NodeKind::kIsolated) volume += ball(node.at.radius);
+  }
+  for (const SkeletonEdge& edge : graph.edges) {
+    const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+    double largest = points[0].radius;
+    for (size_t n = 1; n < points.size(); ++n) {
+      const double radius = points[n].radius;
+      const double way = StraightDistance(points[n - 1].point, points[n].point, scale);
+      volume += std::numbers::pi * radius * radius * way;
+      largest = std::max(largest, radius);
+    }
+    volume += ball(largest);
+  }
+  const double cell = kVolumeOfPoint * scale[0] * scale[1] * scale[2];
+  return volume / (cell * static_cast<double>(result.object_points));
+}
+
+// Curves say little of plates and shells.
+void AddFlatObject(const SkeletonizeResult& result, Notes& notes) {
+  constexpr double kLeastShare = 0.2;  // of limbs four times as wide as thick
+  const ThinningOptions& thinning = result.options.thinning;
+  if (result.object_points == 0 || result.certificate.input.cavities > 0 ||
+      !MakesCurves(thinning.kind) || thinning.last_shell > 0) {
+    return;
+  }
+  const double share = ShareInBalls(result);
+  if (share >= kLeastShare) return;
+  notes.push_back(
+      absl::StrFormat("the balls along the curves hold about %.0f %% of the object, as in plates "
+                      "and shells; --kind "
+                      "surface describes these by sheets",
+                      100 * share));
 }
 
 // So many parts are seldom wanted.
@@ -126,6 +173,7 @@ std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   AddOneSlice(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
+  AddFlatObject(result, notes);
   AddNarrowLoops(result, notes);
   AddSpecks(result, notes);
   AddSimplePoints(result, notes);

@@ -26,7 +26,9 @@ constexpr double kRoundMargin = 1;
 constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
 constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
 constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
-constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
+constexpr double kLeastOn = 0.25;    // a line goes on in a wall by this at least, in radii
+constexpr double kBulge = 1.2;       // its radius at the end, in radii where its branch begins
+constexpr double kInJunction = 0.9;  // of the ball there
 constexpr size_t kCoverSamples = 16;
 
 // Quarter turns in eight steps: cosine and sine.
@@ -59,6 +61,16 @@ Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale&
 // Position in the path of one of the places that a run is looked at in.
 size_t PlaceIn(const Run& run, size_t place) {
   return run.from + (run.to - run.from) * place / (Significance::kPlaces - 1);
+}
+
+// Where a branch begins in the limb that a bulge sits on, lines across it run along that limb. A
+// bulge is thicker than the limb; its own places are those outside the ball that it begins in.
+size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run) {
+  if (path.radii[run.to] < kBulge * path.radii[0]) return 0;
+  size_t place = 0;
+  const auto way = [&] { return set.Between(path.points[0], path.points[PlaceIn(run, place)]); };
+  while (place + 1 < Significance::kPlaces && way() < kInJunction * path.radii[0]) ++place;
+  return place;
 }
 
 // Of the values from the place on.
@@ -120,9 +132,8 @@ void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> bra
 
 const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {
   const Verdict* last = verdicts_.Find(branch.points[0]);
-  const bool is_same =
-      last != nullptr && last->junction == *branch.junction && last->points == branch.points.size();
-  return is_same ? last : nullptr;
+  if (last == nullptr || last->junction != *branch.junction) return nullptr;
+  return last->points == branch.points.size() ? last : nullptr;
 }
 
 // The limb may begin late in the largest run, in something wide: so the run of the later half
@@ -229,11 +240,13 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
     return std::max(section.half_width - section.radius, 0.0);
   });
   const double half_width_near_tip = wider[kNearTip] + sections[kNearTip].radius;
+  const size_t first_own = FirstOwnPlace(set, path, run);
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
     const LatticePoint root = path.points[PlaceIn(run, place)];
     const Section& from = sections[place];
-    const double wide = MedianFrom(wider, place), width = from.radius + kWidthShare * wide;
+    const double wide = MedianFrom(wider, std::max(place, first_own));
+    const double width = from.radius + kWidthShare * wide;
     for (size_t tip = place + 1; tip < kPlaces; ++tip) {
       const Section& to = sections[tip];
       const double narrower = from.inscribed == 0
@@ -303,8 +316,8 @@ bool Significance::Widen(const Coordinates& side, double reach, Section& section
 // A straight line leaves a bent wall soon, so the widest goes on in it, to either side.
 void Significance::FollowWall(double reach, Section& section) {
   const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
-  const Coordinates other_side = Sum({0, 0, 0}, -1, section.side);
-  const double back = WayInWall(FrontOf(section, other_side), section.radius, reach);
+  const Front other = FrontOf(section, Sum({0, 0, 0}, -1, section.side));
+  const double back = WayInWall(other, section.radius, reach);
   section.half_width = std::max(section.half_width, (there + back) / 2);
 }
 

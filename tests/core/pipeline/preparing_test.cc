@@ -15,6 +15,7 @@
 namespace bccskel {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -92,6 +93,27 @@ TEST(NotesOn, SayWhenNothingIsLeft) {
       NotesOn(SkeletonOf(HollowBall(), {.preparing = {.min_component_points = 1 << 20}})),
       ElementsAre("nothing is left of the object after preparing: 1 small component dropped"));
   EXPECT_THAT(NotesOn(SkeletonOf(Volume(), {})), ElementsAre("the object has no points"));
+}
+
+TEST(NotesOn, NameTheKindForPlatesAndShells) {
+  const auto plate = [](int32_t width) {
+    VolumeBuilder points({60, width, 10});
+    for (int32_t x = 4; x < 116; ++x) {
+      for (int32_t y = 4; y < 2 * width - 4; ++y) {
+        for (int32_t z = 4; z < 16; ++z) {
+          if ((x & 1) == (y & 1) && (y & 1) == (z & 1)) points.Add({x, y, z});
+        }
+      }
+    }
+    return *std::move(points).Build();
+  };
+  EXPECT_THAT(
+      NotesOn(SkeletonOf(plate(60), {})),
+      ElementsAre(AllOf(HasSubstr("% of the object, as in plates"), HasSubstr("--kind surface"))));
+  EXPECT_THAT(NotesOn(SkeletonOf(plate(12), {})), IsEmpty());
+  const SkeletonizeOptions surface = {
+      .thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kSurface}};
+  EXPECT_THAT(NotesOn(SkeletonOf(plate(60), surface)), IsEmpty());
 }
 
 TEST(NotesOn, NameTheOptionsAgainstSpecks) {

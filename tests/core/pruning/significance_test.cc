@@ -57,6 +57,29 @@ TEST(Significance, KeepsSmallLimbsWhereTheSurfaceIsSmooth) {
   EXPECT_EQ(EndsOf(smooth), 6u);
 }
 
+// A ball beside a tube, like an aneurysm of a vessel; lengths in radii of the tube, `off` from its
+// axis to the center of the ball.
+Volume TubeWithBulge(double radius, double bulge, double off, const shapes::Vector& side) {
+  const shapes::Vector end = {0, 0, 8 * radius}, other_end = {0, 0, -8 * radius};
+  const double way = off * radius;
+  const shapes::Vector middle = {way * side.x, way * side.y, way * side.z};
+  const std::vector<shapes::Solid> solids = {
+      shapes::RoundCone{end, other_end, radius, radius},
+      shapes::Spheroid{middle, {1, 0, 0}, bulge * radius, bulge * radius}};
+  return *shapes::Rasterize(solids, 1);
+}
+
+// Most of its branch runs through the tube.
+TEST(Significance, KeepsBulgesThickerThanTheirLimb) {
+  for (const double radius : {8.0, 14.0}) {
+    for (const shapes::Vector& side : {shapes::Vector{1, 0, 0}, {0.6, 0.8, 0}}) {
+      SCOPED_TRACE(testing::Message() << radius << ' ' << side.y);
+      EXPECT_EQ(EndsOf(TubeWithBulge(radius, 1.4, 1.75, side)), 3u);
+      EXPECT_EQ(EndsOf(TubeWithBulge(radius, 1.25, 0.4, side)), 2u);
+    }
+  }
+}
+
 // A bar of 16 by 16 lattice units with five teeth on one side, as wide as it is, 8 thick and
 // `height` high.
 Volume Rack(int32_t height) {
