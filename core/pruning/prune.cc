@@ -137,7 +137,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   } else if (noise.roughness > 0) {
     firm_depth.emplace(space, in_space);
   }
-  Significance significance(in.object, noise, std::move(way_on), std::move(firm_depth));
+  Significance significance(in.object, noise, std::move(way_on), std::move(firm_depth),
+                            space.window());
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
     BranchPruner(set, significance, options.rule, threshold, kept, context).Run();

@@ -19,7 +19,6 @@ constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: th
 constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
 constexpr size_t kRoots = 7;            // of the places, the first: there the limb may begin
 constexpr size_t kNearTip = 9;          // of the places
-constexpr size_t kWayReach = 5;         // points on either side that give the branch's way
 constexpr double kLongestRay = 400;
 constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
 constexpr double kRoundMargin = 1;
@@ -51,13 +50,6 @@ BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   return path;
 }
 
-// The way of the path around its point n, of length 1.
-Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
-  const LatticePoint from = path[n - std::min(n, kWayReach)];
-  const LatticePoint to = path[std::min(n + kWayReach, path.size() - 1)];
-  return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
-}
-
 // Position in the path of one of the places that a run is looked at in.
 size_t PlaceIn(const Run& run, size_t place) {
   return run.from + (run.to - run.from) * place / (Significance::kPlaces - 1);
@@ -84,12 +76,14 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 }  // namespace
 
 Significance::Significance(const Volume& object, const SurfaceNoise& noise,
-                           std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth)
+                           std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth,
+                           const std::optional<LatticeBox>& border)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
       bricks_(object),
       way_on_(std::move(way_on)),
-      firm_depth_(std::move(firm_depth)) {}
+      firm_depth_(std::move(firm_depth)),
+      border_(border) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   const Verdict* last = Known(branch);
@@ -208,6 +202,13 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
 // its radius at most. Likewise pits: they only make the radius smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
+  if (const auto beyond =
+          border_.has_value() ? PlaceBeyond(*border_, scale_, path) : std::nullopt) {
+    if (firm_depth_.has_value()) LookPastPits(path);
+    path.points.push_back(*beyond);
+    path.radii.push_back(path.radii.back());
+    return LargestRun(set, path, noise_);
+  }
   const Run run = LargestRun(set, path, noise_);
   if (run.ratio > kSureRatio) return run;
   if (firm_depth_.has_value() && run.ratio >= kLeastRatio) {

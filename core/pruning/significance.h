@@ -56,10 +56,12 @@ class Significance {
 
   // Needs: `object` outlives this; `noise` is that of its surface; `way_on` in the same object,
   //        none for branches that end where thinning ended them; `firm_depth` in the same object,
-  //        for radii without pits as far as the surface is rough, none for radii as they are.
+  //        for radii without pits as far as the surface is rough, none for radii as they are;
+  //        `border` of the image, where limbs that it cuts off go on.
   Significance(const Volume& object, const SurfaceNoise& noise,
                std::optional<WayOn> way_on = std::nullopt,
-               std::optional<FirmDepth> firm_depth = std::nullopt);
+               std::optional<FirmDepth> firm_depth = std::nullopt,
+               const std::optional<LatticeBox>& border = std::nullopt);
 
   // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
   //        it is always the same set, from which points go, and radii never change.
@@ -126,6 +128,7 @@ class Significance {
   NearbyBricks bricks_;
   std::optional<WayOn> way_on_;
   std::optional<FirmDepth> firm_depth_;
+  const std::optional<LatticeBox> border_;
   std::optional<BallIndex> balls_;  // made when it is asked for first
   PointTable<Verdict> verdicts_;    // by the branch's end
 };

@@ -12,6 +12,10 @@ namespace {
 constexpr size_t kAimPoints = 10;         // the way on is that of the last points
 constexpr double kLeastStepCosine = 0.4;  // cosine between it and a step
 constexpr double kAimWeight = 0.5;        // against the rise of the radius
+constexpr size_t kWayReach = 5;           // points on either side that give a path's way
+constexpr double kBorderMargin = 1;       // lattice units
+constexpr double kBorderCosine = 0.7;     // between the way and the outside
+constexpr double kRadiiBeyond = 2;
 
 }  // namespace
 
@@ -42,6 +46,30 @@ void WayOn::Append(BranchPath& path) {
     path.points.push_back(best->to);
     path.radii.push_back(best->radius);
   }
+}
+
+Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
+  const LatticePoint from = path[n - std::min(n, kWayReach)];
+  const LatticePoint to = path[std::min(n + kWayReach, path.size() - 1)];
+  return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
+}
+
+std::optional<LatticePoint> PlaceBeyond(const std::optional<LatticeBox>& image,
+                                        const AxisScale& scale, const BranchPath& path) {
+  if (!image.has_value()) return std::nullopt;
+  const LatticePoint end = path.points.back(), low = image->low, high = image->high;
+  const Coordinates way = WayAt(path.points, path.points.size() - 1, scale);
+  const double radius = path.radii.back();
+  const auto leaves = [&](size_t axis, int32_t before, int32_t after) {
+    const double reach = (radius + kBorderMargin) / scale[axis];
+    return (before <= reach && way[axis] <= -kBorderCosine) ||
+           (after <= reach && way[axis] >= kBorderCosine);
+  };
+  if (!leaves(0, end.x - low.x, high.x - end.x) && !leaves(1, end.y - low.y, high.y - end.y) &&
+      !leaves(2, end.z - low.z, high.z - end.z)) {
+    return std::nullopt;
+  }
+  return PointNear(Sum(PlaceOf(end, scale), kRadiiBeyond * radius, way), scale);
 }
 
 }  // namespace bccskel

@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_PRUNING_WAY_ON_H_
 #define BCCSKEL_CORE_PRUNING_WAY_ON_H_
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/distance/exact_radius.h"
@@ -44,6 +46,15 @@ class WayOn {
   NearbyBricks bricks_;
   ExactRadius radius_;
 };
+
+// The way of the path around its point n, of length 1.
+Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale);
+
+// Where a limb goes on that the border of an image cuts off: a place twice its radius beyond the
+// end. None unless the path leads to the border and the ball at its end reaches it; where something
+// ends before the border, the ball ends with it. Needs: at least two points.
+std::optional<LatticePoint> PlaceBeyond(const std::optional<LatticeBox>& image,
+                                        const AxisScale& scale, const BranchPath& path);
 
 }  // namespace bccskel
 

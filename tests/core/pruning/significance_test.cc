@@ -80,6 +80,19 @@ TEST(Significance, KeepsBulgesThickerThanTheirLimb) {
   }
 }
 
+// A pore between eight grains, which the border of the image cuts off at its six throats.
+TEST(Significance, KeepsLimbsThatTheBorderCutsOffAtTheirNarrowest) {
+  constexpr int32_t kSide = 43, kGrain = 25;  // lattice units
+  const Volume pore = test::VolumeWhere({22, 22, 22}, [](int32_t x, int32_t y, int32_t z) {
+    const int32_t dx = std::min(x, kSide - x), dy = std::min(y, kSide - y);
+    const int32_t dz = std::min(z, kSide - z);
+    return dx * dx + dy * dy + dz * dz > kGrain * kGrain;
+  });
+  const SkeletonizeOptions options = {.border = Border::kContinues};
+  const SkeletonGraph graph = Skeletonize(pore, options, {})->graph;
+  EXPECT_EQ(std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 6);
+}
+
 // A bar of 16 by 16 lattice units with five teeth on one side, as wide as it is, 8 thick and
 // `height` high.
 Volume Rack(int32_t height) {
