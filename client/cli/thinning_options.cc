@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "client/cli/option_values.h"
@@ -97,8 +98,9 @@ void AddBorder(CLI::App& command, Border& border) {
   AddChoice<Border>(
       command, "--border", border,
       "What lies beyond the border of an image or a volume: background (ends, default), "
-      "or the rest of the limbs that the border cuts off (continues)",
-      Choices(kBorderWords));
+      "or the rest of the limbs that the border cuts off (continues); across an image of one "
+      "slice the object always continues",
+      Choices(std::span(kBorderWords).first<2>()));
 }
 
 void AddThinning(CLI::App& command, ThinningOptions& thinning) {

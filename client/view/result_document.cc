@@ -264,7 +264,7 @@ class Reader {
                Optional("components", components), Optional("border", border));
     if (cavities == "filled") preparing.cavities = CavityFilling::kOn;
     if (components == "largest") preparing.components = KeptComponents::kLargest;
-    to.border_continues = border == "continues";
+    to.border_continues = border == "continues" || border == "slice";
   }
   void Read(const Place& place, Order& to) {
     ReadObject(place, Required("roots", to.roots), Optional("rule", to.rule));

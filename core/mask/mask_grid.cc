@@ -1,6 +1,7 @@
 #include "core/mask/mask_grid.h"
 
 #include <algorithm>
+#include <array>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
@@ -57,12 +58,27 @@ absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const ui
   return CheckSliceSize(grid, z, labels.size(), grid.VoxelsPerSlice());
 }
 
+std::optional<size_t> AxisOfOneSlice(const MaskGrid& grid) {
+  const std::array<int32_t, 3> voxels = {grid.nx, grid.ny, grid.nz};
+  if (std::ranges::count(voxels, 1) != 1) return std::nullopt;
+  return static_cast<size_t>(std::ranges::find(voxels, 1) - voxels.begin());
+}
+
+Placement VoxelPlacement(const MaskGrid& grid) {
+  Placement placement = grid.placement;
+  const std::optional<size_t> across = AxisOfOneSlice(grid);
+  if (!across.has_value()) return placement;
+  std::array<double, 3>& spacing = placement.spacing;
+  spacing[*across] = std::min(spacing[(*across + 1) % 3], spacing[(*across + 2) % 3]);
+  return placement;
+}
+
 VoxelParts SlabsOf(const MaskGrid& grid, VoxelPoints points) {
   constexpr double kLongest = 3;       // of a part, in its shortest edges
   constexpr double kTolerance = 1e-6;  // of spacings that were rounded
   constexpr int32_t kMostSlabs = 8;
   const std::array<int64_t, 3> voxels = {grid.nx, grid.ny, grid.nz};
-  const std::array<double, 3>& spacing = grid.placement.spacing;
+  const std::array<double, 3> spacing = VoxelPlacement(grid).spacing;
   const double longest = kLongest * (1 + kTolerance) * std::ranges::min(spacing);
   VoxelParts slabs = {1, 1, 1};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -87,9 +103,9 @@ LatticeExtent ExactExtent(const MaskGrid& grid, VoxelPoints points) {
 }
 
 Placement ExactPlacement(const MaskGrid& grid, VoxelPoints points) {
-  Placement placement = grid.placement;
+  Placement placement = VoxelPlacement(grid);
   // Lattice point (0, 0, 0) is the outer corner of voxel (0, 0, 0).
-  placement.origin = grid.placement.ToWorld(-1, -1, -1);
+  placement.origin = placement.ToWorld(-1, -1, -1);
   const VoxelParts parts = PartsOf(grid, points);
   for (size_t axis = 0; axis < 3; ++axis) placement.spacing[axis] /= parts[axis];
   return placement;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "absl/status/status.h"
@@ -56,6 +57,14 @@ absl::Status CheckMaskGrid(const MaskGrid& grid);
 // bit set past the last voxel of a row.
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
 absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
+
+// The axis along which an image has one slice, as a 2-D image has; none for one of a single row.
+std::optional<size_t> AxisOfOneSlice(const MaskGrid& grid);
+
+// The placement of voxels on the lattice: theirs, but across an image of one slice they count as
+// long as they are wide there. The object continues beyond that slice (core/pipeline), so its
+// thickness is no part of the shape, and curves would zigzag through a thick one.
+Placement VoxelPlacement(const MaskGrid& grid);
 
 // What makes the parts of thick slices at most three times as long as they are wide: eight at most,
 // and as many as the extent allows. On longer ones curves would fork and end early, see README.md.

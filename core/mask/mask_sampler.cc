@@ -13,7 +13,7 @@ namespace {
 
 // Edge of a cell along each axis, in voxels. A cell holds two points.
 std::array<double, 3> CellEdges(const MaskGrid& grid, const MaskSamplingOptions& options) {
-  const std::array<double, 3>& spacing = grid.placement.spacing;
+  const std::array<double, 3> spacing = VoxelPlacement(grid).spacing;
   const double voxels = 2 / options.points_per_voxel;
   if (options.cells == CellShape::kVoxel) {
     const double edge = std::cbrt(voxels);
@@ -42,17 +42,17 @@ absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingO
   const std::array<int32_t, 3> voxels = {grid.nx, grid.ny, grid.nz};
   std::array<int32_t, 3> cells = {};
   MaskLattice lattice;
-  lattice.placement = grid.placement;
+  lattice.placement = VoxelPlacement(grid);
   for (size_t axis = 0; axis < 3; ++axis) {
     const double wanted = std::min(std::ceil(voxels[axis] / edges[axis]), 2.0 * kMaxExtentCells);
     cells[axis] = std::max(static_cast<int32_t>(wanted), 1);
     lattice.step[axis] = edges[axis] / 2;
     // As much room before the first point as behind the last.
     lattice.first[axis] = (voxels[axis] - 1 - lattice.step[axis] * (2 * cells[axis] - 1)) / 2;
-    lattice.placement.spacing[axis] *= edges[axis];
   }
   lattice.placement.origin =
-      grid.placement.ToWorld(2 * lattice.first[0], 2 * lattice.first[1], 2 * lattice.first[2]);
+      lattice.placement.ToWorld(2 * lattice.first[0], 2 * lattice.first[1], 2 * lattice.first[2]);
+  for (size_t axis = 0; axis < 3; ++axis) lattice.placement.spacing[axis] *= edges[axis];
   lattice.extent = {cells[0], cells[1], cells[2]};
   BCCSKEL_RETURN_IF_ERROR(CheckGrid(lattice.extent, lattice.placement));
   return lattice;

@@ -1,7 +1,6 @@
 #include "core/pipeline/notes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -120,22 +119,6 @@ void AddSpecks(const SkeletonizeResult& result, Notes& notes) {
       components));
 }
 
-// In a 2-D image, each of whose points is next to the background above and below.
-void AddOneSlice(const SkeletonizeResult& result, Notes& notes) {
-  const SkeletonizeOptions& options = result.options;
-  const bool voxels = options.source == ObjectSource::kVoxels && result.object_points > 0;
-  if (!voxels || options.border != Border::kEnds) return;
-  const LatticeExtent& cells = result.thin.extent();
-  const std::array<int32_t, 3> extent = {cells.nx, cells.ny, cells.nz};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    if (extent[axis] != options.voxel_slabs[axis] + 1) continue;
-    notes.emplace_back(
-        "the image has one slice, and distances end at its faces: radii are half its thickness at "
-        "most; --border continues measures them in its plane");
-    return;
-  }
-}
-
 void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
   if (result.certificate.Given() == BettiNumbers()) notes.push_back("the object has no points");
 }
@@ -170,7 +153,6 @@ void AddSimplePoints(const SkeletonizeResult& result, Notes& notes) {
 std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   Notes notes;
   AddEmpty(result, notes);
-  AddOneSlice(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
   AddFlatObject(result, notes);

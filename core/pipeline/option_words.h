@@ -43,8 +43,10 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
      {"voxels", ObjectSource::kVoxels},
      {"refined-voxels", ObjectSource::kRefinedVoxels},
      {"sampled-voxels", ObjectSource::kSampledVoxels}}};
-inline constexpr Words<Border, 2> kBorderWords = {
-    {{"ends", Border::kEnds}, {"continues", Border::kContinues}}};
+// The last one is no choice.
+inline constexpr Words<Border, 3> kBorderWords = {{{"ends", Border::kEnds},
+                                                   {"continues", Border::kContinues},
+                                                   {"slice", Border::kContinuesAcrossSlice}}};
 inline constexpr Words<PreparingStepKind, 5> kPreparingWords = {
     {{"denoise", PreparingStepKind::kDenoise},
      {"fill-cavities", PreparingStepKind::kFillCavities},

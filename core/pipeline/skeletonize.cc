@@ -138,20 +138,30 @@ class Pipeline {
 
   absl::Status RunFrom(const Volume& object) {
     result_.object_points = object.PointCount();
-    if (options_.border == Border::kContinues && !object.empty()) {
-      return RunBeyondBorder(object);
-    }
+    if (!object.empty()) BCCSKEL_RETURN_IF_ERROR(LookBeyondBorder(object));
     return RunIn(object);
   }
 
-  absl::Status RunBeyondBorder(const Volume& object) {
+  absl::Status LookBeyondBorder(const Volume& object) {
+    if (options_.border == Border::kContinues) {
+      BCCSKEL_RETURN_IF_ERROR(ContinueAcross(kAllAxes, object));
+    }
+    const std::optional<size_t> slice = AxisOfOneSlice(object.extent(), options_);
+    if (space_.has_value() || !slice.has_value()) return absl::OkStatus();
+    result_.options.border = Border::kContinuesAcrossSlice;
+    AxesAcross axes = {};
+    axes[*slice] = true;
+    return ContinueAcross(axes, object);
+  }
+
+  absl::Status ContinueAcross(const AxesAcross& axes, const Volume& object) {
     // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
     // points beyond them.
     const BorderPoints last =
         IsConverted(options_.source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
-    BCCSKEL_ASSIGN_OR_RETURN(Volume space, ContinueBeyondBorder(object, last, memory_));
+    BCCSKEL_ASSIGN_OR_RETURN(Volume space, ContinueBeyondBorder(object, last, axes, memory_));
     if (space.window().has_value()) space_.emplace(std::move(space));
-    return RunIn(object);
+    return absl::OkStatus();
   }
 
   // Where widths and distances are measured.
@@ -357,7 +367,8 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& ob
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  if (options.border != Border::kEnds) {
+  if (options.border == Border::kContinues ||
+      AxisOfOneSlice(object.extent(), options).has_value()) {
     return absl::InvalidArgumentError("an object that is peeled elsewhere must end at its border");
   }
   exec::MachineMemory memory;

@@ -32,10 +32,14 @@ enum class ObjectSource : uint8_t {
 // about that.
 double SurfaceStepOf(ObjectSource source);
 
-// What lies beyond the border of the lattice, or of the image that it was made of.
+// What lies beyond the border of the lattice, or of the image that it was made of. Across an image
+// of one slice objects always continue.
 enum class Border : uint8_t {
   kEnds,       // background: the object ends there
   kContinues,  // is unknown: a limb that is cut off there runs straight to the border
+  // The same beyond both faces across an image of one slice, background beyond the others: what
+  // kEnds means for such an image. Stated by results.
+  kContinuesAcrossSlice,
 };
 
 struct SkeletonizeOptions {

@@ -1,5 +1,5 @@
 #include "core/exec/status_macros.h"
-#include "core/pipeline/skeletonize.h"
+#include "core/pipeline/skeletonize_within.h"
 
 namespace bccskel {
 namespace {
@@ -21,6 +21,21 @@ double SurfaceStepOf(ObjectSource source) {
       return 4;
   }
   return 1;
+}
+
+std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
+                                     const SkeletonizeOptions& options) {
+  if (options.source == ObjectSource::kPoints) return std::nullopt;
+  const bool sampled = options.source == ObjectSource::kSampledVoxels;
+  const auto refinement = static_cast<int32_t>(SurfaceStepOf(options.source)) / 2;
+  const std::array<int32_t, 3> cells = {extent.nx, extent.ny, extent.nz};
+  std::optional<size_t> axis;
+  for (size_t n = 0; n < 3; ++n) {
+    if (cells[n] != (sampled ? 1 : options.voxel_slabs[n] * refinement + 1)) continue;
+    if (axis.has_value()) return std::nullopt;
+    axis = n;
+  }
+  return axis;
 }
 
 absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {

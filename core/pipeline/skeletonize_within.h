@@ -1,8 +1,10 @@
 #ifndef BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_
 #define BCCSKEL_CORE_PIPELINE_SKELETONIZE_WITHIN_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "core/exec/memory_budget.h"
 #include "core/pipeline/skeletonize.h"
@@ -13,6 +15,13 @@ namespace bccskel {
 // How many depends on the object: a brick of dust leaves 256 points, a solid brick at most
 // one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
+
+// The axis along which the mask of an object has one slice, as that of a 2-D image: the object
+// continues beyond both faces across it, whatever SkeletonizeOptions::border says, since its shape
+// is that in the slice. None for masks of one row, and for what is no mask. Of samplings with
+// several cells a voxel the lattice does not tell.
+std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
+                                     const SkeletonizeOptions& options);
 
 // Skeletonize() within a budget. The caller has reserved what follows from the object's bricks; the
 // pipeline reserves kBytesPerThinPoint before it prunes, and what TraceSkeleton() needs. All of it
@@ -40,7 +49,7 @@ using Peeler =
 // certificate of the result and the graph are made here, of the whole object. Preparing needs the
 // whole object from the beginning.
 // Errors: as Skeletonize(); those of the peeler; INVALID_ARGUMENT for objects that continue beyond
-//         their border.
+//         their border, as masks of one slice do.
 absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,
                                                 const SkeletonizeOptions& options,
                                                 const exec::Context& context);

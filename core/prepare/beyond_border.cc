@@ -17,9 +17,15 @@ constexpr uint64_t kBytesPerBrick = 5120;
 // Of the others bits and neighbors: their distances the object has anyway.
 constexpr uint64_t kBytesPerCopiedBrick = 256;
 
-LatticeBox BoxWithin(const LatticeExtent& extent, BorderPoints border) {
+// What is known: the image, and all beside it across the other axes.
+LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes) {
+  constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;
   const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
-  return {{0, 0, 0}, {2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
+  const auto low = [&](size_t axis) { return axes[axis] ? 0 : -kBeyondAll; };
+  const auto high = [&](size_t axis, int32_t cells) {
+    return axes[axis] ? 2 * cells - last : kBeyondAll;
+  };
+  return {{low(0), low(1), low(2)}, {high(0, extent.nx), high(1, extent.ny), high(2, extent.nz)}};
 }
 
 uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
@@ -89,10 +95,10 @@ absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& objec
 }
 
 absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                            exec::MemoryBudget& memory) {
+                                            const AxesAcross& axes, exec::MemoryBudget& memory) {
   const LatticeExtent& extent = object.extent();
-  if (object.PointCount() == PointCountOf(extent, border)) return object;
-  const LatticeBox window = BoxWithin(extent, border);
+  if (axes == kAllAxes && object.PointCount() == PointCountOf(extent, border)) return object;
+  const LatticeBox window = WindowOf(extent, border, axes);
   std::vector<BrickKey> keys = BricksBeyond(object, window);
   const auto added = static_cast<uint64_t>(
       std::ranges::count_if(keys, [&](BrickKey key) { return !object.Find(key).has_value(); }));

@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_PREPARE_BEYOND_BORDER_H_
 #define BCCSKEL_CORE_PREPARE_BEYOND_BORDER_H_
 
+#include <array>
+
 #include "absl/status/statusor.h"
 #include "core/distance/distance_field.h"
 #include "core/exec/context.h"
@@ -13,12 +15,17 @@ namespace bccskel {
 // corner points lie on its faces.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 
+// Whether the object continues beyond both faces across x, y and z.
+using AxesAcross = std::array<bool, 3>;
+inline constexpr AxesAcross kAllAxes = {true, true, true};
+
 // The object in the window of its image, with the points beyond in its own bricks and those beside
-// them. An image without background would be infinitely deep, so the object ends at its border:
-// then the result has no window.
+// them. Across the other axes there is background beyond. If all continue, an image without
+// background would be infinitely deep, so the object ends at its border: then the result has no
+// window.
 // Errors: of the budget.
 absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                            exec::MemoryBudget& memory);
+                                            const AxesAcross& axes, exec::MemoryBudget& memory);
 
 // The distances of the object's points, a subset of `space`, there.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.

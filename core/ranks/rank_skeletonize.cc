@@ -111,7 +111,9 @@ absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(Volume& object,
                                                     const SkeletonizeOptions& options,
                                                     const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckRankOptions(options));
-  if (options.preparing.Wanted()) {
+  // Ranks measure distances to all background; an object of one slice is small enough for one.
+  const bool one_slice = AxisOfOneSlice(object.extent(), options).has_value();
+  if (one_slice || options.preparing.Wanted()) {
     Order order;
     order.task = Task::kBringParts;
     order.extent = object.extent();
@@ -119,6 +121,7 @@ absl::StatusOr<SkeletonizeResult> Lead::Skeletonize(Volume& object,
     Send(exchange_, order);
     BCCSKEL_ASSIGN_OR_RETURN(object, BringParts(exchange_, std::move(object)));
   }
+  if (one_slice) return bccskel::Skeletonize(object, options, context);
   const Peeler peeler = [&](Volume& prepared,
                             const ThinningOptions& thinning) -> absl::StatusOr<PeeledObject> {
     Send(exchange_,

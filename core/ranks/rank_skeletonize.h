@@ -29,8 +29,8 @@ class Lead {
 
   // Skeletonize(), where all ranks measure distances, thin and count the object's topology; the
   // same result for any number of them. `object` is this rank's part on entry and the whole object
-  // on return: this rank alone measures radii, prunes and traces the graph. To prepare, it gathers
-  // the whole object at the start.
+  // on return: this rank alone measures radii, prunes and traces the graph. To prepare, and
+  // for a mask of one slice, it gathers the whole object at the start; the latter it does alone.
   // Errors: as Skeletonize() and CheckRankOptions(); those of other ranks' parts; CANCELLED and
   //         DEADLINE_EXCEEDED if any rank has to stop.
   absl::StatusOr<SkeletonizeResult> Skeletonize(Volume& object, const SkeletonizeOptions& options,

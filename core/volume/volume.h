@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_VOLUME_VOLUME_H_
 #define BCCSKEL_CORE_VOLUME_VOLUME_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -51,13 +52,15 @@ class Volume {
   // background. Needs: in a stored brick the points outside are set.
   const std::optional<LatticeBox>& window() const { return window_; }
   void SetWindow(const std::optional<LatticeBox>& window) { window_ = window; }
-  // Whether all of the brick lies outside the window.
+  // Whether all of the brick lies outside the window. Bricks before the first ones cannot be
+  // stored: along an axis where the window has no end they are all background, whose points outside
+  // the window lie no nearer to those in it than others do.
   bool IsUnknown(const BrickCoordinates& brick) const {
-    return window_.has_value() && !window_->Meets(BoxOf(brick));
+    return window_.has_value() && !IsBefore(brick) && !window_->Meets(BoxOf(brick));
   }
   // Whether some of it does.
   bool IsPartlyUnknown(const BrickCoordinates& brick) const {
-    return window_.has_value() && !window_->Contains(BoxOf(brick));
+    return window_.has_value() && !IsBefore(brick) && !window_->Contains(BoxOf(brick));
   }
 
   std::optional<BrickIndex> Find(BrickKey key) const;
@@ -79,6 +82,16 @@ class Volume {
   friend bool operator==(const Volume&, const Volume&) = default;
 
  private:
+  // Whether it lies before the first bricks, but only where the window has no end.
+  bool IsBefore(const BrickCoordinates& brick) const {
+    const LatticePoint& low = window_->low;
+    const auto ends_before = [](int32_t b, int32_t from) { return b < 0 && from >= 0; };
+    if (ends_before(brick.bx, low.x) || ends_before(brick.by, low.y) ||
+        ends_before(brick.bz, low.z))
+      return false;
+    return std::min({brick.bx, brick.by, brick.bz}) < 0;
+  }
+
   LatticeExtent extent_;
   Placement placement_;
   std::optional<LatticeBox> window_;

@@ -231,6 +231,11 @@ absl::StatusOr<KeptComponents> FromMessage(v1::KeptComponents kept, const std::s
   }
 }
 
+v1::Border ToMessage(Border border) {
+  if (border == Border::kContinues) return v1::BORDER_CONTINUES;
+  return border == Border::kEnds ? v1::BORDER_ENDS : v1::BORDER_CONTINUES_ACROSS_SLICE;
+}
+
 absl::StatusOr<Border> FromMessage(v1::Border border, const std::string& field) {
   switch (border) {
     case v1::BORDER_UNSPECIFIED:
@@ -238,6 +243,8 @@ absl::StatusOr<Border> FromMessage(v1::Border border, const std::string& field) 
       return Border::kEnds;
     case v1::BORDER_CONTINUES:
       return Border::kContinues;
+    case v1::BORDER_CONTINUES_ACROSS_SLICE:
+      return Border::kContinuesAcrossSlice;
     default:
       return InvalidField(field, absl::StrCat("unknown border ", int{border}));
   }
@@ -343,7 +350,7 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options) {
                                 ? v1::TIP_PLACEMENT_RIDGE
                                 : v1::TIP_PLACEMENT_AS_THINNED);
   message.set_junction_reach(options.junction_reach);
-  message.set_border(options.border == Border::kContinues ? v1::BORDER_CONTINUES : v1::BORDER_ENDS);
+  message.set_border(ToMessage(options.border));
   *message.mutable_preparing() = ToMessage(options.preparing);
   message.set_object_source(ToMessage(options.source));
   if (options.voxel_slabs != decltype(options.voxel_slabs){1, 1, 1}) {

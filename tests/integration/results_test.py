@@ -107,6 +107,21 @@ class ResultsTest(harness.TestCase):
         self.assertGreater(summary["jaccard"], 0.9)
         self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))
 
+    def test_balls_reach_beyond_the_faces_of_one_slice_as_on_a_server(self):
+        y, x = np.ogrid[:40, :60]
+        np.save(self.folder / "disc.npy", ((y - 20) ** 2 + (x - 30) ** 2 < 14 ** 2)[None])
+        disc = self.path("disc.npy")
+        here = self.skeletonize(disc)
+        self.assertEqual(here["options"]["border"], "slice")
+        self.assertGreater(here["totals"]["max_radius"], 13)
+        with harness.Server(self.folder) as server:
+            self.succeed("skeletonize", disc, "--server", server.address, "-o",
+                         self.path("there.json"))
+        there = json.loads((self.folder / "there.json").read_text())
+        self.assertEqual(harness.without_times(there), harness.without_times(here))
+        self.reconstruct("--object", disc)
+        self.succeed("view", self.path("s.json"), "--object", disc, "-o", self.path("x.html"))
+
     def test_a_picture_beside_a_result_is_the_one_that_render_draws(self):
         source = self.generate("tree")
         self.skeletonize(source, "-o", self.path("beside.png"))

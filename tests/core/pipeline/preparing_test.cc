@@ -128,22 +128,6 @@ TEST(NotesOn, NameTheOptionsAgainstSpecks) {
   EXPECT_THAT(NotesOn(SkeletonOf(specks(999), {})), IsEmpty());
 }
 
-TEST(NotesOn, SayThatRadiiEndAtTheFacesOfOneSlice) {
-  const auto slab = [](int32_t cells) {
-    VolumeBuilder points({12, 12, cells});
-    for (int32_t x = 4; x < 16; ++x) points.Add({x, x, x & 1});
-    return *std::move(points).Build();
-  };
-  SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
-  EXPECT_THAT(NotesOn(SkeletonOf(slab(2), options)), ElementsAre(HasSubstr("--border continues")));
-  EXPECT_THAT(NotesOn(SkeletonOf(slab(3), options)), IsEmpty());
-  options.voxel_slabs = {1, 1, 2};
-  EXPECT_THAT(NotesOn(SkeletonOf(slab(3), options)), ElementsAre(HasSubstr("one slice")));
-  options.border = Border::kContinues;
-  EXPECT_THAT(NotesOn(SkeletonOf(slab(3), options)), IsEmpty());
-  EXPECT_THAT(NotesOn(SkeletonOf(slab(2), {})), IsEmpty());
-}
-
 TEST(NotesOn, SayWhySimplePointsAreLeft) {
   const SkeletonizeOptions early = {
       .thinning = {.method = ThinningMethod::kSymmetric, .last_shell = 2}};

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <new>
 #include <span>
 #include <string>
@@ -12,6 +14,7 @@
 #include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -136,6 +139,16 @@ TEST(RankSkeletonize, ADeepObjectGivesTheResultOfOneMachine) {
     ASSERT_TRUE(wanted.ok());
     EXPECT_EQ(OnRanks(object, options, 3)->sha256, wanted->sha256);
   }
+}
+
+// Whose distances are those in the slice.
+TEST(RankSkeletonize, MasksOfOneSliceGiveTheResultOfOneMachine) {
+  const Volume object = test::VolumeWhere({60, 70, 2}, [](double x, double y, double z) {
+    return std::min(std::abs(x - 60), std::abs(y - 70)) <= 9 && z <= 2;
+  });
+  const SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
+  EXPECT_GT(Skeletonize(object, options, {})->graph.points.front().radius, 4);
+  ExpectSame(object, options);
 }
 
 TEST(RankSkeletonize, OptionsThatRanksCannotKeepToAreRefused) {

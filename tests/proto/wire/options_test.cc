@@ -99,7 +99,7 @@ TEST(OptionsRoundTrip, KeepsTheReachOfJunctions) {
 }
 
 TEST(OptionsRoundTrip, KeepsTheBorder) {
-  for (const Border border : {Border::kEnds, Border::kContinues}) {
+  for (const Border border : {Border::kEnds, Border::kContinues, Border::kContinuesAcrossSlice}) {
     const auto back = FromMessage(ToMessage(SkeletonizeOptions{.border = border}), "options");
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_EQ(back->border, border);
