@@ -91,9 +91,7 @@ void CollapsePaths(ThinSet& set, const Significance& significance, double thresh
     for (BranchPath& half : halves) {
       for (const LatticePoint p : half.points) half.radii.push_back(set.RadiusOf(p));
     }
-    if (significance.OfPath(set, halves[0], halves[1]) >= std::min(threshold, kMost)) {
-      continue;
-    }
+    if (significance.OfPath(set, std::move(halves)) >= std::min(threshold, kMost)) continue;
     for (size_t n = 0; n < deepest; ++n) set.Remove(path[n]);
     for (size_t n = path.size() - 1; n > deepest; --n) set.Remove(path[n]);
   }

@@ -95,10 +95,13 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return last->value * UncoveredShare(set, branch, last->run);
 }
 
-double Significance::OfPath(const ThinSet& set, const BranchPath& one_way,
-                            const BranchPath& other_way) const {
-  const double elongation = LargestElongation(set, one_way) + LargestElongation(set, other_way);
-  return (elongation - noise_.step) / one_way.radii[0];
+double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const {
+  double elongation = 0;
+  for (BranchPath& way : ways) {
+    GoOnBeyond(border_, scale_, way);
+    elongation += LargestElongation(set, way);
+  }
+  return (elongation - noise_.step) / ways[0].radii[0];
 }
 
 void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
@@ -202,13 +205,7 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
 // its radius at most. Likewise pits: they only make the radius smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
-  if (const auto beyond =
-          border_.has_value() ? PlaceBeyond(*border_, scale_, path) : std::nullopt) {
-    if (firm_depth_.has_value()) LookPastPits(path);
-    path.points.push_back(*beyond);
-    path.radii.push_back(path.radii.back());
-    return LargestRun(set, path, noise_);
-  }
+  if (GoOnBeyond(border_, scale_, path)) return LargestRun(set, path, noise_);
   const Run run = LargestRun(set, path, noise_);
   if (run.ratio > kSureRatio) return run;
   if (firm_depth_.has_value() && run.ratio >= kLeastRatio) {

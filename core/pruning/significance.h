@@ -68,7 +68,7 @@ class Significance {
   double Of(const ThinSet& set, const FreeBranch& branch);
   // Of a path with two ends: by how much its two ways from the deepest point stick out, less a step
   // of the surface, in radii of that point. The width does not count: what is flat has a curve.
-  double OfPath(const ThinSet& set, const BranchPath& one_way, const BranchPath& other_way) const;
+  double OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const;
   // Measures branches on the context's threads, so that Of() knows them; not all of them where the
   // context says to stop. Needs: as Of().
   void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,

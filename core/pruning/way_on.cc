@@ -54,12 +54,11 @@ Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale&
   return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
 }
 
-std::optional<LatticePoint> PlaceBeyond(const std::optional<LatticeBox>& image,
-                                        const AxisScale& scale, const BranchPath& path) {
-  if (!image.has_value()) return std::nullopt;
+bool GoOnBeyond(const std::optional<LatticeBox>& image, const AxisScale& scale, BranchPath& path) {
+  if (!image.has_value() || path.points.size() < 2) return false;
   const LatticePoint end = path.points.back(), low = image->low, high = image->high;
   const Coordinates way = WayAt(path.points, path.points.size() - 1, scale);
-  const double radius = path.radii.back();
+  const float radius = path.radii.back();
   const auto leaves = [&](size_t axis, int32_t before, int32_t after) {
     const double reach = (radius + kBorderMargin) / scale[axis];
     return (before <= reach && way[axis] <= -kBorderCosine) ||
@@ -67,9 +66,11 @@ std::optional<LatticePoint> PlaceBeyond(const std::optional<LatticeBox>& image,
   };
   if (!leaves(0, end.x - low.x, high.x - end.x) && !leaves(1, end.y - low.y, high.y - end.y) &&
       !leaves(2, end.z - low.z, high.z - end.z)) {
-    return std::nullopt;
+    return false;
   }
-  return PointNear(Sum(PlaceOf(end, scale), kRadiiBeyond * radius, way), scale);
+  path.points.push_back(PointNear(Sum(PlaceOf(end, scale), kRadiiBeyond * radius, way), scale));
+  path.radii.push_back(radius);
+  return true;
 }
 
 }  // namespace bccskel

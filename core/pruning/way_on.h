@@ -50,11 +50,10 @@ class WayOn {
 // The way of the path around its point n, of length 1.
 Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale);
 
-// Where a limb goes on that the border of an image cuts off: a place twice its radius beyond the
-// end. None unless the path leads to the border and the ball at its end reaches it; where something
-// ends before the border, the ball ends with it. Needs: at least two points.
-std::optional<LatticePoint> PlaceBeyond(const std::optional<LatticeBox>& image,
-                                        const AxisScale& scale, const BranchPath& path);
+// Adds a place twice the last radius beyond the end, where the border of an image cuts the limb
+// off: where the path leads to the border and the ball at its end reaches it. Where a limb ends
+// before the border, so does that ball. Not for single points. Returns whether it did.
+bool GoOnBeyond(const std::optional<LatticeBox>& image, const AxisScale& scale, BranchPath& path);
 
 }  // namespace bccskel
 

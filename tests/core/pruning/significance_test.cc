@@ -93,6 +93,20 @@ TEST(Significance, KeepsLimbsThatTheBorderCutsOffAtTheirNarrowest) {
   EXPECT_EQ(std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 6);
 }
 
+// However wide it is by what lies within the image.
+TEST(Significance, KeepsALimbThatCrossesTheImage) {
+  for (const int32_t radius : {8, 20, 40}) {
+    SCOPED_TRACE(radius);
+    const Volume disk = test::VolumeWhere({50, 50, 4}, [&](int32_t x, int32_t y, int32_t /*z*/) {
+      return (x - 50) * (x - 50) + (y - 50) * (y - 50) < radius * radius;
+    });
+    const SkeletonizeOptions options = {.border = Border::kContinues};
+    const SkeletonGraph graph = Skeletonize(disk, options, {})->graph;
+    ASSERT_EQ(graph.edges.size(), 1u);
+    EXPECT_GE(std::abs(graph.nodes[1].at.point.z - graph.nodes[0].at.point.z), 6);
+  }
+}
+
 // A bar of 16 by 16 lattice units with five teeth on one side, as wide as it is, 8 thick and
 // `height` high.
 Volume Rack(int32_t height) {
