@@ -1,16 +1,21 @@
 #include "client/endpoint.h"
 
+#include <sys/un.h>
+
 #include <algorithm>
 #include <string_view>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
 namespace {
 
+constexpr std::string_view kUnix = "unix:";
+
 bool IsOfThisMachine(const std::string& address) {
-  if (address.rfind("unix:", 0) == 0) return true;
+  if (address.starts_with(kUnix)) return true;
   const std::string host = address.substr(0, address.rfind(':'));
   const bool number = host.find_first_not_of("0123456789.") == std::string::npos;
   return host == "localhost" || host == "[::1]" || (number && host.rfind("127.", 0) == 0);
@@ -21,7 +26,6 @@ bool IsOfThisMachine(const std::string& address) {
 // Nor does it take a host's control characters for an error: it leaves them out, and what follows
 // NUL.
 bool IsAddress(const std::string& address, Encryption encryption) {
-  constexpr std::string_view kUnix = "unix:";
   if (address.starts_with(kUnix)) {
     return address.size() > kUnix.size() && address.find('\0') == std::string::npos;
   }
@@ -46,6 +50,13 @@ absl::Status CheckPem(const std::string& text, const char* what, const char* mar
 }  // namespace
 
 absl::Status CheckAddress(const std::string& address, Encryption encryption) {
+  constexpr size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1;
+  if (address.starts_with(kUnix) && address.size() - kUnix.size() > kLongestPath) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("'", address, "': the path of a socket has at most ", kLongestPath,
+                     " characters, this one ", address.size() - kUnix.size(),
+                     "; use a shorter one, such as that of a link to its folder"));
+  }
   if (IsAddress(address, encryption)) return absl::OkStatus();
   return absl::InvalidArgumentError("'" + address +
                                     "' is neither HOST:PORT, with a port of 0 to 65535, nor "

@@ -129,5 +129,17 @@ TEST(Endpoint, FilesThatAreNoPemAreRefused) {
   }
 }
 
+TEST(Endpoint, ThePathOfASocketHasALimit) {
+  Endpoint endpoint;
+  endpoint.address = "unix:" + std::string(107, 'a');
+  EXPECT_TRUE(CheckEndpoint(endpoint).ok());
+  endpoint.address += 'a';
+  EXPECT_EQ(CheckEndpoint(endpoint),
+            absl::InvalidArgumentError(
+                absl::StrCat("'", endpoint.address,
+                             "': the path of a socket has at most 107 characters, this "
+                             "one 108; use a shorter one, such as that of a link to its folder")));
+}
+
 }  // namespace
 }  // namespace bccskel::client
