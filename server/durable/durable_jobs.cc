@@ -78,23 +78,23 @@ DurableJobs::~DurableJobs() {
   admitting_ = false;
   ticker_.request_stop();
   if (ticker_.joinable()) ticker_.join();
-  OnLoop([this] {
+  std::promise<void> stopped;
+  loop_.Post([this, &stopped] {
     stopping_ = true;
-    retries_.clear();
+    Retry(false);
     active_.CancelRuns();
+    stopped.set_value();
   });
+  stopped.get_future().wait();
   operations_.WaitForAll();
-  OnLoop([this] { loop_.store().Leave().IgnoreError(); });
-  OnLoop([this] { watches_.EndAll(absl::UnavailableError("the server stops")); });
+  loop_.Post([this] {
+    loop_.store().Leave().IgnoreError();
+    watches_.EndAll(absl::UnavailableError("the server stops"));
+  });
 }
 
-void DurableJobs::OnLoop(std::function<void()> task) {
-  std::promise<void> done;
-  loop_.Post([&] {
-    task();
-    done.set_value();
-  });
-  done.get_future().wait();
+void DurableJobs::Retry(bool again) {
+  for (const auto& go_on : std::exchange(retries_, {})) go_on(again);
 }
 
 absl::Status DurableJobs::Recover() {
@@ -134,18 +134,18 @@ absl::Status DurableJobs::RecoverUploads(JobStore& store) {
 }
 
 absl::Status DurableJobs::RecoverJobs(JobStore& store) {
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<JobRow> jobs, store.UnfinishedJobs());
-  for (JobRow& job : jobs) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto event, RecoverJob(store, job));
-    Apply(Step{.job = job, .event = event});
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs, store.UnfinishedJobs());
+  for (const JobRow& job : jobs) {
+    BCCSKEL_ASSIGN_OR_RETURN(const Step step, RecoverJob(store, job));
+    Apply(step);
   }
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::optional<EventRow>> DurableJobs::RecoverJob(JobStore& store, JobRow& job) {
+absl::StatusOr<Step> DurableJobs::RecoverJob(JobStore& store, const JobRow& job) {
   if (job.state == JobState::kRunning) return journal_.RecoverRunning(store, job);
   if (job.state != JobState::kReceiving || uploads_.Find(job.tenant, job.upload) != nullptr) {
-    return std::nullopt;
+    return Step{job};
   }
   return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"));
 }
@@ -163,7 +163,7 @@ void DurableJobs::Tick(std::stop_token stop) {
     if (!retry_wanted_.exchange(false) && !CleanUpIsDue() && !shared_) continue;
     loop_.Post([this] {
       if (shared_ && !stopping_) LookAfterFleet();
-      for (const auto& task : std::exchange(retries_, {})) task();
+      Retry(true);
       if (CleanUpIsDue()) CleanUp();
       Schedule();
     });
@@ -243,32 +243,29 @@ void DurableJobs::Apply(const Erased& erased) {
   store.Forget().IgnoreError();
 }
 
-void DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
+Flow DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
                         DoneStatus done) {
-  const auto erased = std::make_shared<Erased>();
-  loop_.Post(
-      [change = std::move(change), erased](JobStore& store) -> absl::Status {
-        *erased = {};
-        BCCSKEL_RETURN_IF_ERROR(change(store, *erased));
-        using Kind = RemovalRow::Kind;
-        for (const UploadRow& row : erased->uploads) {
-          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(row)));
-        }
-        for (const VolumeRow& row : erased->blobs) {
-          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kBlob, row.tenant, row.blob_digest}));
-        }
-        for (const ResultRow& row : erased->results) {
-          if (row.file.empty()) continue;
-          BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kResult, row.tenant, row.file}));
-        }
-        return absl::OkStatus();
-      },
-      [this, erased, done = std::move(done)](absl::Status status) {
-        if (status.ok()) Apply(*erased);
-        done(std::move(status));
-        Schedule();
-      },
-      GroupCommit::Room::kReserve);
+  Erased erased;
+  const auto erase = [&](JobStore& store) -> absl::Status {
+    using Kind = RemovalRow::Kind;
+    erased = {};
+    BCCSKEL_RETURN_IF_ERROR(change(store, erased));
+    for (const UploadRow& row : erased.uploads) {
+      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(row)));
+    }
+    for (const VolumeRow& row : erased.blobs) {
+      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kBlob, row.tenant, row.blob_digest}));
+    }
+    for (const ResultRow& row : erased.results) {
+      if (row.file.empty()) continue;
+      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kResult, row.tenant, row.file}));
+    }
+    return absl::OkStatus();
+  };
+  absl::Status status = co_await Commit(erase, GroupCommit::Room::kReserve);
+  if (status.ok()) Apply(erased);
+  if (done) done(std::move(status));
+  Schedule();
 }
 
 DurableUsage DurableJobs::usage() const {

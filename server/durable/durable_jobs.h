@@ -14,12 +14,14 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "server/durable/active_jobs.h"
 #include "server/durable/clock_guard.h"
 #include "server/durable/durable_options.h"
 #include "server/durable/fleet_members.h"
+#include "server/durable/flow.h"
 #include "server/durable/folder_files.h"
 #include "server/durable/job_codec.h"
 #include "server/durable/job_journal.h"
@@ -83,24 +85,24 @@ class DurableJobs final : public RunObserver {
 
   // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name that was used with something else;
   //         RESOURCE_EXHAUSTED for a quota; with a job the runner's.
-  void CreateUpload(const std::string& tenant, const NewUpload& upload, Done<UploadInfo> done);
+  Flow CreateUpload(std::string tenant, NewUpload upload, Done<UploadInfo> done);
   // Yields the committed size. `done` comes when there is room for more. Without `crc32c` (of
   // `bytes`) no check is made.
   // Errors: OUT_OF_RANGE with the payload CommittedSizeOf() for a wrong offset and for more than
   //         was declared; ABORTED while another Append() or FinishUpload() is under way;
   //         INVALID_ARGUMENT for a wrong checksum or, decoded along, a malformed volume;
   //         FAILED_PRECONDITION after the upload was finished.
-  void Append(const std::string& tenant, const std::string& upload, uint64_t offset,
-              std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done);
+  Flow Append(std::string tenant, std::string upload, uint64_t offset, std::string bytes,
+              std::optional<uint32_t> crc32c, Done<uint64_t> done);
   // Nobody sends just now: what was decoded along is dropped and its memory given back. The upload
   // stays and can be gone on with.
   void SenderGone(const std::string& tenant, const std::string& upload);
-  void GetUpload(const std::string& tenant, const std::string& upload, Done<UploadInfo> done);
+  Flow GetUpload(std::string tenant, std::string upload, Done<UploadInfo> done);
   // Makes the upload a volume, and queues the job that waits for it. Finishing again yields the
   // same volume.
   // Errors: OUT_OF_RANGE with the committed size while bytes are missing; INVALID_ARGUMENT for
   //         another size or digest than that of the bytes (then the upload is gone); ABORTED.
-  void FinishUpload(const std::string& tenant, const std::string& upload, uint64_t size_bytes,
+  Flow FinishUpload(std::string tenant, std::string upload, uint64_t size_bytes,
                     std::optional<Sha256Digest> sha256, Done<VolumeInfo> done);
   // Also cancels the job that waits for it.
   void DeleteUpload(const std::string& tenant, const std::string& upload, DoneStatus done);
@@ -109,7 +111,7 @@ class DurableJobs final : public RunObserver {
 
   // Those that the tenant has, of blob or volume digests (64 hexadecimal digits). The same bytes
   // may be several volumes, declared differently.
-  void FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
+  Flow FindVolumes(std::string tenant, std::vector<std::string> digests,
                    Done<std::vector<VolumeInfo>> done);
   // Erases the bytes. Errors: FAILED_PRECONDITION while an unfinished job needs it.
   void DeleteVolume(const std::string& tenant, const std::string& volume, DoneStatus done);
@@ -120,12 +122,12 @@ class DurableJobs final : public RunObserver {
   // Errors: FAILED_PRECONDITION when there is no such volume; ALREADY_EXISTS for a request_id that
   //         was used with something else; INVALID_ARGUMENT; RESOURCE_EXHAUSTED for a volume that
   //         can never be admitted; kQueueFull.
-  void CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done);
-  void GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done);
+  Flow CreateJob(std::string tenant, NewJob job, Done<JobInfo> done);
+  Flow GetJob(std::string tenant, std::string job, Done<JobInfo> done);
   // Errors: INVALID_ARGUMENT for a token that did not come with these states.
-  void ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done);
+  Flow ListJobs(std::string tenant, JobQuery query, Done<JobPage> done);
   // Yields the job as it is then: cancelled, unless it had ended before.
-  void CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done);
+  Flow CancelJob(std::string tenant, std::string job, Done<JobInfo> done);
   // Erases the job, its upload if unfinished, and its result unless another job has the same. A job
   // that has not ended is cancelled first.
   void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done);
@@ -135,7 +137,7 @@ class DurableJobs final : public RunObserver {
                                         std::shared_ptr<JobWatcher> watcher);
   // Errors: FAILED_PRECONDITION for a job that has not succeeded; OUT_OF_RANGE for a record beyond
   //         the end (the number of records itself is fine); DATA_LOSS for a damaged file.
-  void OpenResult(const std::string& tenant, const std::string& job, uint64_t first_record,
+  Flow OpenResult(std::string tenant, std::string job, uint64_t first_record,
                   Done<std::shared_ptr<ResultReader>> done);
 
   // ---- Metrics
@@ -157,9 +159,8 @@ class DurableJobs final : public RunObserver {
   struct Opening;
   struct Finishing;
   struct Creating;
-  struct Storing;
   struct Claiming;
-  struct Moving;
+  struct Claims;
   // What a change has deleted, for its end.
   struct Erased {
     std::vector<Step> steps;
@@ -173,39 +174,60 @@ class DurableJobs final : public RunObserver {
   absl::Status RecoverStore(JobStore& store);
   absl::Status RecoverUploads(JobStore& store);
   absl::Status RecoverJobs(JobStore& store);
-  absl::StatusOr<std::optional<EventRow>> RecoverJob(JobStore& store, JobRow& job);
+  absl::StatusOr<Step> RecoverJob(JobStore& store, const JobRow& job);
   void Tick(std::stop_token stop);
-  void OnLoop(std::function<void()> task);  // returns when it was run
 
-  // Counts the operation until `done` was called.
-  template <typename Done>
-  Done Track(Done done) {
-    return [done = std::move(done), token = operations_.Begin()](auto value) {
-      done(std::move(value));
-    };
-  }
-  template <typename Value>
-  void Answer(Done<Value> done, absl::StatusOr<Value> value) {
-    files_.Post({}, [done = std::move(done), value = std::move(value)]() mutable {
-      done(std::move(value));
-    });
+  // ---- What flows wait for
+  friend Flow::promise_type;
+  Operations::Token BeginOperation() { return operations_.Begin(); }
+  // A change, which may run several times. They go on at its end, with its error.
+  template <typename Change>
+  auto Commit(Change change, GroupCommit::Room room = GroupCommit::Room::kFree) {
+    return Await<absl::Status>(
+        [this, change, room](auto resume) { loop_.Post(change, resume, room); });
   }
   // A change that yields a value.
-  template <typename Value>
-  void Read(std::function<absl::StatusOr<Value>(JobStore&)> read, Done<Value> done) {
-    const auto value = std::make_shared<std::optional<Value>>();
-    loop_.Post(
-        [read = std::move(read), value](JobStore& store) -> absl::Status {
-          absl::StatusOr<Value> found = read(store);
-          if (!found.ok()) return std::move(found).status();
-          *value = *std::move(found);
-          return absl::OkStatus();
-        },
-        [value, done = Track(std::move(done))](absl::Status status) {
-          if (!status.ok()) return done(std::move(status));
-          done(*std::move(*value));
-        });
+  template <typename Value, typename Change>
+  auto Read(Change change) {
+    return Await<absl::StatusOr<Value>>([this, change](auto resume) {
+      const auto value = std::make_shared<absl::StatusOr<Value>>();
+      loop_.Post([change, value](JobStore& store) { return (*value = change(store)).status(); },
+                 [value, resume](absl::Status status) {
+                   if (!status.ok()) *value = std::move(status);
+                   resume(std::move(*value));
+                 });
+    });
   }
+  auto ToLoop() {
+    return Await<std::monostate>([this](auto resume) { loop_.Post(resume); });
+  }
+  // The threads that read and write files.
+  auto ToFiles(const std::string& tenant = {}) {
+    return Await<std::monostate>(
+        [this, &tenant](auto resume) { files_.Post({.tenant = tenant}, resume); });
+  }
+  // Another try, soon; false: there is none any more.
+  auto Later() {
+    return Await<bool>([this](auto resume) {
+      if (stopping_) return resume(false);
+      retries_.push_back(resume);
+      retry_wanted_ = true;
+    });
+  }
+  void Retry(bool again);
+  auto SessionOf(const std::string& tenant, const std::string& upload) {
+    return Await<absl::StatusOr<Session>>(
+        [this, &tenant, &upload](auto resume) { OpenSession(tenant, upload, resume); });
+  }
+  // The stored result, read to its end: a damaged one is dropped, and there is none. On the loop.
+  auto WholeResult(const std::string& tenant, const std::string& key) {
+    return Await<std::optional<ResultRow>>(
+        [this, &tenant, &key](auto resume) { ReadResult(tenant, key, resume); });
+  }
+  auto Dropped(const ResultRow& row) {
+    return Await<std::monostate>([this, &row](auto resume) { DropResult(row, resume); });
+  }
+
   // As the runner is to be asked.
   static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
   absl::Status CheckAdmitting() const;
@@ -217,11 +239,8 @@ class DurableJobs final : public RunObserver {
   // ---- Uploads
   // The session of an unfinished upload; another server's is taken over. Errors: NOT_FOUND;
   // FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
-  void WithSession(const std::string& tenant, const std::string& upload, Done<Session> done);
-  absl::Status PrepareMove(JobStore& store, Moving& moving);
-  void MoveUpload(const std::shared_ptr<Moving>& moving);
-  absl::Status StoreMove(JobStore& store, Moving& moving) const;
-  void EndMove(const std::shared_ptr<Moving>& moving, absl::Status status);
+  Flow OpenSession(std::string tenant, std::string upload, Done<Session> done);
+  static absl::Status StoreMove(JobStore& store, const UploadRow& old, const std::string& to);
   // Another server has taken the upload over.
   absl::Status Superseded(const Session& session);
   // Removes the files, too; the bytes stay counted.
@@ -231,88 +250,82 @@ class DurableJobs final : public RunObserver {
   absl::Status StoreUpload(JobStore& store, Opening& opening);
   absl::Status CheckSameUpload(JobStore& store, const Opening& opening) const;
   absl::Status StoreReceivingJob(JobStore& store, Opening& opening);
-  void UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status);
-  void OpenFile(const std::shared_ptr<Opening>& opening);
-  void AppendNow(const Session& session, std::string bytes, std::optional<uint32_t> crc32c,
-                 const Done<uint64_t>& done);
+  void GiveUp(const Opening& opening);
   UploadInfo InfoOf(const UploadRow& row) const;
   // Takes an unfinished upload away, and ends the job that waits for it.
   void EndUpload(const std::string& tenant, const std::string& upload, JobState state,
-                 const absl::Status& error, std::function<void(absl::Status)> then);
+                 const absl::Status& error, DoneStatus done = nullptr);
   absl::Status EraseUpload(JobStore& store, const UploadRow& row, JobState state,
                            const absl::Status& error, Erased& erased);
-  void FinishAgain(const std::string& tenant, const std::string& upload, Done<VolumeInfo> done);
-  void Seal(const std::shared_ptr<Finishing>& finishing);
+  absl::StatusOr<VolumeInfo> VolumeOfUpload(JobStore& store, const std::string& tenant,
+                                            const std::string& upload) const;
+  VolumeRow NewVolume(const UploadRow& row, const std::string& digest) const;
   absl::Status StoreVolume(JobStore& store, Finishing& finishing);
   absl::Status StoreVolumeOfJob(JobStore& store, Finishing& finishing);
-  void VolumeStored(Finishing& finishing, absl::Status status);
+  void VolumeStored(const Finishing& finishing);
 
   // ---- Volumes
   VolumeInfo InfoOf(const VolumeRow& row) const;
-  absl::Status EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased);
+  static absl::Status EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased);
 
   // ---- Jobs
   absl::StatusOr<JobInfo> InfoOf(JobStore& store, const JobRow& row) const;
   JobInfo PlainInfoOf(const JobRow& row) const;
-  void PostJob(const std::shared_ptr<Creating>& creating);
   absl::Status StoreJob(JobStore& store, Creating& creating);
   absl::Status InsertJob(JobStore& store, JobRow job, Creating& creating);
   absl::Status CheckJob(JobStore& store, Creating& creating);
   absl::Status CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased);
   absl::Status EraseJob(JobStore& store, const JobRow& job, Erased& erased);
+  Flow BeginWatch(std::string tenant, std::string job, uint64_t after_sequence,
+                  std::shared_ptr<Watch> watch);
 
   // ---- What follows a change; on the loop
   void Apply(const Step& step);
   void Apply(const Erased& erased);
   // A change that erases, and what follows.
-  void Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change, DoneStatus done);
+  Flow Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
+             DoneStatus done = nullptr);
 
   // ---- Runs; on the loop
   std::string ResultKey(const std::string& volume_digest, const std::string& options) const;
   // Brings the stored job into a state.
-  absl::Status EnterState(JobStore& store, int64_t job, JobState state, const absl::Status& error,
+  absl::Status StoreState(JobStore& store, int64_t job, JobState state, const absl::Status& error,
                           int64_t result, std::vector<Step>& steps);
   // The same for jobs that are remembered, as a change of its own; repeated until the disk takes
   // it.
-  void EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error, int64_t result,
-                  std::function<void()> then);
-  // Brings a waiting job to run here.
-  void Claim(const std::shared_ptr<Claiming>& claiming);
-  absl::Status ClaimStored(JobStore& store, Claiming& claiming);
-  void EndClaim(const std::shared_ptr<Claiming>& claiming, const absl::Status& status);
-  void Claimed(const Claiming& claiming);
+  Flow EnterState(std::set<int64_t> jobs, JobState state, absl::Status error = absl::OkStatus(),
+                  int64_t result = 0);
   void Schedule();
-  struct Claims {
-    std::vector<std::shared_ptr<Claiming>> all;
-    bool blocked = false;  // the next one cannot begin now
-  };
+  Flow BeginJobs();
   absl::Status BeginNext(JobStore& store, Claims& claims);
   enum class Begun { kYes, kClaim, kNothingNow };
   absl::StatusOr<Begun> BeginJob(JobStore& store, const ActiveJobs::Turn& turn, Claims& claims);
   Begun StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume, Claims& claims);
-  void GiveWholeResult(const JobRow& job, const std::string& key);
-  Begun WaitAgain(int64_t job);
-  void Feed(Run* run, const VolumeRow& volume);
+  Flow GiveWholeResult(JobRow job, std::string key);
+  void WaitAgain(int64_t job);
+  // Brings a waiting job to run here.
+  absl::Status Claim(JobStore& store, Claiming& claiming);
+  Flow ClaimAgain(Claiming claiming);
+  void Claimed(const Claiming& claiming);
+  Flow Feed(std::shared_ptr<Run> run, VolumeRow volume);
   void RunComputed(Run* run);
-  void RunEnded(Run* run, const absl::StatusOr<ResultRow>& result);
-  void StoreResult(Run* run, const ResultRow& row);
-  absl::Status StoreResultOf(JobStore& store, Storing& storing);
+  Flow StoreResult(std::shared_ptr<Run> run, ResultRow row);
+  // Yields whether the file is needless: nobody wants it, or an equal one was there.
+  absl::StatusOr<bool> StoreResultOf(JobStore& store, const Run* run, ResultRow row,
+                                     std::vector<Step>& steps);
   void RunFailed(Run* run, const absl::Status& error);
   void ReceivingFailed(int64_t job, const absl::Status& error);
-  void VolumeKnown(const std::shared_ptr<Run>& run, const std::string& digest);
   void JoinEqual(Run* run);
-  // The stored result, read to its end: a damaged one is dropped, and there is none.
-  void WithWholeResult(const std::string& tenant, const std::string& key,
-                       std::function<void(const std::optional<ResultRow>& result)> then);
-  void DropResult(const ResultRow& row, std::function<void()> then);
+  Flow ReadResult(std::string tenant, std::string key,
+                  std::function<void(std::optional<ResultRow>)> then);
+  Flow DropResult(ResultRow row, std::function<void()> then);
   void GiveStoredResult(Run* run, int64_t result);
   std::map<int64_t, JobEvent> TakeProgress(Run& run);
   absl::Status StoreProgress(JobStore& store, const std::map<int64_t, JobEvent>& events);
-  void RetryLater(std::function<void()> task);
 
-  void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) override;
-  void OnRunProgress(std::shared_ptr<Run> run) override;
-  void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
+  Flow OnRunVolume(std::shared_ptr<Run> run, std::string digest) override;
+  Flow OnRunProgress(std::shared_ptr<Run> run) override;
+  Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
   // ---- The fleet; on the loop. Where nobody shares the store, nothing happens.
   absl::Status JoinFleet(JobStore& store);
@@ -326,11 +339,11 @@ class DurableJobs final : public RunObserver {
   // The newest progress of jobs that run elsewhere to who watches them here.
   void TellProgress();
   std::optional<JobEvent> ProgressElsewhere(JobStore& store, const JobRow& job) const;
-  void Beat();
+  Flow Beat();
   absl::Status CountFiles(JobStore& store);
-  void SweepShared();
+  Flow SweepShared();
   void LookAtMembers();
-  void TakeOverFrom(const Member& member);
+  Flow TakeOverFrom(Member member);
   // After this server was fenced off: what it ran is others' now.
   void Rejoin();
   void QueueWaiting();
@@ -360,7 +373,7 @@ class DurableJobs final : public RunObserver {
   JobJournal journal_;
   WatchBoard watches_;
   ActiveJobs active_;
-  std::vector<std::function<void()>> retries_;
+  std::vector<std::function<void(bool)>> retries_;
   FleetMembers members_;
   std::chrono::steady_clock::time_point last_beat_, last_progress_;
   int64_t last_change_ = -1;

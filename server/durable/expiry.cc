@@ -44,8 +44,7 @@ void DurableJobs::ExpireUploads() {
   const Time oldest = Now() - options_.keep_uploads;
   for (const UploadRow& row : UnusedUploads(oldest)) {
     EndUpload(row.tenant, row.name, JobState::kFailed,
-              absl::DeadlineExceededError("its upload was not finished in time"),
-              [token = operations_.Begin()](const absl::Status&) {});
+              absl::DeadlineExceededError("its upload was not finished in time"));
   }
   loop_.Post(
       [oldest](JobStore& store) -> absl::Status {
@@ -72,24 +71,22 @@ void DurableJobs::ExpireJobs() {
         *more = jobs.size() == kMostAtATime;
         return absl::OkStatus();
       },
-      [this, more, token = operations_.Begin()](const absl::Status& status) {
+      [this, more](const absl::Status& status) {
         if (status.ok() && *more && !stopping_) ExpireJobs();
       });
 }
 
 void DurableJobs::ExpireVolumes() {
   const Time oldest = Now() - options_.keep_volumes;
-  Erase(
-      [this, oldest](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.All<VolumeRow>());
-        for (const VolumeRow& row : volumes) {
-          if (row.used >= oldest) continue;
-          BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(row.tenant, row.name));
-          if (!user.has_value()) BCCSKEL_RETURN_IF_ERROR(EraseVolume(store, row, erased));
-        }
-        return absl::OkStatus();
-      },
-      [token = operations_.Begin()](const absl::Status&) {});
+  Erase([this, oldest](JobStore& store, Erased& erased) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.All<VolumeRow>());
+    for (const VolumeRow& row : volumes) {
+      if (row.used >= oldest) continue;
+      BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(row.tenant, row.name));
+      if (!user.has_value()) BCCSKEL_RETURN_IF_ERROR(EraseVolume(store, row, erased));
+    }
+    return absl::OkStatus();
+  });
 }
 
 }  // namespace bccskel::server

@@ -48,7 +48,7 @@ void DurableJobs::Follow(const JobRow& job) {
   const ActiveJob* const known = active_.Find(job.number);
   if (known != nullptr && known->row.sequence >= job.sequence) return;
   const bool ran = known != nullptr && known->row.state == JobState::kRunning;
-  if (known != nullptr || !IsTerminal(job.state)) Apply(Step{.job = job, .event = std::nullopt});
+  if (known != nullptr || !IsTerminal(job.state)) Apply(Step{job});
   if (ran && job.state != JobState::kRunning) QueueWaiting();
   TellStored(job.number);
 }
@@ -87,7 +87,7 @@ void DurableJobs::FollowDeleted(int64_t number) {
   job.state = JobState::kCancelled;
   ++job.sequence;
   job.ended = Now();
-  Apply(Step{.job = job, .event = std::nullopt});
+  Apply(Step{job});
   watches_.Tell(number, {.sequence = job.sequence,
                          .time = *job.ended,
                          .what = JobEvent::StateChange{
@@ -100,15 +100,13 @@ void DurableJobs::QueueWaiting() {
   retry_wanted_ = true;
 }
 
-void DurableJobs::Beat() {
-  loop_.Post([](JobStore& store) { return store.Beat(); },
-             [this, token = operations_.Begin()](const absl::Status& status) {
-               if (!status.ok() || stopping_) return;
-               LookAtMembers();
-               QueueWaiting();
-               if (++beats_ % kBeatsBetweenCounts == 0) CountFiles(loop_.store()).IgnoreError();
-             },
-             GroupCommit::Room::kReserve);
+Flow DurableJobs::Beat() {
+  const absl::Status status =
+      co_await Commit([](JobStore& store) { return store.Beat(); }, GroupCommit::Room::kReserve);
+  if (!status.ok() || stopping_) co_return;
+  LookAtMembers();
+  QueueWaiting();
+  if (++beats_ % kBeatsBetweenCounts == 0) CountFiles(loop_.store()).IgnoreError();
 }
 
 void DurableJobs::LookAtMembers() {
@@ -127,42 +125,38 @@ void DurableJobs::LookAtMembers() {
   for (const std::string& owner : gone) TakeOverFrom({.server = owner, .beats = -1});
 }
 
-void DurableJobs::TakeOverFrom(const Member& member) {
-  const auto steps = std::make_shared<std::vector<Step>>();
-  loop_.Post(
-      [this, member, steps](JobStore& store) -> absl::Status {
-        steps->clear();
-        BCCSKEL_ASSIGN_OR_RETURN(bool gone, store.Fence(member));
-        if (!gone) {
-          BCCSKEL_ASSIGN_OR_RETURN(const std::vector<Member> members, store.Members());
-          gone = std::ranges::find(members, member.server, &Member::server) == members.end();
-        }
-        if (!gone) return absl::OkStatus();
-        BCCSKEL_ASSIGN_OR_RETURN(std::vector<JobRow> jobs, store.UnfinishedJobs());
-        for (JobRow& job : jobs) {
-          if (job.state != JobState::kRunning || job.owner != member.server) continue;
-          BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.RecoverRunning(store, job));
-          steps->push_back({.job = job, .event = event});
-        }
-        return absl::OkStatus();
-      },
-      [this, steps](const absl::Status& status) {
-        if (!status.ok()) return;
-        if (!steps->empty()) {
-          options_.on_warning(absl::StrCat("another server is gone: ", steps->size(),
-                                           " jobs that it ran go on elsewhere"));
-        }
-        for (const Step& step : *steps) Apply(step);
-        QueueWaiting();
-        Schedule();
-      },
-      GroupCommit::Room::kReserve);
+Flow DurableJobs::TakeOverFrom(Member member) {
+  std::vector<Step> steps;
+  const auto take_over = [&](JobStore& store) -> absl::Status {
+    steps.clear();
+    BCCSKEL_ASSIGN_OR_RETURN(bool gone, store.Fence(member));
+    if (!gone) {
+      BCCSKEL_ASSIGN_OR_RETURN(const std::vector<Member> members, store.Members());
+      gone = std::ranges::find(members, member.server, &Member::server) == members.end();
+    }
+    if (!gone) return absl::OkStatus();
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> jobs, store.UnfinishedJobs());
+    for (const JobRow& job : jobs) {
+      if (job.state != JobState::kRunning || job.owner != member.server) continue;
+      BCCSKEL_ASSIGN_OR_RETURN(steps.emplace_back(), journal_.RecoverRunning(store, job));
+    }
+    return absl::OkStatus();
+  };
+  const absl::Status status = co_await Commit(take_over, GroupCommit::Room::kReserve);
+  if (!status.ok()) co_return;
+  if (!steps.empty()) {
+    options_.on_warning(absl::StrCat("another server is gone: ", steps.size(),
+                                     " jobs that it ran go on elsewhere"));
+  }
+  for (const Step& step : steps) Apply(step);
+  QueueWaiting();
+  Schedule();
 }
 
 void DurableJobs::Rejoin() {
   active_.ForgetRuns();
   uploads_.TakeAllAlong();
-  retries_.clear();
+  Retry(false);
   members_.Forget();
   journal_.SetOwner(RandomId());
   if (!loop_.store().Join(journal_.owner()).ok()) return;  // the next look tries again
@@ -178,89 +172,58 @@ absl::Status DurableJobs::CountFiles(JobStore& store) {
 
 // Of files that nobody has named for so long; looked for without a transaction, which must be
 // short.
-void DurableJobs::SweepShared() {
-  if (!shared_ || clean_ups_++ % kCleanUpsBetweenSweeps != 0) return;
-  files_.Post({}, [this, token = operations_.Begin()] {
-    const std::set<std::string> old = folder_.OldFiles();
-    if (old.empty()) return;
-    loop_.Post([this, old](JobStore& store) { return folder_.Sweep(store, old); }, nullptr,
-               GroupCommit::Room::kReserve);
-  });
+Flow DurableJobs::SweepShared() {
+  if (!shared_ || clean_ups_++ % kCleanUpsBetweenSweeps != 0) co_return;
+  co_await ToFiles();
+  const std::set<std::string> old = folder_.OldFiles();
+  if (old.empty()) co_return;
+  const absl::Status swept = co_await Commit(
+      [&](JobStore& store) { return folder_.Sweep(store, old); }, GroupCommit::Room::kReserve);
+  swept.IgnoreError();
 }
 
 // ---- Uploads
 
-// An upload on its way from another server.
-struct DurableJobs::Moving {
-  UploadRow row;  // as it was
-  std::string to;
-  std::unique_ptr<UploadFile> file;
-  bool opening = false;  // by this
-  Done<Session> done;
-};
-
-void DurableJobs::WithSession(const std::string& tenant, const std::string& upload,
-                              Done<Session> done) {
-  const auto moving = std::make_shared<Moving>();
-  moving->row.tenant = tenant;
-  moving->row.name = upload;
-  moving->done = std::move(done);
-  loop_.Post([this, moving](JobStore& store) { return PrepareMove(store, *moving); },
-             [this, moving](absl::Status status) {
-               if (!status.ok()) return EndMove(moving, std::move(status));
-               files_.Post({.tenant = moving->row.tenant}, [this, moving] { MoveUpload(moving); });
-             });
-}
-
-absl::Status DurableJobs::PrepareMove(JobStore& store, Moving& moving) {
-  BCCSKEL_ASSIGN_OR_RETURN(moving.row, store.Get<UploadRow>(moving.row.tenant, moving.row.name));
-  if (!moving.row.volume.empty()) {
-    return CallError(Reason::kUploadFinished, absl::StrCat(moving.row.name, " is finished"));
+Flow DurableJobs::OpenSession(std::string tenant, std::string upload, Done<Session> done) {
+  UploadRow row;
+  absl::Status status = co_await Commit([&](JobStore& store) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(row, store.Get<UploadRow>(tenant, upload));
+    if (row.volume.empty()) return absl::OkStatus();
+    return CallError(Reason::kUploadFinished, absl::StrCat(upload, " is finished"));
+  });
+  if (status.ok() && (!shared_ || !uploads_.BeginOpening(row))) {
+    status = CallError(Reason::kSecondWriter, absl::StrCat(upload, " is being opened just now"));
   }
-  if (!shared_ || !uploads_.BeginOpening(moving.row)) {
-    return CallError(Reason::kSecondWriter,
-                     absl::StrCat(moving.row.name, " is being opened just now"));
-  }
-  moving.opening = true;
-  moving.to = RandomId();
-  return absl::OkStatus();
-}
-
-void DurableJobs::MoveUpload(const std::shared_ptr<Moving>& moving) {
-  const std::string to = blobs_.PathOfUpload(moving->row.tenant, moving->row.name, moving->to);
-  auto copy = UploadFile::Copy(blobs_.PathOf(moving->row), to);
+  if (!status.ok()) co_return done(std::move(status));
+  const UploadRow old = row;
+  row.file = RandomId();
+  co_await ToFiles(tenant);
+  auto copy = UploadFile::Copy(blobs_.PathOf(old), blobs_.PathOf(row));
   // Its server may not have come to making it.
-  if (absl::IsNotFound(copy.status())) copy = UploadFile::Open(to);
-  if (!copy.ok()) return EndMove(moving, copy.status());
-  moving->file = *std::move(copy);
-  loop_.Post([this, moving](JobStore& store) { return StoreMove(store, *moving); },
-             [this, moving](absl::Status status) { EndMove(moving, std::move(status)); });
+  if (absl::IsNotFound(copy.status())) copy = UploadFile::Open(blobs_.PathOf(row));
+  status = copy.status();
+  if (status.ok()) {
+    status = co_await Commit([&](JobStore& store) { return StoreMove(store, old, row.file); });
+    if (!status.ok()) UploadFile::Remove(blobs_.PathOf(row)).IgnoreError();
+  }
+  if (!status.ok()) {
+    uploads_.EndOpening(old);
+    co_return done(std::move(status));
+  }
+  const auto session = std::make_shared<UploadSession>(row, *std::move(copy), Now());
+  uploads_.Add(session);
+  UploadFile::Remove(blobs_.PathOf(old)).IgnoreError();  // else with the removals
+  done(session);
 }
 
-absl::Status DurableJobs::StoreMove(JobStore& store, Moving& moving) const {
-  BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, store.Get<UploadRow>(moving.row.tenant, moving.row.name));
-  if (now.file != moving.row.file || !now.volume.empty()) {
+absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const std::string& to) {
+  BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, store.Get<UploadRow>(old.tenant, old.name));
+  if (now.file != old.file || !now.volume.empty()) {
     return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " goes on on another server"));
   }
   BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(now)));
-  now.file = moving.to;
+  now.file = to;
   return store.UpdateUpload(now);
-}
-
-void DurableJobs::EndMove(const std::shared_ptr<Moving>& moving, absl::Status status) {
-  const UploadRow old = moving->row;
-  if (!status.ok()) {
-    if (moving->file != nullptr) {
-      UploadFile::Remove(blobs_.PathOfUpload(old.tenant, old.name, moving->to)).IgnoreError();
-    }
-    if (moving->opening) uploads_.EndOpening(old);
-    return moving->done(std::move(status));
-  }
-  moving->row.file = moving->to;
-  const auto session = std::make_shared<UploadSession>(moving->row, std::move(moving->file), Now());
-  uploads_.Add(session);
-  UploadFile::Remove(blobs_.PathOf(old)).IgnoreError();  // else with the removals
-  moving->done(session);
 }
 
 absl::Status DurableJobs::Superseded(const Session& session) {

@@ -29,7 +29,7 @@ uint64_t JobJournal::NextSequence(int64_t job, uint64_t stored) {
   return last;
 }
 
-absl::StatusOr<EventRow> JobJournal::AddEvent(JobStore& store, const JobRow& job, Time time) {
+absl::StatusOr<Step> JobJournal::AddEvent(JobStore& store, JobRow job, Time time) {
   EventRow event = {.job = job.number,
                     .sequence = job.sequence,
                     .time = time,
@@ -37,22 +37,21 @@ absl::StatusOr<EventRow> JobJournal::AddEvent(JobStore& store, const JobRow& job
                     .attempt = job.attempts,
                     .error = job.error};
   BCCSKEL_RETURN_IF_ERROR(store.Insert(event));
-  return event;
+  return Step{std::move(job), std::move(event)};
 }
 
-absl::StatusOr<EventRow> JobJournal::Insert(JobStore& store, JobRow& job) {
+absl::StatusOr<Step> JobJournal::Insert(JobStore& store, JobRow job) {
   job.sequence = 1;
   job.created = now_();
   if (IsTerminal(job.state)) job.ended = job.created;
   BCCSKEL_ASSIGN_OR_RETURN(job.number, store.InsertJob(job));
-  return AddEvent(store, job, job.created);
+  const Time time = job.created;
+  return AddEvent(store, std::move(job), time);
 }
 
-absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRow& job,
-                                                          JobState state, absl::Status error,
-                                                          Found found) {
+absl::StatusOr<Step> JobJournal::Enter(JobStore& store, JobRow job, JobState state,
+                                       absl::Status error, std::optional<uint64_t> from) {
   const Time time = now_();
-  const auto from = found == Found::kBefore ? std::optional(job.sequence) : std::nullopt;
   job.state = state;
   job.error = std::move(error);
   job.sequence = NextSequence(job.number, job.sequence);
@@ -63,17 +62,33 @@ absl::StatusOr<std::optional<EventRow>> JobJournal::Enter(JobStore& store, JobRo
   }
   if (IsTerminal(state)) job.ended = time;
   BCCSKEL_ASSIGN_OR_RETURN(const bool changed, store.UpdateJob(job, from));
-  if (!changed) return std::nullopt;
-  BCCSKEL_ASSIGN_OR_RETURN(EventRow event, AddEvent(store, job, time));
-  return std::optional(std::move(event));
+  if (!changed) return Step{std::move(job)};
+  return AddEvent(store, std::move(job), time);
 }
 
-absl::StatusOr<std::optional<EventRow>> JobJournal::RecoverRunning(JobStore& store, JobRow& job) {
+absl::StatusOr<std::optional<Step>> JobJournal::EnterRemembered(JobStore& store,
+                                                                const JobRow& remembered,
+                                                                JobState state,
+                                                                const absl::Status& error,
+                                                                int64_t result, const May& may) {
+  JobRow job = remembered;
+  job.result = result;
+  if (may(job)) {
+    BCCSKEL_ASSIGN_OR_RETURN(Step step, Enter(store, job, state, error, remembered.sequence));
+    if (step.event.has_value()) return step;
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> stored, store.Find<JobRow>(job.tenant, job.name));
+  if (!stored.has_value() || !may(*stored)) return std::nullopt;
+  stored->result = result;
+  return Enter(store, *std::move(stored), state, error);
+}
+
+absl::StatusOr<Step> JobJournal::RecoverRunning(JobStore& store, JobRow job) {
   ++job.crashes;
   sequences_[job.number] = (job.sequence / kLeap + 1) * kLeap;
   const bool poisoned = job.crashes >= kCrashesToPoison;
   const absl::Status error = poisoned ? Poisoned(job.crashes) : absl::OkStatus();
-  return Enter(store, job, poisoned ? JobState::kFailed : JobState::kQueued, error);
+  return Enter(store, std::move(job), poisoned ? JobState::kFailed : JobState::kQueued, error);
 }
 
 }  // namespace bccskel::server

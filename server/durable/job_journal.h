@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -16,10 +17,10 @@ namespace bccskel::server {
 // Crashes of the server that one job may survive; with the next one it has FAILED.
 inline constexpr int kCrashesToPoison = 3;
 
-// A job's new state, and the event that tells it; none where the job had ended before.
+// A job's new state, and the event that tells it; none where nothing has happened to the job.
 struct Step {
   JobRow job;
-  std::optional<EventRow> event;
+  std::optional<EventRow> event = std::nullopt;
 };
 
 // The only place where jobs change their states: the row, and an event that tells it.
@@ -31,20 +32,25 @@ class JobJournal {
       : owner_(std::move(owner)), now_(std::move(now)) {}
 
   // Stores a new job in its state.
-  absl::StatusOr<EventRow> Insert(JobStore& store, JobRow& job);
+  absl::StatusOr<Step> Insert(JobStore& store, JobRow job);
 
   // Brings the job into the state and stores it with all else that `job` says. Entering kRunning
   // counts an attempt. Nothing happens when the stored job has ended already.
-  // Needs: `job` as it was found in the same transaction, or, if it was found before, as it was
-  // stored then: nothing happens when it has changed since.
-  enum class Found { kNow, kBefore };
-  absl::StatusOr<std::optional<EventRow>> Enter(JobStore& store, JobRow& job, JobState state,
-                                                absl::Status error = absl::OkStatus(),
-                                                Found found = Found::kNow);
+  // Needs: `job` as it was found in the same transaction.
+  absl::StatusOr<Step> Enter(JobStore& store, JobRow job, JobState state,
+                             absl::Status error = absl::OkStatus()) {
+    return Enter(store, std::move(job), state, std::move(error), std::nullopt);
+  }
+  // The same for a job as it was stored some time ago; what is stored now is looked at where it has
+  // changed since. Nothing happens, and nothing is yielded, unless the stored job `may` enter.
+  using May = std::function<bool(const JobRow& job)>;
+  absl::StatusOr<std::optional<Step>> EnterRemembered(JobStore& store, const JobRow& remembered,
+                                                      JobState state, const absl::Status& error,
+                                                      int64_t result, const May& may);
 
   // After a crash: a job that ran waits again, or has failed when it was there too often. Its
   // sequence leaps over what was told and not stored.
-  absl::StatusOr<std::optional<EventRow>> RecoverRunning(JobStore& store, JobRow& job);
+  absl::StatusOr<Step> RecoverRunning(JobStore& store, JobRow job);
 
   // The next number of an event, stored or not.
   uint64_t NextSequence(int64_t job, uint64_t stored);
@@ -54,7 +60,10 @@ class JobJournal {
   void SetOwner(std::string owner) { owner_ = std::move(owner); }
 
  private:
-  absl::StatusOr<EventRow> AddEvent(JobStore& store, const JobRow& job, Time time);
+  // Only where the stored job has the sequence `from`, if any.
+  absl::StatusOr<Step> Enter(JobStore& store, JobRow job, JobState state, absl::Status error,
+                             std::optional<uint64_t> from);
+  static absl::StatusOr<Step> AddEvent(JobStore& store, JobRow job, Time time);
 
   std::string owner_;
   const std::function<Time()> now_;

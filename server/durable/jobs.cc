@@ -62,14 +62,13 @@ bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
 struct DurableJobs::Creating {
   std::string tenant;
   NewJob wanted;
-  VolumeRow volume;
-  std::string options;             // as they take effect on the volume
-  std::string unread_key;          // of a stored result that has to be read before it is given
-  bool looked = false;             // for that
-  std::optional<ResultRow> whole;  // that was read
-  std::optional<Step> step;        // of a job that is new
-  std::optional<JobInfo> info;
-  Done<JobInfo> done;
+  VolumeRow volume = {};
+  std::string options = {};                       // as they take effect on the volume
+  std::string unread_key = {};                    // of a result to be read before it is given
+  bool looked = false;                            // for that
+  std::optional<ResultRow> whole = std::nullopt;  // that was read
+  std::optional<Step> step = std::nullopt;        // of a job that is new
+  JobInfo info = {};
 };
 
 JobInfo DurableJobs::PlainInfoOf(const JobRow& row) const {
@@ -94,43 +93,29 @@ absl::StatusOr<JobInfo> DurableJobs::InfoOf(JobStore& store, const JobRow& row) 
   return info;
 }
 
-void DurableJobs::CreateJob(const std::string& tenant, const NewJob& job, Done<JobInfo> done) {
-  done = Track(std::move(done));
-  if (absl::Status status = CheckAdmitting(); !status.ok()) {
-    return Answer<JobInfo>(std::move(done), std::move(status));
+Flow DurableJobs::CreateJob(std::string tenant, NewJob job, Done<JobInfo> done) {
+  Creating creating = {.tenant = std::move(tenant), .wanted = std::move(job)};
+  const auto store_job = [&](JobStore& store) { return StoreJob(store, creating); };
+  absl::Status status = co_await Commit(store_job);
+  if (status.ok() && !creating.unread_key.empty()) {
+    creating.whole = co_await WholeResult(creating.tenant, creating.unread_key);
+    creating.looked = true;
+    status = co_await Commit(store_job);
   }
-  const auto creating = std::make_shared<Creating>();
-  creating->tenant = tenant;
-  creating->wanted = job;
-  creating->done = std::move(done);
-  PostJob(creating);
-}
-
-void DurableJobs::PostJob(const std::shared_ptr<Creating>& creating) {
-  loop_.Post([this, creating](JobStore& store) { return StoreJob(store, *creating); },
-             [this, creating](absl::Status status) {
-               if (!status.ok()) return creating->done(std::move(status));
-               if (!creating->unread_key.empty()) {
-                 return WithWholeResult(creating->tenant, creating->unread_key,
-                                        [this, creating](const std::optional<ResultRow>& result) {
-                                          creating->looked = true;
-                                          creating->whole = result;
-                                          PostJob(creating);
-                                        });
-               }
-               if (creating->step.has_value()) {
-                 Apply(*creating->step);
-                 if (IsTerminal(creating->step->job.state)) ++cached_;
-               }
-               creating->done(*std::move(creating->info));
-               Schedule();
-             });
+  if (!status.ok()) co_return done(std::move(status));
+  if (creating.step.has_value()) {
+    Apply(*creating.step);
+    if (IsTerminal(creating.step->job.state)) ++cached_;
+  }
+  done(std::move(creating.info));
+  Schedule();
 }
 
 absl::Status DurableJobs::StoreJob(JobStore& store, Creating& creating) {
   const NewJob& wanted = creating.wanted;
   creating.step.reset();
   creating.unread_key.clear();
+  BCCSKEL_RETURN_IF_ERROR(CheckAdmitting());
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
@@ -197,58 +182,53 @@ absl::Status DurableJobs::InsertJob(JobStore& store, JobRow job, Creating& creat
       if (whole) job.result = result->number;
     }
   }
-  BCCSKEL_ASSIGN_OR_RETURN(EventRow event, journal_.Insert(store, job));
-  BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, job));
-  creating.step = Step{.job = std::move(job), .event = std::move(event)};
+  BCCSKEL_ASSIGN_OR_RETURN(creating.step, journal_.Insert(store, std::move(job)));
+  BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, creating.step->job));
   return absl::OkStatus();
 }
 
-void DurableJobs::GetJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
-  Read<JobInfo>(
-      [this, tenant, job](JobStore& store) -> absl::StatusOr<JobInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
-        return InfoOf(store, row);
-      },
-      std::move(done));
+Flow DurableJobs::GetJob(std::string tenant, std::string job, Done<JobInfo> done) {
+  const auto read = [&](JobStore& store) -> absl::StatusOr<JobInfo> {
+    BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
+    return InfoOf(store, row);
+  };
+  done(co_await Read<JobInfo>(read));
 }
 
-void DurableJobs::ListJobs(const std::string& tenant, const JobQuery& query, Done<JobPage> done) {
-  Read<JobPage>(
-      [this, tenant, query](JobStore& store) -> absl::StatusOr<JobPage> {
-        const int size = std::clamp(query.page_size, 1, kMostPerPage);
-        const uint32_t states = BitsOf(query.states);
-        BCCSKEL_ASSIGN_OR_RETURN(const auto after, PositionOf(query.page_token, states));
-        BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> rows,
-                                 store.ListJobs(tenant, after, states, size + 1));
-        JobPage page;
-        for (const JobRow& row : rows) {
-          if (page.jobs.size() == static_cast<size_t>(size)) break;
-          page.next_token = TokenOf({.created = row.created, .name = row.name}, states);
-          BCCSKEL_ASSIGN_OR_RETURN(JobInfo info, InfoOf(store, row));
-          info.summary.clear();
-          info.progress.reset();
-          page.jobs.push_back(std::move(info));
-        }
-        if (rows.size() <= static_cast<size_t>(size)) page.next_token.clear();
-        return page;
-      },
-      std::move(done));
+Flow DurableJobs::ListJobs(std::string tenant, JobQuery query, Done<JobPage> done) {
+  const auto read = [&](JobStore& store) -> absl::StatusOr<JobPage> {
+    const int size = std::clamp(query.page_size, 1, kMostPerPage);
+    const uint32_t states = BitsOf(query.states);
+    BCCSKEL_ASSIGN_OR_RETURN(const auto after, PositionOf(query.page_token, states));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<JobRow> rows,
+                             store.ListJobs(tenant, after, states, size + 1));
+    JobPage page;
+    for (const JobRow& row : rows) {
+      if (page.jobs.size() == static_cast<size_t>(size)) break;
+      page.next_token = TokenOf({.created = row.created, .name = row.name}, states);
+      BCCSKEL_ASSIGN_OR_RETURN(JobInfo info, InfoOf(store, row));
+      info.summary.clear();
+      info.progress.reset();
+      page.jobs.push_back(std::move(info));
+    }
+    if (rows.size() <= static_cast<size_t>(size)) page.next_token.clear();
+    return page;
+  };
+  done(co_await Read<JobPage>(read));
 }
 
-void DurableJobs::CancelJob(const std::string& tenant, const std::string& job, Done<JobInfo> done) {
-  const auto info = std::make_shared<JobInfo>();
-  Erase(
-      [this, tenant, job, info](JobStore& store, Erased& erased) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
-        BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, erased));
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, store.Get<JobRow>(tenant, job));
-        BCCSKEL_ASSIGN_OR_RETURN(*info, InfoOf(store, now));
-        return absl::OkStatus();
-      },
-      [info, done = Track(std::move(done))](absl::Status status) {
-        if (!status.ok()) return done(std::move(status));
-        done(std::move(*info));
-      });
+Flow DurableJobs::CancelJob(std::string tenant, std::string job, Done<JobInfo> done) {
+  JobInfo info;
+  const auto cancel = [&](JobStore& store, Erased& erased) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
+    BCCSKEL_RETURN_IF_ERROR(CancelIfUnfinished(store, row, erased));
+    BCCSKEL_ASSIGN_OR_RETURN(const JobRow now, store.Get<JobRow>(tenant, job));
+    BCCSKEL_ASSIGN_OR_RETURN(info, InfoOf(store, now));
+    return absl::OkStatus();
+  };
+  absl::Status status = co_await Await<absl::Status>([&](auto resume) { Erase(cancel, resume); });
+  if (!status.ok()) co_return done(std::move(status));
+  done(std::move(info));
 }
 
 absl::Status DurableJobs::CancelIfUnfinished(JobStore& store, const JobRow& job, Erased& erased) {
@@ -259,9 +239,8 @@ absl::Status DurableJobs::CancelIfUnfinished(JobStore& store, const JobRow& job,
       return EraseUpload(store, *upload, JobState::kCancelled, absl::OkStatus(), erased);
     }
   }
-  JobRow row = job;
-  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, row, JobState::kCancelled));
-  erased.steps.push_back({.job = row, .event = event});
+  BCCSKEL_ASSIGN_OR_RETURN(erased.steps.emplace_back(),
+                           journal_.Enter(store, job, JobState::kCancelled));
   return absl::OkStatus();
 }
 
@@ -273,7 +252,7 @@ void DurableJobs::DeleteJob(const std::string& tenant, const std::string& job, D
         BCCSKEL_RETURN_IF_ERROR(row.status());
         return EraseJob(store, *row, erased);
       },
-      Track(std::move(done)));
+      std::move(done));
 }
 
 absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& erased) {
@@ -289,60 +268,48 @@ absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& e
 std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
                                                    const std::string& job, uint64_t after_sequence,
                                                    std::shared_ptr<JobWatcher> watcher) {
-  struct Found {
-    JobRow job;
-    std::vector<EventRow> events;
-  };
   const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
-  const auto found = std::make_shared<Found>();
-  loop_.Post(
-      [tenant, job, after_sequence, found](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(found->job, store.Get<JobRow>(tenant, job));
-        // The end is told also to a caller who knows it already.
-        const bool ended = IsTerminal(found->job.state);
-        const uint64_t after =
-            ended ? std::min(after_sequence, found->job.sequence - 1) : after_sequence;
-        BCCSKEL_ASSIGN_OR_RETURN(found->events, store.EventsAfter(found->job.number, after));
-        return absl::OkStatus();
-      },
-      [this, found, watch, token = operations_.Begin()](const absl::Status& status) {
-        if (!status.ok()) return watch->End(status);
-        for (const EventRow& event : found->events) watch->Tell(EventOf(event));
-        if (IsTerminal(found->job.state)) return watch->End(absl::OkStatus());
-        watches_.Add(found->job.number, watch);
-        TellStored(found->job.number);  // what others have added since, and was followed already
-      });
+  BeginWatch(tenant, job, after_sequence, watch);
   return std::make_unique<WatchHandle>(watch);
 }
 
-void DurableJobs::OpenResult(const std::string& tenant, const std::string& job,
-                             uint64_t first_record, Done<std::shared_ptr<ResultReader>> done) {
-  const auto found = std::make_shared<ResultRow>();
-  done = Track(std::move(done));
-  loop_.Post(
-      [tenant, job, found](JobStore& store) -> absl::Status {
-        BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
-        BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
-        if (row.state != JobState::kSucceeded || !result.has_value()) {
-          return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
-        }
-        if (result->file.empty()) {
-          return absl::DataLossError(absl::StrCat(
-              "the result of ", job, " was damaged: the same job, created again, heals it"));
-        }
-        *found = *result;
-        return absl::OkStatus();
-      },
-      [this, found, first_record, done](absl::Status status) {
-        if (!status.ok()) return done(std::move(status));
-        files_.Post({.tenant = found->tenant}, [this, found, first_record, done] {
-          auto reader = ResultReader::Open(*found, first_record, blobs_, files_);
-          if (!absl::IsDataLoss(reader.status())) return done(std::move(reader));
-          // The next job that wants the same makes it anew, also for this one.
-          DropResult(*found,
-                     [done, status = reader.status()]() mutable { done(std::move(status)); });
-        });
-      });
+Flow DurableJobs::BeginWatch(std::string tenant, std::string job, uint64_t after_sequence,
+                             std::shared_ptr<Watch> watch) {
+  JobRow row;
+  std::vector<EventRow> events;
+  const absl::Status status = co_await Commit([&](JobStore& store) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(row, store.Get<JobRow>(tenant, job));
+    // The end is told also to a caller who knows it already.
+    const bool ended = IsTerminal(row.state);
+    const uint64_t after = ended ? std::min(after_sequence, row.sequence - 1) : after_sequence;
+    BCCSKEL_ASSIGN_OR_RETURN(events, store.EventsAfter(row.number, after));
+    return absl::OkStatus();
+  });
+  for (const EventRow& event : events) watch->Tell(EventOf(event));
+  if (!status.ok() || IsTerminal(row.state)) co_return watch->End(status);
+  watches_.Add(row.number, watch);
+  TellStored(row.number);  // what others have added since, and was followed already
+}
+
+Flow DurableJobs::OpenResult(std::string tenant, std::string job, uint64_t first_record,
+                             Done<std::shared_ptr<ResultReader>> done) {
+  const auto read = [&](JobStore& store) -> absl::StatusOr<ResultRow> {
+    BCCSKEL_ASSIGN_OR_RETURN(const JobRow row, store.Get<JobRow>(tenant, job));
+    BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResult(row.result));
+    if (row.state != JobState::kSucceeded || !result.has_value()) {
+      return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
+    }
+    if (!result->file.empty()) return *result;
+    return absl::DataLossError(
+        absl::StrCat("the result of ", job, " was damaged: the same job, created again, heals it"));
+  };
+  const absl::StatusOr<ResultRow> found = co_await Read<ResultRow>(read);
+  if (!found.ok()) co_return done(found.status());
+  co_await ToFiles(tenant);
+  auto reader = ResultReader::Open(*found, first_record, blobs_, files_);
+  // The next job that wants the same makes it anew, also for this one.
+  if (absl::IsDataLoss(reader.status())) co_await Dropped(*found);
+  done(std::move(reader));
 }
 
 }  // namespace bccskel::server

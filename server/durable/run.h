@@ -11,6 +11,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "server/durable/flow.h"
 #include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
@@ -25,11 +26,11 @@ class Run;
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
-  virtual void OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) = 0;
+  virtual Flow OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) = 0;
   // There is progress to take.
-  virtual void OnRunProgress(std::shared_ptr<Run> run) = 0;
+  virtual Flow OnRunProgress(std::shared_ptr<Run> run) = 0;
   // Once, last.
-  virtual void OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) = 0;
+  virtual Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) = 0;
 };
 
 // One computation at the runner, for one or more equal jobs. Its bytes come from an upload that is

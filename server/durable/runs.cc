@@ -7,6 +7,7 @@
 #include "server/jobs/names.h"
 
 namespace bccskel::server {
+
 // A job that is to run here. With a run that has to be fed its volume, or none: it joins one.
 struct DurableJobs::Claiming {
   enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
@@ -14,7 +15,12 @@ struct DurableJobs::Claiming {
   std::optional<VolumeRow> volume = std::nullopt;
   std::shared_ptr<Run> fed = nullptr;
   Outcome outcome = Outcome::kOthers;
-  std::vector<Step> steps = {};
+  std::optional<Step> step = std::nullopt;
+};
+
+struct DurableJobs::Claims {
+  std::vector<Claiming> all;
+  bool blocked = false;  // the next one cannot begin now
 };
 
 std::string DurableJobs::ResultKey(const std::string& volume_digest,
@@ -26,23 +32,30 @@ std::string DurableJobs::ResultKey(const std::string& volume_digest,
 void DurableJobs::Schedule() {
   // Others of the fleet begin what this one would not end.
   if (scheduling_ || stopping_ || (!admitting_ && shared_)) return;
-  if (!active_.HasNext(options_.tenants(), options_.max_runs)) return;
+  if (active_.HasNext(options_.tenants(), options_.max_runs)) BeginJobs();
+}
+
+Flow DurableJobs::BeginJobs() {
   scheduling_ = true;
-  const auto claims = std::make_shared<Claims>();
-  loop_.Post([this, claims](JobStore& store) { return BeginNext(store, *claims); },
-             [this, claims](const absl::Status& status) {
-               scheduling_ = false;
-               if (!status.ok()) retry_wanted_ = true;
-               for (const auto& claiming : claims->all) EndClaim(claiming, status);
-               // Others may have come since it looked.
-               if (status.ok() && !claims->blocked) Schedule();
-             },
-             GroupCommit::Room::kReserve);
+  Claims claims;
+  const absl::Status status = co_await Commit(
+      [&](JobStore& store) { return BeginNext(store, claims); }, GroupCommit::Room::kReserve);
+  scheduling_ = false;
+  if (!status.ok()) retry_wanted_ = true;
+  for (const Claiming& claiming : claims.all) {
+    if (status.ok()) {
+      Claimed(claiming);
+    } else {
+      ClaimAgain(claiming);
+    }
+  }
+  // Others may have come since it looked.
+  if (status.ok() && !claims.blocked) Schedule();
 }
 
 absl::Status DurableJobs::BeginNext(JobStore& store, Claims& claims) {
-  for (const auto& claiming : claims.all) {  // of a transaction that has failed
-    BCCSKEL_RETURN_IF_ERROR(ClaimStored(store, *claiming));
+  for (Claiming& claiming : claims.all) {  // of a transaction that has failed
+    BCCSKEL_RETURN_IF_ERROR(Claim(store, claiming));
   }
   while (!stopping_) {
     const auto turn = active_.TakeNext(options_.tenants(), options_.max_runs);
@@ -65,7 +78,7 @@ absl::StatusOr<DurableJobs::Begun> DurableJobs::BeginJob(JobStore& store,
   }
   if (!volume->has_value()) {
     EnterState({job.number}, JobState::kFailed,
-               absl::DataLossError(absl::StrCat(job.volume, " is gone")), 0, nullptr);
+               absl::DataLossError(absl::StrCat(job.volume, " is gone")));
     return Begun::kYes;
   }
   if (!(*volume)->volume_digest.empty()) {
@@ -78,32 +91,26 @@ absl::StatusOr<DurableJobs::Begun> DurableJobs::BeginJob(JobStore& store,
   }
   if (ActiveRun* equal = active_.FindEqual(job, **volume); equal != nullptr) {
     active_.Attach(*equal, job.number);
-    claims.all.push_back(std::make_shared<Claiming>(Claiming{.job = job.number}));
+    claims.all.push_back({.job = job.number});
   } else {
     const Begun started = StartRun(turn, **volume, claims);
     if (started != Begun::kClaim) return started;
   }
-  BCCSKEL_RETURN_IF_ERROR(ClaimStored(store, *claims.all.back()));
+  BCCSKEL_RETURN_IF_ERROR(Claim(store, claims.all.back()));
   return Begun::kYes;
 }
 
-void DurableJobs::GiveWholeResult(const JobRow& job, const std::string& key) {
-  WithWholeResult(
-      job.tenant, key, [this, number = job.number](const std::optional<ResultRow>& result) {
-        if (active_.Find(number) == nullptr) return;
-        if (!result.has_value()) {
-          WaitAgain(number);
-          return;
-        }
-        ++cached_;
-        EnterState({number}, JobState::kSucceeded, absl::OkStatus(), result->number, nullptr);
-      });
+Flow DurableJobs::GiveWholeResult(JobRow job, std::string key) {
+  const std::optional<ResultRow> result = co_await WholeResult(job.tenant, key);
+  if (active_.Find(job.number) == nullptr) co_return;
+  if (!result.has_value()) co_return WaitAgain(job.number);
+  ++cached_;
+  EnterState({job.number}, JobState::kSucceeded, absl::OkStatus(), result->number);
 }
 
-DurableJobs::Begun DurableJobs::WaitAgain(int64_t job) {
+void DurableJobs::WaitAgain(int64_t job) {
   active_.Enqueue(*active_.Find(job));
   retry_wanted_ = true;
-  return Begun::kNothingNow;
 }
 
 DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume,
@@ -115,12 +122,15 @@ DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const Vol
     active_.WaitForPlace(job.number);
     return Begun::kNothingNow;
   }
-  const auto run = std::make_shared<Run>(*this, job.tenant, operations_.Begin());
+  const auto run = std::make_shared<Run>(*this, job.tenant, BeginOperation());
   absl::Status started = request.status();
   if (started.ok()) started = run->Start(runner_, RunnerRequest(*std::move(request), job));
-  if (absl::IsUnavailable(started)) return WaitAgain(job.number);
+  if (absl::IsUnavailable(started)) {
+    WaitAgain(job.number);
+    return Begun::kNothingNow;
+  }
   if (!started.ok()) {
-    EnterState({job.number}, JobState::kFailed, started, 0, nullptr);
+    EnterState({job.number}, JobState::kFailed, started);
     return Begun::kYes;
   }
   ActiveRun& active = active_.AddRun(run, job, ActiveRun::Source::kFile);
@@ -129,62 +139,56 @@ DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const Vol
   active.crashes = job.crashes;
   active_.Attach(active, job.number);
   // The attempt is counted before it begins.
-  claims.all.push_back(
-      std::make_shared<Claiming>(Claiming{.job = job.number, .volume = volume, .fed = run}));
+  claims.all.push_back({.job = job.number, .volume = volume, .fed = run});
   return Begun::kClaim;
 }
 
 // The store did not take what was begun: again, until it does.
-void DurableJobs::Claim(const std::shared_ptr<Claiming>& claiming) {
-  loop_.Post([this, claiming](JobStore& store) { return ClaimStored(store, *claiming); },
-             [this, claiming](const absl::Status& status) { EndClaim(claiming, status); },
-             GroupCommit::Room::kReserve);
+Flow DurableJobs::ClaimAgain(Claiming claiming) {
+  absl::Status status;
+  do {
+    if (!co_await Later()) co_return;
+    status = co_await Commit([&](JobStore& store) { return Claim(store, claiming); },
+                             GroupCommit::Room::kReserve);
+  } while (!status.ok());
+  Claimed(claiming);
 }
 
-void DurableJobs::EndClaim(const std::shared_ptr<Claiming>& claiming, const absl::Status& status) {
-  if (status.ok()) return Claimed(*claiming);
-  RetryLater([this, claiming] { Claim(claiming); });
-}
-
-absl::Status DurableJobs::ClaimStored(JobStore& store, Claiming& claiming) {
+absl::Status DurableJobs::Claim(JobStore& store, Claiming& claiming) {
   using Outcome = Claiming::Outcome;
-  claiming.steps.clear();
+  claiming.step.reset();
   claiming.outcome = Outcome::kOthers;
   const ActiveJob* const active = active_.Find(claiming.job);
   if (active == nullptr || active->run == nullptr) return absl::OkStatus();
-  JobRow job = active->row;
+  const JobRow& job = active->row;
   bool elsewhere = false;
   if (claiming.volume.has_value() && shared_) {
     BCCSKEL_ASSIGN_OR_RETURN(
         elsewhere, store.RunsElsewhere(job, claiming.volume->volume_digest, journal_.owner()));
     if (elsewhere) claiming.outcome = Outcome::kEqualRunsElsewhere;
   }
-  std::optional<EventRow> event;
-  if (job.state == JobState::kQueued && !elsewhere) {
-    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, JobState::kRunning, absl::OkStatus(),
-                                                   JobJournal::Found::kBefore));
-  }
-  if (!event.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
-    if (!stored.has_value()) return absl::OkStatus();
-    job = *stored;
+  BCCSKEL_ASSIGN_OR_RETURN(
+      claiming.step, journal_.EnterRemembered(store, job, JobState::kRunning, absl::OkStatus(),
+                                              job.result, [elsewhere](const JobRow& row) {
+                                                return row.state == JobState::kQueued && !elsewhere;
+                                              }));
+  if (!claiming.step.has_value()) {
     // A commit that seemed to have failed may have happened.
-    const bool is_mine = job.state == JobState::kRunning && job.owner == journal_.owner();
-    if (!is_mine && (elsewhere || job.state != JobState::kQueued)) return absl::OkStatus();
-    if (!is_mine) {
-      BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, JobState::kRunning));
-    }
+    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
+    const bool is_mine = stored.has_value() && stored->state == JobState::kRunning &&
+                         stored->owner == journal_.owner();
+    if (is_mine) claiming.step = Step{*stored};
   }
-  claiming.outcome = Outcome::kMine;
-  claiming.steps.push_back({.job = job, .event = event});
+  if (claiming.step.has_value()) claiming.outcome = Outcome::kMine;
   return absl::OkStatus();
 }
 
 void DurableJobs::Claimed(const Claiming& claiming) {
-  for (const Step& step : claiming.steps) Apply(step);
+  if (claiming.step.has_value()) Apply(*claiming.step);
   if (claiming.outcome == Claiming::Outcome::kMine) {
-    if (claiming.fed != nullptr) Feed(claiming.fed.get(), *claiming.volume);
-    return Schedule();
+    if (claiming.fed != nullptr) Feed(claiming.fed, *claiming.volume);
+    Schedule();
+    return;
   }
   // Others that joined the run would wait for its bytes for ever: they are queued again.
   if (claiming.fed != nullptr) claiming.fed->Cancel();
@@ -198,71 +202,47 @@ void DurableJobs::Claimed(const Claiming& claiming) {
   Schedule();
 }
 
-void DurableJobs::Feed(Run* pointer, const VolumeRow& volume) {
-  ActiveRun* const found = active_.FindRun(pointer);
-  if (found == nullptr) return;  // nobody wants it any more
+Flow DurableJobs::Feed(std::shared_ptr<Run> run, VolumeRow volume) {
+  ActiveRun* const found = active_.FindRun(run.get());
+  if (found == nullptr) co_return;  // nobody wants it any more
   found->fed = RunPace::Clock::now();
-  files_.Post({.tenant = volume.tenant}, [this, run = found->run, volume] {
-    const std::string path = blobs_.PathOfBlob(volume.tenant, volume.blob_digest);
-    absl::StatusOr<CheckedFile> file = CheckedFile::Open(path, volume.blob_digest);
-    if (!file.ok()) return run->Fail(file.status());
-    run->Feed(*std::move(file), files_);
-  });
+  co_await ToFiles(volume.tenant);
+  absl::StatusOr<CheckedFile> file =
+      CheckedFile::Open(blobs_.PathOfBlob(volume.tenant, volume.blob_digest), volume.blob_digest);
+  if (!file.ok()) co_return run->Fail(file.status());
+  run->Feed(*std::move(file), files_);
 }
 
-absl::Status DurableJobs::EnterState(JobStore& store, int64_t number, JobState state,
+absl::Status DurableJobs::StoreState(JobStore& store, int64_t number, JobState state,
                                      const absl::Status& error, int64_t result,
                                      std::vector<Step>& steps) {
   const ActiveJob* const active = active_.Find(number);
   if (active == nullptr) return absl::OkStatus();
-  const auto is_ours = [this](const JobRow& job) {
-    return !IsTerminal(job.state) &&
-           (job.state != JobState::kRunning || job.owner == journal_.owner());
-  };
-  JobRow job = active->row;
-  job.result = result;
-  std::optional<EventRow> event;
-  if (is_ours(job)) {
-    BCCSKEL_ASSIGN_OR_RETURN(event,
-                             journal_.Enter(store, job, state, error, JobJournal::Found::kBefore));
-  }
-  if (!event.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
-    if (!stored.has_value() || !is_ours(*stored)) return absl::OkStatus();
-    job = *stored;
-    job.result = result;
-    BCCSKEL_ASSIGN_OR_RETURN(event, journal_.Enter(store, job, state, error));
-  }
-  if (event.has_value()) steps.push_back({.job = job, .event = event});
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const auto step,
+      journal_.EnterRemembered(store, active->row, state, error, result, [this](const JobRow& job) {
+        const bool ours = job.state != JobState::kRunning || job.owner == journal_.owner();
+        return ours && !IsTerminal(job.state);
+      }));
+  if (step.has_value() && step->event.has_value()) steps.push_back(*step);
   return absl::OkStatus();
 }
 
-void DurableJobs::EnterState(std::set<int64_t> jobs, JobState state, const absl::Status& error,
-                             int64_t result, std::function<void()> then) {
-  const auto steps = std::make_shared<std::vector<Step>>();
-  loop_.Post(
-      [this, jobs, state, error, result, steps](JobStore& store) -> absl::Status {
-        steps->clear();
-        for (const int64_t job : jobs) {
-          BCCSKEL_RETURN_IF_ERROR(EnterState(store, job, state, error, result, *steps));
-        }
-        return absl::OkStatus();
-      },
-      [this, jobs, state, error, result, steps, then](const absl::Status& status) {
-        if (!status.ok()) {
-          return RetryLater([=, this] { EnterState(jobs, state, error, result, then); });
-        }
-        for (const Step& step : *steps) Apply(step);
-        if (then) then();
-        Schedule();
-      },
-      GroupCommit::Room::kReserve);
-}
-
-void DurableJobs::RetryLater(std::function<void()> task) {
-  if (stopping_) return;
-  retries_.push_back(std::move(task));
-  retry_wanted_ = true;
+Flow DurableJobs::EnterState(std::set<int64_t> jobs, JobState state, absl::Status error,
+                             int64_t result) {
+  std::vector<Step> steps;
+  const auto change = [&](JobStore& store) -> absl::Status {
+    steps.clear();
+    for (const int64_t job : jobs) {
+      BCCSKEL_RETURN_IF_ERROR(StoreState(store, job, state, error, result, steps));
+    }
+    return absl::OkStatus();
+  };
+  while (!(co_await Commit(change, GroupCommit::Room::kReserve)).ok()) {
+    if (!co_await Later()) co_return;
+  }
+  for (const Step& step : steps) Apply(step);
+  Schedule();
 }
 
 }  // namespace bccskel::server

@@ -9,6 +9,17 @@
 #include "server/jobs/names.h"
 
 namespace bccskel::server {
+namespace {
+
+absl::Status CheckChunk(const std::string& bytes, std::optional<uint32_t> crc32c) {
+  if (!crc32c.has_value() || *crc32c == Crc32c(bytes)) return absl::OkStatus();
+  return CallError(
+      Reason::kChunkChecksum,
+      absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes), ", the request states ", *crc32c),
+      {.field = "chunk.crc32c"});
+}
+
+}  // namespace
 
 // An upload on its way into the store.
 struct DurableJobs::Opening {
@@ -16,10 +27,9 @@ struct DurableJobs::Opening {
   std::optional<JobRow> job;
   std::optional<JobRequest> request;  // of that job
   std::shared_ptr<Run> run;           // that decodes along
-  std::optional<EventRow> event;
+  std::optional<Step> step;           // of the job
   bool counted = false;               // by the quota
   std::optional<UploadRow> existing;  // the same upload, which was there before
-  Done<UploadInfo> done;
 };
 
 void DurableJobs::DropSession(const UploadRow& row) {
@@ -33,20 +43,35 @@ RemovalRow DurableJobs::RemovalOf(const UploadRow& row) {
   return {RemovalRow::Kind::kUploadFile, row.tenant, row.file};
 }
 
-void DurableJobs::CreateUpload(const std::string& tenant, const NewUpload& upload,
-                               Done<UploadInfo> done) {
-  const auto opening = std::make_shared<Opening>();
-  opening->row.tenant = tenant;
-  opening->row.name = upload.name.empty() ? RandomName("uploads") : upload.name;
-  opening->row.declaration = upload.declaration;
-  opening->row.used = Now();
-  if (shared_) opening->row.file = RandomId();
-  opening->done = Track(std::move(done));
-  if (absl::Status status = PrepareUpload(upload, *opening); !status.ok()) {
-    return Answer<UploadInfo>(std::move(opening->done), std::move(status));
+Flow DurableJobs::CreateUpload(std::string tenant, NewUpload upload, Done<UploadInfo> done) {
+  Opening opening;
+  opening.row.tenant = tenant;
+  opening.row.name = upload.name.empty() ? RandomName("uploads") : upload.name;
+  opening.row.declaration = upload.declaration;
+  opening.row.used = Now();
+  if (shared_) opening.row.file = RandomId();
+  absl::Status status = PrepareUpload(upload, opening);
+  if (status.ok()) {
+    status = co_await Commit([&](JobStore& store) { return StoreUpload(store, opening); });
+    if (!status.ok()) GiveUp(opening);
+    if (status.ok() && opening.existing.has_value()) co_return done(InfoOf(*opening.existing));
+    if (status.ok() && opening.step.has_value()) {
+      Apply(*opening.step);
+      const JobRow& job = opening.step->job;
+      active_.Attach(active_.AddRun(opening.run, job, ActiveRun::Source::kUpload), job.number);
+    }
   }
-  loop_.Post([this, opening](JobStore& store) { return StoreUpload(store, *opening); },
-             [this, opening](absl::Status status) { UploadStored(opening, std::move(status)); });
+  co_await ToFiles(tenant);
+  if (!status.ok()) co_return done(std::move(status));
+  auto file = UploadFile::Open(blobs_.PathOf(opening.row));
+  if (!file.ok()) {
+    co_return EndUpload(tenant, opening.row.name, JobState::kFailed, file.status(),
+                        [done, error = file.status()](const absl::Status&) { done(error); });
+  }
+  const auto session = std::make_shared<UploadSession>(opening.row, *std::move(file), Now());
+  session->set_along(opening.run);
+  uploads_.Add(session);
+  done(InfoOf(opening.row));
 }
 
 absl::Status DurableJobs::PrepareUpload(const NewUpload& upload, Opening& opening) {
@@ -103,89 +128,44 @@ absl::Status DurableJobs::CheckSameUpload(JobStore& store, const Opening& openin
 
 absl::Status DurableJobs::StoreReceivingJob(JobStore& store, Opening& opening) {
   BCCSKEL_RETURN_IF_ERROR(CheckRoomForJob());
-  BCCSKEL_ASSIGN_OR_RETURN(opening.event, journal_.Insert(store, *opening.job));
+  BCCSKEL_ASSIGN_OR_RETURN(opening.step, journal_.Insert(store, *opening.job));
   if (opening.run != nullptr) return absl::OkStatus();
-  opening.run = std::make_shared<Run>(*this, opening.row.tenant, operations_.Begin());
+  opening.run = std::make_shared<Run>(*this, opening.row.tenant, BeginOperation());
   absl::Status started = opening.run->Start(runner_, *std::move(opening.request));
   if (!started.ok()) opening.run = nullptr;
   return started;
 }
 
-void DurableJobs::UploadStored(const std::shared_ptr<Opening>& opening, absl::Status status) {
-  if (status.ok() && opening->existing.has_value()) {
-    return opening->done(InfoOf(*opening->existing));
-  }
-  if (!status.ok()) {
-    uploads_.RemoveFile(opening->row);
-    if (opening->counted) quota_.GiveBack(opening->row.tenant, opening->row.size_bytes);
-    if (opening->run != nullptr) opening->run->Cancel();
-    return opening->done(std::move(status));
-  }
-  if (opening->job.has_value()) {
-    Apply(Step{.job = *opening->job, .event = opening->event});
-    ActiveRun& run = active_.AddRun(opening->run, *opening->job, ActiveRun::Source::kUpload);
-    active_.Attach(run, opening->job->number);
-  }
-  files_.Post({.tenant = opening->row.tenant}, [this, opening] { OpenFile(opening); });
+void DurableJobs::GiveUp(const Opening& opening) {
+  uploads_.RemoveFile(opening.row);
+  if (opening.counted) quota_.GiveBack(opening.row.tenant, opening.row.size_bytes);
+  if (opening.run != nullptr) opening.run->Cancel();
 }
 
-void DurableJobs::OpenFile(const std::shared_ptr<Opening>& opening) {
-  auto file = UploadFile::Open(blobs_.PathOf(opening->row));
-  if (!file.ok()) {
-    const absl::Status& error = file.status();
-    return EndUpload(opening->row.tenant, opening->row.name, JobState::kFailed, error,
-                     [opening, error](const absl::Status&) { opening->done(error); });
-  }
-  const auto session = std::make_shared<UploadSession>(opening->row, *std::move(file), Now());
-  session->set_along(opening->run);
-  uploads_.Add(session);
-  opening->done(InfoOf(opening->row));
-}
-
-void DurableJobs::Append(const std::string& tenant, const std::string& upload, uint64_t offset,
-                         std::string bytes, std::optional<uint32_t> crc32c, Done<uint64_t> done) {
-  done = Track(std::move(done));
-  const Session session = uploads_.Find(tenant, upload);
+Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset, std::string bytes,
+                         std::optional<uint32_t> crc32c, Done<uint64_t> done) {
+  Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) {
-    return WithSession(tenant, upload,
-                       [this, tenant, upload, offset, bytes = std::move(bytes), crc32c,
-                        done = std::move(done)](const absl::StatusOr<Session>& found) {
-                         if (!found.ok()) return done(found.status());
-                         Append(tenant, upload, offset, bytes, crc32c, done);
-                       });
+    const absl::StatusOr<Session> found = co_await SessionOf(tenant, upload);
+    if (!found.ok()) co_return done(found.status());
+    session = *found;
   }
   absl::Status status = session->BeginAppend(offset, bytes.size());
-  if (!status.ok()) return Answer<uint64_t>(std::move(done), std::move(status));
-  files_.Post({.tenant = tenant},
-              [this, session, bytes = std::move(bytes), crc32c, done = std::move(done)]() mutable {
-                AppendNow(session, std::move(bytes), crc32c, done);
-              });
-}
-
-void DurableJobs::AppendNow(const Session& session, std::string bytes,
-                            std::optional<uint32_t> crc32c, const Done<uint64_t>& done) {
-  absl::Status status;
-  if (crc32c.has_value() && *crc32c != Crc32c(bytes)) {
-    status = CallError(
-        Reason::kChunkChecksum,
-        absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes), ", the request states ", *crc32c),
-        {.field = "chunk.crc32c"});
-  }
+  co_await ToFiles(tenant);
+  if (!status.ok()) co_return done(std::move(status));
+  status = CheckChunk(bytes, crc32c);
   if (status.ok()) status = session->file().Append(bytes);
   if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
-  const std::shared_ptr<Run> along = session->along();
-  if (!status.ok() || along == nullptr) {
-    session->EndWriting(Now());
-    if (!status.ok()) return done(std::move(status));
-    return done(session->committed());
-  }
-  along->Append(std::move(bytes), [this, session, done](const absl::Status& decoded) {
-    session->EndWriting(Now());
+  const std::shared_ptr<Run> along = status.ok() ? session->along() : nullptr;
+  if (along != nullptr) {
+    const absl::Status decoded =
+        co_await Await<absl::Status>([&](auto resume) { along->Append(std::move(bytes), resume); });
     // Whatever else has ended the decoding, the bytes are here.
-    if (absl::IsInvalidArgument(decoded))
-      return done(InvalidVolume(std::string(decoded.message())));
-    done(session->committed());
-  });
+    if (absl::IsInvalidArgument(decoded)) status = InvalidVolume(std::string(decoded.message()));
+  }
+  session->EndWriting(Now());
+  if (!status.ok()) co_return done(std::move(status));
+  done(session->committed());
 }
 
 void DurableJobs::SenderGone(const std::string& tenant, const std::string& upload) {
@@ -196,34 +176,30 @@ void DurableJobs::SenderGone(const std::string& tenant, const std::string& uploa
   along->Cancel();
 }
 
-void DurableJobs::GetUpload(const std::string& tenant, const std::string& upload,
-                            Done<UploadInfo> done) {
-  Read<UploadInfo>(
-      [this, tenant, upload](JobStore& store) -> absl::StatusOr<UploadInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
-        // Who asks may go on here with what another server has taken over meanwhile.
-        const Session session = uploads_.Find(tenant, upload);
-        if (session != nullptr && session->row().file != row.file) {
-          uploads_.RemoveFile(session->row());
-        }
-        return InfoOf(row);
-      },
-      std::move(done));
+Flow DurableJobs::GetUpload(std::string tenant, std::string upload, Done<UploadInfo> done) {
+  const auto read = [&](JobStore& store) -> absl::StatusOr<UploadInfo> {
+    BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
+    // Who asks may go on here with what another server has taken over meanwhile.
+    const Session session = uploads_.Find(tenant, upload);
+    if (session != nullptr && session->row().file != row.file) uploads_.RemoveFile(session->row());
+    return InfoOf(row);
+  };
+  done(co_await Read<UploadInfo>(read));
 }
 
 void DurableJobs::DeleteUpload(const std::string& tenant, const std::string& upload,
                                DoneStatus done) {
-  EndUpload(tenant, upload, JobState::kCancelled, absl::OkStatus(), Track(std::move(done)));
+  EndUpload(tenant, upload, JobState::kCancelled, absl::OkStatus(), std::move(done));
 }
 
 void DurableJobs::EndUpload(const std::string& tenant, const std::string& upload, JobState state,
-                            const absl::Status& error, std::function<void(absl::Status)> then) {
+                            const absl::Status& error, DoneStatus done) {
   Erase(
       [this, tenant, upload, state, error](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
         return EraseUpload(store, row, state, error, erased);
       },
-      std::move(then));
+      std::move(done));
 }
 
 absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, JobState state,
@@ -233,10 +209,9 @@ absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, Job
   if (!row.volume.empty()) return absl::OkStatus();
   erased.uploads.push_back(row);
   if (row.job.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job, store.Find<JobRow>(row.tenant, row.job));
+  BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.Find<JobRow>(row.tenant, row.job));
   if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(const auto event, journal_.Enter(store, *job, state, error));
-  erased.steps.push_back({.job = *job, .event = event});
+  BCCSKEL_ASSIGN_OR_RETURN(erased.steps.emplace_back(), journal_.Enter(store, *job, state, error));
   return absl::OkStatus();
 }
 

@@ -12,80 +12,72 @@ namespace bccskel::server {
 // An upload on its way to become a volume.
 struct DurableJobs::Finishing {
   Session session;
-  std::optional<Sha256Digest> expected;
   VolumeRow volume;
-  bool new_blob = true;        // nothing had these bytes before
-  std::shared_ptr<Run> along;  // that has decoded all of it
-  std::optional<Step> step;    // of the job that waits for it
-  Done<VolumeInfo> done;
+  bool new_blob = true;                     // nothing had these bytes before
+  std::shared_ptr<Run> along;               // that has decoded all of it
+  std::optional<Step> step = std::nullopt;  // of the job that waits for it
 };
 
-void DurableJobs::FinishUpload(const std::string& tenant, const std::string& upload,
-                               uint64_t size_bytes, std::optional<Sha256Digest> sha256,
-                               Done<VolumeInfo> done) {
-  done = Track(std::move(done));
-  const Session session = uploads_.Find(tenant, upload);
+Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t size_bytes,
+                               std::optional<Sha256Digest> sha256, Done<VolumeInfo> done) {
+  Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) {
-    return WithSession(tenant, upload,
-                       [this, tenant, upload, size_bytes, sha256,
-                        done = std::move(done)](const absl::StatusOr<Session>& found) {
-                         if (found.ok())
-                           return FinishUpload(tenant, upload, size_bytes, sha256, done);
-                         if (!absl::IsFailedPrecondition(found.status()))
-                           return done(found.status());
-                         FinishAgain(tenant, upload, done);
-                       });
+    const absl::StatusOr<Session> found = co_await SessionOf(tenant, upload);
+    if (absl::IsFailedPrecondition(found.status())) {
+      co_return done(co_await Read<VolumeInfo>(
+          [&](JobStore& store) { return VolumeOfUpload(store, tenant, upload); }));
+    }
+    if (!found.ok()) co_return done(found.status());
+    session = *found;
   }
   absl::Status status = session->BeginFinish(size_bytes);
-  if (!status.ok()) return Answer<VolumeInfo>(std::move(done), std::move(status));
-  const auto finishing = std::make_shared<Finishing>();
-  finishing->session = session;
-  finishing->expected = sha256;
-  finishing->done = std::move(done);
-  files_.Post({.tenant = tenant}, [this, finishing] { Seal(finishing); });
-}
-
-void DurableJobs::FinishAgain(const std::string& tenant, const std::string& upload,
-                              Done<VolumeInfo> done) {
-  Read<VolumeInfo>(
-      [this, tenant, upload](JobStore& store) -> absl::StatusOr<VolumeInfo> {
-        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
-        BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, store.Get<VolumeRow>(tenant, row.volume));
-        return InfoOf(volume);
-      },
-      std::move(done));
-}
-
-void DurableJobs::Seal(const std::shared_ptr<Finishing>& finishing) {
-  UploadSession& session = *finishing->session;
-  const absl::StatusOr<Sha256Digest> digest = session.file().Seal();
+  co_await ToFiles(tenant);
+  if (!status.ok()) co_return done(std::move(status));
+  const absl::StatusOr<Sha256Digest> digest = session->file().Seal();
   if (!digest.ok()) {
-    session.EndWriting(Now());
-    if (shared_ && absl::IsNotFound(digest.status())) {
-      return finishing->done(Superseded(finishing->session));
-    }
-    return finishing->done(digest.status());
+    session->EndWriting(Now());
+    const bool superseded = shared_ && absl::IsNotFound(digest.status());
+    co_return done(superseded ? Superseded(session) : digest.status());
   }
-  if (finishing->expected.has_value() && *finishing->expected != *digest) {
+  if (sha256.has_value() && *sha256 != *digest) {
     const absl::Status error =
         InvalidVolume(absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
-                                   ", the request states ", finishing->expected->Hex()));
-    return EndUpload(session.row().tenant, session.row().name, JobState::kFailed, error,
-                     [finishing, error](const absl::Status&) { finishing->done(error); });
+                                   ", the request states ", sha256->Hex()));
+    co_return EndUpload(tenant, upload, JobState::kFailed, error,
+                        [done, error](const absl::Status&) { done(error); });
   }
-  const UploadRow& row = session.row();
-  finishing->volume = {.tenant = row.tenant,
-                       .name = VolumeName(row.declaration, digest->Hex()),
-                       .declaration = row.declaration,
-                       .blob_digest = digest->Hex(),
-                       .volume_digest = {},
-                       .size_bytes = row.size_bytes,
-                       .created = Now(),
-                       .used = Now()};
-  finishing->along = session.TakeAlong();
-  loop_.Post(
-      [this, finishing](JobStore& store) { return StoreVolume(store, *finishing); },
-      [this, finishing](absl::Status status) { VolumeStored(*finishing, std::move(status)); });
+  Finishing finishing = {.session = session,
+                         .volume = NewVolume(session->row(), digest->Hex()),
+                         .along = session->TakeAlong()};
+  status = co_await Commit([&](JobStore& store) { return StoreVolume(store, finishing); });
+  if (!status.ok()) {
+    session->set_along(finishing.along);
+    session->EndWriting(Now());
+    co_return done(std::move(status));
+  }
+  VolumeStored(finishing);
+  done(InfoOf(finishing.volume));
+  Schedule();
+}
+
+// Who finishes again is told the same.
+absl::StatusOr<VolumeInfo> DurableJobs::VolumeOfUpload(JobStore& store, const std::string& tenant,
+                                                       const std::string& upload) const {
+  BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
+  BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, store.Get<VolumeRow>(tenant, row.volume));
+  return InfoOf(volume);
+}
+
+VolumeRow DurableJobs::NewVolume(const UploadRow& row, const std::string& digest) const {
+  const Time now = Now();
+  return {.tenant = row.tenant,
+          .name = VolumeName(row.declaration, digest),
+          .declaration = row.declaration,
+          .blob_digest = digest,
+          .volume_digest = {},
+          .size_bytes = row.size_bytes,
+          .created = now,
+          .used = now};
 }
 
 absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
@@ -114,8 +106,7 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
 
 absl::Status DurableJobs::StoreVolumeOfJob(JobStore& store, Finishing& finishing) {
   const UploadRow& upload = finishing.session->row();
-  BCCSKEL_ASSIGN_OR_RETURN(std::optional<JobRow> job,
-                           store.Find<JobRow>(upload.tenant, upload.job));
+  BCCSKEL_ASSIGN_OR_RETURN(auto job, store.Find<JobRow>(upload.tenant, upload.job));
   if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
   job->volume = finishing.volume.name;
   bool runs = active_.FindRun(finishing.along.get()) != nullptr;
@@ -125,58 +116,50 @@ absl::Status DurableJobs::StoreVolumeOfJob(JobStore& store, Finishing& finishing
         store.RunsElsewhere(*job, finishing.volume.volume_digest, journal_.owner()));
     runs = !elsewhere;
   }
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const auto event, journal_.Enter(store, *job, runs ? JobState::kRunning : JobState::kQueued));
-  finishing.step = Step{.job = *job, .event = event};
+  const JobState state = runs ? JobState::kRunning : JobState::kQueued;
+  BCCSKEL_ASSIGN_OR_RETURN(finishing.step, journal_.Enter(store, *std::move(job), state));
   return absl::OkStatus();
 }
 
-void DurableJobs::VolumeStored(Finishing& finishing, absl::Status status) {
-  UploadSession& session = *finishing.session;
-  if (!status.ok()) {
-    session.set_along(finishing.along);
-    session.EndWriting(Now());
-    return finishing.done(std::move(status));
-  }
-  DropSession(session.row());
-  if (!finishing.new_blob) quota_.GiveBack(session.row().tenant, session.row().size_bytes);
+void DurableJobs::VolumeStored(const Finishing& finishing) {
+  const UploadRow& upload = finishing.session->row();
+  DropSession(upload);
+  if (!finishing.new_blob) quota_.GiveBack(upload.tenant, upload.size_bytes);
   if (finishing.step.has_value()) Apply(*finishing.step);
   ActiveRun* const run = active_.FindRun(finishing.along.get());
-  const bool waits = finishing.step.has_value() && finishing.step->job.state == JobState::kQueued;
-  if (run != nullptr && !waits) {
+  const auto entered = [&finishing](JobState state) {
+    return finishing.step.has_value() && finishing.step->job.state == state;
+  };
+  if (run != nullptr && !entered(JobState::kQueued)) {
     run->volume = finishing.volume.name;
     finishing.along->FinishVolume();
-  } else if (finishing.step.has_value() && finishing.step->job.state == JobState::kRunning) {
+  } else if (entered(JobState::kRunning)) {
     // The run has ended while this was stored.
-    EnterState({finishing.step->job.number}, JobState::kQueued, absl::OkStatus(), 0, nullptr);
+    EnterState({finishing.step->job.number}, JobState::kQueued);
   }
-  finishing.done(InfoOf(finishing.volume));
-  Schedule();
 }
 
 VolumeInfo DurableJobs::InfoOf(const VolumeRow& row) const {
   return {row, row.used + options_.keep_volumes};
 }
 
-void DurableJobs::FindVolumes(const std::string& tenant, const std::vector<std::string>& digests,
+Flow DurableJobs::FindVolumes(std::string tenant, std::vector<std::string> digests,
                               Done<std::vector<VolumeInfo>> done) {
-  Read<std::vector<VolumeInfo>>(
-      [this, tenant, digests](JobStore& store) -> absl::StatusOr<std::vector<VolumeInfo>> {
-        std::vector<VolumeInfo> found;
-        for (const std::string& digest : digests) {
-          if (digest.empty()) continue;
-          BCCSKEL_ASSIGN_OR_RETURN(std::vector<VolumeRow> rows,
-                                   store.FindVolumesOf(tenant, digest));
-          for (VolumeRow& row : rows) {
-            if (!blobs_.HasBlob(row.tenant, row.blob_digest, row.size_bytes)) continue;
-            row.used = Now();
-            BCCSKEL_RETURN_IF_ERROR(store.PutVolume(row));
-            found.push_back(InfoOf(row));
-          }
-        }
-        return found;
-      },
-      std::move(done));
+  const auto read = [&](JobStore& store) -> absl::StatusOr<std::vector<VolumeInfo>> {
+    std::vector<VolumeInfo> found;
+    for (const std::string& digest : digests) {
+      if (digest.empty()) continue;
+      BCCSKEL_ASSIGN_OR_RETURN(std::vector<VolumeRow> rows, store.FindVolumesOf(tenant, digest));
+      for (VolumeRow& row : rows) {
+        if (!blobs_.HasBlob(row.tenant, row.blob_digest, row.size_bytes)) continue;
+        row.used = Now();
+        BCCSKEL_RETURN_IF_ERROR(store.PutVolume(row));
+        found.push_back(InfoOf(row));
+      }
+    }
+    return found;
+  };
+  done(co_await Read<std::vector<VolumeInfo>>(read));
 }
 
 void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& volume,
@@ -190,7 +173,7 @@ void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& vol
                          absl::StrCat(*user, " still needs ", volume, ": cancel it first"),
                          {.key = "job", .value = *user});
       },
-      Track(std::move(done)));
+      std::move(done));
 }
 
 absl::Status DurableJobs::EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased) {

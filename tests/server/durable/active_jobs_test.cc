@@ -18,11 +18,12 @@ using std::chrono::milliseconds, std::chrono::minutes, std::chrono::seconds;
 
 class EndCounter final : public RunObserver {
  public:
-  void OnRunVolume(std::shared_ptr<Run>, std::string) override {}
-  void OnRunProgress(std::shared_ptr<Run>) override {}
-  void OnRunEnd(std::shared_ptr<Run>, absl::StatusOr<JobResult>) override {
+  Flow OnRunVolume(std::shared_ptr<Run>, std::string) override { return {}; }
+  Flow OnRunProgress(std::shared_ptr<Run>) override { return {}; }
+  Flow OnRunEnd(std::shared_ptr<Run>, absl::StatusOr<JobResult>) override {
     ++ends_;
     ends_.notify_all();
+    return {};
   }
   void WaitForEnd() const { ends_.wait(0); }
 
