@@ -180,7 +180,7 @@ absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesReques
           absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kBlobDigestBytes));
     }
     keys.push_back(
-        {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
+        {key.declaration().SerializeAsString(), absl::BytesToHexString(key.blob_sha256())});
   }
   return keys;
 }

@@ -41,7 +41,7 @@ absl::Status DurableSession::Begin(const v1::SkeletonizeConfig& config) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string options,
                            OptionsBytes(config.options(), config.thin_volume_return()));
   NewUpload upload;
-  upload.declaration = DeclarationBytes(config.volume());
+  upload.declaration = config.volume().SerializeAsString();
   upload.then_job = {
       .options = options, .threads = config.threads(), .trace = call_->facts().trace};
   durable_jobs_.CreateUpload(
@@ -94,16 +94,16 @@ void DurableSession::Finish(const v1::VolumeFinish& finish) {
   }
   durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
                              Then([](DurableSession& it, const VolumeInfo&) {
-                               it.Watch();
+                               it.WatchJob();
                                it.call_->ReadNext();  // sees requests that must not come
                              }));
 }
 
-void DurableSession::Watch() {
-  std::unique_ptr<WatchHandle> handle =
-      durable_jobs_.WatchJob(tenant(), job_, 0, shared_from_this());
+void DurableSession::WatchJob() {
+  auto watch = durable_jobs_.WatchJob(tenant(), job_, 0, shared_from_this());
   std::lock_guard lock(mutex_);
-  if (!closed_) handle_ = std::move(handle);
+  if (closed_) return watch->Stop();
+  watch_ = std::move(watch);
 }
 
 void DurableSession::OnEvent(const JobEvent& event) {
@@ -181,10 +181,9 @@ void DurableSession::LeaveJob() {
 }
 
 void DurableSession::Close() {
-  std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
   std::lock_guard lock(mutex_);
   closed_ = true;
-  handle = std::move(handle_);
+  if (const auto watch = std::move(watch_)) watch->Stop();
 }
 
 }  // namespace bccskel::server

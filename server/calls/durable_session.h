@@ -53,7 +53,7 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
 
  private:
   void Opened(const UploadInfo& upload);
-  void Watch();
+  void WatchJob();
   void OpenResult();
   absl::Status TakePiece(ResultRecord record);
   // What DurableJobs calls: `next` with the value, or the end of the call.
@@ -83,7 +83,7 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   bool taken_over_ = false;   // by another stream, which goes on with the job
   bool left_ = false;         // the call has failed
   bool closed_ = false;       // and gRPC is done with it
-  std::unique_ptr<WatchHandle> handle_;
+  std::shared_ptr<Watch> watch_;
 };
 
 }  // namespace bccskel::server

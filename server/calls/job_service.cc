@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bccskel/v1/job_service.grpc.pb.h"
+#include "core/exec/status_macros.h"
 #include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/services.h"
@@ -40,16 +41,13 @@ class JobService final : public v1::JobService::CallbackService {
   grpc::ServerUnaryReactor* CreateJob(Context* context, const v1::CreateJobRequest* request,
                                       v1::CreateJobResponse* response) override {
     const std::string& volume = request->volume();
-    return ServeUnary(*context, gate_.EnterDurable(*context, kCreateJob, {"volume", volume}),
-                      volume, [&](const DurableCall& call, const UnaryEnd& end) {
-                        absl::StatusOr<NewJob> job = NewJobOf(*request);
-                        if (!job.ok()) {
-                          end(job.status());
-                          return;
-                        }
-                        job->trace = call.facts.trace;
-                        call.durable_jobs.CreateJob(call.tenant(), *job, AnswerJob(response)(end));
-                      });
+    const auto read = [&](const DurableCall& call) -> absl::StatusOr<NewJob> {
+      BCCSKEL_ASSIGN_OR_RETURN(NewJob job, NewJobOf(*request));
+      job.trace = call.facts.trace;
+      return job;
+    };
+    return AskDurable(*context, gate_.EnterDurable(*context, kCreateJob, {"volume", volume}),
+                      volume, read, &DurableJobs::CreateJob, AnswerJob(response));
   }
   grpc::ServerUnaryReactor* GetJob(Context* context, const v1::GetJobRequest* request,
                                    v1::GetJobResponse* response) override {
@@ -58,20 +56,13 @@ class JobService final : public v1::JobService::CallbackService {
   }
   grpc::ServerUnaryReactor* ListJobs(Context* context, const v1::ListJobsRequest* request,
                                      v1::ListJobsResponse* response) override {
-    return ServeUnary(*context, gate_.EnterDurable(*context, kListJobs), std::string(),
-                      [&](const DurableCall& call, const UnaryEnd& end) {
-                        const absl::StatusOr<JobQuery> query = QueryOf(*request);
-                        if (!query.ok()) {
-                          end(query.status());
-                          return;
-                        }
-                        call.durable_jobs.ListJobs(call.tenant(), *query,
-                                                   Answer(end, [response](const JobPage& page) {
-                                                     for (const JobInfo& job : page.jobs)
-                                                       *response->add_jobs() = ToMessage(job);
-                                                     response->set_next_page_token(page.next_token);
-                                                   }));
-                      });
+    return AskDurable(
+        *context, gate_.EnterDurable(*context, kListJobs), std::string(),
+        [&](const DurableCall&) { return QueryOf(*request); }, &DurableJobs::ListJobs,
+        Answer([response](const JobPage& page) {
+          for (const JobInfo& job : page.jobs) *response->add_jobs() = ToMessage(job);
+          response->set_next_page_token(page.next_token);
+        }));
   }
   grpc::ServerUnaryReactor* CancelJob(Context* context, const v1::CancelJobRequest* request,
                                       v1::CancelJobResponse* response) override {

@@ -30,10 +30,6 @@ absl::Status MessageCodec::WriteResult(const JobResult& result, const RecordSink
   return absl::OkStatus();
 }
 
-std::string DeclarationBytes(const v1::VolumeDeclaration& declaration) {
-  return declaration.SerializeAsString();
-}
-
 absl::StatusOr<std::string> OptionsBytes(const v1::SkeletonizeOptions& options,
                                          v1::ThinVolumeReturn thin_volume_return) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeOptions meant, wire::FromMessage(options, "options"));

@@ -24,8 +24,6 @@ class MessageCodec final : public JobCodec {
   const VolumeLimits limits_;
 };
 
-std::string DeclarationBytes(const v1::VolumeDeclaration& declaration);
-
 // Canonical: options that mean the same give the same bytes.
 // Errors: INVALID_ARGUMENT with the field.
 absl::StatusOr<std::string> OptionsBytes(const v1::SkeletonizeOptions& options,

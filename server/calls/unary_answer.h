@@ -40,13 +40,15 @@ class UnaryEnd {
   std::string subject_;
 };
 
-// What DurableJobs calls when a unary call can be answered: `fill` puts the value into the
-// response.
+// What DurableJobs calls when a unary call can be answered, made of the call's end: `fill` puts the
+// value into the response.
 template <typename Fill>
-auto Answer(const UnaryEnd& end, Fill fill) {
-  return [end, fill = std::move(fill)](auto value) {
-    if (value.ok()) fill(*value);
-    end(StorageError(value.status()));
+auto Answer(Fill fill) {
+  return [fill = std::move(fill)](const UnaryEnd& end) {
+    return [end, fill](auto value) {
+      if (value.ok()) fill(*value);
+      end(StorageError(value.status()));
+    };
   };
 }
 
@@ -55,28 +57,28 @@ inline auto AnswerNothing(const UnaryEnd& end) {
   return [end](const absl::Status& status) { end(StorageError(status)); };
 }
 
-// A unary call that was let in, or why it was not. `serve` takes the call and its end, which it
-// calls, or has called, once.
-template <typename Serve>
-grpc::ServerUnaryReactor* ServeUnary(grpc::CallbackServerContext& context,
+// A unary call that was let in, or why it was not: `ask`, a function of DurableJobs, is given what
+// `read` finds in the request, unless that is an error, and what `answer` makes of the call's end.
+template <typename Read, typename Ask, typename Answer>
+grpc::ServerUnaryReactor* AskDurable(grpc::CallbackServerContext& context,
                                      const absl::StatusOr<DurableCall>& call,
-                                     const std::string& subject, Serve serve) {
+                                     const std::string& subject, Read read, Ask ask,
+                                     Answer answer) {
   if (!call.ok()) return EndUnary(context, call.status());
   const UnaryEnd end(context, call->facts, subject);
-  serve(*call, end);
+  auto request = read(*call);
+  if (!request.ok()) return end(request.status());
+  (call->durable_jobs.*ask)(call->tenant(), *std::move(request), answer(end));
   return end.reactor();
 }
-
-// The same for what `ask`, a function of DurableJobs, does with the named thing. `answer` makes of
-// the call's end what DurableJobs calls.
+// The same for requests that are nothing but a name.
 template <typename Ask, typename Answer>
 grpc::ServerUnaryReactor* AskDurable(const CallGate& gate, grpc::CallbackServerContext& context,
                                      const Method& method, const CallGate::Name& name, Ask ask,
                                      Answer answer) {
-  return ServeUnary(context, gate.EnterDurable(context, method, name), name.name,
-                    [&](const DurableCall& call, const UnaryEnd& end) {
-                      (call.durable_jobs.*ask)(call.tenant(), name.name, answer(end));
-                    });
+  const auto read = [&](const DurableCall&) { return absl::StatusOr<std::string>(name.name); };
+  return AskDurable(context, gate.EnterDurable(context, method, name), name.name, read, ask,
+                    answer);
 }
 
 }  // namespace bccskel::server

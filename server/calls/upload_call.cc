@@ -16,14 +16,6 @@
 namespace bccskel::server {
 namespace {
 
-absl::Status CheckVolumeBytes(uint64_t bytes, const JobPool::Limits& limits) {
-  if (bytes <= limits.max_volume_bytes) return absl::OkStatus();
-  return CallError(Reason::kVolumeTooLarge,
-                   absl::StrCat("the declared volume has ", bytes, " bytes, the limit is ",
-                                limits.max_volume_bytes),
-                   {.quota = "max_volume_bytes"});
-}
-
 using UploadBase = ReceivingCall<StreamCall<grpc::ServerReadReactor<v1::UploadVolumeRequest>>,
                                  v1::UploadVolumeRequest>;
 
@@ -106,9 +98,9 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
     v1::SkeletonizeConfig whole;
     *whole.mutable_volume() = config.volume();
     BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, limits_.volume).status());
-    BCCSKEL_RETURN_IF_ERROR(CheckVolumeBytes(config.volume().size_bytes(), limits_));
+    BCCSKEL_RETURN_IF_ERROR(limits_.CheckVolumeBytes(config.volume().size_bytes()));
     upload_ = config.upload();
-    declaration_ = DeclarationBytes(config.volume());
+    declaration_ = config.volume().SerializeAsString();
     {
       std::lock_guard lock(mutex_);
       subject_ = upload_;

@@ -38,11 +38,9 @@ class VolumeService final : public v1::VolumeService::CallbackService {
                                             const v1::GetUploadStatusRequest* request,
                                             v1::GetUploadStatusResponse* response) override {
     return AskDurable(gate_, *context, kGetUploadStatus, {"upload", request->upload()},
-                      &DurableJobs::GetUpload, [response](const UnaryEnd& end) {
-                        return Answer(end, [response](const UploadInfo& upload) {
-                          *response->mutable_upload() = ToMessage(upload);
-                        });
-                      });
+                      &DurableJobs::GetUpload, Answer([response](const UploadInfo& upload) {
+                        *response->mutable_upload() = ToMessage(upload);
+                      }));
   }
   grpc::ServerUnaryReactor* DeleteUpload(Context* context, const v1::DeleteUploadRequest* request,
                                          v1::DeleteUploadResponse*) override {
@@ -52,23 +50,18 @@ class VolumeService final : public v1::VolumeService::CallbackService {
   grpc::ServerUnaryReactor* FindMissingVolumes(Context* context,
                                                const v1::FindMissingVolumesRequest* request,
                                                v1::FindMissingVolumesResponse* response) override {
-    return ServeUnary(*context, gate_.EnterDurable(*context, kFindMissingVolumes), std::string(),
-                      [&](const DurableCall& call, const UnaryEnd& end) {
-                        absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
-                        if (!keys.ok()) {
-                          end(keys.status());
-                          return;
-                        }
-                        std::vector<std::string> digests;
-                        for (const StoredKey& key : *keys) digests.push_back(key.digest);
-                        call.durable_jobs.FindVolumes(
-                            call.tenant(), digests,
-                            Answer(end, [response, keys = *std::move(keys)](
-                                            const std::vector<VolumeInfo>& found) {
-                              for (const StoredKey& key : keys)
-                                response->add_volumes(NameOf(key, found));
-                            }));
-                      });
+    const absl::StatusOr<std::vector<StoredKey>> keys = KeysOf(*request);
+    const auto read = [&](const DurableCall&) -> absl::StatusOr<std::vector<std::string>> {
+      if (!keys.ok()) return keys.status();
+      std::vector<std::string> digests;
+      for (const StoredKey& key : *keys) digests.push_back(key.digest);
+      return digests;
+    };
+    const auto fill = [response, keys](const std::vector<VolumeInfo>& found) {
+      for (const StoredKey& key : *keys) response->add_volumes(NameOf(key, found));
+    };
+    return AskDurable(*context, gate_.EnterDurable(*context, kFindMissingVolumes), std::string(),
+                      read, &DurableJobs::FindVolumes, Answer(fill));
   }
   grpc::ServerUnaryReactor* DeleteVolume(Context* context, const v1::DeleteVolumeRequest* request,
                                          v1::DeleteVolumeResponse*) override {

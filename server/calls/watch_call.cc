@@ -31,10 +31,9 @@ class WatchCall final : public WatchBase, public JobWatcher {
 
   void Begin() {
     Open();
-    std::unique_ptr<WatchHandle> handle =
-        durable_jobs_.WatchJob(facts_.tenant, subject_, events_.sequence(), Self());
+    auto watch = durable_jobs_.WatchJob(facts_.tenant, subject_, events_.sequence(), Self());
     std::lock_guard lock(mutex_);
-    handle_ = std::move(handle);
+    watch_ = std::move(watch);
     AwaitSilence();
   }
   void OnEvent(const JobEvent& event) override {
@@ -64,9 +63,8 @@ class WatchCall final : public WatchBase, public JobWatcher {
     if (finished_) silence_ = nullptr;
   }
   void Closed() override {
-    std::unique_ptr<WatchHandle> handle;  // let go of without the lock: it waits for OnEvent()
     std::lock_guard lock(mutex_);
-    handle = std::move(handle_);
+    if (const auto watch = std::move(watch_)) watch->Stop();
   }
 
   void AwaitSilence() {
@@ -89,7 +87,7 @@ class WatchCall final : public WatchBase, public JobWatcher {
   }
 
   DurableJobs& durable_jobs_;
-  std::unique_ptr<WatchHandle> handle_;   // guarded by mutex_, as what follows
+  std::shared_ptr<Watch> watch_;          // guarded by mutex_, as what follows
   std::unique_ptr<grpc::Alarm> silence_;  // null once the call has finished
   EventQueue events_;
   Clock::time_point written_ = Clock::now();

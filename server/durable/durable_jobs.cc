@@ -219,9 +219,7 @@ void DurableJobs::Apply(const Erased& erased) {
     DropSession(row);
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
-  for (const ResultRow& row : erased.results) {
-    if (!row.file.empty()) RemoveResult(row, blobs_, quota_);
-  }
+  for (const ResultRow& row : erased.results) RemoveResult(row, blobs_, quota_);
   // Others may store the same bytes again at any time, but for the time of a transaction: then the
   // files go with those that were to be removed.
   for (const VolumeRow& row : shared_ ? std::vector<VolumeRow>() : erased.blobs) {
@@ -246,21 +244,9 @@ void DurableJobs::Apply(const Erased& erased) {
 Flow DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
                         DoneStatus done) {
   Erased erased;
-  const auto erase = [&](JobStore& store) -> absl::Status {
-    using Kind = RemovalRow::Kind;
+  const auto erase = [&](JobStore& store) {
     erased = {};
-    BCCSKEL_RETURN_IF_ERROR(change(store, erased));
-    for (const UploadRow& row : erased.uploads) {
-      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(row)));
-    }
-    for (const VolumeRow& row : erased.blobs) {
-      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kBlob, row.tenant, row.blob_digest}));
-    }
-    for (const ResultRow& row : erased.results) {
-      if (row.file.empty()) continue;
-      BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval({Kind::kResult, row.tenant, row.file}));
-    }
-    return absl::OkStatus();
+    return change(store, erased);
   };
   absl::Status status = co_await Commit(erase, GroupCommit::Room::kReserve);
   if (status.ok()) Apply(erased);

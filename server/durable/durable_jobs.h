@@ -25,7 +25,6 @@
 #include "server/durable/folder_files.h"
 #include "server/durable/job_codec.h"
 #include "server/durable/job_journal.h"
-#include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/durable/run.h"
 #include "server/durable/stored_result.h"
@@ -75,7 +74,7 @@ class DurableJobs final : public RunObserver {
                                                            JobRunner& runner,
                                                            const JobCodec& codec);
   // Stops: running jobs go back to the queue, without an attempt lost; watches end. Waits for what
-  // is under way. Needs: no call any more, readers and handles of watches included.
+  // is under way. Needs: no call any more, readers included.
   ~DurableJobs() override;
 
   // New uploads and jobs are refused as kDraining; no further job begins to run.
@@ -131,10 +130,9 @@ class DurableJobs final : public RunObserver {
   // Erases the job, its upload if unfinished, and its result unless another job has the same. A job
   // that has not ended is cancelled first.
   void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done);
-  // Events after `after_sequence`, and the end in any case; 0 for all.
-  std::unique_ptr<WatchHandle> WatchJob(const std::string& tenant, const std::string& job,
-                                        uint64_t after_sequence,
-                                        std::shared_ptr<JobWatcher> watcher);
+  // Events after `after_sequence`, and the end in any case; 0 for all. Until the watch is stopped.
+  std::shared_ptr<Watch> WatchJob(const std::string& tenant, const std::string& job,
+                                  uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher);
   // Errors: FAILED_PRECONDITION for a job that has not succeeded; OUT_OF_RANGE for a record beyond
   //         the end (the number of records itself is fine); DATA_LOSS for a damaged file.
   Flow OpenResult(std::string tenant, std::string job, uint64_t first_record,
@@ -308,6 +306,8 @@ class DurableJobs final : public RunObserver {
   Flow ClaimAgain(Claiming claiming);
   void Claimed(const Claiming& claiming);
   Flow Feed(std::shared_ptr<Run> run, VolumeRow volume);
+  // The bytes of its volume, where they came from a file. On the loop.
+  Flow CheckBlobOf(std::shared_ptr<Run> run, DoneStatus done);
   void RunComputed(Run* run);
   Flow StoreResult(std::shared_ptr<Run> run, ResultRow row);
   // Yields whether the file is needless: nobody wants it, or an equal one was there.

@@ -1,14 +1,43 @@
 #ifndef BCCSKEL_SERVER_DURABLE_FLOW_H_
 #define BCCSKEL_SERVER_DURABLE_FLOW_H_
 
+#include <condition_variable>
 #include <coroutine>
 #include <exception>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
-#include "server/durable/operations.h"
-
 namespace bccskel::server {
+
+// Counts what is under way, so that its owner can wait for it.
+// Threads: safe.
+class Operations {
+ public:
+  using Token = std::shared_ptr<void>;
+
+  // Under way until the last copy is gone.
+  Token Begin() {
+    std::lock_guard lock(mutex_);
+    ++count_;
+    return Token(this, [](Operations* self) { self->End(); });
+  }
+  void WaitForAll() {
+    std::unique_lock lock(mutex_);
+    none_.wait(lock, [this] { return count_ == 0; });
+  }
+
+ private:
+  void End() {
+    std::lock_guard lock(mutex_);
+    if (--count_ == 0) none_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable none_;
+  int count_ = 0;  // guarded by mutex_
+};
 
 // What a coroutine returns that is written from front to end and waits in between. It begins on its
 // caller's thread and goes on on the thread that brings what it waits for. Nobody waits for its

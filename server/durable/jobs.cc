@@ -261,16 +261,17 @@ absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& e
   BCCSKEL_RETURN_IF_ERROR(store.DeleteJob(job.number));
   if (job.result == 0) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.TakeResultIfUnused(job.result));
-  if (result.has_value()) erased.results.push_back(*result);
-  return absl::OkStatus();
+  if (!result.has_value() || result->file.empty()) return absl::OkStatus();
+  erased.results.push_back(*result);
+  return store.InsertRemoval({RemovalRow::Kind::kResult, result->tenant, result->file});
 }
 
-std::unique_ptr<WatchHandle> DurableJobs::WatchJob(const std::string& tenant,
-                                                   const std::string& job, uint64_t after_sequence,
-                                                   std::shared_ptr<JobWatcher> watcher) {
+std::shared_ptr<Watch> DurableJobs::WatchJob(const std::string& tenant, const std::string& job,
+                                             uint64_t after_sequence,
+                                             std::shared_ptr<JobWatcher> watcher) {
   const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
   BeginWatch(tenant, job, after_sequence, watch);
-  return std::make_unique<WatchHandle>(watch);
+  return watch;
 }
 
 Flow DurableJobs::BeginWatch(std::string tenant, std::string job, uint64_t after_sequence,

@@ -136,6 +136,11 @@ Flow DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
   }
   result = absl::CancelledError();  // its memory is admitted until here
   co_await ToLoop();
+  if (absl::IsInvalidArgument(row.status())) {  // bytes that do not decode may be damaged
+    const absl::Status whole =
+        co_await Await<absl::Status>([&](auto resume) { CheckBlobOf(run, resume); });
+    if (!whole.ok()) row = whole;
+  }
   ActiveRun* const found = active_.FindOpen(run.get());
   if (found == nullptr) {
     if (row.ok()) RemoveResult(*row, blobs_, quota_);
@@ -144,6 +149,18 @@ Flow DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
   found->ending = true;
   if (!row.ok()) co_return RunFailed(run.get(), row.status());
   StoreResult(run, *std::move(row));
+}
+
+Flow DurableJobs::CheckBlobOf(std::shared_ptr<Run> run, DoneStatus done) {
+  const ActiveRun* const found = active_.FindOpen(run.get());
+  if (found == nullptr || found->source == ActiveRun::Source::kUpload) co_return done({});
+  const auto volume = loop_.store().Find<VolumeRow>(run->tenant(), found->volume);
+  if (!volume.ok() || !volume->has_value()) co_return done(volume.status());
+  co_await ToFiles(run->tenant());
+  auto file = CheckedFile::Open(blobs_.PathOf(**volume), (*volume)->blob_digest);
+  const absl::Status whole = file.ok() ? file->ReadRest() : file.status();
+  co_await ToLoop();
+  done(whole);
 }
 
 void DurableJobs::RunComputed(Run* run) {

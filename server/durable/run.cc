@@ -32,20 +32,6 @@ void Run::Append(std::string bytes, std::function<void(absl::Status)> room) {
 
 void Run::FinishVolume() { job_->FinishVolume(std::nullopt); }
 
-void Run::Feed(CheckedFile file, TaskThreads& threads) {
-  file_ = std::move(file);
-  threads_ = &threads;
-  OnBytesConsumed();
-}
-
-void Run::FeedNext() {
-  absl::StatusOr<std::string> bytes = file_->Next();
-  if (!bytes.ok()) return Fail(std::move(bytes).status());
-  if (!bytes->empty()) return job_->Append(*std::move(bytes));
-  file_.reset();
-  job_->FinishVolume(std::nullopt);
-}
-
 void Run::Cancel() {
   cancelled_ = true;
   job_->Cancel();
@@ -61,10 +47,6 @@ void Run::OnBytesConsumed() {
   std::function<void(absl::Status)> room;
   {
     std::lock_guard lock(mutex_);
-    if (ended_) return;  // whoever made the threads may be gone
-    if (threads_ != nullptr) {
-      return threads_->Post({.tenant = tenant_}, [self = shared_from_this()] { self->FeedNext(); });
-    }
     room = std::exchange(room_, nullptr);
   }
   if (room) room(absl::OkStatus());
@@ -86,20 +68,6 @@ void Run::OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds 
 }
 
 void Run::OnEnd(absl::StatusOr<JobResult> result) {
-  const bool may_be_damage = absl::IsInvalidArgument(result.status()) && file_.has_value();
-  if (!may_be_damage) return End(std::move(result));
-  threads_->Post(
-      {.tenant = tenant_},
-      [self = shared_from_this(), error = std::move(result).status()] { self->CheckRest(error); });
-}
-
-void Run::CheckRest(const absl::Status& error) {
-  absl::StatusOr<std::string> bytes = file_->Next();
-  while (bytes.ok() && !bytes->empty()) bytes = file_->Next();
-  End(bytes.ok() ? error : bytes.status());
-}
-
-void Run::End(absl::StatusOr<JobResult> result) {
   std::function<void(absl::Status)> room;
   bool unannounced = false;
   {

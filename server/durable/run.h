@@ -12,11 +12,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "server/durable/flow.h"
-#include "server/durable/operations.h"
 #include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
-#include "server/jobs/task_threads.h"
-#include "server/store/file_io.h"
 
 namespace bccskel::server {
 
@@ -47,14 +44,10 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   // Asks the runner for a place. Errors: the runner's; then the run is of no further use.
   absl::Status Start(JobRunner& runner, JobRequest request);
 
-  // From an upload: the next bytes. `room` is called when they are decoded, or with the error with
-  // which the run ended. Needs: `room` of the bytes before was called.
+  // The next bytes. `room` is called when they are decoded, or with the error with which the run
+  // ended. Needs: `room` of the bytes before was called.
   void Append(std::string bytes, std::function<void(absl::Status)> room);
   void FinishVolume();
-
-  // From a file, which is read on `threads`. A damaged file ends the run with DATA_LOSS, also where
-  // its bytes do not decode.
-  void Feed(CheckedFile file, TaskThreads& threads);
 
   // Ends the run soon; OnRunEnd() comes all the same.
   void Cancel();
@@ -71,17 +64,11 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   void OnEnd(absl::StatusOr<JobResult> result) override;
 
  private:
-  void FeedNext();
-  void CheckRest(const absl::Status& error);
-  void End(absl::StatusOr<JobResult> result);
-
   RunObserver& observer_;
   const std::string tenant_;
   const Operations::Token operation_;
   std::shared_ptr<Job> job_;  // set by Start()
   std::atomic<bool> cancelled_{false};
-  TaskThreads* threads_ = nullptr;   // set by Feed()
-  std::optional<CheckedFile> file_;  // until it is found whole; used by one task at a time
 
   std::mutex mutex_;
   bool ended_ = false;                             // guarded by mutex_

@@ -207,10 +207,17 @@ Flow DurableJobs::Feed(std::shared_ptr<Run> run, VolumeRow volume) {
   if (found == nullptr) co_return;  // nobody wants it any more
   found->fed = RunPace::Clock::now();
   co_await ToFiles(volume.tenant);
-  absl::StatusOr<CheckedFile> file =
-      CheckedFile::Open(blobs_.PathOfBlob(volume.tenant, volume.blob_digest), volume.blob_digest);
-  if (!file.ok()) co_return run->Fail(file.status());
-  run->Feed(*std::move(file), files_);
+  auto file = CheckedFile::Open(blobs_.PathOf(volume), volume.blob_digest);
+  absl::Status status = file.status();
+  while (status.ok()) {
+    absl::StatusOr<std::string> bytes = file->Next();
+    if (!bytes.ok()) co_return run->Fail(bytes.status());
+    if (bytes->empty()) co_return run->FinishVolume();
+    status =
+        co_await Await<absl::Status>([&](auto resume) { run->Append(*std::move(bytes), resume); });
+    co_await ToFiles(volume.tenant);
+  }
+  run->Fail(status);
 }
 
 absl::Status DurableJobs::StoreState(JobStore& store, int64_t number, JobState state,

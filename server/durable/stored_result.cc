@@ -11,58 +11,24 @@
 namespace bccskel::server {
 namespace {
 
-// Takes from the quota what the writer adds.
-class CountedWriter {
- public:
-  CountedWriter(ResultWriter writer, const std::string& tenant, DiskQuota& quota)
-      : writer_(std::move(writer)), tenant_(tenant), quota_(quota) {}
-  ~CountedWriter() { quota_.GiveBack(tenant_, taken_); }
-
-  absl::Status Add(const ResultRecord& record) {
-    BCCSKEL_RETURN_IF_ERROR(Take(record.bytes.size()));
-    if (record.kind == ResultRecord::Kind::kSummary) summary_ = record.bytes;
-    return writer_.Add(static_cast<uint8_t>(record.kind), record.bytes);
-  }
-
-  // The bytes stay counted.
-  absl::StatusOr<ResultRow> Finish() {
-    BCCSKEL_ASSIGN_OR_RETURN(const Sha256Digest digest, writer_.Finish());
-    const uint64_t bytes = writer_.bytes();
-    quota_.Count(tenant_, bytes);
-    return ResultRow{.tenant = tenant_,
-                     .key = {},
-                     .file = {},
-                     .file_digest = digest.Hex(),
-                     .bytes = bytes,
-                     .records = writer_.records(),
-                     .summary = summary_};
-  }
-
- private:
-  absl::Status Take(uint64_t bytes) {
-    BCCSKEL_RETURN_IF_ERROR(quota_.Take(tenant_, bytes));
-    taken_ += bytes;
-    return absl::OkStatus();
-  }
-
-  ResultWriter writer_;
-  const std::string tenant_;
-  DiskQuota& quota_;
-  uint64_t taken_ = 0;
-  std::string summary_;
-};
-
 absl::StatusOr<ResultRow> WriteFile(const JobResult& result, const Run& run,
                                     const std::string& file, const JobCodec& codec,
-                                    const BlobStore& blobs, DiskQuota& quota) {
-  BCCSKEL_ASSIGN_OR_RETURN(ResultWriter opened, blobs.NewResult(run.tenant(), file));
-  CountedWriter writer(std::move(opened), run.tenant(), quota);
-  const auto add = [&](const ResultRecord& record) {
-    return run.cancelled() ? absl::CancelledError("the run was cancelled") : writer.Add(record);
-  };
-  BCCSKEL_RETURN_IF_ERROR(codec.WriteResult(result, add));
-  BCCSKEL_ASSIGN_OR_RETURN(ResultRow row, writer.Finish());
-  row.file = file;
+                                    const BlobStore& blobs,
+                                    const std::function<absl::Status(uint64_t)>& take) {
+  ResultRow row = {
+      .tenant = run.tenant(), .key = {}, .file = file, .file_digest = {}, .summary = {}};
+  BCCSKEL_ASSIGN_OR_RETURN(ResultWriter writer, blobs.NewResult(row.tenant, file));
+  BCCSKEL_RETURN_IF_ERROR(
+      codec.WriteResult(result, [&](const ResultRecord& record) -> absl::Status {
+        if (run.cancelled()) return absl::CancelledError("the run was cancelled");
+        BCCSKEL_RETURN_IF_ERROR(take(record.bytes.size()));
+        if (record.kind == ResultRecord::Kind::kSummary) row.summary = record.bytes;
+        return writer.Add(static_cast<uint8_t>(record.kind), record.bytes);
+      }));
+  BCCSKEL_ASSIGN_OR_RETURN(const Sha256Digest digest, writer.Finish());
+  row.file_digest = digest.Hex();
+  row.bytes = writer.bytes();
+  row.records = writer.records();
   return row;
 }
 
@@ -72,7 +38,15 @@ absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
                                       const JobCodec& codec, const BlobStore& blobs,
                                       DiskQuota& quota) {
   const std::string file = RandomId();
-  absl::StatusOr<ResultRow> row = WriteFile(result, run, file, codec, blobs, quota);
+  uint64_t taken = 0;
+  const auto take = [&](uint64_t bytes) {
+    absl::Status status = quota.Take(run.tenant(), bytes);
+    if (status.ok()) taken += bytes;
+    return status;
+  };
+  absl::StatusOr<ResultRow> row = WriteFile(result, run, file, codec, blobs, take);
+  if (row.ok()) quota.Count(run.tenant(), row->bytes);
+  quota.GiveBack(run.tenant(), taken);
   if (!row.ok()) blobs.RemoveResult(run.tenant(), file).IgnoreError();
   return row;
 }

@@ -179,6 +179,8 @@ void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& vol
 absl::Status DurableJobs::EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased) {
   erased.traces = Erased::Traces::kErase;
   erased.blobs.push_back(row);  // unless another volume has the same bytes: seen at the end
+  BCCSKEL_RETURN_IF_ERROR(
+      store.InsertRemoval({RemovalRow::Kind::kBlob, row.tenant, row.blob_digest}));
   return store.DeleteVolume(row.tenant, row.name);
 }
 

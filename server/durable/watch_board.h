@@ -25,7 +25,7 @@ class JobWatcher {
   virtual void OnWatchEnd(const absl::Status& status) = 0;
 };
 
-// One watcher of one job. Threads: Stop() from any, the rest from DurableJobs'.
+// One watcher of one job. Threads: Stop() and over() from any, the rest from DurableJobs'.
 class Watch {
  public:
   Watch(uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher)
@@ -34,6 +34,7 @@ class Watch {
   // Leaves out what was told already, but for the end: no watch ends without it.
   void Tell(const JobEvent& event);
   void End(const absl::Status& status);
+  // No call of the watcher begins after that.
   void Stop() { stopped_ = true; }
   bool over() const { return stopped_ || watcher_ == nullptr; }
 
@@ -41,18 +42,6 @@ class Watch {
   uint64_t told_;                        // the last sequence
   std::shared_ptr<JobWatcher> watcher_;  // null once it was told the end
   std::atomic<bool> stopped_ = false;
-};
-
-// Ends a watch when it is destroyed: no call of the watcher begins after that.
-class WatchHandle {
- public:
-  explicit WatchHandle(std::shared_ptr<Watch> watch) : watch_(std::move(watch)) {}
-  ~WatchHandle() { watch_->Stop(); }
-  WatchHandle(const WatchHandle&) = delete;
-  WatchHandle& operator=(const WatchHandle&) = delete;
-
- private:
-  const std::shared_ptr<Watch> watch_;
 };
 
 // Who watches which unfinished job, and the newest progress of each.

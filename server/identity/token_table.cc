@@ -58,8 +58,6 @@ absl::StatusOr<std::string> NewToken() {
   return "bccskel_" + secret.Hex();
 }
 
-Sha256Digest DigestOfToken(std::string_view token) { return Sha256Of(token); }
-
 bool SameDigest(const Sha256Digest& a, const Sha256Digest& b) {
   return CRYPTO_memcmp(a.bytes.data(), b.bytes.data(), a.bytes.size()) == 0;
 }
@@ -145,7 +143,7 @@ absl::StatusOr<TokenTable> TokenTable::ReadFile(const std::string& path) {
 }
 
 std::optional<Caller> TokenTable::Find(std::string_view token) const {
-  const Sha256Digest digest = DigestOfToken(token);
+  const Sha256Digest digest = Sha256Of(token);
   const Entry* found = nullptr;
   for (const Entry& entry : entries_) {
     if (SameDigest(entry.digest, digest)) found = &entry;
@@ -154,7 +152,7 @@ std::optional<Caller> TokenTable::Find(std::string_view token) const {
 }
 
 std::string TokenLine(const std::string& tenant, std::string_view token) {
-  return tenant + " " + DigestOfToken(token).Hex();
+  return tenant + " " + Sha256Of(token).Hex();
 }
 
 }  // namespace bccskel::server

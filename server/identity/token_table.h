@@ -18,9 +18,6 @@ namespace bccskel::server {
 // Errors: UNAVAILABLE when the system gives none.
 absl::StatusOr<std::string> NewToken();
 
-// What is kept of a token. No salt and no slow hash: unlike a password, a token cannot be guessed.
-Sha256Digest DigestOfToken(std::string_view token);
-
 // Takes the same time wherever the two differ.
 bool SameDigest(const Sha256Digest& a, const Sha256Digest& b);
 
@@ -41,7 +38,8 @@ struct Caller {
 //   acme  60303ae22b998861...            # a second token of the same tenant
 //   ops   fd61a03af4f77d87...  admin     # may call the AdminService, too
 //
-// The second word is the SHA-256 of the token. A '#' begins a comment.
+// The second word is the SHA-256 of the token: no salt and no slow hash, for unlike a password, a
+// token cannot be guessed. A '#' begins a comment.
 class TokenTable {
  public:
   // Errors: INVALID_ARGUMENT with the line; the message holds no digest.

@@ -21,15 +21,15 @@ namespace {
 // slow decoder from holding up the others' uploads.
 constexpr int kDecoderThreads = 2;
 
-absl::Status CheckSize(uint64_t size_bytes, uint64_t max_volume_bytes) {
+}  // namespace
+
+absl::Status JobPool::Limits::CheckVolumeBytes(uint64_t size_bytes) const {
   if (size_bytes <= max_volume_bytes) return absl::OkStatus();
   return CallError(Reason::kVolumeTooLarge,
                    absl::StrFormat("the declared volume has %d bytes, the limit is %d", size_bytes,
                                    max_volume_bytes),
                    {.quota = "max_volume_bytes"});
 }
-
-}  // namespace
 
 JobPool::JobPool(const Limits& limits, JobObserver observer)
     : limits_(limits),
@@ -72,7 +72,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Launch(const JobWish& wish, uint64
                                                      TaskThreads& finishers,
                                                      std::shared_ptr<UploadListener> listener,
                                                      MakeWork make_work) {
-  BCCSKEL_RETURN_IF_ERROR(CheckSize(wish.size_bytes, limits_.max_volume_bytes));
+  BCCSKEL_RETURN_IF_ERROR(limits_.CheckVolumeBytes(wish.size_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket, admission_.Admit(wish.origin.tenant, bytes));
   observer_.on_admitted(wish.size_bytes);
   PoolJob::Facts facts = {RandomName("jobs"), wish.origin, wish.deadline, observer_};

@@ -36,6 +36,9 @@ class JobPool : public JobRunner {
     TenantTable tenants = {};
     DecodeInChildren decode_in_children = DecodeInChildren::kNothing;
     std::vector<std::string> child_command = ThisProgramAsChild();
+
+    // Errors: RESOURCE_EXHAUSTED for a volume over the limit.
+    absl::Status CheckVolumeBytes(uint64_t size_bytes) const;
   };
 
   explicit JobPool(const Limits& limits, JobObserver observer = {});

@@ -27,20 +27,6 @@ std::atomic<uint64_t> dropped_lines = 0;
 // Of the Logging that lives now.
 std::atomic<spdlog::logger*> current_logger = nullptr;
 
-spdlog::level::level_enum SpdlogLevel(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return spdlog::level::debug;
-    case LogLevel::kInfo:
-      return spdlog::level::info;
-    case LogLevel::kWarning:
-      return spdlog::level::warn;
-    case LogLevel::kError:
-      return spdlog::level::err;
-  }
-  return spdlog::level::info;
-}
-
 // Length of the UTF-8 sequence at the front of `text`, 0 when it is none.
 size_t SequenceLength(std::string_view text) {
   const auto byte = [text](size_t n) { return static_cast<unsigned char>(text[n]); };
@@ -164,7 +150,7 @@ Logging::~Logging() { current_logger = nullptr; }
 
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   spdlog::logger* const logger = current_logger;
-  const spdlog::level::level_enum spdlog_level = SpdlogLevel(level);
+  const spdlog::level::level_enum spdlog_level = static_cast<spdlog::level::level_enum>(level);
   if (logger == nullptr || !logger->should_log(spdlog_level)) return;
   std::string line = fmt::format("\"event\":{}", JsonString(event));
   for (const LogField& field : fields) {

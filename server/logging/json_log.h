@@ -13,7 +13,7 @@
 
 namespace bccskel::server {
 
-enum class LogLevel { kDebug, kInfo, kWarning, kError };
+enum class LogLevel { kDebug = 1, kInfo, kWarning, kError };  // numbered as in spdlog
 
 struct LogField {
   std::string_view name;

@@ -33,6 +33,7 @@ class BlobStore {
   std::string PathOfUpload(const std::string& tenant, const std::string& upload,
                            const std::string& file = {}) const;
   std::string PathOf(const UploadRow& row) const;
+  std::string PathOf(const VolumeRow& row) const { return PathOfBlob(row.tenant, row.blob_digest); }
   std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
   std::string PathOfResult(const std::string& tenant, const std::string& name) const;
   absl::StatusOr<std::set<std::string>> Files() const;

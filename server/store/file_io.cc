@@ -190,4 +190,10 @@ absl::StatusOr<std::string> CheckedFile::Next() {
                                           ", expected was ", digest_));
 }
 
+absl::Status CheckedFile::ReadRest() {
+  absl::StatusOr<std::string> bytes = Next();
+  while (bytes.ok() && !bytes->empty()) bytes = Next();
+  return bytes.status();
+}
+
 }  // namespace bccskel::server

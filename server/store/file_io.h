@@ -86,6 +86,8 @@ class CheckedFile {
   // Errors: DATA_LOSS for another digest; INTERNAL.
   absl::StatusOr<std::string> Next();
 
+  // Reads on to the end. Errors: as Next().
+  absl::Status ReadRest();
   // Rather than read on.
   File TakeFile() && { return std::move(file_); }
 

@@ -53,10 +53,7 @@ absl::StatusOr<Sha256Digest> ResultWriter::Finish() {
 
 absl::StatusOr<ResultFile> ResultFile::Open(const std::string& path, const std::string& digest) {
   BCCSKEL_ASSIGN_OR_RETURN(CheckedFile checked, CheckedFile::Open(path, digest));
-  while (true) {
-    BCCSKEL_ASSIGN_OR_RETURN(const std::string bytes, checked.Next());
-    if (bytes.empty()) break;
-  }
+  BCCSKEL_RETURN_IF_ERROR(checked.ReadRest());
   ResultFile result(std::move(checked).TakeFile());
   BCCSKEL_RETURN_IF_ERROR(result.ReadPositions());
   return result;

@@ -57,7 +57,7 @@ std::string CellDeclaration() {
   declaration.mutable_extent()->set_ny(1);
   declaration.mutable_extent()->set_nz(1);
   declaration.set_size_bytes(kCellBytes);
-  return DeclarationBytes(declaration);
+  return declaration.SerializeAsString();
 }
 
 std::string BeginCell(const std::string& name) {

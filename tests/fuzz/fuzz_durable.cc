@@ -68,7 +68,7 @@ class UploadCall {
     BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, kLimits).status());
     NewUpload wanted;
     wanted.name = config.upload();
-    wanted.declaration = DeclarationBytes(config.volume());
+    wanted.declaration = config.volume().SerializeAsString();
     BCCSKEL_ASSIGN_OR_RETURN(const UploadInfo upload, Upload(wanted));
     name_ = upload.name;
     ToMessage(upload);

@@ -33,7 +33,7 @@ TEST(TokenTable, FindsTheTenantOfATokenAndNothingForAnotherText) {
   for (const char* text : {"", "bccskel_secre", "bccskel_secret ", "acme"}) {
     EXPECT_FALSE(table.Find(text).has_value()) << text;
   }
-  EXPECT_FALSE(table.Find(DigestOfToken(kToken).Hex()).has_value()) << "the digest is no token";
+  EXPECT_FALSE(table.Find(Sha256Of(kToken).Hex()).has_value()) << "the digest is no token";
 }
 
 TEST(TokenTable, GrantsWhatAnyLineOfTheTenantSays) {

@@ -17,7 +17,7 @@ std::string Declaration(v1::VolumeEncoding encoding) {
     declaration.mutable_placement()->add_spacing(spacing);
   }
   declaration.set_size_bytes(64);
-  return DeclarationBytes(declaration);
+  return declaration.SerializeAsString();
 }
 
 // What a job for such a volume is remembered by.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/durable/operations.h"
+#include "server/durable/flow.h"
 #include "tests/server/durable/fake_runner.h"
 
 namespace bccskel::server {
