@@ -6,7 +6,6 @@
 #include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/requests.h"
-#include "server/calls/skeleton_responses.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -63,9 +62,7 @@ void DurableSession::Opened(const UploadInfo& upload) {
 void DurableSession::OnTurn(UploadWriters::Turn turn) {
   turn_ = std::move(turn);
   call_->Change([this] {
-    accepted_ = AcceptedFor(job_);
-    accepted_->set_durable(true);
-    accepted_->set_upload(upload_);
+    first_.Accept(job_, upload_);
     return Sending::kNow;
   });
   call_->ReadNext();
@@ -109,7 +106,7 @@ void DurableSession::WatchJob() {
 void DurableSession::OnEvent(const JobEvent& event) {
   if (const auto* progress = std::get_if<JobProgress>(&event.what)) {
     return call_->Change([&] {
-      progress_ = wire::ToMessage(progress->shell, progress->elapsed);
+      first_.Report(wire::ToMessage(progress->shell, progress->elapsed));
       return Sending::kNow;
     });
   }
@@ -154,16 +151,7 @@ absl::Status DurableSession::TakePiece(ResultRecord record) {
 }
 
 std::optional<v1::SkeletonizeResponse> DurableSession::Next() {
-  v1::SkeletonizeResponse response;
-  if (accepted_.has_value()) {
-    *response.mutable_accepted() = *std::exchange(accepted_, std::nullopt);
-    return response;
-  }
-  if (progress_.has_value()) {
-    *response.mutable_shell_progress() = *std::exchange(progress_, std::nullopt);
-    return response;
-  }
-  return std::exchange(piece_, std::nullopt);
+  return first_.HasFirst() ? first_.NextFirst() : std::exchange(piece_, std::nullopt);
 }
 
 void DurableSession::Leave(const absl::Status&) {

@@ -9,6 +9,7 @@
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "server/calls/session.h"
+#include "server/calls/skeleton_responses.h"
 #include "server/calls/upload_writers.h"
 #include "server/durable/durable_jobs.h"
 
@@ -73,8 +74,7 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   UploadWriters::Turn turn_;
   std::shared_ptr<ResultReader> reader_;
   // Guarded by the call's lock.
-  std::optional<v1::SkeletonizeAccepted> accepted_;
-  std::optional<v1::ShellProgress> progress_;
+  FirstOfSkeleton first_;
   std::optional<v1::SkeletonizeResponse> piece_;
 
   std::mutex mutex_;

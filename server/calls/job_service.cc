@@ -4,7 +4,6 @@
 
 #include "bccskel/v1/job_service.grpc.pb.h"
 #include "core/exec/status_macros.h"
-#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/services.h"
 #include "server/calls/unary_answer.h"

@@ -5,7 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/calls/durable_calls.h"
+#include "server/calls/services.h"
 #include "server/calls/skeleton_responses.h"
 #include "server/calls/stream_call.h"
 #include "server/errors/call_error.h"

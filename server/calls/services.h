@@ -6,7 +6,10 @@
 #include <functional>
 #include <memory>
 
+#include "absl/status/statusor.h"
 #include "bccskel/v1/admin_service.pb.h"
+#include "bccskel/v1/job_service.pb.h"
+#include "bccskel/v1/volume_service.pb.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/upload_writers.h"
 #include "server/durable/durable_options.h"
@@ -31,6 +34,17 @@ std::unique_ptr<grpc::Service> MakeServerService(const CallGate& gate,
 // `status` makes the answer at once. Threads: it must be safe.
 using StatusSource = std::function<v1::GetServerStatusResponse()>;
 std::unique_ptr<grpc::Service> MakeAdminService(const CallGate& gate, StatusSource status);
+
+// Handlers of their streams about what outlives the process. Each of them starts one. Needs: the
+// call's DurableJobs, and `writers`, outlive the call; gRPC keeps `response` for its length.
+grpc::ServerReadReactor<v1::UploadVolumeRequest>* StartUpload(absl::StatusOr<DurableCall> call,
+                                                              UploadWriters& writers,
+                                                              const JobPool::Limits& limits,
+                                                              v1::UploadVolumeResponse& response);
+grpc::ServerWriteReactor<v1::WatchJobResponse>* StartWatch(absl::StatusOr<DurableCall> call,
+                                                           const v1::WatchJobRequest& request);
+grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* StartRead(
+    absl::StatusOr<DurableCall> call, const v1::ReadSkeletonRequest& request);
 
 }  // namespace bccskel::server
 

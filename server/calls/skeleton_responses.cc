@@ -5,7 +5,6 @@
 #include "core/pipeline/algorithm_version.h"
 #include "proto/wire/duration.h"
 #include "proto/wire/result.h"
-#include "server/calls/request_sequence.h"
 
 namespace bccskel::server {
 namespace {
@@ -39,14 +38,6 @@ v1::LabelsSummary SummaryOf(const LabelsResult& result) {
 
 }  // namespace
 
-v1::SkeletonizeAccepted AcceptedFor(const std::string& job) {
-  v1::SkeletonizeAccepted accepted;
-  accepted.set_job(job);
-  accepted.set_durable(false);
-  accepted.set_max_chunk_bytes(kMaxChunkBytes);
-  return accepted;
-}
-
 std::optional<v1::SkeletonizeResponse> ResultPieces::Next() {
   if (at_end_) return std::nullopt;
   v1::SkeletonizeResponse response;
@@ -72,16 +63,9 @@ std::optional<v1::SkeletonizeResponse> ResultPieces::Next() {
 }
 
 std::optional<v1::SkeletonizeResponse> SkeletonResponses::Next() {
-  v1::SkeletonizeResponse response;
-  if (accepted_.has_value()) {
-    *response.mutable_accepted() = *std::exchange(accepted_, std::nullopt);
-    return response;
-  }
-  if (progress_.has_value()) {
-    *response.mutable_shell_progress() = *std::exchange(progress_, std::nullopt);
-    return response;
-  }
+  if (HasFirst()) return NextFirst();
   if (!shell_points_.empty()) {
+    v1::SkeletonizeResponse response;
     response.mutable_shell_points()->ParseFromString(shell_points_.front());
     shell_points_.pop_front();
     return response;
@@ -90,18 +74,11 @@ std::optional<v1::SkeletonizeResponse> SkeletonResponses::Next() {
 }
 
 std::optional<v1::SkeletonizeLabelsResponse> LabelResponses::Next() {
-  v1::SkeletonizeLabelsResponse response;
-  if (accepted_.has_value()) {
-    *response.mutable_accepted() = *std::exchange(accepted_, std::nullopt);
-    return response;
-  }
-  if (progress_.has_value()) {
-    *response.mutable_label_progress() = *std::exchange(progress_, std::nullopt);
-    return response;
-  }
+  if (HasFirst()) return NextFirst();
   if (!labels_.empty()) return NextOfLabel();
   if (!result_.has_value() || at_end_) return std::nullopt;
   at_end_ = true;
+  v1::SkeletonizeLabelsResponse response;
   *response.mutable_labels_summary() = SummaryOf(*result_);
   return response;
 }

@@ -13,13 +13,46 @@
 #include "absl/status/status.h"
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "proto/wire/skeleton_chunks.h"
+#include "server/calls/request_sequence.h"
 #include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
 
 namespace bccskel::server {
 
-// The first response of every call.
-v1::SkeletonizeAccepted AcceptedFor(const std::string& job);
+// What goes out on a stream before anything else: that the job was let in, and of its progress only
+// the latest.
+template <typename Response, typename Progress, Progress* (Response::*kProgress)()>
+class FirstResponses {
+ public:
+  // `upload`: of a durable job.
+  void Accept(const std::string& job, const std::string& upload = {}) {
+    v1::SkeletonizeAccepted& accepted = accepted_.emplace();
+    accepted.set_job(job);
+    accepted.set_durable(!upload.empty());
+    accepted.set_upload(upload);
+    accepted.set_max_chunk_bytes(kMaxChunkBytes);
+  }
+  void Report(Progress progress) { progress_ = std::move(progress); }
+
+  bool HasFirst() const { return accepted_.has_value() || progress_.has_value(); }
+  std::optional<Response> NextFirst() {
+    std::optional<Response> response;
+    if (accepted_.has_value()) {
+      *response.emplace().mutable_accepted() = *std::exchange(accepted_, std::nullopt);
+    } else if (progress_.has_value()) {
+      *(response.emplace().*kProgress)() = *std::exchange(progress_, std::nullopt);
+    }
+    return response;
+  }
+
+ private:
+  std::optional<v1::SkeletonizeAccepted> accepted_;
+  std::optional<Progress> progress_;
+};
+using FirstOfSkeleton = FirstResponses<v1::SkeletonizeResponse, v1::ShellProgress,
+                                       &v1::SkeletonizeResponse::mutable_shell_progress>;
+using FirstOfLabels = FirstResponses<v1::SkeletonizeLabelsResponse, v1::LabelProgress,
+                                     &v1::SkeletonizeLabelsResponse::mutable_label_progress>;
 
 // Cuts a result into pieces of at most 256 KiB, one at a time: chunks of the skeleton, then of the
 // thinned volume, then the summary.
@@ -40,13 +73,11 @@ class ResultPieces {
   bool at_end_ = false;
 };
 
-// What is still to be sent on a stream. Memory is bounded however slowly the caller reads: of the
-// progress only the latest is kept, points of shells wait in the memory that their job has reserved
-// for them, and a result is cut into responses one at a time.
-class SkeletonResponses {
+// What is still to be sent on a stream. Memory is bounded however slowly the caller reads: points
+// of shells wait in the memory that their job has reserved for them, and a result is cut into
+// responses one at a time.
+class SkeletonResponses : public FirstOfSkeleton {
  public:
-  void Accept(const std::string& job) { accepted_ = AcceptedFor(job); }
-  void Report(v1::ShellProgress progress) { progress_ = std::move(progress); }
   // A serialized v1.ShellPoints.
   void AddShellPoints(std::string points) { shell_points_.push_back(std::move(points)); }
   void Complete(JobResult result) {
@@ -60,25 +91,19 @@ class SkeletonResponses {
   bool AtEnd() const { return pieces_ != nullptr && pieces_->AtEnd(); }
   // Next() has another one at once.
   bool HasMore() const {
-    return accepted_.has_value() || progress_.has_value() || !shell_points_.empty() ||
-           (pieces_ != nullptr && !pieces_->AtEnd());
+    return HasFirst() || !shell_points_.empty() || (pieces_ != nullptr && !pieces_->AtEnd());
   }
 
  private:
-  std::optional<v1::SkeletonizeAccepted> accepted_;
-  std::optional<v1::ShellProgress> progress_;
   std::deque<std::string> shell_points_;
   std::unique_ptr<JobResult> result_;
   std::unique_ptr<ResultPieces> pieces_;  // of result_
 };
 
-// What is still to be sent on a stream of labels. Of the progress only the latest is kept; a label
-// is cut into responses one at a time and let go of with the last one. How many labels wait here is
-// bounded by their job.
-class LabelResponses {
+// What is still to be sent on a stream of labels. A label is cut into responses one at a time and
+// let go of with the last one. How many labels wait here is bounded by their job.
+class LabelResponses : public FirstOfLabels {
  public:
-  void Accept(const std::string& job) { accepted_ = AcceptedFor(job); }
-  void Report(v1::LabelProgress progress) { progress_ = std::move(progress); }
   void Add(LabelResult label) { labels_.push_back(std::move(label)); }
   // Needs: comes after the last Add().
   void Complete(LabelsResult result) { result_ = std::move(result); }
@@ -90,16 +115,13 @@ class LabelResponses {
   bool AtEnd() const { return at_end_; }
   // Next() has another one at once.
   bool HasMore() const {
-    return accepted_.has_value() || progress_.has_value() || !labels_.empty() ||
-           (result_.has_value() && !at_end_);
+    return HasFirst() || !labels_.empty() || (result_.has_value() && !at_end_);
   }
 
  private:
   v1::SkeletonizeLabelsResponse NextOfLabel();
   v1::SkeletonizeLabelsResponse TakeSummary();
 
-  std::optional<v1::SkeletonizeAccepted> accepted_;
-  std::optional<v1::LabelProgress> progress_;
   std::deque<LabelResult> labels_;
   std::optional<wire::SkeletonChunkPager> pager_;  // over the first of labels_, once begun
   std::optional<LabelsResult> result_;

@@ -6,10 +6,10 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
-#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/requests.h"
+#include "server/calls/services.h"
 #include "server/calls/stream_call.h"
 #include "server/errors/call_error.h"
 

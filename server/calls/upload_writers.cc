@@ -2,25 +2,13 @@
 
 namespace bccskel::server {
 
-UploadWriters::Turn& UploadWriters::Turn::operator=(Turn&& other) noexcept {
-  if (this == &other) return *this;
-  Release();
-  writers_ = std::exchange(other.writers_, nullptr);
-  key_ = std::move(other.key_);
-  return *this;
-}
-
-void UploadWriters::Turn::Release() {
-  if (UploadWriters* const writers = std::exchange(writers_, nullptr)) writers->GiveBack(key_);
-}
-
 void UploadWriters::Claim(const Key& key, const std::shared_ptr<Writer>& writer) {
   std::unique_lock lock(mutex_);
   const auto [place, free] = places_.try_emplace(key);
   if (free) {
     place->second.holder = writer;
     lock.unlock();
-    return writer->OnTurn(Turn(this, key));
+    return writer->OnTurn(TurnAt(key));
   }
   const std::shared_ptr<Writer> waited = std::exchange(place->second.next, writer);
   // A holder that has been told already, by the one that waited, is on its way out.
@@ -40,7 +28,7 @@ void UploadWriters::GiveBack(const Key& key) {
   }
   place->second.holder = next;
   lock.unlock();
-  next->OnTurn(Turn(this, key));
+  next->OnTurn(TurnAt(key));
 }
 
 }  // namespace bccskel::server

@@ -16,23 +16,7 @@ namespace bccskel::server {
 class UploadWriters {
  public:
   using Key = std::pair<std::string, std::string>;  // tenant, upload
-
-  // The right to write. Gives it back when destroyed; an empty turn holds nothing.
-  class Turn {
-   public:
-    Turn() = default;
-    ~Turn() { Release(); }
-    Turn(Turn&& other) noexcept { *this = std::move(other); }
-    Turn& operator=(Turn&& other) noexcept;
-
-   private:
-    friend class UploadWriters;
-    Turn(UploadWriters* writers, Key key) : writers_(writers), key_(std::move(key)) {}
-    void Release();
-
-    UploadWriters* writers_ = nullptr;
-    Key key_;
-  };
+  using Turn = std::shared_ptr<void>;               // the right to write, until it is let go of
 
   // Both are called at most once, from any thread, and must not block.
   class Writer {
@@ -51,6 +35,9 @@ class UploadWriters {
     std::weak_ptr<Writer> holder;
     std::shared_ptr<Writer> next;
   };
+  Turn TurnAt(const Key& key) {
+    return {this, [key](UploadWriters* writers) { writers->GiveBack(key); }};
+  }
   void GiveBack(const Key& key);
 
   std::mutex mutex_;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "bccskel/v1/volume_service.grpc.pb.h"
-#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/services.h"
 #include "server/calls/unary_answer.h"

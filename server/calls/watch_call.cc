@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "server/calls/durable_calls.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/event_queue.h"
+#include "server/calls/services.h"
 #include "server/calls/stream_call.h"
 
 namespace bccskel::server {

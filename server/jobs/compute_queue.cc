@@ -50,9 +50,9 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
   return entry;
 }
 
-ComputeQueue::Removal ComputeQueue::Remove(const Entry& entry) {
+bool ComputeQueue::Remove(const Entry& entry) {
   std::lock_guard lock(mutex_);
-  return queue_.Remove(entry) ? Removal::kRemoved : Removal::kNotWaiting;
+  return queue_.Remove(entry);
 }
 
 void ComputeQueue::SetTenants(const TenantTable& tenants) {

@@ -67,8 +67,7 @@ class ComputeQueue {
   // `work` runs on a thread of the queue, which is one of those that it may keep busy. It must not
   // throw.
   Entry Post(const Claim& claim, Work work);
-  enum class Removal { kRemoved, kNotWaiting };
-  Removal Remove(const Entry& entry);
+  bool Remove(const Entry& entry);  // false when it does not wait (any more)
 
   void SetTenants(const TenantTable& tenants);  // from now on
 

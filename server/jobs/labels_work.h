@@ -23,27 +23,14 @@ class UnreadResults : public std::enable_shared_from_this<UnreadResults> {
   // Counts `bytes` until what it returns is let go of; then `wake` is called.
   std::shared_ptr<void> Hold(uint64_t bytes, std::function<void()> wake) {
     bytes_ += bytes;
-    return std::make_shared<Share>(shared_from_this(), bytes, std::move(wake));
+    return {static_cast<void*>(this),
+            [all = shared_from_this(), bytes, wake = std::move(wake)](void*) {
+              all->bytes_ -= bytes;
+              wake();
+            }};
   }
 
  private:
-  class Share {
-   public:
-    Share(std::shared_ptr<UnreadResults> all, uint64_t bytes, std::function<void()> wake)
-        : all_(std::move(all)), bytes_(bytes), wake_(std::move(wake)) {}
-    ~Share() {
-      all_->bytes_ -= bytes_;
-      wake_();
-    }
-    Share(const Share&) = delete;
-    Share& operator=(const Share&) = delete;
-
-   private:
-    const std::shared_ptr<UnreadResults> all_;
-    const uint64_t bytes_;
-    const std::function<void()> wake_;
-  };
-
   std::atomic<uint64_t> bytes_ = 0;
 };
 

@@ -55,8 +55,7 @@ void PoolJob::EndWith(absl::Status why) {
   stop_.request_stop();
   {
     std::lock_guard lock(mutex_);
-    const bool removed = phase_ == Phase::kWaiting &&
-                         threads_.compute.Remove(entry_) == ComputeQueue::Removal::kRemoved;
+    const bool removed = phase_ == Phase::kWaiting && threads_.compute.Remove(entry_);
     if (phase_ != Phase::kReceiving && phase_ != Phase::kPaused && !removed) return;
     phase_ = Phase::kDecoding;
   }

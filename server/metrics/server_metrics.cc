@@ -92,14 +92,14 @@ Family<Histogram>& AddHistogram(Registry& registry, const char* name, const char
   return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
-MetricFamily Sample(MetricType type, const char* name, const char* help, double value) {
+MetricFamily Sample(MetricType type, const char* name, const char* help, auto value) {
   ClientMetric metric;
-  metric.gauge.value = value;
-  metric.counter.value = value;
+  metric.gauge.value = static_cast<double>(value);
+  metric.counter.value = static_cast<double>(value);
   return {name, help, type, {std::move(metric)}};
 }
 
-MetricFamily GaugeNow(const char* name, const char* help, double value) {
+MetricFamily GaugeNow(const char* name, const char* help, auto value) {
   return Sample(MetricType::Gauge, name, help, value);
 }
 
@@ -113,31 +113,29 @@ std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
       GaugeNow("bccskel_threads", "Threads for computing", now.threads),
       GaugeNow("bccskel_threads_busy", "Threads that compute", now.computing.busy_threads),
       GaugeNow("bccskel_memory_admitted_bytes", "Working memory that jobs have reserved",
-               static_cast<double>(now.admitted_bytes)),
+               now.admitted_bytes),
       GaugeNow("bccskel_memory_limit_bytes", "Working memory that jobs may reserve together",
-               static_cast<double>(now.max_admitted_bytes)),
+               now.max_admitted_bytes),
       GaugeNow("bccskel_draining", "1 from the stop signal on", now.draining),
       Sample(MetricType::Counter, "bccskel_log_lines_dropped_total",
-             "Lines of the log that nobody read in time",
-             static_cast<double>(now.dropped_log_lines)),
+             "Lines of the log that nobody read in time", now.dropped_log_lines),
   };
 }
 
 std::vector<MetricFamily> FamiliesOf(const DurableUsage& stored) {
   return {
       GaugeNow("bccskel_disk_used_bytes", "Volumes, results and declared uploads on disk",
-               static_cast<double>(stored.disk_bytes)),
+               stored.disk_bytes),
       GaugeNow("bccskel_disk_available_bytes",
                "What can still be written: up to the limit, or to the end of the file system",
-               static_cast<double>(stored.disk_available_bytes)),
+               stored.disk_available_bytes),
       GaugeNow("bccskel_data_healthy", "0 when the data directory is damaged or gone",
                stored.healthy ? 1 : 0),
       GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
       GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued),
       GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running),
       Sample(MetricType::Counter, "bccskel_results_reused_total",
-             "Stored jobs that were given a result that was there",
-             static_cast<double>(stored.cached)),
+             "Stored jobs that were given a result that was there", stored.cached),
   };
 }
 
@@ -145,13 +143,10 @@ std::vector<MetricFamily> FamiliesOf(const ProcessFigures& process) {
   return {
       Sample(MetricType::Counter, "process_cpu_seconds_total", "User and system time",
              process.processor_time.count()),
-      GaugeNow("process_resident_memory_bytes", "Memory in use",
-               static_cast<double>(process.resident_bytes)),
-      GaugeNow("process_open_fds", "Open files and connections",
-               static_cast<double>(process.open_files)),
-      GaugeNow("process_max_fds", "Limit of open files and connections",
-               static_cast<double>(process.max_open_files)),
-      GaugeNow("process_threads", "Threads of the process", static_cast<double>(process.threads)),
+      GaugeNow("process_resident_memory_bytes", "Memory in use", process.resident_bytes),
+      GaugeNow("process_open_fds", "Open files and connections", process.open_files),
+      GaugeNow("process_max_fds", "Limit of open files and connections", process.max_open_files),
+      GaugeNow("process_threads", "Threads of the process", process.threads),
   };
 }
 

@@ -115,9 +115,9 @@ TEST(ComputeQueue, WaitingWorkCanBeRemovedAndRunningWorkCannot) {
   const auto first = queue.Post(Claim(1), [&](ComputeQueue::Turn&) { may_end.acquire(); });
   WaitForUsage(queue, {.waiting = 0, .running = 1, .busy_threads = 1});
   const auto second = queue.Post(Claim(1), [&](ComputeQueue::Turn&) { second_ran = true; });
-  EXPECT_EQ(queue.Remove(second), ComputeQueue::Removal::kRemoved);
-  EXPECT_EQ(queue.Remove(second), ComputeQueue::Removal::kNotWaiting);
-  EXPECT_EQ(queue.Remove(first), ComputeQueue::Removal::kNotWaiting);
+  EXPECT_TRUE(queue.Remove(second));
+  EXPECT_FALSE(queue.Remove(second));
+  EXPECT_FALSE(queue.Remove(first));
   may_end.release();
   WaitForUsage(queue, Usage());
   EXPECT_FALSE(second_ran);
