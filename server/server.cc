@@ -124,11 +124,6 @@ v1::GetServerStatusResponse StatusOf(const ServerMetrics& metrics,
 
 }  // namespace
 
-struct Server::Data {
-  MessageCodec codec;
-  std::unique_ptr<DurableJobs> durable_jobs = nullptr;  // null where nothing is durable
-};
-
 class Server::Services {
  public:
   Services(const ServerConfig& config, const Callers& callers, JobRunner& runner,
@@ -172,7 +167,7 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
       jobs_(config.limits,
             {.on_admitted = [this](uint64_t volume_bytes) { metrics_.CountAdmitted(volume_bytes); },
              .on_end = [this](const JobEnd& end) { metrics_.Count(end); }}),
-      data_(new Data{.codec = MessageCodec(config_.limits.volume)}) {}
+      codec_(std::make_unique<MessageCodec>(config_.limits.volume)) {}
 
 Server::~Server() {
   metrics_.Hide();
@@ -210,10 +205,9 @@ absl::Status Server::OpenData() {
     options.on_warning = [](const std::string& warning) {
       Log(LogLevel::kWarning, "data", {{"message", warning}});
     };
-    BCCSKEL_ASSIGN_OR_RETURN(data_->durable_jobs, DurableJobs::Open(options, jobs_, data_->codec));
+    BCCSKEL_ASSIGN_OR_RETURN(durable_jobs_, DurableJobs::Open(options, jobs_, *codec_));
   }
-  services_ =
-      std::make_unique<Services>(config_, *callers_, jobs_, data_->durable_jobs.get(), metrics_);
+  services_ = std::make_unique<Services>(config_, *callers_, jobs_, durable_jobs_.get(), metrics_);
   return absl::OkStatus();
 }
 
@@ -260,7 +254,7 @@ ServerGauges Server::Gauges() const {
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();
   now.certificate_end = CertificateEndSeconds(config_.tls);
-  if (data_->durable_jobs != nullptr) now.stored = data_->durable_jobs->usage();
+  if (durable_jobs_ != nullptr) now.stored = durable_jobs_->usage();
   return now;
 }
 
@@ -282,7 +276,7 @@ void Server::ReloadNow() {
 void Server::LookAfterCalls() { services_->LookAfterCalls(); }
 
 void Server::LookAfterData() {
-  const DurableJobs* const durable_jobs = data_->durable_jobs.get();
+  const DurableJobs* const durable_jobs = durable_jobs_.get();
   if (durable_jobs == nullptr) return;
   const absl::Status health = durable_jobs->Health();
   if (health.ok() == data_is_well_) return;
@@ -328,7 +322,7 @@ void Server::Drain() {
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
   BeLameDuck();
-  if (data_->durable_jobs != nullptr) data_->durable_jobs->StopAdmitting();
+  if (durable_jobs_ != nullptr) durable_jobs_->StopAdmitting();
   jobs_.StopAdmitting();
   jobs_.WaitUntilEmpty(config_.drain);
   services_->CutOff();

@@ -14,6 +14,8 @@
 
 namespace bccskel::server {
 
+class DurableJobs;
+class JobCodec;
 class Listener;
 
 // The running server: listeners, services, health, reflection, metrics and the jobs behind them.
@@ -53,7 +55,6 @@ class Server {
 
  private:
   // These keep gRPC and messages out of this header.
-  struct Data;
   class Services;
 
   Server(const ServerConfig& config, std::unique_ptr<Callers> callers);
@@ -73,7 +74,8 @@ class Server {
   ServerMetrics metrics_;
   JobPool jobs_;
   // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.
-  std::unique_ptr<Data> data_;
+  std::unique_ptr<const JobCodec> codec_;
+  std::unique_ptr<DurableJobs> durable_jobs_;  // null where nothing is durable
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work

@@ -74,12 +74,6 @@ absl::Status CheckName(const CallGate::Name& name) {
 
 }  // namespace
 
-CallFacts FactsOf(const grpc::CallbackServerContext& context) {
-  return {.deadline = SteadyDeadline(context.deadline()),
-          .trace = TraceOf(context),
-          .context = &context};
-}
-
 absl::Status CallFacts::CancelStatus() const {
   if (IsCutOff()) {
     return CallError(Reason::kDraining, "the server stops and cuts the call off");
@@ -155,8 +149,10 @@ void OpenStreams::LookAfter() {
 
 absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context,
                                           const Method& method) const {
-  CallFacts facts = FactsOf(context);
-  facts.method = method;
+  CallFacts facts = {.method = method,
+                     .deadline = SteadyDeadline(context.deadline()),
+                     .trace = TraceOf(context),
+                     .context = &context};
   facts.cut_off = &cut_off_;
   facts.lasting = &lasting_;
   facts.tokens = callers_.generation();  // first: a file that is read meanwhile is looked at again
@@ -194,20 +190,17 @@ grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
 }
 
 absl::StatusOr<DurableCall> CallGate::EnterDurable(const grpc::CallbackServerContext& context,
-                                                   const Method& method) const {
+                                                   const Method& method,
+                                                   const std::optional<Name>& name) const {
   BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context, method));
-  if (durable_jobs_ != nullptr) return DurableCall{std::move(facts), *durable_jobs_};
-  return Refused(facts, CallError(Reason::kNotDurable,
-                                  "this server keeps nothing on disk: it was started without "
-                                  "--data-dir, so there are neither uploads nor durable jobs"));
-}
-
-absl::StatusOr<DurableCall> CallGate::EnterDurable(const grpc::CallbackServerContext& context,
-                                                   const Method& method, const Name& name) const {
-  BCCSKEL_ASSIGN_OR_RETURN(DurableCall call, EnterDurable(context, method));
-  const absl::Status checked = CheckName(name);
-  if (!checked.ok()) return Refused(call.facts, checked);
-  return call;
+  if (durable_jobs_ == nullptr) {
+    return Refused(facts, CallError(Reason::kNotDurable,
+                                    "this server keeps nothing on disk: it was started without "
+                                    "--data-dir, so there are neither uploads nor durable jobs"));
+  }
+  const absl::Status checked = name.has_value() ? CheckName(*name) : absl::OkStatus();
+  if (!checked.ok()) return Refused(facts, checked);
+  return DurableCall{std::move(facts), *durable_jobs_};
 }
 
 }  // namespace bccskel::server

@@ -101,7 +101,6 @@ struct CallFacts {
   // `subject` is the name of the job, upload or volume that the call was about, if there is one.
   void LogEnded(const std::string& subject, const absl::Status& status) const;
 };
-CallFacts FactsOf(const grpc::CallbackServerContext& context);
 
 // The digest that the sender states, if it states one.
 std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish);
@@ -130,17 +129,16 @@ class CallGate {
   // Errors besides: PERMISSION_DENIED for who is no admin.
   absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context,
                                          const Method& method) const;
-  // For calls about what is durable. Errors besides: FAILED_PRECONDITION where nothing is.
-  absl::StatusOr<DurableCall> EnterDurable(const grpc::CallbackServerContext& context,
-                                           const Method& method) const;
-  // For those about something that has a name, as `field` of the request says.
-  // Errors besides: INVALID_ARGUMENT for what can be nobody's name.
+  // For calls about what is durable, be it something that has a name, as `field` of the request
+  // says. Errors besides: FAILED_PRECONDITION where nothing is; INVALID_ARGUMENT for what can be
+  // nobody's name.
   struct Name {
     const char* field;
     const std::string& name;
   };
   absl::StatusOr<DurableCall> EnterDurable(const grpc::CallbackServerContext& context,
-                                           const Method& method, const Name& name) const;
+                                           const Method& method,
+                                           const std::optional<Name>& name = std::nullopt) const;
 
   DurableJobs* durable_jobs() const { return durable_jobs_; }  // null where nothing is durable
 

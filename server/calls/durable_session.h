@@ -36,12 +36,10 @@ class DurableSession final : public Session<v1::SkeletonizeRequest, v1::Skeleton
   void Append(v1::VolumeChunk& chunk) override;
   void Finish(const v1::VolumeFinish& finish) override;
   std::optional<v1::SkeletonizeResponse> Next() override;
-  bool IsLast(const v1::SkeletonizeResponse& response) const override {
-    return response.has_summary();
-  }
-  bool HasMore() const override { return false; }
-  bool IsFollowedByFetch(const v1::SkeletonizeResponse& response) const override {
-    return response.response_case() == v1::SkeletonizeResponse::RESPONSE_NOT_SET;  // a chunk
+  Following Follows(const v1::SkeletonizeResponse& response) const override {
+    if (response.has_summary()) return Following::kNothing;
+    const bool chunk = response.response_case() == v1::SkeletonizeResponse::RESPONSE_NOT_SET;
+    return chunk ? Following::kFetchedAtOnce : Following::kLater;
   }
   void Fetch() override;
   void Leave(const absl::Status& why) override;

@@ -45,7 +45,8 @@ class JobService final : public v1::JobService::CallbackService {
       job.trace = call.facts.trace;
       return job;
     };
-    return AskDurable(*context, gate_.EnterDurable(*context, kCreateJob, {"volume", volume}),
+    return AskDurable(*context,
+                      gate_.EnterDurable(*context, kCreateJob, CallGate::Name{"volume", volume}),
                       volume, read, &DurableJobs::CreateJob, AnswerJob(response));
   }
   grpc::ServerUnaryReactor* GetJob(Context* context, const v1::GetJobRequest* request,
@@ -75,12 +76,14 @@ class JobService final : public v1::JobService::CallbackService {
   }
   grpc::ServerWriteReactor<v1::WatchJobResponse>* WatchJob(
       Context* context, const v1::WatchJobRequest* request) override {
-    return StartWatch(gate_.EnterDurable(*context, kWatchJob, {"job", request->job()}), *request);
+    return StartWatch(
+        gate_.EnterDurable(*context, kWatchJob, CallGate::Name{"job", request->job()}), *request);
   }
   grpc::ServerWriteReactor<v1::ReadSkeletonResponse>* ReadSkeleton(
       Context* context, const v1::ReadSkeletonRequest* request) override {
-    return StartRead(gate_.EnterDurable(*context, kReadSkeleton, {"job", request->job()}),
-                     *request);
+    return StartRead(
+        gate_.EnterDurable(*context, kReadSkeleton, CallGate::Name{"job", request->job()}),
+        *request);
   }
 
  private:

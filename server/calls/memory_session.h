@@ -58,8 +58,10 @@ class MemorySession : public Session<Request, Response>,
   }
 
   std::optional<Response> Next() override { return responses_.Next(); }
-  bool IsLast(const Response&) const override { return responses_.AtEnd(); }
-  bool HasMore() const override { return responses_.HasMore(); }
+  Following Follows(const Response&) const override {
+    if (responses_.AtEnd()) return Following::kNothing;
+    return responses_.HasMore() ? Following::kAtOnce : Following::kLater;
+  }
 
   void Leave(const absl::Status& why) override {
     std::unique_lock lock(mutex_);

@@ -34,13 +34,9 @@ class Session {
   virtual void Append(v1::VolumeChunk& chunk) = 0;
   virtual void Finish(const v1::VolumeFinish& finish) = 0;
 
-  // Called with the call's lock held. The next response, if there is one now; whether it was the
-  // last one; whether another one is there.
+  // As of WritingCall.
   virtual std::optional<Response> Next() = 0;
-  virtual bool IsLast(const Response& response) const = 0;
-  virtual bool HasMore() const = 0;
-  // Whether Fetch(), called when the response was written, brings the next one at once.
-  virtual bool IsFollowedByFetch(const Response&) const { return false; }
+  virtual Following Follows(const Response& response) const = 0;
   virtual void Fetch() {}
 
   // The call has failed. May come at any time.
@@ -90,7 +86,6 @@ class SessionCall final
   using Base =
       ReceivingCall<WritingCall<StreamCall<grpc::ServerBidiReactor<Request, Response>>, Response>,
                     Request>;
-  using Following = typename Base::Following;
 
   absl::Status Take(Request& request) override {
     if (request.has_chunk()) {
@@ -111,11 +106,7 @@ class SessionCall final
   std::optional<Response> Next() override {
     return session_ == nullptr ? std::nullopt : session_->Next();
   }
-  Following Follows(const Response& response) const override {
-    if (session_->IsLast(response)) return Following::kNothing;
-    if (session_->IsFollowedByFetch(response)) return Following::kFetchedAtOnce;
-    return session_->HasMore() ? Following::kAtOnce : Following::kLater;
-  }
+  Following Follows(const Response& response) const override { return session_->Follows(response); }
   void Fetch() override { session_->Fetch(); }
   void Failed(const absl::Status& why) override {
     std::unique_lock lock(this->mutex_);

@@ -95,6 +95,10 @@ class StreamCall : public Reactor,
   std::shared_ptr<StreamCall> self_;
 };
 
+// What comes after a response: the end of the call; another one that is there already; one that
+// Fetch() brings, at once or sometime; who knows.
+enum class Following { kNothing, kAtOnce, kFetchedAtOnce, kFetched, kLater };
+
 // A call that writes: what Next() yields, one response at a time.
 template <typename Base, typename Response>
 class WritingCall : public Base {
@@ -140,10 +144,6 @@ class WritingCall : public Base {
   }
 
  protected:
-  // What comes after a response: the end of the call; another one that is there already; one that
-  // Fetch() brings, at once or sometime; who knows.
-  enum class Following { kNothing, kAtOnce, kFetchedAtOnce, kFetched, kLater };
-
   // Needs of these: mutex_ held. The next response, if there is one now.
   virtual std::optional<Response> Next() = 0;
   virtual Following Follows(const Response&) const { return Following::kLater; }

@@ -221,9 +221,9 @@ absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const
   if (now.file != old.file || !now.volume.empty()) {
     return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " goes on on another server"));
   }
-  BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(now)));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(now)));
   now.file = to;
-  return store.UpdateUpload(now);
+  return store.Put(now);
 }
 
 absl::Status DurableJobs::Superseded(const Session& session) {

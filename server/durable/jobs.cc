@@ -168,7 +168,7 @@ absl::Status DurableJobs::CheckJob(JobStore& store, Creating& creating) {
 absl::Status DurableJobs::InsertJob(JobStore& store, JobRow job, Creating& creating) {
   VolumeRow& volume = creating.volume;
   volume.used = Now();
-  BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(volume));
   if (!volume.volume_digest.empty()) {
     const std::string key = ResultKey(volume.volume_digest, job.options);
     BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.FindResultOf(job.tenant, key));
@@ -263,7 +263,7 @@ absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& e
   BCCSKEL_ASSIGN_OR_RETURN(const auto result, store.TakeResultIfUnused(job.result));
   if (!result.has_value() || result->file.empty()) return absl::OkStatus();
   erased.results.push_back(*result);
-  return store.InsertRemoval({RemovalRow::Kind::kResult, result->tenant, result->file});
+  return store.Put(RemovalRow{RemovalRow::Kind::kResult, result->tenant, result->file});
 }
 
 std::shared_ptr<Watch> DurableJobs::WatchJob(const std::string& tenant, const std::string& job,

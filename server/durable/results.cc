@@ -18,7 +18,7 @@ Flow DurableJobs::OnRunVolume(std::shared_ptr<Run> run, std::string digest) {
     BCCSKEL_ASSIGN_OR_RETURN(std::optional<VolumeRow> row, store.Find<VolumeRow>(tenant, volume));
     if (!row.has_value() || row->volume_digest == digest) return absl::OkStatus();
     row->volume_digest = digest;
-    return store.PutVolume(*row);
+    return store.Put(*row);
   });
   noted.IgnoreError();
   const std::optional<ResultRow> result = co_await WholeResult(tenant, key);
@@ -49,7 +49,7 @@ Flow DurableJobs::DropResult(ResultRow row, std::function<void()> then) {
         dropped = now.has_value() && now->file == row.file;
         if (!dropped) return absl::OkStatus();  // somebody else was here first
         BCCSKEL_RETURN_IF_ERROR(store.DropResult(row));
-        return store.InsertRemoval({RemovalRow::Kind::kResult, row.tenant, row.file});
+        return store.Put(RemovalRow{RemovalRow::Kind::kResult, row.tenant, row.file});
       },
       GroupCommit::Room::kReserve);
   if (status.ok() && dropped) {

@@ -208,7 +208,7 @@ absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, Job
   erased.traces = Erased::Traces::kErase;
   if (!row.volume.empty()) return absl::OkStatus();
   erased.uploads.push_back(row);
-  BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(row)));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(row)));
   if (row.job.empty()) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.Find<JobRow>(row.tenant, row.job));
   if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();

@@ -96,11 +96,11 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
     volume.created = other.created;
   }
   BCCSKEL_RETURN_IF_ERROR(blobs_.PublishBlob(upload, volume.blob_digest));
-  BCCSKEL_RETURN_IF_ERROR(store.PutVolume(volume));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(volume));
   upload.volume = volume.name;
   upload.used = volume.used;
-  BCCSKEL_RETURN_IF_ERROR(store.UpdateUpload(upload));
-  BCCSKEL_RETURN_IF_ERROR(store.InsertRemoval(RemovalOf(upload)));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(upload));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(upload)));
   return upload.job.empty() ? absl::OkStatus() : StoreVolumeOfJob(store, finishing);
 }
 
@@ -153,7 +153,7 @@ Flow DurableJobs::FindVolumes(std::string tenant, std::vector<std::string> diges
       for (VolumeRow& row : rows) {
         if (!blobs_.HasBlob(row.tenant, row.blob_digest, row.size_bytes)) continue;
         row.used = Now();
-        BCCSKEL_RETURN_IF_ERROR(store.PutVolume(row));
+        BCCSKEL_RETURN_IF_ERROR(store.Put(row));
         found.push_back(InfoOf(row));
       }
     }
@@ -180,7 +180,7 @@ absl::Status DurableJobs::EraseVolume(JobStore& store, const VolumeRow& row, Era
   erased.traces = Erased::Traces::kErase;
   erased.blobs.push_back(row);  // unless another volume has the same bytes: seen at the end
   BCCSKEL_RETURN_IF_ERROR(
-      store.InsertRemoval({RemovalRow::Kind::kBlob, row.tenant, row.blob_digest}));
+      store.Put(RemovalRow{RemovalRow::Kind::kBlob, row.tenant, row.blob_digest}));
   return store.DeleteVolume(row.tenant, row.name);
 }
 

@@ -13,61 +13,21 @@ namespace {
 
 using absl::StatusCode;
 
+enum class Retry { kNo, kYes };
+
 struct Meaning {
   Reason reason;
   const char* name;
   StatusCode code;
-  bool worth_a_retry = false;
+  Retry retry;
 };
 
-// In the order of Reason.
 constexpr Meaning kMeanings[] = {
-    {Reason::kFieldInvalid, "FIELD_INVALID", StatusCode::kInvalidArgument},
-    {Reason::kVolumeInvalid, "VOLUME_INVALID", StatusCode::kInvalidArgument},
-    {Reason::kVolumeSize, "VOLUME_SIZE", StatusCode::kInvalidArgument},
-    {Reason::kVolumeTruncated, "VOLUME_TRUNCATED", StatusCode::kInvalidArgument},
-    {Reason::kRequestOrder, "REQUEST_ORDER", StatusCode::kInvalidArgument},
-    {Reason::kRequestMalformed, "REQUEST_MALFORMED", StatusCode::kInvalidArgument},
-    {Reason::kChunkChecksum, "CHUNK_CHECKSUM", StatusCode::kInvalidArgument},
-    {Reason::kChunkOffset, "CHUNK_OFFSET", StatusCode::kOutOfRange},
-    {Reason::kPieceIndex, "PIECE_INDEX", StatusCode::kOutOfRange},
-    {Reason::kNotFound, "NOT_FOUND", StatusCode::kNotFound},
-    {Reason::kUploadExists, "UPLOAD_EXISTS", StatusCode::kAlreadyExists},
-    {Reason::kRequestIdReused, "REQUEST_ID_REUSED", StatusCode::kAlreadyExists},
-    {Reason::kNotDurable, "NOT_DURABLE", StatusCode::kFailedPrecondition},
-    {Reason::kVolumeMissing, "VOLUME_MISSING", StatusCode::kFailedPrecondition},
-    {Reason::kVolumeInUse, "VOLUME_IN_USE", StatusCode::kFailedPrecondition},
-    {Reason::kUploadFinished, "UPLOAD_FINISHED", StatusCode::kFailedPrecondition},
-    {Reason::kJobNotSucceeded, "JOB_NOT_SUCCEEDED", StatusCode::kFailedPrecondition},
-    {Reason::kSecondWriter, "SECOND_WRITER", StatusCode::kAborted},
-    {Reason::kSenderTimeout, "SENDER_TIMEOUT", StatusCode::kAborted},
-    {Reason::kReaderTimeout, "READER_TIMEOUT", StatusCode::kAborted},
-    {Reason::kVolumeTooLarge, "VOLUME_TOO_LARGE", StatusCode::kResourceExhausted},
-    {Reason::kShellPointsTooLarge, "SHELL_POINTS_TOO_LARGE", StatusCode::kResourceExhausted},
-    {Reason::kDiskFull, "DISK_FULL", StatusCode::kResourceExhausted},
-    {Reason::kQueueFull, "QUEUE_FULL", StatusCode::kUnavailable, true},
-    {Reason::kMemoryBusy, "MEMORY_BUSY", StatusCode::kUnavailable, true},
-    {Reason::kDecoderBusy, "DECODER_BUSY", StatusCode::kUnavailable, true},
-    {Reason::kDraining, "DRAINING", StatusCode::kUnavailable, true},
-    {Reason::kUnavailable, "UNAVAILABLE", StatusCode::kUnavailable},
-    {Reason::kStoredDataDamaged, "STORED_DATA_DAMAGED", StatusCode::kDataLoss},
-    {Reason::kTokenMissing, "TOKEN_MISSING", StatusCode::kUnauthenticated},
-    {Reason::kTokenInvalid, "TOKEN_INVALID", StatusCode::kUnauthenticated},
-    {Reason::kAdminOnly, "ADMIN_ONLY", StatusCode::kPermissionDenied},
-    {Reason::kCancelled, "CANCELLED", StatusCode::kCancelled},
-    {Reason::kDeadlineExceeded, "DEADLINE_EXCEEDED", StatusCode::kDeadlineExceeded},
-    {Reason::kPoisoned, "POISONED", StatusCode::kInternal},
-    {Reason::kServerDefect, "SERVER_DEFECT", StatusCode::kInternal},
+#define BCCSKEL_REASON(reason, name, code, retry) \
+  {Reason::reason, name, StatusCode::code, Retry::retry},
+    BCCSKEL_REASONS(BCCSKEL_REASON)
+#undef BCCSKEL_REASON
 };
-
-constexpr bool InOrder() {
-  size_t next = 0;
-  for (const Meaning& meaning : kMeanings) {
-    if (static_cast<size_t>(meaning.reason) != next++) return false;
-  }
-  return next == static_cast<size_t>(Reason::kServerDefect) + 1;
-}
-static_assert(InOrder());
 
 const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(reason)]; }
 
@@ -172,7 +132,7 @@ std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {
 }
 
 const char* NameOf(Reason reason) { return MeaningOf(reason).name; }
-bool IsWorthARetry(Reason reason) { return MeaningOf(reason).worth_a_retry; }
+bool IsWorthARetry(Reason reason) { return MeaningOf(reason).retry == Retry::kYes; }
 
 Reason DefaultReason(StatusCode code) {
   for (const Reason reason : {Reason::kNotFound, Reason::kStoredDataDamaged, Reason::kUnavailable,

@@ -9,45 +9,50 @@
 
 namespace bccskel::server {
 
-// Why a call or a job fails, as callers see it. ERRORS.md describes them; the .cc has their names
-// and codes, and which are worth another try.
+// Why calls and jobs fail, as callers see it: here, as ERRORS.md describes it, its code, and
+// whether another try is worth while.
+#define BCCSKEL_REASONS(X)                                                   \
+  X(kFieldInvalid, "FIELD_INVALID", kInvalidArgument, kNo)                   \
+  X(kVolumeInvalid, "VOLUME_INVALID", kInvalidArgument, kNo)                 \
+  X(kVolumeSize, "VOLUME_SIZE", kInvalidArgument, kNo)                       \
+  X(kVolumeTruncated, "VOLUME_TRUNCATED", kInvalidArgument, kNo)             \
+  X(kRequestOrder, "REQUEST_ORDER", kInvalidArgument, kNo)                   \
+  X(kRequestMalformed, "REQUEST_MALFORMED", kInvalidArgument, kNo)           \
+  X(kChunkChecksum, "CHUNK_CHECKSUM", kInvalidArgument, kNo)                 \
+  X(kChunkOffset, "CHUNK_OFFSET", kOutOfRange, kNo)                          \
+  X(kPieceIndex, "PIECE_INDEX", kOutOfRange, kNo)                            \
+  X(kNotFound, "NOT_FOUND", kNotFound, kNo)                                  \
+  X(kUploadExists, "UPLOAD_EXISTS", kAlreadyExists, kNo)                     \
+  X(kRequestIdReused, "REQUEST_ID_REUSED", kAlreadyExists, kNo)              \
+  X(kNotDurable, "NOT_DURABLE", kFailedPrecondition, kNo)                    \
+  X(kVolumeMissing, "VOLUME_MISSING", kFailedPrecondition, kNo)              \
+  X(kVolumeInUse, "VOLUME_IN_USE", kFailedPrecondition, kNo)                 \
+  X(kUploadFinished, "UPLOAD_FINISHED", kFailedPrecondition, kNo)            \
+  X(kJobNotSucceeded, "JOB_NOT_SUCCEEDED", kFailedPrecondition, kNo)         \
+  X(kSecondWriter, "SECOND_WRITER", kAborted, kNo)                           \
+  X(kSenderTimeout, "SENDER_TIMEOUT", kAborted, kNo)                         \
+  X(kReaderTimeout, "READER_TIMEOUT", kAborted, kNo)                         \
+  X(kVolumeTooLarge, "VOLUME_TOO_LARGE", kResourceExhausted, kNo)            \
+  X(kShellPointsTooLarge, "SHELL_POINTS_TOO_LARGE", kResourceExhausted, kNo) \
+  X(kDiskFull, "DISK_FULL", kResourceExhausted, kNo)                         \
+  X(kQueueFull, "QUEUE_FULL", kUnavailable, kYes)                            \
+  X(kMemoryBusy, "MEMORY_BUSY", kUnavailable, kYes)                          \
+  X(kDecoderBusy, "DECODER_BUSY", kUnavailable, kYes)                        \
+  X(kDraining, "DRAINING", kUnavailable, kYes)                               \
+  X(kUnavailable, "UNAVAILABLE", kUnavailable, kNo)                          \
+  X(kStoredDataDamaged, "STORED_DATA_DAMAGED", kDataLoss, kNo)               \
+  X(kTokenMissing, "TOKEN_MISSING", kUnauthenticated, kNo)                   \
+  X(kTokenInvalid, "TOKEN_INVALID", kUnauthenticated, kNo)                   \
+  X(kAdminOnly, "ADMIN_ONLY", kPermissionDenied, kNo)                        \
+  X(kCancelled, "CANCELLED", kCancelled, kNo)                                \
+  X(kDeadlineExceeded, "DEADLINE_EXCEEDED", kDeadlineExceeded, kNo)          \
+  X(kPoisoned, "POISONED", kInternal, kNo)                                   \
+  X(kServerDefect, "SERVER_DEFECT", kInternal, kNo)
+
 enum class Reason : uint8_t {
-  kFieldInvalid,
-  kVolumeInvalid,
-  kVolumeSize,
-  kVolumeTruncated,
-  kRequestOrder,
-  kRequestMalformed,
-  kChunkChecksum,
-  kChunkOffset,
-  kPieceIndex,
-  kNotFound,
-  kUploadExists,
-  kRequestIdReused,
-  kNotDurable,
-  kVolumeMissing,
-  kVolumeInUse,
-  kUploadFinished,
-  kJobNotSucceeded,
-  kSecondWriter,
-  kSenderTimeout,
-  kReaderTimeout,
-  kVolumeTooLarge,
-  kShellPointsTooLarge,
-  kDiskFull,
-  kQueueFull,
-  kMemoryBusy,
-  kDecoderBusy,
-  kDraining,
-  kUnavailable,
-  kStoredDataDamaged,
-  kTokenMissing,
-  kTokenInvalid,
-  kAdminOnly,
-  kCancelled,
-  kDeadlineExceeded,
-  kPoisoned,
-  kServerDefect,
+#define BCCSKEL_REASON(reason, ...) reason,
+  BCCSKEL_REASONS(BCCSKEL_REASON)
+#undef BCCSKEL_REASON
 };
 
 // What an error says besides reason and message; empty where it says nothing.

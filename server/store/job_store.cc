@@ -41,8 +41,8 @@ absl::Status JobStore::Run(const std::string& sql, const Values&... values) {
 }
 
 template <typename Row>
-absl::Status JobStore::Insert(const Row& row) {
-  return Put(row, "");
+absl::Status JobStore::Put(const Row& row) {
+  return Put(row, std::is_same_v<Row, RemovalRow> ? "kind, tenant, name" : "tenant, name");
 }
 
 template <typename Row>
@@ -110,8 +110,11 @@ absl::StatusOr<Row> JobStore::Get(const std::string& tenant, const std::string& 
   return absl::NotFoundError(absl::StrCat("there is no ", kind, " ", name));
 }
 
-template absl::Status JobStore::Insert(const UploadRow&);
-template absl::Status JobStore::Insert(const EventRow&);
+template absl::Status JobStore::Put(const UploadRow&, const std::string&);
+template absl::Status JobStore::Put(const EventRow&, const std::string&);
+template absl::Status JobStore::Put(const UploadRow&);
+template absl::Status JobStore::Put(const VolumeRow&);
+template absl::Status JobStore::Put(const RemovalRow&);
 template absl::StatusOr<std::optional<UploadRow>> JobStore::Find(const std::string&,
                                                                  const std::string&);
 template absl::StatusOr<std::optional<VolumeRow>> JobStore::Find(const std::string&,
@@ -157,15 +160,6 @@ absl::Status JobStore::UndoStep() {
   BCCSKEL_RETURN_IF_ERROR(Run("ROLLBACK TO SAVEPOINT step"));
   return KeepStep();
 }
-
-absl::Status JobStore::UpdateUpload(const UploadRow& row) {
-  return Run(
-      "UPDATE uploads SET volume = $1, used = $2, file = $3, row_check = $4"
-      " WHERE tenant = $5 AND name = $6",
-      row.volume, row.used, row.file, CheckOf(row), row.tenant, row.name);
-}
-
-absl::Status JobStore::PutVolume(const VolumeRow& row) { return Put(row, "tenant, name"); }
 
 absl::Status JobStore::DeleteVolume(const std::string& tenant, const std::string& name) {
   BCCSKEL_RETURN_IF_ERROR(
@@ -284,10 +278,6 @@ absl::StatusOr<std::optional<ResultRow>> JobStore::TakeResultIfUnused(int64_t nu
   BCCSKEL_ASSIGN_OR_RETURN(auto taken, One<ResultRow>(Damaged::kLeftOut, unused, number));
   BCCSKEL_RETURN_IF_ERROR(Run("DELETE FROM results " + unused, number));
   return taken;
-}
-
-absl::Status JobStore::InsertRemoval(const RemovalRow& row) {
-  return Put(row, "kind, tenant, name");
 }
 
 absl::Status JobStore::DeleteRemoval(const RemovalRow& row) {

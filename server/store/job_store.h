@@ -54,7 +54,12 @@ class JobStore {
   // ---- Rows of any kind
   // Of uploads and events: others are inserted by what follows.
   template <typename Row>
-  absl::Status Insert(const Row& row);
+  absl::Status Insert(const Row& row) {
+    return Put(row, "");
+  }
+  // Of uploads, volumes and removals. Replaces a row of the same name.
+  template <typename Row>
+  absl::Status Put(const Row& row);
   // Of uploads, volumes and jobs, which have names.
   template <typename Row>
   absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
@@ -68,10 +73,6 @@ class JobStore {
   template <typename Row>
   absl::StatusOr<std::vector<Row>> All();
 
-  absl::Status UpdateUpload(const UploadRow& row);  // its volume, file and last use
-
-  // Replaces a row of the same name.
-  absl::Status PutVolume(const VolumeRow& row);
   // With the finished uploads that it came with.
   absl::Status DeleteVolume(const std::string& tenant, const std::string& name);
   // By blob or volume digest.
@@ -111,7 +112,6 @@ class JobStore {
   // Deletes the result when no job has it any more, and then yields it.
   absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number);
 
-  absl::Status InsertRemoval(const RemovalRow& row);
   absl::Status DeleteRemoval(const RemovalRow& row);
 
   // ---- The fleet. Where nobody shares the store, the one server that has it is all of it.

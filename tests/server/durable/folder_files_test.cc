@@ -50,7 +50,7 @@ class FolderFilesTest : public testing::Test {
     row.name = "volumes/" + digest;
     row.blob_digest = digest;
     EXPECT_TRUE(store_->Begin().ok());
-    EXPECT_TRUE(store_->PutVolume(row).ok());
+    EXPECT_TRUE(store_->Put(row).ok());
     EXPECT_TRUE(store_->Commit().ok());
     const std::string path = blobs_.PathOfBlob("clinic", digest);
     return there ? Write(path) : path;
@@ -142,7 +142,7 @@ TEST_F(FolderFilesTest, RemovesWhatACrashLeftOfADeletionUnlessItIsWantedAgain) {
   const std::string gone = Unknown("b"), wanted = Known("a");
   ASSERT_TRUE(store_->Begin().ok());
   for (const char* digest : {"a", "b"}) {
-    ASSERT_TRUE(store_->InsertRemoval({RemovalRow::Kind::kBlob, "clinic", digest}).ok());
+    ASSERT_TRUE(store_->Put(RemovalRow{RemovalRow::Kind::kBlob, "clinic", digest}).ok());
   }
   ASSERT_TRUE(files_->RemoveDeleted(*store_).ok());
   ASSERT_TRUE(store_->Commit().ok());

@@ -105,7 +105,7 @@ TEST_P(FleetStoreTest, KnowsWhetherEqualWorkRunsElsewhere) {
   volume.tenant = "clinic";
   volume.name = "volumes/1";
   volume.volume_digest = "cd";
-  ASSERT_TRUE(store_->PutVolume(volume).ok());
+  ASSERT_TRUE(store_->Put(volume).ok());
   EXPECT_TRUE(*other_->RunsElsewhere(equal, "cd", "bb")) << "the same points, encoded otherwise";
   equal.options = "others";
   EXPECT_FALSE(*other_->RunsElsewhere(equal, "cd", "bb"));

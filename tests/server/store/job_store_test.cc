@@ -80,14 +80,14 @@ TEST_P(JobStoreTest, FindsNothingOfAnotherTenant) {
   job.request_id = "request";
   Insert(job);
   ASSERT_TRUE(store_
-                  ->PutVolume({.tenant = "clinic",
-                               .name = "volumes/1",
-                               .declaration = {},
-                               .blob_digest = "ab",
-                               .volume_digest = "cd",
-                               .size_bytes = 1,
-                               .created = {},
-                               .used = {}})
+                  ->Put(VolumeRow{.tenant = "clinic",
+                                  .name = "volumes/1",
+                                  .declaration = {},
+                                  .blob_digest = "ab",
+                                  .volume_digest = "cd",
+                                  .size_bytes = 1,
+                                  .created = {},
+                                  .used = {}})
                   .ok());
   EXPECT_FALSE(store_->Find<JobRow>("other", "jobs/1")->has_value());
   EXPECT_FALSE(store_->FindJobOfRequest("other", "request")->has_value());
@@ -146,7 +146,7 @@ TEST_P(JobStoreTest, CountsWhatTheFilesOfEachTenantTake) {
     row.name = name;
     row.blob_digest = digest;
     row.size_bytes = bytes;
-    EXPECT_TRUE(store_->PutVolume(row).ok());
+    EXPECT_TRUE(store_->Put(row).ok());
   };
   volume("volumes/1", "a", 100);
   volume("volumes/2", "a", 100);  // the same bytes, declared differently
@@ -160,7 +160,7 @@ TEST_P(JobStoreTest, CountsWhatTheFilesOfEachTenantTake) {
   EXPECT_TRUE(store_->Insert(upload).ok());
   upload.volume = "volumes/4";
   upload.file = "file";
-  EXPECT_TRUE(store_->UpdateUpload(upload).ok());
+  EXPECT_TRUE(store_->Put(upload).ok());
   EXPECT_EQ((*store_->Find<UploadRow>("lab", "uploads/2"))->file, "file");
   ResultRow result;
   result.tenant = "lab";
