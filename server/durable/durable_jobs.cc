@@ -88,7 +88,7 @@ DurableJobs::~DurableJobs() {
   stopped.get_future().wait();
   operations_.WaitForAll();
   loop_.Post([this] {
-    loop_.store().Leave().IgnoreError();
+    if (shared_) loop_.store().Leave().IgnoreError();
     watches_.EndAll(absl::UnavailableError("the server stops"));
   });
 }

@@ -308,7 +308,6 @@ class DurableJobs final : public RunObserver {
   Flow Feed(std::shared_ptr<Run> run, VolumeRow volume);
   // The bytes of its volume, where they came from a file. On the loop.
   Flow CheckBlobOf(std::shared_ptr<Run> run, DoneStatus done);
-  void RunComputed(Run* run);
   Flow StoreResult(std::shared_ptr<Run> run, ResultRow row);
   // Yields whether the file is needless: nobody wants it, or an equal one was there.
   absl::StatusOr<bool> StoreResultOf(JobStore& store, const Run* run, ResultRow row,

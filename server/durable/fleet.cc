@@ -227,7 +227,7 @@ absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const
 }
 
 absl::Status DurableJobs::Superseded(const Session& session) {
-  uploads_.RemoveFile(session->row());
+  uploads_.Remove(session);
   return CallError(Reason::kSecondWriter,
                    absl::StrCat(session->row().name, " goes on on another server"));
 }

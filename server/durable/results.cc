@@ -127,7 +127,10 @@ std::map<int64_t, JobEvent> DurableJobs::TakeProgress(Run& run) {
 Flow DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) {
   absl::StatusOr<ResultRow> row;
   if (result.ok()) {
-    loop_.Post([this, run] { RunComputed(run.get()); });
+    loop_.Post([this, run] {
+      if (ActiveRun* const computed = active_.FindRun(run.get())) active_.Computed(*computed);
+      Schedule();
+    });
     co_await ToFiles(run->tenant());
     row = WriteResult(*result, *run, codec_, blobs_, quota_);
     if (!row.ok()) row = WithDiskReason(row.status());
@@ -161,13 +164,6 @@ Flow DurableJobs::CheckBlobOf(std::shared_ptr<Run> run, DoneStatus done) {
   const absl::Status whole = file.ok() ? file->ReadRest() : file.status();
   co_await ToLoop();
   done(whole);
-}
-
-void DurableJobs::RunComputed(Run* run) {
-  ActiveRun* const found = active_.FindRun(run);
-  if (found == nullptr) return;
-  active_.Computed(*found);
-  Schedule();
 }
 
 Flow DurableJobs::StoreResult(std::shared_ptr<Run> run, ResultRow row) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -53,13 +52,13 @@ class UploadSession {
   std::unique_ptr<UploadFile> file_;
 };
 
-// Unfinished uploads that go on here.
+// Unfinished uploads that go on here, or soon will.
 // Threads: safe.
 class UploadTable {
  public:
   using Session = std::shared_ptr<UploadSession>;
 
-  // Null: none.
+  // Null: none, or it is being opened.
   Session Find(const std::string& tenant, const std::string& upload) const {
     std::lock_guard lock(mutex_);
     const auto found = sessions_.find({tenant, upload});
@@ -72,33 +71,34 @@ class UploadTable {
   // Until it is added or removed nobody else opens it. False where it is there, or being opened.
   bool BeginOpening(const UploadRow& row) {
     std::lock_guard lock(mutex_);
-    return !sessions_.contains(KeyOf(row)) && opening_.insert(KeyOf(row)).second;
+    return sessions_.try_emplace(KeyOf(row)).second;
   }
+  // It could not be opened.
   void EndOpening(const UploadRow& row) {
     std::lock_guard lock(mutex_);
-    opening_.erase(KeyOf(row));
+    const auto found = sessions_.find(KeyOf(row));
+    if (found != sessions_.end() && found->second == nullptr) sessions_.erase(found);
   }
   void Add(const Session& session) {
     std::lock_guard lock(mutex_);
     sessions_[KeyOf(session->row())] = session;
-    opening_.erase(KeyOf(session->row()));
   }
   void Remove(const UploadRow& row) {
     std::lock_guard lock(mutex_);
     sessions_.erase(KeyOf(row));
-    opening_.erase(KeyOf(row));
   }
-  // Only if it still goes on in the row's file.
-  void RemoveFile(const UploadRow& row) {
+  // Another server goes on with it in another file.
+  void Remove(const Session& session) {
     std::lock_guard lock(mutex_);
-    const auto found = sessions_.find(KeyOf(row));
-    if (found != sessions_.end() && found->second->row().file == row.file) sessions_.erase(found);
-    opening_.erase(KeyOf(row));
+    const auto found = sessions_.find(KeyOf(session->row()));
+    if (found != sessions_.end() && found->second == session) sessions_.erase(found);
   }
   // None is decoded along any more.
   void TakeAllAlong() {
     std::lock_guard lock(mutex_);
-    for (const auto& [key, session] : sessions_) session->TakeAlong();
+    for (const auto& [key, session] : sessions_) {
+      if (session != nullptr) session->TakeAlong();
+    }
   }
 
  private:
@@ -106,8 +106,7 @@ class UploadTable {
   static Key KeyOf(const UploadRow& row) { return {row.tenant, row.name}; }
 
   mutable std::mutex mutex_;
-  std::map<Key, Session> sessions_;  // guarded by mutex_
-  std::set<Key> opening_;            // guarded by mutex_
+  std::map<Key, Session> sessions_;  // guarded by mutex_; null while it is opened
 };
 
 }  // namespace bccskel::server

@@ -137,7 +137,7 @@ absl::Status DurableJobs::StoreReceivingJob(JobStore& store, Opening& opening) {
 }
 
 void DurableJobs::GiveUp(const Opening& opening) {
-  uploads_.RemoveFile(opening.row);
+  uploads_.EndOpening(opening.row);
   if (opening.counted) quota_.GiveBack(opening.row.tenant, opening.row.size_bytes);
   if (opening.run != nullptr) opening.run->Cancel();
 }
@@ -181,7 +181,7 @@ Flow DurableJobs::GetUpload(std::string tenant, std::string upload, Done<UploadI
     BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
     // Who asks may go on here with what another server has taken over meanwhile.
     const Session session = uploads_.Find(tenant, upload);
-    if (session != nullptr && session->row().file != row.file) uploads_.RemoveFile(session->row());
+    if (session != nullptr && session->row().file != row.file) uploads_.Remove(session);
     return InfoOf(row);
   };
   done(co_await Read<UploadInfo>(read));

@@ -286,25 +286,20 @@ absl::Status JobStore::DeleteRemoval(const RemovalRow& row) {
 }
 
 absl::Status JobStore::Join(const std::string& server) {
-  if (!shared()) return absl::OkStatus();
   BCCSKEL_RETURN_IF_ERROR(Run("INSERT INTO servers(server, beats) VALUES($1, 0)", server));
   server_ = server;
   fenced_ = false;
   return absl::OkStatus();
 }
 
-absl::Status JobStore::Leave() {
-  return shared() ? Run("DELETE FROM servers WHERE server = $1", server_) : absl::OkStatus();
-}
+absl::Status JobStore::Leave() { return Run("DELETE FROM servers WHERE server = $1", server_); }
 
 absl::Status JobStore::Beat() {
-  if (!shared()) return absl::OkStatus();
   return Run("UPDATE servers SET beats = beats + 1 WHERE server = $1", server_);
 }
 
 absl::StatusOr<std::vector<Member>> JobStore::Members() {
   std::vector<Member> members;
-  if (!shared()) return members;
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT server, beats FROM servers"));
   for (SqlRow& row : rows) members.push_back({.server = row.Text(), .beats = row.Number()});
   return members;
@@ -320,7 +315,6 @@ absl::StatusOr<bool> JobStore::Fence(const Member& member) {
 absl::StatusOr<JobChanges> JobStore::ChangesAfter(int64_t number) {
   JobChanges changes;
   changes.last = number;
-  if (!shared()) return changes;
   // Taken first: what comes in between is told again.
   BCCSKEL_ASSIGN_OR_RETURN(auto last,
                            Query("SELECT CAST(greatest((SELECT max(changed) FROM jobs),"
@@ -351,14 +345,12 @@ absl::StatusOr<bool> JobStore::RunsElsewhere(const JobRow& job, const std::strin
 }
 
 absl::Status JobStore::PutProgress(int64_t job, const ProgressRow& progress) {
-  if (!shared()) return absl::OkStatus();
   return Run("INSERT INTO progress(job, sequence, bytes) VALUES($1, $2, $3)" +
                  Replacing("job", {"sequence", "bytes"}),
              job, progress.sequence, progress.bytes);
 }
 
 absl::StatusOr<std::optional<ProgressRow>> JobStore::FindProgress(int64_t job) {
-  if (!shared()) return std::nullopt;
   BCCSKEL_ASSIGN_OR_RETURN(auto rows,
                            Query("SELECT sequence, bytes FROM progress WHERE job = $1", job));
   if (rows.empty()) return std::nullopt;

@@ -114,10 +114,13 @@ class JobStore {
 
   absl::Status DeleteRemoval(const RemovalRow& row);
 
-  // ---- The fleet. Where nobody shares the store, the one server that has it is all of it.
+  // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
+  absl::StatusOr<std::map<std::string, uint64_t>> DiskUse();
 
   // Whether other servers may use the same tables.
   bool shared() const { return database_->shared(); }
+  // ---- The fleet. Needs of these: shared().
+
   // From now on transactions are this server's, and fail once it was fenced off. Needs: a name that
   // no server ever had, of hexadecimal digits.
   absl::Status Join(const std::string& server);
@@ -139,9 +142,6 @@ class JobStore {
   // The newest progress of a running job, for the other servers.
   absl::Status PutProgress(int64_t job, const ProgressRow& progress);
   absl::StatusOr<std::optional<ProgressRow>> FindProgress(int64_t job);
-  // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
-  absl::StatusOr<std::map<std::string, uint64_t>> DiskUse();
-
   // What was deleted is then nowhere in the store's files any more.
   absl::Status Forget();
 

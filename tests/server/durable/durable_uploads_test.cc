@@ -103,6 +103,7 @@ TEST_F(DurableUploadsTest, BeginsTheSameUploadOnce) {
   const auto other =
       CreateUpload("clinic", {.name = "uploads/a", .declaration = "11", .then_job = {}});
   EXPECT_EQ(other.status().code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(Append("clinic", "uploads/a", 4, "567890").value_or(0), 10u) << "it goes on";
   Begin("other", "uploads/a", 11);
 }
 

@@ -53,11 +53,14 @@ TEST_F(UploadTableTest, OneOpensAnUploadAtATime) {
   EXPECT_TRUE(table_.BeginOpening(row));
 }
 
-TEST_F(UploadTableTest, RemovesAFileOnlyWhileItsUploadGoesOnThere) {
-  table_.Add(Open(Row("uploads/1", "new")));
-  table_.RemoveFile(Row("uploads/1", "old"));
-  EXPECT_NE(table_.Find("clinic", "uploads/1"), nullptr) << "it goes on in another file";
-  table_.RemoveFile(Row("uploads/1", "new"));
+TEST_F(UploadTableTest, RemovesASessionOnlyWhileItsUploadGoesOnInIt) {
+  const auto old = Open(Row("uploads/1", "old")), now = Open(Row("uploads/1", "new"));
+  table_.Add(old);
+  table_.Add(now);
+  table_.Remove(old);
+  table_.EndOpening(now->row());
+  EXPECT_EQ(table_.Find("clinic", "uploads/1"), now) << "it goes on in another file";
+  table_.Remove(now);
   EXPECT_EQ(table_.Find("clinic", "uploads/1"), nullptr);
 }
 
