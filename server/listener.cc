@@ -106,7 +106,7 @@ absl::Status Listener::Serve(ListenerPlan& plan) {
   }
   Configure(builder);
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> meters;
-  meters.push_back(std::make_unique<CallMeter>(plan.healthy, plan.metrics));
+  meters.push_back(MakeCallMeter(plan.healthy, plan.metrics));
   builder.experimental().SetInterceptorCreators(std::move(meters));
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) return absl::InternalError("gRPC cannot start a server");

@@ -1,11 +1,17 @@
 #include "server/calls/durable_session.h"
 
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/result.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/requests.h"
+#include "server/calls/skeleton_responses.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -14,164 +20,197 @@ namespace {
 // Smaller volumes are sent and computed again sooner than they are made durable.
 constexpr uint64_t kSmallVolumeBytes = uint64_t{1} << 20;
 
+class DurableSession final : public SkeletonizeSession,
+                             public JobWatcher,
+                             public UploadWriters::Writer,
+                             public std::enable_shared_from_this<DurableSession> {
+  // What DurableJobs calls: `next` with the value, or the end of the call.
+  template <typename Function>
+  auto Then(Function next) {
+    return [self = shared_from_this(), next = std::move(next)](auto value) {
+      if (!value.ok()) return self->call_->EndWith(StorageError(value.status()));
+      next(*self, *value);
+    };
+  }
+
+ public:
+  DurableSession(std::shared_ptr<Call> call, DurableJobs& durable_jobs, UploadWriters& writers)
+      : call_(std::move(call)), durable_jobs_(durable_jobs), writers_(writers) {}
+  // No call of DurableJobs is under way any more, so that the next writer may begin.
+  ~DurableSession() override {
+    if (!upload_.empty() && !volume_sent_) durable_jobs_.SenderGone(tenant(), upload_);
+  }
+
+  absl::Status Begin(const v1::SkeletonizeConfig& config) override {
+    cancel_with_call_ = config.on_disconnect() == v1::DISCONNECT_POLICY_CANCEL;
+    size_bytes_ = config.volume().size_bytes();
+    BCCSKEL_ASSIGN_OR_RETURN(const std::string options,
+                             OptionsBytes(config.options(), config.thin_volume_return()));
+    NewUpload upload;
+    upload.declaration = config.volume().SerializeAsString();
+    upload.then_job = {
+        .options = options, .threads = config.threads(), .trace = call_->facts().trace};
+    durable_jobs_.CreateUpload(
+        tenant(), upload,
+        Then([](DurableSession& it, const UploadInfo& info) { it.Opened(info); }));
+    return absl::OkStatus();
+  }
+  void Append(v1::VolumeChunk& chunk) override {
+    std::optional<uint32_t> crc32c;
+    if (chunk.has_crc32c()) crc32c = chunk.crc32c();
+    durable_jobs_.Append(tenant(), upload_, chunk.offset(), std::move(*chunk.mutable_data()),
+                         crc32c, Then([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
+  }
+  void Finish(const v1::VolumeFinish& finish) override {
+    {
+      std::lock_guard lock(mutex_);
+      volume_sent_ = true;
+    }
+    durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
+                               Then([](DurableSession& it, const VolumeInfo&) {
+                                 it.WatchJob();
+                                 it.call_->ReadNext();  // sees requests that must not come
+                               }));
+  }
+  std::optional<v1::SkeletonizeResponse> Next() override {
+    return first_.HasFirst() ? first_.NextFirst() : std::exchange(piece_, std::nullopt);
+  }
+  Following Follows(const v1::SkeletonizeResponse& response) const override {
+    if (response.has_summary()) return Following::kNothing;
+    const bool chunk = response.response_case() == v1::SkeletonizeResponse::RESPONSE_NOT_SET;
+    return chunk ? Following::kFetchedAtOnce : Following::kLater;
+  }
+  void Fetch() override {
+    reader_->Next([self = shared_from_this()](absl::StatusOr<std::optional<ResultRecord>> record) {
+      absl::Status status = record.status();
+      if (status.ok() && !record->has_value()) {
+        status = absl::InternalError("the stored result has no summary");
+      }
+      if (status.ok()) status = self->TakePiece(**std::move(record));
+      if (!status.ok()) self->call_->EndWith(StorageError(status));
+    });
+  }
+  void Leave(const absl::Status&) override {
+    std::lock_guard lock(mutex_);
+    left_ = true;
+    if (cancel_with_call_ && !taken_over_ && !job_.empty()) LeaveJob();
+  }
+  void Close() override {
+    std::lock_guard lock(mutex_);
+    closed_ = true;
+    if (const auto watch = std::move(watch_)) watch->Stop();
+  }
+
+  void OnEvent(const JobEvent& event) override {
+    if (const auto* progress = std::get_if<JobProgress>(&event.what)) {
+      return call_->Change([&] {
+        first_.Report(wire::ToMessage(progress->shell, progress->elapsed));
+        return Sending::kNow;
+      });
+    }
+    if (!event.IsCompleted()) return;
+    const auto& change = std::get<JobEvent::StateChange>(event.what);
+    if (change.state == JobState::kSucceeded) return OpenResult();
+    call_->EndWith(change.error.ok() ? absl::CancelledError("the job was cancelled")
+                                     : WithJobReason(change.error));
+  }
+  void OnWatchEnd(const absl::Status& status) override {
+    if (!status.ok()) call_->EndWith(StorageError(status));
+  }
+  void OnTurn(UploadWriters::Turn turn) override {
+    turn_ = std::move(turn);
+    call_->Change([this] {
+      first_.Accept(job_, upload_);
+      return Sending::kNow;
+    });
+    call_->ReadNext();
+  }
+  void OnTakenOver() override {
+    {
+      std::lock_guard lock(mutex_);
+      taken_over_ = true;
+    }
+    call_->EndWith(
+        CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
+  }
+
+ private:
+  void Opened(const UploadInfo& upload) {
+    call_->Accepted(upload.job, size_bytes_);
+    {
+      std::lock_guard lock(mutex_);
+      upload_ = upload.name;
+      job_ = upload.job;
+      if (left_) return LeaveJob();  // nobody knows its name
+    }
+    writers_.Claim({tenant(), upload.name}, shared_from_this());
+  }
+  void WatchJob() {
+    auto watch = durable_jobs_.WatchJob(tenant(), job_, 0, shared_from_this());
+    std::lock_guard lock(mutex_);
+    if (closed_) return watch->Stop();
+    watch_ = std::move(watch);
+  }
+  void OpenResult() {
+    durable_jobs_.OpenResult(tenant(), job_, 0,
+                             Then([](DurableSession& it, std::shared_ptr<ResultReader> reader) {
+                               it.reader_ = std::move(reader);
+                               it.Fetch();
+                             }));
+  }
+  absl::Status TakePiece(ResultRecord record) {
+    v1::SkeletonizeResponse response;
+    BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), response));
+    call_->Change([&] {
+      piece_ = std::move(response);
+      return Sending::kNow;
+    });
+    return absl::OkStatus();
+  }
+  const std::string& tenant() const { return call_->facts().tenant; }
+  // Erases what came of the volume, or ends the job. Changes nothing once the job has ended.
+  // Needs: mutex_ held.
+  void LeaveJob() {
+    if (volume_sent_) {
+      durable_jobs_.CancelJob(tenant(), job_, [](const absl::StatusOr<JobInfo>&) {});
+    } else {
+      durable_jobs_.DeleteUpload(tenant(), upload_, [](const absl::Status&) {});
+    }
+  }
+
+  const std::shared_ptr<Call> call_;
+  DurableJobs& durable_jobs_;
+  UploadWriters& writers_;
+  // Used by one request, or answer to one, at a time.
+  uint64_t size_bytes_ = 0;
+  bool cancel_with_call_ = false;
+  UploadWriters::Turn turn_;
+  std::shared_ptr<ResultReader> reader_;
+  // Guarded by the call's lock.
+  FirstOfSkeleton first_;
+  std::optional<v1::SkeletonizeResponse> piece_;
+
+  std::mutex mutex_;
+  std::string upload_, job_;  // set with mutex_ held, by Opened()
+  bool volume_sent_ = false;  // guarded by mutex_, as what follows
+  bool taken_over_ = false;   // by another stream, which goes on with the job
+  bool left_ = false;         // the call has failed
+  bool closed_ = false;       // and gRPC is done with it
+  std::shared_ptr<Watch> watch_;
+};
+
 }  // namespace
 
-bool DurableSession::Suits(const v1::SkeletonizeConfig& config, const VolumeLimits& limits) {
+bool IsDurable(const v1::SkeletonizeConfig& config, const VolumeLimits& limits) {
   const absl::StatusOr<JobRequest> request = JobRequestOf(config, limits);
   return request.ok() && request->shell_points == ShellPointsWanted::kNone &&
          request->header.max_bricks > kSmallVolumeBytes / sizeof(BrickBits);
 }
 
-DurableSession::~DurableSession() {
-  if (!upload_.empty() && !volume_sent_) durable_jobs_.SenderGone(tenant(), upload_);
-}
-
-template <typename Function>
-auto DurableSession::Then(Function next) {
-  return [self = shared_from_this(), next = std::move(next)](auto value) {
-    if (!value.ok()) return self->call_->EndWith(StorageError(value.status()));
-    next(*self, *value);
-  };
-}
-
-absl::Status DurableSession::Begin(const v1::SkeletonizeConfig& config) {
-  cancel_with_call_ = config.on_disconnect() == v1::DISCONNECT_POLICY_CANCEL;
-  size_bytes_ = config.volume().size_bytes();
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string options,
-                           OptionsBytes(config.options(), config.thin_volume_return()));
-  NewUpload upload;
-  upload.declaration = config.volume().SerializeAsString();
-  upload.then_job = {
-      .options = options, .threads = config.threads(), .trace = call_->facts().trace};
-  durable_jobs_.CreateUpload(
-      tenant(), upload, Then([](DurableSession& it, const UploadInfo& info) { it.Opened(info); }));
-  return absl::OkStatus();
-}
-
-void DurableSession::Opened(const UploadInfo& upload) {
-  call_->Accepted(upload.job, size_bytes_);
-  {
-    std::lock_guard lock(mutex_);
-    upload_ = upload.name;
-    job_ = upload.job;
-    if (left_) return LeaveJob();  // nobody knows its name
-  }
-  writers_.Claim({tenant(), upload.name}, shared_from_this());
-}
-
-void DurableSession::OnTurn(UploadWriters::Turn turn) {
-  turn_ = std::move(turn);
-  call_->Change([this] {
-    first_.Accept(job_, upload_);
-    return Sending::kNow;
-  });
-  call_->ReadNext();
-}
-
-void DurableSession::OnTakenOver() {
-  {
-    std::lock_guard lock(mutex_);
-    taken_over_ = true;
-  }
-  call_->EndWith(
-      CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
-}
-
-void DurableSession::Append(v1::VolumeChunk& chunk) {
-  std::optional<uint32_t> crc32c;
-  if (chunk.has_crc32c()) crc32c = chunk.crc32c();
-  durable_jobs_.Append(tenant(), upload_, chunk.offset(), std::move(*chunk.mutable_data()), crc32c,
-                       Then([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
-}
-
-void DurableSession::Finish(const v1::VolumeFinish& finish) {
-  {
-    std::lock_guard lock(mutex_);
-    volume_sent_ = true;
-  }
-  durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
-                             Then([](DurableSession& it, const VolumeInfo&) {
-                               it.WatchJob();
-                               it.call_->ReadNext();  // sees requests that must not come
-                             }));
-}
-
-void DurableSession::WatchJob() {
-  auto watch = durable_jobs_.WatchJob(tenant(), job_, 0, shared_from_this());
-  std::lock_guard lock(mutex_);
-  if (closed_) return watch->Stop();
-  watch_ = std::move(watch);
-}
-
-void DurableSession::OnEvent(const JobEvent& event) {
-  if (const auto* progress = std::get_if<JobProgress>(&event.what)) {
-    return call_->Change([&] {
-      first_.Report(wire::ToMessage(progress->shell, progress->elapsed));
-      return Sending::kNow;
-    });
-  }
-  if (!event.IsCompleted()) return;
-  const auto& change = std::get<JobEvent::StateChange>(event.what);
-  if (change.state == JobState::kSucceeded) return OpenResult();
-  call_->EndWith(change.error.ok() ? absl::CancelledError("the job was cancelled")
-                                   : WithJobReason(change.error));
-}
-
-void DurableSession::OnWatchEnd(const absl::Status& status) {
-  if (!status.ok()) call_->EndWith(StorageError(status));
-}
-
-void DurableSession::OpenResult() {
-  durable_jobs_.OpenResult(tenant(), job_, 0,
-                           Then([](DurableSession& it, std::shared_ptr<ResultReader> reader) {
-                             it.reader_ = std::move(reader);
-                             it.Fetch();
-                           }));
-}
-
-void DurableSession::Fetch() {
-  reader_->Next([self = shared_from_this()](absl::StatusOr<std::optional<ResultRecord>> record) {
-    absl::Status status = record.status();
-    if (status.ok() && !record->has_value()) {
-      status = absl::InternalError("the stored result has no summary");
-    }
-    if (status.ok()) status = self->TakePiece(**std::move(record));
-    if (!status.ok()) self->call_->EndWith(StorageError(status));
-  });
-}
-
-absl::Status DurableSession::TakePiece(ResultRecord record) {
-  v1::SkeletonizeResponse response;
-  BCCSKEL_RETURN_IF_ERROR(SetPiece(std::move(record), response));
-  call_->Change([&] {
-    piece_ = std::move(response);
-    return Sending::kNow;
-  });
-  return absl::OkStatus();
-}
-
-std::optional<v1::SkeletonizeResponse> DurableSession::Next() {
-  return first_.HasFirst() ? first_.NextFirst() : std::exchange(piece_, std::nullopt);
-}
-
-void DurableSession::Leave(const absl::Status&) {
-  std::lock_guard lock(mutex_);
-  left_ = true;
-  if (cancel_with_call_ && !taken_over_ && !job_.empty()) LeaveJob();
-}
-
-void DurableSession::LeaveJob() {
-  if (volume_sent_) {
-    durable_jobs_.CancelJob(tenant(), job_, [](const absl::StatusOr<JobInfo>&) {});
-  } else {
-    durable_jobs_.DeleteUpload(tenant(), upload_, [](const absl::Status&) {});
-  }
-}
-
-void DurableSession::Close() {
-  std::lock_guard lock(mutex_);
-  closed_ = true;
-  if (const auto watch = std::move(watch_)) watch->Stop();
+std::shared_ptr<SkeletonizeSession> MakeDurableSession(
+    std::shared_ptr<SkeletonizeSession::Call> call, DurableJobs& durable_jobs,
+    UploadWriters& writers) {
+  return std::make_shared<DurableSession>(std::move(call), durable_jobs, writers);
 }
 
 }  // namespace bccskel::server

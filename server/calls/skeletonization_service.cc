@@ -21,16 +21,16 @@ class SkeletonizationService final : public v1::SkeletonizationService::Callback
   grpc::ServerBidiReactor<v1::SkeletonizeRequest, v1::SkeletonizeResponse>* Skeletonize(
       grpc::CallbackServerContext* context) override {
     using Call = SessionCall<v1::SkeletonizeRequest, v1::SkeletonizeResponse>;
-    return StartCall<Call>(
-        gate_.Enter(*context, kSkeletonize),
-        [this](const Call::Config& config,
-               std::shared_ptr<Call> call) -> std::shared_ptr<Call::Work> {
-          DurableJobs* const durable_jobs = gate_.durable_jobs();
-          if (durable_jobs != nullptr && DurableSession::Suits(config, limits_)) {
-            return std::make_shared<DurableSession>(std::move(call), *durable_jobs, writers_);
-          }
-          return std::make_shared<SkeletonSession>(std::move(call), runner_, limits_);
-        });
+    return StartCall<Call>(gate_.Enter(*context, kSkeletonize),
+                           [this](const Call::Config& config,
+                                  std::shared_ptr<Call> call) -> std::shared_ptr<Call::Work> {
+                             DurableJobs* const durable_jobs = gate_.durable_jobs();
+                             if (durable_jobs != nullptr && IsDurable(config, limits_)) {
+                               return MakeDurableSession(std::move(call), *durable_jobs, writers_);
+                             }
+                             return std::make_shared<SkeletonSession>(std::move(call), runner_,
+                                                                      limits_);
+                           });
   }
 
   grpc::ServerBidiReactor<v1::SkeletonizeLabelsRequest, v1::SkeletonizeLabelsResponse>*

@@ -135,7 +135,9 @@ class WritingCall : public Base {
     {
       std::lock_guard lock(this->mutex_);
       writing_since_.reset();
-      fetch = ok && !this->end_.has_value() && IsFetched(Follows(response_));
+      const Following following = Follows(response_);
+      fetch = ok && !this->end_.has_value() &&
+              (following == Following::kFetched || following == Following::kFetchedAtOnce);
       // A call that has failed while it wrote waits for this moment to finish.
       if (ok || this->end_.has_value()) Advance();
     }
@@ -172,10 +174,6 @@ class WritingCall : public Base {
   bool writing() const { return writing_since_.has_value(); }  // Needs: mutex_ held.
 
  private:
-  static bool IsFetched(Following following) {
-    return following == Following::kFetched || following == Following::kFetchedAtOnce;
-  }
-
   Response response_;                                   // of the write in flight
   std::optional<OpenStream::TimePoint> writing_since_;  // guarded by mutex_
   bool ended_early_ = false;                            // guarded by mutex_

@@ -28,7 +28,22 @@ class UploadWriters {
   };
 
   // OnTurn() comes now, or when the writer before has given its turn back.
-  void Claim(const Key& key, const std::shared_ptr<Writer>& writer);
+  void Claim(const Key& key, const std::shared_ptr<Writer>& writer) {
+    std::unique_lock lock(mutex_);
+    const auto [place, free] = places_.try_emplace(key);
+    if (free) {
+      place->second.holder = writer;
+      lock.unlock();
+      return writer->OnTurn(TurnAt(key));
+    }
+    const std::shared_ptr<Writer> waited = std::exchange(place->second.next, writer);
+    // A holder that has been told already, by the one that waited, is on its way out.
+    const std::shared_ptr<Writer> holder =
+        waited == nullptr ? place->second.holder.lock() : nullptr;
+    lock.unlock();
+    if (waited != nullptr) waited->OnTakenOver();
+    if (holder != nullptr) holder->OnTakenOver();
+  }
 
  private:
   struct Place {
@@ -38,7 +53,18 @@ class UploadWriters {
   Turn TurnAt(const Key& key) {
     return {this, [key](UploadWriters* writers) { writers->GiveBack(key); }};
   }
-  void GiveBack(const Key& key);
+  void GiveBack(const Key& key) {
+    std::unique_lock lock(mutex_);
+    const auto place = places_.find(key);
+    const std::shared_ptr<Writer> next = std::exchange(place->second.next, nullptr);
+    if (next == nullptr) {
+      places_.erase(place);
+      return;
+    }
+    place->second.holder = next;
+    lock.unlock();
+    next->OnTurn(TurnAt(key));
+  }
 
   std::mutex mutex_;
   std::map<Key, Place> places_;  // guarded by mutex_

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "server/decoding/shared_bytes.h"
 
 namespace bccskel::server {
 namespace {
@@ -12,7 +13,47 @@ namespace {
 // A child takes some 5 MB that are its own.
 constexpr size_t kMostIdle = 4;
 
+class ChildDecoder final : public VolumeDecoder {
+ public:
+  ChildDecoder(const VolumeHeader& header, const VolumeLimits& limits, const std::string& tenant,
+               ChildPool& pool, SharedBytes bytes)
+      : header_(header), limits_(limits), tenant_(tenant), pool_(pool), bytes_(std::move(bytes)) {}
+
+  absl::Status Append(std::span<const std::byte> bytes) override {
+    if (bytes.size() > header_.max_encoded_bytes - bytes_.size()) {
+      return absl::InvalidArgumentError(absl::StrFormat(
+          "more than %d bytes for an OpenEXR volume of %d x %d x %d cells",
+          header_.max_encoded_bytes, header_.extent.nx, header_.extent.ny, header_.extent.nz));
+    }
+    return bytes_.Append(bytes);
+  }
+  absl::StatusOr<Volume> Finish(const exec::Context& context) override {
+    BCCSKEL_RETURN_IF_ERROR(bytes_.Seal());
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<ChildProcess> child, pool_.Take(tenant_));
+    absl::StatusOr<Volume> volume = child->Decode(bytes_, header_, limits_, context);
+    if (volume.ok()) pool_.Keep(tenant_, std::move(child));
+    child.reset();
+    pool_.StartAhead();
+    return volume;
+  }
+
+ private:
+  const VolumeHeader header_;
+  const VolumeLimits limits_;
+  const std::string tenant_;
+  ChildPool& pool_;
+  SharedBytes bytes_;
+};
+
 }  // namespace
+
+absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeChildDecoder(const VolumeHeader& header,
+                                                                const VolumeLimits& limits,
+                                                                const std::string& tenant,
+                                                                ChildPool& pool) {
+  BCCSKEL_ASSIGN_OR_RETURN(SharedBytes bytes, SharedBytes::Create());
+  return std::make_unique<ChildDecoder>(header, limits, tenant, pool, std::move(bytes));
+}
 
 ChildPool::ChildPool(std::vector<std::string> command) : command_(std::move(command)) {
   StartAhead();
@@ -62,34 +103,6 @@ std::vector<pid_t> ChildPool::idle() const {
   for (const Idle& idle : used_) pids.push_back(idle.child->pid());
   if (fresh_ != nullptr) pids.push_back(fresh_->pid());
   return pids;
-}
-
-absl::StatusOr<std::unique_ptr<VolumeDecoder>> ChildDecoder::Create(const VolumeHeader& header,
-                                                                    const VolumeLimits& limits,
-                                                                    const std::string& tenant,
-                                                                    ChildPool& pool) {
-  BCCSKEL_ASSIGN_OR_RETURN(SharedBytes bytes, SharedBytes::Create());
-  return std::unique_ptr<VolumeDecoder>(
-      new ChildDecoder(header, limits, tenant, pool, std::move(bytes)));
-}
-
-absl::Status ChildDecoder::Append(std::span<const std::byte> bytes) {
-  if (bytes.size() > header_.max_encoded_bytes - bytes_.size()) {
-    return absl::InvalidArgumentError(absl::StrFormat(
-        "more than %d bytes for an OpenEXR volume of %d x %d x %d cells", header_.max_encoded_bytes,
-        header_.extent.nx, header_.extent.ny, header_.extent.nz));
-  }
-  return bytes_.Append(bytes);
-}
-
-absl::StatusOr<Volume> ChildDecoder::Finish(const exec::Context& context) {
-  BCCSKEL_RETURN_IF_ERROR(bytes_.Seal());
-  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<ChildProcess> child, pool_.Take(tenant_));
-  absl::StatusOr<Volume> volume = child->Decode(bytes_, header_, limits_, context);
-  if (volume.ok()) pool_.Keep(tenant_, std::move(child));
-  child.reset();
-  pool_.StartAhead();
-  return volume;
 }
 
 }  // namespace bccskel::server

@@ -10,7 +10,6 @@
 #include "absl/status/statusor.h"
 #include "core/io/volume_decoder.h"
 #include "server/decoding/child_process.h"
-#include "server/decoding/shared_bytes.h"
 
 namespace bccskel::server {
 
@@ -50,29 +49,12 @@ class ChildPool {
 
 // Decodes an OpenEXR volume in a child. Bytes are put, as they come, where the child will find
 // them; a child is taken only once all are there, so that slow senders keep none busy.
-class ChildDecoder final : public VolumeDecoder {
- public:
-  // Needs: a completed header of OpenEXR; the pool outlives the decoder. Errors: a CallError.
-  static absl::StatusOr<std::unique_ptr<VolumeDecoder>> Create(const VolumeHeader& header,
-                                                               const VolumeLimits& limits,
-                                                               const std::string& tenant,
-                                                               ChildPool& pool);
-
-  // Errors: as VolumeDecoder, or a CallError.
-  absl::Status Append(std::span<const std::byte> bytes) override;
-  absl::StatusOr<Volume> Finish(const exec::Context& context) override;
-
- private:
-  ChildDecoder(const VolumeHeader& header, const VolumeLimits& limits, const std::string& tenant,
-               ChildPool& pool, SharedBytes bytes)
-      : header_(header), limits_(limits), tenant_(tenant), pool_(pool), bytes_(std::move(bytes)) {}
-
-  const VolumeHeader header_;
-  const VolumeLimits limits_;
-  const std::string tenant_;
-  ChildPool& pool_;
-  SharedBytes bytes_;
-};
+// Needs: a completed header of OpenEXR; the pool outlives the decoder.
+// Errors, its own too: as VolumeDecoder, or a CallError.
+absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeChildDecoder(const VolumeHeader& header,
+                                                                const VolumeLimits& limits,
+                                                                const std::string& tenant,
+                                                                ChildPool& pool);
 
 }  // namespace bccskel::server
 

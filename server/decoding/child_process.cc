@@ -22,6 +22,14 @@
 #include "server/decoding/decoding_child.h"
 
 namespace bccskel::server {
+
+// What decoding one volume may cost a child.
+struct DecodingBudget {
+  uint64_t memory_bytes = 0;               // beside what the child has before the volume
+  std::chrono::seconds processor_time{0};  // in the child
+  std::chrono::seconds wall_time{0};       // until the last byte of its reply
+};
+
 namespace {
 
 // Measured: 200 MB/s for ZIP, 500 for RLE; sanitizers and old machines take ten times as long.
@@ -79,6 +87,15 @@ class SpawnPlan {
   posix_spawn_file_actions_t files_;
   posix_spawnattr_t attributes_;
 };
+
+// Several times what a well-formed volume with this header takes: whoever needs more means harm.
+DecodingBudget BudgetFor(const VolumeHeader& header, uint64_t encoded_bytes) {
+  const std::chrono::seconds processor(2 + header.decoded_bytes / kSlowestBytesPerSecond);
+  return {.memory_bytes = kSlackBytes + 2 * header.DecodingBytes(encoded_bytes),
+          .processor_time = processor,
+          // The processors may be busy with other jobs.
+          .wall_time = std::chrono::seconds(30) + 8 * processor};
+}
 
 absl::Status Nonsense() {
   return absl::InvalidArgumentError(
@@ -142,14 +159,6 @@ std::string HowItEnded(int status, const DecodingBudget& budget) {
 }
 
 }  // namespace
-
-DecodingBudget BudgetFor(const VolumeHeader& header, uint64_t encoded_bytes) {
-  const std::chrono::seconds processor(2 + header.decoded_bytes / kSlowestBytesPerSecond);
-  return {.memory_bytes = kSlackBytes + 2 * header.DecodingBytes(encoded_bytes),
-          .processor_time = processor,
-          // The processors may be busy with other jobs.
-          .wall_time = std::chrono::seconds(30) + 8 * processor};
-}
 
 absl::StatusOr<std::unique_ptr<ChildProcess>> ChildProcess::Start(
     const std::vector<std::string>& command) {

@@ -2,6 +2,7 @@
 #define BCCSKEL_SERVER_DURABLE_RUN_H_
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,6 +12,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/exec/status_macros.h"
+#include "core/io/volume_digest.h"
 #include "server/durable/flow.h"
 #include "server/durable/records.h"
 #include "server/jobs/job_runner.h"
@@ -42,28 +45,84 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   const std::string& tenant() const { return tenant_; }
 
   // Asks the runner for a place. Errors: the runner's; then the run is of no further use.
-  absl::Status Start(JobRunner& runner, JobRequest request);
+  absl::Status Start(JobRunner& runner, JobRequest request) {
+    BCCSKEL_ASSIGN_OR_RETURN(job_, runner.Start(std::move(request), shared_from_this()));
+    return absl::OkStatus();
+  }
 
   // The next bytes. `room` is called when they are decoded, or with the error with which the run
   // ended. Needs: `room` of the bytes before was called.
-  void Append(std::string bytes, std::function<void(absl::Status)> room);
-  void FinishVolume();
+  void Append(std::string bytes, std::function<void(absl::Status)> room) {
+    {
+      std::unique_lock lock(mutex_);
+      if (ended_) {
+        lock.unlock();
+        return room(absl::CancelledError("the run has ended"));
+      }
+      room_ = std::move(room);
+    }
+    job_->Append(std::move(bytes));
+  }
+  void FinishVolume() { job_->FinishVolume(std::nullopt); }
 
   // Ends the run soon; OnRunEnd() comes all the same.
-  void Cancel();
+  void Cancel() {
+    cancelled_ = true;
+    job_->Cancel();
+  }
   // Whether anybody did that: a result that has come in the meantime is not wanted any more.
   bool cancelled() const { return cancelled_; }
   // The same, because its bytes cannot be had.
   void Fail(absl::Status status) { job_->EndWith(std::move(status)); }
 
-  std::optional<JobProgress> TakeProgress();
+  std::optional<JobProgress> TakeProgress() {
+    std::lock_guard lock(mutex_);
+    announced_ = false;
+    return std::exchange(progress_, std::nullopt);
+  }
 
-  void OnBytesConsumed() override;
-  void OnVolume(const Volume& volume) override;
-  void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override;
-  void OnEnd(absl::StatusOr<JobResult> result) override;
+  void OnBytesConsumed() override {
+    std::function<void(absl::Status)> room;
+    {
+      std::lock_guard lock(mutex_);
+      room = std::exchange(room_, nullptr);
+    }
+    if (room) room(absl::OkStatus());
+  }
+  void OnVolume(const Volume& volume) override {
+    observer_.OnRunVolume(shared_from_this(), VolumeDigest(volume));
+  }
+  void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) override {
+    {
+      std::lock_guard lock(mutex_);
+      progress_ = JobProgress{.shell = progress, .elapsed = elapsed};
+      if (announced_ || elapsed < next_announcement_) return;
+      next_announcement_ = elapsed + kProgressInterval;
+      announced_ = true;
+    }
+    observer_.OnRunProgress(shared_from_this());
+  }
+  void OnEnd(absl::StatusOr<JobResult> result) override {
+    std::function<void(absl::Status)> room;
+    bool unannounced = false;
+    {
+      std::lock_guard lock(mutex_);
+      ended_ = true;
+      room = std::exchange(room_, nullptr);
+      unannounced = progress_.has_value() && !announced_;
+    }
+    // A copy of its own: the result goes to another thread.
+    const absl::Status status(result.status().code(), result.status().message());
+    if (unannounced) observer_.OnRunProgress(shared_from_this());
+    // The run's end is known before the sender hears of it.
+    observer_.OnRunEnd(shared_from_this(), std::move(result));
+    if (room) room(status);
+  }
 
  private:
+  // Progress that is told more often would cost the computation time.
+  static constexpr std::chrono::milliseconds kProgressInterval{2};
+
   RunObserver& observer_;
   const std::string tenant_;
   const Operations::Token operation_;

@@ -6,16 +6,6 @@
 
 namespace bccskel::server {
 
-uint64_t UploadSession::committed() const {
-  std::lock_guard lock(mutex_);
-  return committed_;
-}
-
-Time UploadSession::used() const {
-  std::lock_guard lock(mutex_);
-  return used_;
-}
-
 absl::Status UploadSession::Begin() {
   if (writing_) {
     return CallError(Reason::kSecondWriter, absl::StrCat(row_.name, " is being written just now"));
@@ -52,28 +42,6 @@ absl::Status UploadSession::BeginFinish(uint64_t size) {
                        committed_);
   }
   return Begin();
-}
-
-void UploadSession::EndWriting(Time now) {
-  std::lock_guard lock(mutex_);
-  writing_ = false;
-  committed_ = file_->size();
-  used_ = now;
-}
-
-void UploadSession::set_along(std::shared_ptr<Run> run) {
-  std::lock_guard lock(mutex_);
-  along_ = std::move(run);
-}
-
-std::shared_ptr<Run> UploadSession::along() const {
-  std::lock_guard lock(mutex_);
-  return along_;
-}
-
-std::shared_ptr<Run> UploadSession::TakeAlong() {
-  std::lock_guard lock(mutex_);
-  return std::exchange(along_, nullptr);
 }
 
 }  // namespace bccskel::server

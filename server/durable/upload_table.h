@@ -23,22 +23,42 @@ class UploadSession {
       : row_(std::move(row)), committed_(file->size()), used_(used), file_(std::move(file)) {}
 
   const UploadRow& row() const { return row_; }
-  uint64_t committed() const;
-  Time used() const;
+  uint64_t committed() const {
+    std::lock_guard lock(mutex_);
+    return committed_;
+  }
+  Time used() const {
+    std::lock_guard lock(mutex_);
+    return used_;
+  }
 
   // Give the right to write until EndWriting().
   // Errors: ABORTED while somebody has it; OUT_OF_RANGE for a wrong offset, and for more or fewer
   //         bytes than declared; INVALID_ARGUMENT for another size than declared.
   absl::Status BeginAppend(uint64_t offset, uint64_t size);
   absl::Status BeginFinish(uint64_t size);
-  void EndWriting(Time now);
+  void EndWriting(Time now) {
+    std::lock_guard lock(mutex_);
+    writing_ = false;
+    committed_ = file_->size();
+    used_ = now;
+  }
   // Needs: the right to write.
   UploadFile& file() { return *file_; }
 
-  void set_along(std::shared_ptr<Run> run);
-  std::shared_ptr<Run> along() const;
+  void set_along(std::shared_ptr<Run> run) {
+    std::lock_guard lock(mutex_);
+    along_ = std::move(run);
+  }
+  std::shared_ptr<Run> along() const {
+    std::lock_guard lock(mutex_);
+    return along_;
+  }
   // It decodes no longer.
-  std::shared_ptr<Run> TakeAlong();
+  std::shared_ptr<Run> TakeAlong() {
+    std::lock_guard lock(mutex_);
+    return std::exchange(along_, nullptr);
+  }
 
  private:
   absl::Status Begin();  // Needs: mutex_ held.

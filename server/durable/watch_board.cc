@@ -10,19 +10,6 @@
 
 namespace bccskel::server {
 
-void Watch::Tell(const JobEvent& event) {
-  if (over() || (event.sequence <= told_ && !event.IsCompleted())) return;
-  told_ = event.sequence;
-  watcher_->OnEvent(event);
-  if (event.IsCompleted()) End(absl::OkStatus());
-}
-
-void Watch::End(const absl::Status& status) {
-  if (over()) return;
-  const std::shared_ptr<JobWatcher> watcher = std::move(watcher_);
-  watcher->OnWatchEnd(status);
-}
-
 void WatchBoard::Add(int64_t job, std::shared_ptr<Watch> watch) {
   const auto progress = progress_.find(job);
   if (progress != progress_.end()) watch->Tell(progress->second);

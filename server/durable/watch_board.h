@@ -32,8 +32,17 @@ class Watch {
       : told_(after_sequence), watcher_(std::move(watcher)) {}
 
   // Leaves out what was told already, but for the end: no watch ends without it.
-  void Tell(const JobEvent& event);
-  void End(const absl::Status& status);
+  void Tell(const JobEvent& event) {
+    if (over() || (event.sequence <= told_ && !event.IsCompleted())) return;
+    told_ = event.sequence;
+    watcher_->OnEvent(event);
+    if (event.IsCompleted()) End(absl::OkStatus());
+  }
+  void End(const absl::Status& status) {
+    if (over()) return;
+    const std::shared_ptr<JobWatcher> watcher = std::move(watcher_);
+    watcher->OnWatchEnd(status);
+  }
   // No call of the watcher begins after that.
   void Stop() { stopped_ = true; }
   bool over() const { return stopped_ || watcher_ == nullptr; }

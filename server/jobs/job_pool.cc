@@ -10,9 +10,9 @@
 #include "server/admission/memory_estimate.h"
 #include "server/decoding/child_pool.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/labels_work.h"
+#include "server/jobs/job_work.h"
 #include "server/jobs/names.h"
-#include "server/jobs/skeletonize_work.h"
+#include "server/jobs/pool_job.h"
 
 namespace bccskel::server {
 namespace {
@@ -52,8 +52,8 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(JobRequest request,
   TaskThreads& finishers = InChild(request.header) ? finishers_ : decoders_;
   return Launch(request, bytes, finishers, listener, [&] {
     VolumeReceiver::MakeDecoder make_decoder = DecoderFor(request);
-    return std::make_unique<SkeletonizeWork>(std::move(request), limits_.volume,
-                                             std::move(make_decoder), listener);
+    return MakeSkeletonizeWork(std::move(request), limits_.volume, std::move(make_decoder),
+                               listener);
   });
 }
 
@@ -62,7 +62,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
   const int threads = ThreadsWithin(limits_.threads, request.threads_wanted);
   const uint64_t bytes = BytesToSkeletonizeLabels(request.header, threads);
   return Launch(request, bytes, decoders_, listener, [&] {
-    return std::make_unique<LabelsWork>(std::move(request), limits_.volume, threads, listener);
+    return MakeLabelsWork(std::move(request), limits_.volume, threads, listener);
   });
 }
 
@@ -75,10 +75,9 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Launch(const JobWish& wish, uint64
   BCCSKEL_RETURN_IF_ERROR(limits_.CheckVolumeBytes(wish.size_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket, admission_.Admit(wish.origin.tenant, bytes));
   observer_.on_admitted(wish.size_bytes);
-  PoolJob::Facts facts = {RandomName("jobs"), wish.origin, wish.deadline, observer_};
-  return std::make_shared<PoolJob>(std::move(facts), make_work(), std::move(ticket),
-                                   std::move(listener),
-                                   PoolJob::Threads{decoders_, finishers, compute_});
+  PoolJobFacts facts = {RandomName("jobs"), wish.origin, wish.deadline, observer_};
+  return MakePoolJob(std::move(facts), make_work(), std::move(ticket), std::move(listener),
+                     PoolJobThreads{decoders_, finishers, compute_});
 }
 
 void JobPool::SetTenants(const TenantTable& tenants) {
@@ -96,7 +95,7 @@ VolumeReceiver::MakeDecoder JobPool::DecoderFor(const JobRequest& request) {
   if (!InChild(request.header)) return &MakeVolumeDecoder;
   return [tenant = request.origin.tenant, &children = *children_](const VolumeHeader& header,
                                                                   const VolumeLimits& limits) {
-    return ChildDecoder::Create(header, limits, tenant, children);
+    return MakeChildDecoder(header, limits, tenant, children);
   };
 }
 

@@ -12,7 +12,6 @@
 #include "server/decoding/decoding_child.h"
 #include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
-#include "server/jobs/pool_job.h"
 #include "server/jobs/task_threads.h"
 #include "server/jobs/volume_receiver.h"
 

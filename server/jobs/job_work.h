@@ -14,6 +14,7 @@
 #include "core/exec/memory_budget.h"
 #include "server/admission/admission.h"
 #include "server/jobs/job_runner.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 
@@ -52,6 +53,15 @@ class JobWork {
   // Called once, last: gives back the memory that is no longer needed and tells the listener.
   virtual void End(absl::Status status, const JobTimes& times, Ticket ticket) = 0;
 };
+
+// One volume, one skeleton, in one turn.
+std::unique_ptr<JobWork> MakeSkeletonizeWork(JobRequest request, const VolumeLimits& limits,
+                                             VolumeReceiver::MakeDecoder make_decoder,
+                                             std::shared_ptr<JobListener> listener);
+// A volume of labels, a skeleton for each. `threads` that it may get at most; memory is reserved
+// for so many.
+std::unique_ptr<JobWork> MakeLabelsWork(LabelsRequest request, const VolumeLimits& limits,
+                                        int threads, std::shared_ptr<LabelsListener> listener);
 
 }  // namespace bccskel::server
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string_view>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "bccskel/v1/rpc_details.pb.h"
@@ -87,18 +88,32 @@ class Meter : public grpc::experimental::Interceptor {
   const Clock::time_point start_ = Clock::now();
 };
 
+class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
+ public:
+  CallMeter(std::vector<std::string> services, ServerMetrics* metrics)
+      : services_(std::move(services)), metrics_(metrics) {}
+  grpc::experimental::Interceptor* CreateServerInterceptor(
+      grpc::experimental::ServerRpcInfo* info) override {
+    const std::string_view method = info->method();
+    const bool known = IsKnownMethod(method);
+    const bool ours = known && std::ranges::any_of(services_, [method](const std::string& service) {
+                        return method.starts_with("/" + service + "/");
+                      });
+    // Series stay for ever: not one for every name that callers make up.
+    return new Meter(metrics_, known ? info->method() : "unknown",
+                     ours ? Whose::kOurs : Whose::kOthers);
+  }
+
+ private:
+  const std::vector<std::string> services_;
+  ServerMetrics* const metrics_;
+};
+
 }  // namespace
 
-grpc::experimental::Interceptor* CallMeter::CreateServerInterceptor(
-    grpc::experimental::ServerRpcInfo* info) {
-  const std::string_view method = info->method();
-  const bool known = IsKnownMethod(method);
-  const bool ours = known && std::ranges::any_of(services_, [method](const std::string& service) {
-                      return method.starts_with("/" + service + "/");
-                    });
-  // Series stay for ever: not one for every name that callers make up.
-  return new Meter(metrics_, known ? info->method() : "unknown",
-                   ours ? Whose::kOurs : Whose::kOthers);
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> MakeCallMeter(
+    std::vector<std::string> services, ServerMetrics* metrics) {
+  return std::make_unique<CallMeter>(std::move(services), metrics);
 }
 
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics) {

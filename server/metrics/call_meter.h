@@ -4,8 +4,8 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/support/server_interceptor.h>
 
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "server/metrics/server_metrics.h"
@@ -16,19 +16,10 @@ namespace bccskel::server {
 // - Counts the calls.
 // - A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED, without
 //   a message. The meter changes that to INVALID_ARGUMENT, with details as every other error.
-class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
- public:
-  // `services` of ours by their full names. `metrics` may be null: nothing is counted.
-  // Needs: `metrics` outlives the listener.
-  CallMeter(std::vector<std::string> services, ServerMetrics* metrics)
-      : services_(std::move(services)), metrics_(metrics) {}
-  grpc::experimental::Interceptor* CreateServerInterceptor(
-      grpc::experimental::ServerRpcInfo* info) override;
-
- private:
-  const std::vector<std::string> services_;
-  ServerMetrics* const metrics_;
-};
+// `services` of ours by their full names. `metrics` may be null: nothing is counted.
+// Needs: `metrics` outlives the listener.
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> MakeCallMeter(
+    std::vector<std::string> services, ServerMetrics* metrics);
 
 // Counts begin at 0 for each method of the service.
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics);

@@ -40,7 +40,7 @@ absl::StatusOr<Volume> DecodeIn(ChildPool& pool, const std::string& bytes,
   const auto all = std::as_bytes(std::span(bytes));
   const auto header = ScanVolumeHeader(VolumeEncoding::kOpenExr, all, {});
   if (!header.ok()) return header.status();
-  auto decoder = ChildDecoder::Create(*header, {}, tenant, pool);
+  auto decoder = MakeChildDecoder(*header, {}, tenant, pool);
   if (!decoder.ok()) return decoder.status();
   for (size_t offset = 0; offset < bytes.size(); offset += 1000) {
     const auto part = all.subspan(offset, std::min<size_t>(1000, bytes.size() - offset));
