@@ -18,33 +18,33 @@
 namespace bccskel::server {
 namespace {
 
-absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding, const std::string& field) {
-  if (encoding == v1::VOLUME_ENCODING_UNSPECIFIED) return InvalidField(field, "must be set");
-  return MeaningOf<VolumeEncoding>(encoding, field, "encoding ",
+absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding) {
+  if (encoding == v1::VOLUME_ENCODING_UNSPECIFIED)
+    return InvalidField("config.volume.encoding", "must be set");
+  return MeaningOf<VolumeEncoding>(encoding, "config.volume.encoding", "encoding ",
                                    {{v1::VOLUME_ENCODING_OPENEXR, VolumeEncoding::kOpenExr},
                                     {v1::VOLUME_ENCODING_RAW_PLANES, VolumeEncoding::kRawPlanes},
                                     {v1::VOLUME_ENCODING_BRICKS, VolumeEncoding::kBricks},
                                     {v1::VOLUME_ENCODING_CUBIC_MASK, VolumeEncoding::kCubicMask}});
 }
 
-absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression,
-                                                const std::string& field) {
+absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression) {
   return MeaningOf<VolumeCompression>(
-      compression, field, "compression ",
+      compression, "config.volume.compression", "compression ",
       {{v1::VOLUME_COMPRESSION_UNSPECIFIED, VolumeCompression::kNone},
        {v1::VOLUME_COMPRESSION_NONE, VolumeCompression::kNone},
        {v1::VOLUME_COMPRESSION_ZSTD, VolumeCompression::kZstd}});
 }
 
-absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency, const std::string& field) {
-  return MeaningOf<MaskAdjacency>(adjacency, field, "adjacency ",
+absl::StatusOr<MaskAdjacency> AdjacencyOf(v1::MaskAdjacency adjacency) {
+  return MeaningOf<MaskAdjacency>(adjacency, "config.volume.mask_adjacency", "adjacency ",
                                   {{v1::MASK_ADJACENCY_UNSPECIFIED, MaskAdjacency::k26},
                                    {v1::MASK_ADJACENCY_OBJECT_26, MaskAdjacency::k26},
                                    {v1::MASK_ADJACENCY_OBJECT_6, MaskAdjacency::k6}});
 }
 
-absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points, const std::string& field) {
-  return MeaningOf<VoxelPoints>(points, field, "number of points ",
+absl::StatusOr<VoxelPoints> VoxelPointsOf(v1::VoxelPoints points) {
+  return MeaningOf<VoxelPoints>(points, "config.volume.voxel_points", "number of points ",
                                 {{v1::VOXEL_POINTS_UNSPECIFIED, VoxelPoints::kTwo},
                                  {v1::VOXEL_POINTS_TWO, VoxelPoints::kTwo},
                                  {v1::VOXEL_POINTS_SIXTEEN, VoxelPoints::kSixteen}});
@@ -67,14 +67,13 @@ absl::StatusOr<ShellPointsWanted> ShellPointsOf(v1::ShellPointsReturn shell_poin
        {v1::SHELL_POINTS_RETURN_ALL, ShellPointsWanted::kAll}});
 }
 
-absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement,
-                                const std::string& field) {
+absl::StatusOr<MaskGrid> GridOf(const v1::LatticeExtent& extent, const v1::Placement& placement) {
   BCCSKEL_ASSIGN_OR_RETURN(const LatticeExtent voxels,
-                           wire::FromMessage(extent, field + ".extent"));
+                           wire::FromMessage(extent, "config.volume.extent"));
   MaskGrid grid = {.nx = voxels.nx, .ny = voxels.ny, .nz = voxels.nz};
-  BCCSKEL_ASSIGN_OR_RETURN(grid.placement, wire::FromMessage(placement, field + ".placement"));
+  BCCSKEL_ASSIGN_OR_RETURN(grid.placement, wire::FromMessage(placement, "config.volume.placement"));
   if (absl::Status checked = CheckMaskGrid(grid); !checked.ok()) {
-    return InvalidField(field + ".extent", std::string(checked.message()));
+    return InvalidField("config.volume.extent", std::string(checked.message()));
   }
   return grid;
 }
@@ -101,14 +100,11 @@ absl::Status DeclarationError(const absl::Status& status) {
 }
 
 // A mask declares its voxels where other encodings declare their lattice.
-absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string& field,
-                         VolumeHeader& header) {
+absl::Status DeclareMask(const v1::VolumeDeclaration& volume, VolumeHeader& header) {
   MaskDeclaration mask;
-  BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement(), field));
-  BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency,
-                           AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
-  BCCSKEL_ASSIGN_OR_RETURN(mask.points,
-                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
+  BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement()));
+  BCCSKEL_ASSIGN_OR_RETURN(mask.adjacency, AdjacencyOf(volume.mask_adjacency()));
+  BCCSKEL_ASSIGN_OR_RETURN(mask.points, VoxelPointsOf(volume.voxel_points()));
   header.extent = ExactExtent(mask.grid, mask.points);
   header.placement = ExactPlacement(mask.grid, mask.points);
   header.mask = mask;
@@ -123,21 +119,21 @@ absl::Status DeclareMask(const v1::VolumeDeclaration& volume, const std::string&
 
 absl::StatusOr<VolumeHeader> HeaderOf(const v1::VolumeDeclaration& volume,
                                       const VolumeLimits& limits) {
-  const std::string field = "config.volume";
   VolumeHeader header;
-  BCCSKEL_ASSIGN_OR_RETURN(header.encoding, EncodingOf(volume.encoding(), field + ".encoding"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.encoding, EncodingOf(volume.encoding()));
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeCompression compression,
-                           CompressionOf(volume.compression(), field + ".compression"));
+                           CompressionOf(volume.compression()));
   header.compression = ReservedCompression(header.encoding, compression);
-  BCCSKEL_ASSIGN_OR_RETURN(header.extent, wire::FromMessage(volume.extent(), field + ".extent"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.extent,
+                           wire::FromMessage(volume.extent(), "config.volume.extent"));
   BCCSKEL_ASSIGN_OR_RETURN(header.placement,
-                           wire::FromMessage(volume.placement(), field + ".placement"));
+                           wire::FromMessage(volume.placement(), "config.volume.placement"));
   if (volume.max_bricks() > 0) header.declared_bricks = volume.max_bricks();
   if (header.encoding == VolumeEncoding::kBricks && !header.declared_bricks.has_value()) {
-    return InvalidField(field + ".max_bricks", "0, must be the number of bricks");
+    return InvalidField("config.volume.max_bricks", "0, must be the number of bricks");
   }
   if (header.encoding == VolumeEncoding::kCubicMask) {
-    BCCSKEL_RETURN_IF_ERROR(DeclareMask(volume, field, header));
+    BCCSKEL_RETURN_IF_ERROR(DeclareMask(volume, header));
   }
   absl::StatusOr<VolumeHeader> complete = CompleteVolumeHeader(header, limits);
   if (!complete.ok()) return DeclarationError(complete.status());
@@ -152,10 +148,11 @@ absl::Status CheckSize(const VolumeHeader& header, uint64_t size_bytes) {
                                    header.max_encoded_bytes, " at most"));
 }
 
-absl::StatusOr<int> LabelBytesOf(v1::LabelType type, const std::string& field) {
-  if (type == v1::LABEL_TYPE_UNSPECIFIED) return InvalidField(field, "must be set");
+absl::StatusOr<int> LabelBytesOf(v1::LabelType type) {
+  if (type == v1::LABEL_TYPE_UNSPECIFIED) return InvalidField("config.volume.type", "must be set");
   const int bytes = wire::LabelBytesOf(type);
-  if (bytes == 0) return InvalidField(field, absl::StrCat("unknown type ", int{type}));
+  if (bytes == 0)
+    return InvalidField("config.volume.type", absl::StrCat("unknown type ", int{type}));
   return bytes;
 }
 
@@ -192,16 +189,12 @@ absl::Status CheckSize(const LabelVolumeHeader& header, uint64_t size_bytes) {
 }
 
 absl::StatusOr<LabelVolumeHeader> HeaderOf(const v1::LabelVolumeDeclaration& volume) {
-  const std::string field = "config.volume";
   LabelVolumeHeader header;
-  BCCSKEL_ASSIGN_OR_RETURN(header.label_bytes, LabelBytesOf(volume.type(), field + ".type"));
-  BCCSKEL_ASSIGN_OR_RETURN(header.compression,
-                           CompressionOf(volume.compression(), field + ".compression"));
-  BCCSKEL_ASSIGN_OR_RETURN(header.grid, GridOf(volume.extent(), volume.placement(), field));
-  BCCSKEL_ASSIGN_OR_RETURN(header.adjacency,
-                           AdjacencyOf(volume.mask_adjacency(), field + ".mask_adjacency"));
-  BCCSKEL_ASSIGN_OR_RETURN(header.points,
-                           VoxelPointsOf(volume.voxel_points(), field + ".voxel_points"));
+  BCCSKEL_ASSIGN_OR_RETURN(header.label_bytes, LabelBytesOf(volume.type()));
+  BCCSKEL_ASSIGN_OR_RETURN(header.compression, CompressionOf(volume.compression()));
+  BCCSKEL_ASSIGN_OR_RETURN(header.grid, GridOf(volume.extent(), volume.placement()));
+  BCCSKEL_ASSIGN_OR_RETURN(header.adjacency, AdjacencyOf(volume.mask_adjacency()));
+  BCCSKEL_ASSIGN_OR_RETURN(header.points, VoxelPointsOf(volume.voxel_points()));
   BCCSKEL_RETURN_IF_ERROR(CheckPromises(volume, header));
   header.max_voxels = volume.max_voxels();
   header.max_label_voxels = volume.max_label_voxels();

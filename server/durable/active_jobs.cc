@@ -11,11 +11,6 @@ constexpr int kMostUnstored = 16;
 
 }  // namespace
 
-JobPriority PriorityOf(const JobRow& job) {
-  if (job.priority == 0) return JobPriority::kNormal;
-  return job.priority < 0 ? JobPriority::kLow : JobPriority::kHigh;
-}
-
 ActiveJob* ActiveJobs::Find(int64_t job) {
   const auto found = jobs_.find(job);
   return found == jobs_.end() ? nullptr : &found->second;

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_DURABLE_ACTIVE_JOBS_H_
 #define BCCSKEL_SERVER_DURABLE_ACTIVE_JOBS_H_
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -18,7 +19,9 @@
 
 namespace bccskel::server {
 
-JobPriority PriorityOf(const JobRow& job);
+inline JobPriority PriorityOf(const JobRow& job) {
+  return static_cast<JobPriority>(std::clamp(job.priority, -1, 1));
+}
 
 // A job that waits. One that ran while the server crashed may be the reason: it is a suspect.
 struct WaitingJob {

@@ -113,7 +113,11 @@ absl::Status DurableJobs::Recover() {
 }
 
 absl::Status DurableJobs::RecoverStore(JobStore& store) {
-  if (shared_) return JoinFleet(store);
+  if (shared_) {
+    BCCSKEL_RETURN_IF_ERROR(folder_.Join(store));
+    BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
+    return store.Join(journal_.owner());
+  }
   BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
   BCCSKEL_RETURN_IF_ERROR(folder_.TakeOver(store));
   BCCSKEL_RETURN_IF_ERROR(folder_.RemoveDeleted(store));
@@ -261,7 +265,6 @@ DurableUsage DurableJobs::usage() const {
           .uploads = static_cast<int>(uploads_.size()),
           .queued = active_.Count(JobState::kQueued),
           .running = active_.Count(JobState::kRunning),
-          .commits = loop_.commits(),
           .cached = cached_};
 }
 

@@ -45,10 +45,10 @@ namespace bccskel::server {
 // Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE when
 // the server is draining; INTERNAL. Threads: safe.
 //
-// What is remembered here, but for uploads, belongs to the loop: the thread of the job store. A
-// step is posted to it as a change, which alone writes the store, and an end, which runs once the
-// change is on disk and alone changes what is remembered. Bytes of files are read and written on
-// other threads.
+// What is remembered here, but for uploads, belongs to the loop: the thread of the job store. An
+// operation is a flow, which waits for changes, which alone write the store, and goes on on the
+// loop once they are on disk; there alone what is remembered is changed. Bytes of files are read
+// and written on other threads, to which flows go over.
 //
 // Its parts: UploadTable and ActiveJobs remember what is unfinished, JobJournal changes states,
 // WatchBoard tells events, FolderFiles keeps files and tables together, FleetMembers tells who is
@@ -255,8 +255,6 @@ class DurableJobs final : public RunObserver {
                  const absl::Status& error, DoneStatus done = nullptr);
   absl::Status EraseUpload(JobStore& store, const UploadRow& row, JobState state,
                            const absl::Status& error, Erased& erased);
-  absl::StatusOr<VolumeInfo> VolumeOfUpload(JobStore& store, const std::string& tenant,
-                                            const std::string& upload) const;
   VolumeRow NewVolume(const UploadRow& row, const std::string& digest) const;
   absl::Status StoreVolume(JobStore& store, Finishing& finishing);
   absl::Status StoreVolumeOfJob(JobStore& store, Finishing& finishing);
@@ -327,7 +325,6 @@ class DurableJobs final : public RunObserver {
   Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
   // ---- The fleet; on the loop. Where nobody shares the store, nothing happens.
-  absl::Status JoinFleet(JobStore& store);
   void LookAfterFleet();
   // Follows what others have changed.
   void Sync();

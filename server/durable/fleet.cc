@@ -18,12 +18,6 @@ constexpr int kBeatsBetweenCounts = 10, kCleanUpsBetweenSweeps = 60;
 
 }  // namespace
 
-absl::Status DurableJobs::JoinFleet(JobStore& store) {
-  BCCSKEL_RETURN_IF_ERROR(folder_.Join(store));
-  BCCSKEL_RETURN_IF_ERROR(CountFiles(store));
-  return store.Join(journal_.owner());
-}
-
 void DurableJobs::LookAfterFleet() {
   JobStore& store = loop_.store();
   if (store.fenced()) return Rejoin();

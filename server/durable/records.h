@@ -116,7 +116,6 @@ struct DurableUsage {
   int uploads = 0;                    // unfinished
   int queued = 0;                     // jobs
   int running = 0;                    // jobs
-  uint64_t commits = 0;               // transactions since the start
   uint64_t cached = 0;                // jobs since the start that were given a stored result
 };
 

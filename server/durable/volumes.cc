@@ -24,8 +24,12 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
   if (session == nullptr) {
     const absl::StatusOr<Session> found = co_await SessionOf(tenant, upload);
     if (absl::IsFailedPrecondition(found.status())) {
-      co_return done(co_await Read<VolumeInfo>(
-          [&](JobStore& store) { return VolumeOfUpload(store, tenant, upload); }));
+      const auto read = [&](JobStore& store) -> absl::StatusOr<VolumeInfo> {
+        BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
+        BCCSKEL_ASSIGN_OR_RETURN(const auto volume, store.Get<VolumeRow>(tenant, row.volume));
+        return InfoOf(volume);
+      };
+      co_return done(co_await Read<VolumeInfo>(read));  // it was finished before
     }
     if (!found.ok()) co_return done(found.status());
     session = *found;
@@ -58,14 +62,6 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
   VolumeStored(finishing);
   done(InfoOf(finishing.volume));
   Schedule();
-}
-
-// Who finishes again is told the same.
-absl::StatusOr<VolumeInfo> DurableJobs::VolumeOfUpload(JobStore& store, const std::string& tenant,
-                                                       const std::string& upload) const {
-  BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
-  BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow volume, store.Get<VolumeRow>(tenant, row.volume));
-  return InfoOf(volume);
 }
 
 VolumeRow DurableJobs::NewVolume(const UploadRow& row, const std::string& digest) const {

@@ -20,6 +20,14 @@ absl::Status Bad(const std::string& path, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(path, ": ", what));
 }
 
+// Errors: of a file that holds no certificates.
+absl::StatusOr<SslContext> ContextOf(const std::string& certificate) {
+  SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
+  if (context == nullptr) return absl::InternalError("OpenSSL gives no context");
+  if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) == 1) return context;
+  return Bad(certificate, "cannot be read as a PEM certificate");
+}
+
 absl::Status CheckDates(SSL_CTX& context, const std::string& path) {
   const X509* const certificate = SSL_CTX_get0_certificate(&context);
   if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
@@ -32,9 +40,6 @@ absl::Status CheckDates(SSL_CTX& context, const std::string& path) {
 }
 
 absl::Status CheckPair(SSL_CTX& context, const TlsFiles& files) {
-  if (SSL_CTX_use_certificate_chain_file(&context, files.certificate.c_str()) != 1) {
-    return Bad(files.certificate, "cannot be read as a PEM certificate");
-  }
   BCCSKEL_RETURN_IF_ERROR(CheckDates(context, files.certificate));
   // Loading a key checks it against the certificate, too.
   if (SSL_CTX_use_PrivateKey_file(&context, files.key.c_str(), SSL_FILETYPE_PEM) == 1 &&
@@ -53,8 +58,7 @@ absl::Status CheckTlsFiles(const TlsFiles& files) {
   if (files.certificate.empty() || files.key.empty()) {
     return absl::InvalidArgumentError("--tls-cert and --tls-key belong together");
   }
-  const SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
-  if (context == nullptr) return absl::InternalError("OpenSSL gives no context");
+  BCCSKEL_ASSIGN_OR_RETURN(const SslContext context, ContextOf(files.certificate));
   BCCSKEL_RETURN_IF_ERROR(CheckPair(*context, files));
   if (!files.client_ca.empty() &&
       SSL_CTX_load_verify_file(context.get(), files.client_ca.c_str()) != 1) {
@@ -64,11 +68,7 @@ absl::Status CheckTlsFiles(const TlsFiles& files) {
 }
 
 absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files) {
-  const SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
-  if (context == nullptr) return absl::InternalError("OpenSSL gives no context");
-  if (SSL_CTX_use_certificate_chain_file(context.get(), files.certificate.c_str()) != 1) {
-    return Bad(files.certificate, "cannot be read as a PEM certificate");
-  }
+  BCCSKEL_ASSIGN_OR_RETURN(const SslContext context, ContextOf(files.certificate));
   std::tm end = {};
   const X509* const certificate = SSL_CTX_get0_certificate(context.get());
   if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) {

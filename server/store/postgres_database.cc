@@ -86,8 +86,7 @@ class PostgresDatabase final : public SqlDatabase {
     if (PQstatus(connection_) != CONNECTION_OK && !InTransaction()) {
       BCCSKEL_RETURN_IF_ERROR(BeConnected());
     }
-    std::string name;
-    BCCSKEL_RETURN_IF_ERROR(Prepare(sql, values, name));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::string name, Prepared(sql, values));
     std::vector<std::string> numbers;
     numbers.reserve(values.size());
     std::vector<const char*> bytes;
@@ -190,14 +189,12 @@ class PostgresDatabase final : public SqlDatabase {
     return connected;
   }
 
-  absl::Status Prepare(const std::string& sql, const std::vector<SqlValue>& values,
-                       std::string& name) {
+  // Yields the name of the statement.
+  absl::StatusOr<std::string> Prepared(const std::string& sql,
+                                       const std::vector<SqlValue>& values) {
     const auto found = statements_.find(sql);
-    if (found != statements_.end()) {
-      name = found->second;
-      return absl::OkStatus();
-    }
-    name = absl::StrCat("s", statements_.size());
+    if (found != statements_.end()) return found->second;
+    const std::string name = absl::StrCat("s", statements_.size());
     std::vector<Oid> types;
     for (const SqlValue& value : values) {
       types.push_back(value.kind == SqlValue::Kind::kNumber ? kInteger8 : kBytes);
@@ -207,7 +204,7 @@ class PostgresDatabase final : public SqlDatabase {
                         PQclear);
     if (PQresultStatus(result.get()) != PGRES_COMMAND_OK) return ErrorOf(result.get(), sql);
     statements_[sql] = name;
-    return absl::OkStatus();
+    return name;
   }
   absl::Status ErrorOf(const PGresult* result, const std::string& doing) const {
     const char* const state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
