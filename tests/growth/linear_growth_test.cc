@@ -3,6 +3,7 @@
 // the sources under test.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -75,6 +76,25 @@ bool IsOneCurve(int32_t i, int32_t j, int32_t k, int sublattice) {
   return row || turn;
 }
 
+// Voxels with all of their corners, as random as told.
+IsIn Noise(double part) {
+  const auto is_voxel = [part](int32_t i, int32_t j, int32_t k) {
+    uint64_t hash = (static_cast<uint64_t>(k) << 20 | static_cast<uint64_t>(j) << 10 |
+                     static_cast<uint64_t>(i)) +
+                    1;
+    for (int round = 0; round < 3; ++round) hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15;
+    return static_cast<double>(hash >> 11) < part * 0x1p53;
+  };
+  return [is_voxel](int32_t i, int32_t j, int32_t k, int sublattice) {
+    if (sublattice == 1) return is_voxel(i, j, k);
+    for (int corner = 0; corner < 8; ++corner) {
+      const int32_t x = i - (corner & 1), y = j - (corner >> 1 & 1), z = k - (corner >> 2);
+      if (std::min({x, y, z}) >= 0 && is_voxel(x, y, z)) return true;
+    }
+    return false;
+  };
+}
+
 struct Formats {
   uint64_t graph = 0, json = 0, graphml = 0, vtp = 0, swc = 0, csv = 0, glb = 0, markups = 0,
            obj = 0;
@@ -106,8 +126,7 @@ void ExpectLinear(const char* what, uint64_t once, uint64_t twice) {
       << what << ": " << once << " and " << twice << " blocks";
 }
 
-void ExpectLinear(const IsIn& is_in, const SkeletonizeOptions& options = {}) {
-  Box box;
+void ExpectLinear(const IsIn& is_in, const SkeletonizeOptions& options = {}, Box box = {}) {
   const Formats once = WorkFor(box, is_in, options);
   box.height *= 2;
   const Formats twice = WorkFor(box, is_in, options);
@@ -126,6 +145,14 @@ TEST(LinearGrowth, Dust) { ExpectLinear(&IsDust); }
 TEST(LinearGrowth, DenseNet) { ExpectLinear(Net(2)); }
 TEST(LinearGrowth, Net) { ExpectLinear(Net(4)); }
 TEST(LinearGrowth, OneCurve) { ExpectLinear(&IsOneCurve); }
+
+// Its clusters have many loops, and where it is dense, cavities.
+TEST(LinearGrowth, Noise) {
+  for (const double part : {0.35, 0.65}) {
+    SCOPED_TRACE(part);
+    ExpectLinear(Noise(part), {.source = ObjectSource::kVoxels}, {.edge = 32, .height = 20});
+  }
+}
 
 // Their graphs have births, which are looked for in all points.
 TEST(LinearGrowth, Isthmuses) {
