@@ -35,21 +35,22 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
 
 // Tunnels that noise opens split limbs into rings, which have no ends.
 void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
-  constexpr double kVoxels = 2;
   const SkeletonizeOptions& options = result.options;
   const double edge = SurfaceStepOf(options.source);  // of the shortest, in lattice units
   if (edge == 1 || !MakesCurves(options.thinning.kind)) return;
-  const double unit = WorldUnitsPerLatticeUnit(result.graph.placement);
-  const double width = kVoxels * edge * unit;
+  const Placement& placement = result.graph.placement;
+  const double unit = WorldUnitsPerLatticeUnit(placement);
+  const double width = unit * TunnelWidthOf(edge, placement);  // two voxels
   const PreparingOptions& preparing = options.preparing;
-  const double cut = std::max(preparing.tunnel_width, 2 * preparing.tunnel_cells * unit);
+  const double cut =
+      std::max(preparing.tunnel_width, unit * TunnelWidthOf(preparing.tunnel_cells, placement));
   const bool dust = result.certificate.input.components > 1 &&
                     preparing.min_component_points == 0 && preparing.min_component_volume == 0;
   if (cut > 0 && (cut < width || !dust)) return;
   const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
   if (loops == 0) return;
-  const std::string what =
-      Counted(loops, "loop is", "loops are") + absl::StrFormat(" narrower than %g voxels", kVoxels);
+  const std::string what = Counted(loops, "loop is", "loops are") +
+                           absl::StrFormat(" narrower than %g voxels", width / (edge * unit));
   if (cut > 0) {
     notes.push_back(what +
                     "; tunnels with another component in them stay open: --min-component "

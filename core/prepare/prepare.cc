@@ -71,7 +71,9 @@ class Preparation {
 
   absl::Status RunFillTunnels() {
     const double unit = WorldUnitsPerLatticeUnit(prepared_.object.placement());
-    const double width = std::max(options_.tunnel_width / unit, 2 * options_.tunnel_cells);
+    const double width =
+        std::max(options_.tunnel_width / unit,
+                 TunnelWidthOf(options_.tunnel_cells, prepared_.object.placement()));
     if (width > kMaxTunnelWidth) {
       return absl::InvalidArgumentError(absl::StrFormat(
           "width of tunnels to fill %g: must be at most %g, that is %g edges of the cubic cell",
@@ -96,6 +98,12 @@ class Preparation {
 };
 
 }  // namespace
+
+double TunnelWidthOf(double cells, const Placement& placement) {
+  constexpr double kWiderThanGap = 1.25;
+  const double longest = std::ranges::max(AxisScaleOf(placement));
+  return 2 * std::max(cells, std::min(cells, kWiderThanGap) * longest);
+}
 
 absl::Status CheckPreparingOptions(const PreparingOptions& options) {
   if (options.denoise_passes < 0 || options.denoise_passes > kMaxDenoisePasses) {

@@ -34,7 +34,8 @@ struct PreparingOptions {
   // fills none. Components and cavities stay as they are, so a tunnel in which another component
   // lies stays, too.
   double tunnel_width = 0;
-  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points.
+  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points;
+  // see TunnelWidthOf() for cells that are longer one way.
   double tunnel_cells = 0;
 
   // A larger object is not made: cavities may hold far more bricks than the object.
@@ -49,6 +50,11 @@ struct PreparingOptions {
   friend bool operator==(const PreparingOptions&, const PreparingOptions&) = default;
 };
 inline constexpr int32_t kMaxDenoisePasses = 16;
+
+// The width of tunnels in lattice units that PreparingOptions::tunnel_cells stands for: noise
+// leaves gaps as high as the longest edge of a cell, so at least a quarter more than that. Fewer
+// cells than this count as longest edges.
+double TunnelWidthOf(double cells, const Placement& placement);
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPreparingOptions(const PreparingOptions& options);

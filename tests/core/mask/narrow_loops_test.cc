@@ -2,7 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
 #include "core/pipeline/notes.h"
+#include "core/pipeline/presets.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "tests/core/mask/mask_words.h"
@@ -78,6 +84,64 @@ TEST(NarrowLoops, AreNotedWithTheDustThatKeepsThem) {
 
 TEST(NarrowLoops, AreNotNotedWhereAllAreWide) {
   EXPECT_THAT(NotesOn(BarWithHoles({5}, 1)), IsEmpty());
+}
+
+// A grid of rods with gaps of 14 between them, of slices `step` thick, half of whose voxels are in
+// the rods, with noise on its surface if wanted.
+test::ReferenceMask RodsInSlices(int32_t step, bool noisy) {
+  constexpr int32_t kEdge = 72, kPeriod = 24, kRadius = 5;
+  const auto is_in = [](int32_t x, int32_t y, int32_t z) {
+    const auto off = [](int32_t at) { return at % kPeriod - kPeriod / 2; };
+    const auto square = [&](int32_t a, int32_t b) { return off(a) * off(a) + off(b) * off(b); };
+    return std::min({square(x, y), square(y, z), square(z, x)}) < kRadius * kRadius;
+  };
+  test::ReferenceMask mask{kEdge, kEdge, kEdge / step, {}};
+  mask.voxels.resize(static_cast<size_t>(mask.nx) * static_cast<size_t>(mask.ny) *
+                     static_cast<size_t>(mask.nz));
+  const auto for_each = [&](int32_t margin, auto visit) {
+    for (int32_t z = margin; z < mask.nz - margin; ++z) {
+      for (int32_t y = margin; y < mask.ny - margin; ++y) {
+        for (int32_t x = margin; x < mask.nx - margin; ++x) visit(x, y, z);
+      }
+    }
+  };
+  for_each(0, [&](int32_t x, int32_t y, int32_t z) {
+    int32_t inside = 0;
+    for (int32_t n = 0; n < step; ++n) inside += is_in(x, y, step * z + n) ? 1 : 0;
+    mask.voxels[mask.Index(x, y, z)] = 2 * inside >= step ? 1 : 0;
+  });
+  if (!noisy) return mask;
+  const std::vector<uint8_t> clean = mask.voxels;
+  std::mt19937 random(1);
+  for_each(1, [&](int32_t x, int32_t y, int32_t z) {
+    int32_t inside = 0;
+    for (int32_t n = 0; n < 27; ++n) {
+      inside += clean[mask.Index(x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1)];
+    }
+    if (inside > 0 && inside < 27 && random() % 8 == 0) mask.voxels[mask.Index(x, y, z)] ^= 1;
+  });
+  return mask;
+}
+
+TEST(NarrowLoops, OfNoiseGoAndOthersStayHoweverThickTheSlicesAre) {
+  for (const int32_t step : {1, 2, 3}) {
+    Placement placement;
+    placement.spacing = {1, 1, static_cast<double>(step)};
+    const auto loops_of = [&](bool noisy, const SkeletonizeOptions& options) {
+      const Volume object = Converted(RodsInSlices(step, noisy), {}, placement).volume;
+      return Skeletonize(object, options, {})->certificate.input.loops;
+    };
+    SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
+    options.thinning.kind = SkeletonKind::kKernel;
+    const int64_t loops = loops_of(false, options);
+    EXPECT_GT(loops, 20);
+    EXPECT_GT(loops_of(true, options), 4 * loops);
+    for (const char* preset : {"vessels", "neuron"}) {
+      ASSERT_TRUE(ApplyPreset(preset, options).ok());
+      EXPECT_EQ(loops_of(false, options), loops) << preset << ", " << step;
+      EXPECT_LE(std::abs(loops_of(true, options) - loops), 4) << preset << ", " << step;
+    }
+  }
 }
 
 }  // namespace
