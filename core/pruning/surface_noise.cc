@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/distance/border_bricks.h"
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 
@@ -58,6 +59,8 @@ double Roughness(const Volume& object) {
   for (size_t n = 0; n < object.brick_count(); ++n) {
     Beside beside;
     for (size_t way = 0; way < 6; ++way) beside[way] = &bricks[object.neighbors()[n][8 + way]];
+    const auto is_full = [](const BrickBits* brick) { return IsFull(*brick); };
+    if (IsFull(bricks[n]) && std::ranges::all_of(beside, is_full)) continue;  // no surface
     for (size_t k = 0; k < bricks[n].words.size(); ++k) {
       count.Add(bricks[n].words[k], PlanesBeside(bricks[n], beside, k));
     }
