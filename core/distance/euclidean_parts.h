@@ -32,7 +32,17 @@ struct EuclideanParts {
   exec::UninitializedVector<T> beside;
 };
 
-// How far the object extends beside each row of its bricks.
+// Some bricks of an object, numbered anew, and how far the whole object extends beside their rows.
+struct ObjectPart {
+  Volume volume;
+  SideRuns<uint32_t> runs;
+};
+// Needs: increasing `bricks`, all that the object has between two of them along x.
+// Cost:  no table of the object's neighbors, and no runs but the part's: where it ends, the bricks
+//        beside it are walked through.
+ObjectPart PartOf(const Volume& object, std::span<const BrickIndex> bricks,
+                  const exec::Context& context);
+// That of the whole object.
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
 
 // Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
@@ -54,14 +64,6 @@ std::vector<uint64_t> BricksAtX(const Volume& object);
 // where the `counts` by bx of what it has add up to `least` or more, whatever the object has there.
 std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object,
                                                std::span<const uint64_t> counts, size_t least);
-
-// Some bricks of an object, numbered anew, with the runs beside them.
-struct ObjectPart {
-  Volume volume;
-  SideRuns<uint32_t> runs;
-};
-ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
-                  std::span<const BrickIndex> bricks);
 
 // Whether 16 bits are not worth a try for these bricks of the object.
 bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks);

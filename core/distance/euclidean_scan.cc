@@ -206,14 +206,6 @@ class EuclideanScan {
   SquaredLengths<T> lengths_;
 };
 
-// Beside the window nothing ends a run.
-void FillUnknown(const Volume& object, SideRuns<uint32_t>& runs) {
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    if (IsUnknownBeside(object, n, kBelowX)) runs.left[n].fill(kUnknownRun);
-    if (IsUnknownBeside(object, n, kAboveX)) runs.right[n].fill(kUnknownRun);
-  }
-}
-
 // Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
 // tells what to try first.
 bool IsDeepInside(const Volume& object, BrickIndex brick) {
@@ -244,25 +236,6 @@ bool IsDeep(const Volume& object) {
   return IsDeep(object, all);
 }
 
-SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context) {
-  SideRuns<uint32_t> runs(object.brick_count());
-  if (object.window().has_value()) FillUnknown(object, runs);
-  std::vector<BrickIndex> slabs;  // where those of one bz begin
-  const std::span<const BrickKey> keys = object.keys();
-  for (BrickIndex n = 0; n < keys.size(); ++n) {
-    if (n == 0 || keys[n].coordinates().bz != keys[n - 1].coordinates().bz) slabs.push_back(n);
-  }
-  slabs.push_back(static_cast<BrickIndex>(keys.size()));
-  exec::Portions portions(slabs.size() - 1, 1);
-  context.Offer(context.WorkersFor(keys.size()), [&](int) {
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      FindSideRuns<uint32_t>(object.padded_bricks().data(), object.neighbors().data(),
-                             slabs[mine.begin], slabs[mine.end], kUnknownRun, 0, runs);
-    }
-  });
-  return runs;
-}
-
 template <typename T>
 void MeasureWithinLayers(const Volume& object, exec::Share wanted, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts) {
@@ -272,50 +245,6 @@ template <typename T>
 float MeasureAcrossLayers(const Volume& object, const exec::Context& context,
                           EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done) {
   return EuclideanScan<T>(object, parts).RunAcrossLayers(context, done);
-}
-
-std::vector<uint64_t> BricksAtX(const Volume& object) {
-  std::vector<uint64_t> counts(static_cast<size_t>((object.extent().nx + kBrickX - 1) / kBrickX));
-  for (const BrickKey key : object.keys()) ++counts[static_cast<size_t>(key.coordinates().bx)];
-  return counts;
-}
-
-std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object,
-                                               std::span<const uint64_t> counts, size_t least) {
-  std::vector<size_t> group_at;  // by bx
-  size_t group = 0;
-  uint64_t bricks = 0;
-  for (const uint64_t count : counts) {
-    group_at.push_back(group);
-    bricks += count;
-    if (bricks < least) continue;
-    ++group;
-    bricks = 0;
-  }
-  std::vector<std::vector<BrickIndex>> groups(bricks == 0 ? group : group + 1);
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    groups[group_at[static_cast<size_t>(object.keys()[n].coordinates().bx)]].push_back(n);
-  }
-  return groups;
-}
-
-ObjectPart PartOf(const Volume& object, const SideRuns<uint32_t>& runs,
-                  std::span<const BrickIndex> bricks) {
-  std::vector<BrickKey> keys;
-  std::vector<BrickBits> bits;
-  SideRuns<uint32_t> own_runs(bricks.size());
-  keys.reserve(bricks.size());
-  bits.reserve(bricks.size() + 1);  // Volume adds one
-  for (const BrickIndex n : bricks) {
-    own_runs.left[keys.size()] = runs.left[n];
-    own_runs.right[keys.size()] = runs.right[n];
-    keys.push_back(object.keys()[n]);
-    bits.push_back(object.bricks()[n]);
-  }
-  Volume volume = Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
-                                           std::move(bits));
-  volume.SetWindow(object.window());
-  return {std::move(volume), std::move(own_runs)};
 }
 
 template void MeasureWithinLayers(const Volume&, exec::Share, const SideRuns<uint32_t>&,

@@ -41,14 +41,13 @@ class EuclideanStream {
         has_field_(keeps_floats_ || (may_be_whole_ && !IsDeep(object))) {}
 
   absl::StatusOr<std::optional<DistanceField>> Run() && {
-    const SideRuns<uint32_t> runs = SideRunsOf(object_, context_);
     for (const auto& bricks : groups_) most_bricks_ = std::max(most_bricks_, bricks.size());
     for (const std::vector<BrickIndex>& bricks : groups_) {
       BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
       if (groups_.size() == 1) {
-        Measure({bricks, object_, runs});
+        Measure({bricks, object_, SideRunsOf(object_, context_)});
       } else {
-        const ObjectPart part = PartOf(object_, runs, bricks);
+        const ObjectPart part = PartOf(object_, bricks, context_);
         Measure({bricks, part.volume, part.runs});
       }
     }

@@ -36,8 +36,8 @@ inline constexpr size_t kMostSquaresAtOnce = size_t{1} << 21;
 
 // The distances of ComputeDistance() for kEuclidean: see euclidean_scan.cc. Those of objects with
 // more than `at_once` lattice points are measured column of bricks by column. `sink` may be null.
-// Cost:   half a byte per lattice point of the object's bricks, and 4.3 for those that are measured
-//         together, 8.5 where they are deeper than 16 bits or axes have different spacings.
+// Cost:   4.8 bytes per lattice point of the bricks that are measured together, 9 where they are
+//         deeper than 16 bits or axes have different spacings.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<std::optional<DistanceField>> StreamEuclidean(const Volume& object,
                                                              const exec::Context& context,

@@ -48,15 +48,12 @@ class EuclideanRounds {
         may_be_whole_(AxisScaleOf(bricks.local.placement()) == kIsotropic) {}
 
   absl::Status Run() {
-    Volume volume = MoveToLayers(exchange_, layers_, bricks_.local, bricks_.own);
-    // Runs have a rank's most memory beside the shells, and so the table of neighbors goes.
-    const SideRuns<uint32_t> runs = SideRunsOf(volume, context_);
-    volume = WithoutTable(volume);
+    const Volume volume = MoveToLayers(exchange_, layers_, bricks_.local, bricks_.own);
     std::vector<uint64_t> counts = BricksAtX(volume);
     exchange_.Max(counts);
     for (const auto& group : ColumnsOf(volume, counts, kBytesPerRound / kBytes<uint16_t>)) {
       BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange_, context_));
-      const ObjectPart part = PartOf(volume, runs, group);
+      const ObjectPart part = PartOf(volume, group, context_);
       // Columns beside deep ones are deep, too.
       if (may_be_whole_ && largest_ < kFirstUnsureSquare && MeasureAs<uint16_t>(part)) continue;
       MeasureAs<float>(part);
@@ -69,12 +66,6 @@ class EuclideanRounds {
   template <typename T>
   static constexpr size_t kBytes = sizeof(BrickKey) + sizeof(BrickBits) +
                                    (kBrickPoints + kBeside) * sizeof(T);
-
-  static Volume WithoutTable(const Volume& volume) {
-    return Volume::FromSortedBricks(volume.extent(), volume.placement(),
-                                    {volume.keys().begin(), volume.keys().end()},
-                                    {volume.bricks().begin(), volume.bricks().end()});
-  }
 
   // Returns whether T was enough, on all ranks.
   template <typename T>

@@ -24,7 +24,7 @@ struct RankShells {
 //        Chamfer scans go up and down and need only the adjacent layer (chamfer_scan.cc): so ranks
 //        scan one after the other. Shells are sent to the owners.
 // Cost:  Euclidean distances are measured some columns at a time. Besides the shells a rank holds
-//        332 bytes for each brick of its layers and the two adjacent ones, and the squares of a
+//        76 bytes for each brick of its layers and the two adjacent ones, and the squares of a
 //        round. Sent per brick: 72 to 216 bytes to the layers, 1,088 squares to the columns, 400
 //        or 720 bytes back. Chamfer scans take as long as on one machine, and the memory of
 //        StreamShells() for a rank's layers.

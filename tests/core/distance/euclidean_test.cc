@@ -164,6 +164,27 @@ TEST(Euclidean, IsTheSameInColumns) {
   }
 }
 
+// Rows end neither at the border of a part nor at that of what is known.
+TEST(Euclidean, IsTheSameInColumnsOfAWindow) {
+  const Volume whole = Placed(test::RandomBlob(5, {90, 40, 40}, 9, 30), {1, 1, 1});
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (BrickIndex n = 0; n < whole.brick_count(); ++n) {
+    const int32_t bx = whole.keys()[n].coordinates().bx;
+    if (bx < 1 || bx > 3) continue;
+    keys.push_back(whole.keys()[n]);
+    bricks.push_back(whole.bricks()[n]);
+  }
+  Volume object = Volume::FromSortedBricks(whole.extent(), whole.placement(), keys, bricks);
+  const auto ended = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+  object.SetWindow(LatticeBox{{2 * kBrickX, 0, 0}, {8 * kBrickX - 1, 79, 79}});
+  const auto expected = ComputeDistance(object, DistanceKind::kEuclidean, exec::Context());
+  EXPECT_NE(expected->values(), ended->values());
+  const auto field = StreamEuclidean(object, exec::Context(), nullptr, KeepField::kAlways, 1);
+  ASSERT_TRUE(field.ok()) << field.status();
+  EXPECT_EQ((*field)->values(), expected->values());
+}
+
 // Columns that are too deep to look outward from every point; whole numbers always look outward.
 TEST(Euclidean, OfDeepColumnsIsTheSameInFloatsAsInWholeNumbers) {
   const std::vector<LatticePoint> points = test::RandomBlob(3, {70, 70, 70}, 9, 60);
