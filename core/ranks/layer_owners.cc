@@ -61,10 +61,16 @@ Volume MoveToLayers(Exchange& exchange, const LayerOwners& layers, const Volume&
     if (middle != low) PackBrick(local.keys()[n], local.bricks()[n], out[middle]);
     if (high != middle) PackBrick(local.keys()[n], local.bricks()[n], out[high]);
   }
+  std::vector<Bytes> in = TradeWithAll(exchange, std::move(out));
+  size_t count = 0;
+  for (const Bytes& letter : in) count += letter.size() / (sizeof(BrickKey) + sizeof(BrickBits));
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bits;
-  for (const Bytes& letter : TradeWithAll(exchange, std::move(out))) {
+  keys.reserve(count);
+  bits.reserve(count + 1);  // Volume adds one
+  for (Bytes& letter : in) {
     for (Unpacker from(letter); !from.done();) TakeBrick(from, keys, bits);
+    letter = {};
   }
   return Volume::FromSortedBricks(local.extent(), local.placement(), std::move(keys),
                                   std::move(bits));

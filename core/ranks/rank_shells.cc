@@ -19,22 +19,29 @@
 namespace bccskel::ranks {
 namespace {
 
-// Squares of a round of columns that a rank has, or more where the object is large across x.
-constexpr size_t kBytesPerRound = size_t{4} << 20;
+// Squares that a rank has within layers of a round's columns, or more where the object is large
+// across x; and about as many of those it sends and measures across layers in a turn.
+constexpr size_t kBytesPerRound = size_t{2} << 20, kBytesPerTurn = size_t{1} << 20;
 
-// Which rank measures a column: as many ranks take their turn as there are, and who begins is by
-// chance, so that neither solids nor patterns leave some with more.
-size_t MeasurerOf(BrickKey key, size_t ranks) {
+// Who measures a column, and when.
+struct Measurer {
+  size_t rank;
+  size_t turn;
+};
+
+// As many columns along y go to as many ranks as there are, in the same turn, and who begins is by
+// chance, so that neither solids nor patterns leave some ranks with more.
+Measurer MeasurerOf(BrickKey key, size_t ranks, size_t turns) {
   const BrickCoordinates at = key.coordinates();
   const auto by = static_cast<uint64_t>(at.by);
   uint64_t hash = by / ranks << 32 | static_cast<uint64_t>(at.bx);
   hash = (hash ^ hash >> 31) * 0x9e3779b97f4a7c15;
   hash = (hash ^ hash >> 29) * 0xbf58476d1ce4e5b9;
-  return (by + (hash ^ hash >> 32)) % ranks;
+  return {(by + (hash ^ hash >> 32)) % ranks, by / ranks % turns};
 }
 
 // Measures columns a round after the other, so that few squares are there at a time: those of a
-// round go from who has their layers to who has their columns.
+// round go, in turns, from who has their layers to who has their columns.
 class EuclideanRounds {
  public:
   EuclideanRounds(Exchange& exchange, const RankBricks& bricks, const LayerOwners& layers,
@@ -70,30 +77,40 @@ class EuclideanRounds {
   // Returns whether T was enough, on all ranks.
   template <typename T>
   bool MeasureAs(const ObjectPart& part) {
-    MeasureColumns<T>(TradeWithAll(exchange_, MeasureLayers<T>(part)));
-    exchange_.Max({&largest_, 1});
-    if (sizeof(T) == sizeof(uint16_t) && largest_ >= kFirstUnsureSquare) return false;
-    store_.SendAway(columns_);
+    const exec::Share own = BricksOfLayers(part.volume, layers_.FirstOf(exchange_.rank()),
+                                           layers_.EndOf(exchange_.rank()));
+    uint64_t most = own.end - own.begin;
+    exchange_.Max({&most, 1});
+    const size_t turns = most * kBytes<T> / kBytesPerTurn + 1;
+    EuclideanParts<T> parts(part.volume.brick_count());
+    MeasureWithinLayers(part.volume, own, part.runs, context_, parts);
+    largest_ = 0;
+    for (size_t turn = 0; turn < turns; ++turn) {
+      MeasureColumns<T>(TradeWithAll(exchange_, PackColumns(part.volume, own, parts, turn, turns)));
+      exchange_.Max({&largest_, 1});
+      if (sizeof(T) == sizeof(uint16_t) && largest_ >= kFirstUnsureSquare) return false;
+      store_.SendAway(columns_);
+    }
     return true;
   }
 
-  // Packs the squares of this rank's layers for those who measure columns.
+  // The squares of this rank's layers for those who measure columns in this turn.
   template <typename T>
-  std::vector<Bytes> MeasureLayers(const ObjectPart& part) const {
-    const Volume& volume = part.volume;
-    EuclideanParts<T> parts(volume.brick_count());
-    const exec::Share own =
-        BricksOfLayers(volume, layers_.FirstOf(exchange_.rank()), layers_.EndOf(exchange_.rank()));
-    MeasureWithinLayers(volume, own, part.runs, context_, parts);
-    std::vector<size_t> counts(ranks_);
-    for (size_t n = own.begin; n < own.end; ++n) ++counts[MeasurerOf(volume.keys()[n], ranks_)];
-    std::vector<Bytes> letters(ranks_);
-    for (size_t rank = 0; rank < ranks_; ++rank) letters[rank].reserve(counts[rank] * kBytes<T>);
+  std::vector<Bytes> PackColumns(const Volume& volume, exec::Share own,
+                                 const EuclideanParts<T>& parts, size_t turn, size_t turns) const {
+    std::vector<std::vector<BrickIndex>> bricks(ranks_);
     for (size_t n = own.begin; n < own.end; ++n) {
-      Bytes& letter = letters[MeasurerOf(volume.keys()[n], ranks_)];
-      PackBrick(volume.keys()[n], volume.bricks()[n], letter);
-      Pack(std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints), letter);
-      Pack(std::span(parts.beside).subspan(n * kBeside, kBeside), letter);
+      const Measurer measurer = MeasurerOf(volume.keys()[n], ranks_, turns);
+      if (measurer.turn == turn) bricks[measurer.rank].push_back(static_cast<BrickIndex>(n));
+    }
+    std::vector<Bytes> letters(ranks_);
+    for (size_t rank = 0; rank < ranks_; ++rank) {
+      letters[rank].reserve(bricks[rank].size() * kBytes<T>);
+      for (const size_t n : bricks[rank]) {
+        PackBrick(volume.keys()[n], volume.bricks()[n], letters[rank]);
+        Pack(std::span(parts.own).subspan(n * kBrickPoints, kBrickPoints), letters[rank]);
+        Pack(std::span(parts.beside).subspan(n * kBeside, kBeside), letters[rank]);
+      }
     }
     return letters;
   }
@@ -105,6 +122,8 @@ class EuclideanRounds {
     size_t count = 0;
     for (const Bytes& letter : in) count += letter.size() / kBytes<T>;
     EuclideanParts<T> parts(count);
+    keys.reserve(count);
+    bits.reserve(count + 1);  // Volume adds one
     for (Bytes& letter : in) {
       for (Unpacker from(letter); !from.done();) {
         const size_t n = keys.size();
@@ -123,7 +142,7 @@ class EuclideanRounds {
         slicer.Take(n, parts.own.data() + size_t{n} * kBrickPoints);
       }
     });
-    largest_ = static_cast<uint64_t>(largest);
+    largest_ = std::max(largest_, static_cast<uint64_t>(largest));
   }
 
   Exchange& exchange_;
@@ -133,7 +152,7 @@ class EuclideanRounds {
   ShellStore& store_;
   const size_t ranks_;
   const bool may_be_whole_;
-  Volume columns_;        // of this round
+  Volume columns_;        // of this turn
   uint64_t largest_ = 0;  // square of the last round
 };
 

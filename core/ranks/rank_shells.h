@@ -25,9 +25,9 @@ struct RankShells {
 //        scan one after the other. Shells are sent to the owners.
 // Cost:  Euclidean distances are measured some columns at a time. Besides the shells a rank holds
 //        76 bytes for each brick of its layers and the two adjacent ones, and the squares of a
-//        round. Sent per brick: 72 to 216 bytes to the layers, 1,088 squares to the columns, 400
-//        or 720 bytes back. Chamfer scans take as long as on one machine, and the memory of
-//        StreamShells() for a rank's layers.
+//        round, which are sent little by little. Sent per brick: 72 to 216 bytes to the layers,
+//        1,088 squares to the columns, 400 or 720 bytes back. Chamfer scans take as long as on one
+//        machine, and the memory of StreamShells() for a rank's layers.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.
 absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& bricks,
                                          DistanceKind kind, double shell_width, Depths depths,

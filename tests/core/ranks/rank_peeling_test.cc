@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -159,6 +160,49 @@ TEST(PeelOverRanks, SeveralRoundsOfColumnsMakeNoDifference) {
   ASSERT_GT(object.brick_count(), 15'000u);
   const ThinningResult wanted = OnOneMachine(object, {});
   for (const int ranks : {1, 2, 3}) ExpectSame(OnRanks(object, {}, ranks), wanted);
+}
+
+// Passes calls on, and remembers the most bytes that a call has sent while distances are measured.
+class MeasuredExchange : public ranks::Exchange {
+ public:
+  explicit MeasuredExchange(ranks::Exchange& exchange) : exchange_(exchange) {}
+
+  int rank() const override { return exchange_.rank(); }
+  int size() const override { return exchange_.size(); }
+  void Trade(std::span<const int> peers, std::span<const ranks::Bytes> out,
+             std::span<ranks::Bytes> in) override {
+    size_t bytes = 0;
+    for (const ranks::Bytes& letter : out) bytes += letter.size();
+    if (stage_ == ranks::Stage::kDistances) most_ = std::max(most_, bytes);
+    exchange_.Trade(peers, out, in);
+  }
+  void Enter(ranks::Stage stage) override { stage_ = stage; }
+  void Sum(std::span<uint64_t> numbers) override { exchange_.Sum(numbers); }
+  void Max(std::span<uint64_t> numbers) override { exchange_.Max(numbers); }
+
+  size_t most() const { return most_; }
+
+ private:
+  ranks::Exchange& exchange_;
+  ranks::Stage stage_ = ranks::Stage::kSharing;
+  size_t most_ = 0;
+};
+
+// All columns have one place along x, and so belong to one round.
+TEST(PeelOverRanks, SquaresOfARoundAreSentLittleByLittle) {
+  VolumeBuilder builder({kBrickX, 272, 272});
+  for (Sublattice sublattice : kSublattices) {
+    for (int32_t n = 0; n < 34 * 68; ++n) {
+      builder.Brick(BrickKey({0, n % 68, n / 68, sublattice})).words.fill(~uint64_t{0});
+    }
+  }
+  const Volume object = *std::move(builder).Build();
+  ranks::RunAsThreads(2, [&](ranks::Exchange& exchange) {
+    MeasuredExchange measured(exchange);
+    Volume part = OnlyLayers(object, {exchange.rank(), exchange.size()});
+    ASSERT_TRUE(ranks::PeelOverRanks(measured, part, DistanceKind::kEuclidean, {}, {}, {}).ok());
+    EXPECT_LT(measured.most(), size_t{1} << 20);  // of 5 MiB
+  });
 }
 
 TEST(PeelOverRanks, AnEmptyObjectStaysEmpty) {
