@@ -205,7 +205,11 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
 // its radius at most. Likewise pits: they only make the radius smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
-  if (GoOnBeyond(border_, scale_, path)) return LargestRun(set, path, noise_);
+  const double way = set.Between(path.points[0], path.points.back());
+  // What is shorter leads to a face of a thin stack.
+  if (way >= path.radii.back() && GoOnBeyond(border_, scale_, path)) {
+    return LargestRun(set, path, noise_);
+  }
   const Run run = LargestRun(set, path, noise_);
   if (run.ratio > kSureRatio) return run;
   if (firm_depth_.has_value() && run.ratio >= kLeastRatio) {
