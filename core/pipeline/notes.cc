@@ -1,7 +1,6 @@
 #include "core/pipeline/notes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -68,7 +67,7 @@ double ShareInBalls(const SkeletonizeResult& result) {
   constexpr double kVolumeOfPoint = 4;  // in lattice units
   const SkeletonGraph& graph = result.graph;
   const AxisScale scale = AxisScaleOf(graph.placement);
-  const auto ball = [](double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); };
+  const auto ball = [](double r) { return 4 * std::numbers::pi / 3 * r * r * r; };
   double volume = 0;
   for (const SkeletonNode& node : graph.nodes) {
     if (node.kind == NodeKind::kIsolated) volume += ball(node.at.radius);
@@ -100,8 +99,7 @@ void AddFlatObject(const SkeletonizeResult& result, Notes& notes) {
   if (share >= kLeastShare) return;
   notes.push_back(
       absl::StrFormat("the balls along the curves hold about %.0f %% of the object, as in plates "
-                      "and shells; --kind "
-                      "surface describes these by sheets",
+                      "and shells; --kind surface describes these by sheets",
                       100 * share));
 }
 
