@@ -33,16 +33,19 @@ namespace bccskel {
 //        limb leaves. H is the half-width of the object across the branch, the median of the places
 //        from there on, each the widest of eight lines and, where S by these is 0.35 or more and H
 //        more than 1.5 D + 1, of up to ten more beside the widest: lines that do not lie in a thin
-//        plate leave it soon. In a wall, where H > 2.5 D + 3, the widest line goes on where the
-//        wall bends, round or with an edge; so do 16 lines in the wall, of which the third shortest
-//        is W, the radius of the circle inscribed in the wall. Where 0.4 (W(q) - W(p)) is more than
-//        2 (D(q) - D(p)), it takes the place of that in the elongation: in a wall W is what D is in
-//        space. `uncovered` is the share of the run that lies outside 0.9 of the balls of other
-//        branches. In a limb H is D; a rib lies in something wide; a strand lies in the balls of
-//        the strand beside it. A limb may begin late in a long run through something wide, as a
-//        thumb does behind a palm. So the largest run of the later half is evaluated, too, and so
-//        on; the largest S counts. On rough surfaces of voxels D is measured without pits
-//        (FirmDepth), where that may decide.
+//        plate leave it soon. Where the branch ends 1.2 times as thick as it begins, it is a bulge,
+//        and only places outside 0.9 of the ball that it begins in count. In a wall, where H > 2.5
+//        D + 3, the widest line goes on where the wall bends, round or with an edge; so do 16 lines
+//        in the wall, of which the third shortest is W, the radius of the circle inscribed in the
+//        wall. Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the place of that in
+//        the elongation: in a wall W is what D is in space. `uncovered` is the share of the run
+//        that lies outside 0.9 of the balls of other branches. In a limb H is D; a rib lies in
+//        something wide; a strand lies in the balls of the strand beside it. A limb may begin late
+//        in a long run through something wide, as a thumb does behind a palm. So the largest run of
+//        the later half is evaluated, too, and so on; the largest S counts. On rough surfaces of
+//        voxels D is measured without pits (FirmDepth), where that may decide. A branch that the
+//        border of an image cuts off counts as going on beyond (GoOnBeyond()), unless it is shorter
+//        than the radius at its end.
 // S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
 // any resolution and in any pose.
 // Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it

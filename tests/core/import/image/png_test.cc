@@ -130,7 +130,7 @@ TEST(Png, RefusesSizesThatTheFileCannotHoldBeforeItTakesMemory) {
   EXPECT_THAT(ErrorOfBytes(Declaring(bytes, 0, 1)), HasSubstr("the header cannot be read"));
 }
 
-TEST(Png, RefusesOtherPicturesAndSaysWhatToDo) {
+TEST(Png, RefusesJpegAndBmpAndNamesFormatsToUse) {
   EXPECT_THAT(ErrorOfBytes("\xff\xd8\xff\xe0 JFIF"),
               HasSubstr("JPEG is not supported: it changes"));
   EXPECT_THAT(ErrorOfBytes("BM      "), HasSubstr("save another image as PNG, TIFF or .npy"));
