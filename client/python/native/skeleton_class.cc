@@ -294,7 +294,7 @@ absl::Status WriteEachLabel(const std::string& path, const LabelList& labels,
                             const exporting::World& world, const std::stop_token& stop) {
   cli::FileWriters writers;
   for (const auto& [label, outcome] : labels) {
-    const auto write = [&, label, outcome]() -> absl::Status {
+    const auto write = [&, label = label, outcome = outcome]() -> absl::Status {
       BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, label));
       std::string note;  // in the file
       return SaveIn(*outcome, own, {absl::StrCat("label ", label), world, {}}, stop, note);
