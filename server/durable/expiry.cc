@@ -78,7 +78,7 @@ void DurableJobs::ExpireJobs() {
 
 void DurableJobs::ExpireVolumes() {
   const Time oldest = Now() - options_.keep_volumes;
-  Erase([this, oldest](JobStore& store, Erased& erased) -> absl::Status {
+  Erase([oldest](JobStore& store, Erased& erased) -> absl::Status {
     BCCSKEL_ASSIGN_OR_RETURN(const std::vector<VolumeRow> volumes, store.All<VolumeRow>());
     for (const VolumeRow& row : volumes) {
       if (row.used >= oldest) continue;

@@ -161,7 +161,7 @@ Flow DurableJobs::FindVolumes(std::string tenant, std::vector<std::string> diges
 void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& volume,
                                DoneStatus done) {
   Erase(
-      [this, tenant, volume](JobStore& store, Erased& erased) -> absl::Status {
+      [tenant, volume](JobStore& store, Erased& erased) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const VolumeRow row, store.Get<VolumeRow>(tenant, volume));
         BCCSKEL_ASSIGN_OR_RETURN(const auto user, store.UserOfVolume(tenant, volume));
         if (!user.has_value()) return EraseVolume(store, row, erased);

@@ -103,10 +103,26 @@ int ComputeQueue::ThreadsFor(const Waiting& job) const {
   return std::max(1, std::min(job.most_threads, (threads_ - given_threads_) / sharing));
 }
 
+std::unique_ptr<exec::WorkerTeam> ComputeQueue::TakeTeam(int size) {
+  {
+    std::lock_guard lock(mutex_);
+    if (idle_team_ != nullptr && idle_team_->size() == size) return std::move(idle_team_);
+  }
+  return std::make_unique<exec::WorkerTeam>(size);
+}
+
+void ComputeQueue::KeepTeam(std::unique_ptr<exec::WorkerTeam> team) {
+  if (team->size() == 1) return;
+  std::lock_guard lock(mutex_);
+  idle_team_.swap(team);
+}
+
 void ComputeQueue::Run(Taken taken, int threads) {
-  Turn turn(*this, threads, taken.item.bricks);
-  taken.item.work(turn);
-  taken.item.work = nullptr;
+  {
+    Turn turn(*this, threads, taken.item.bricks);
+    taken.item.work(turn);
+    taken.item.work = nullptr;
+  }
   std::lock_guard lock(mutex_);
   queue_.Done(taken.tenant);
   if (!queue_.empty()) wake_.notify_one();  // the tenant may have been at its cap

@@ -8,13 +8,16 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "core/exec/worker_team.h"
 #include "server/jobs/fair_queue.h"
 
 namespace bccskel::server {
@@ -83,6 +86,8 @@ class ComputeQueue {
 
   void Serve(std::stop_token stop);
   void Run(Taken taken, int threads);
+  std::unique_ptr<exec::WorkerTeam> TakeTeam(int size);
+  void KeepTeam(std::unique_ptr<exec::WorkerTeam> team);
   std::optional<Taken> TakeSmaller(const Turn& turn);
   // Needs of these: mutex_ held.
   void FindLeastWaiting();
@@ -101,17 +106,21 @@ class ComputeQueue {
   std::atomic<int> given_threads_ = 0;
   int crowd_ = 0;  // most jobs that waited or ran together lately
   Clock::time_point crowd_until_;
+  // Of the last job that had several threads. The next one of that size need not start threads, and
+  // knows whether lockstep has paid on this machine lately.
+  std::unique_ptr<exec::WorkerTeam> idle_team_;
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
 };
 
 // A job's time at work.
 class ComputeQueue::Turn {
  public:
-  int threads() const { return threads_; }
+  int threads() const { return team_->size(); }
+  exec::WorkerTeam& team() { return *team_; }
   // Those of them that others have not been given since; at least 1. Threads: safe.
   int share() const {
-    const int others = queue_.given_threads_ - threads_;
-    return std::clamp(queue_.threads_ - others, 1, threads_);
+    const int others = queue_.given_threads_ - threads();
+    return std::clamp(queue_.threads_ - others, 1, threads());
   }
 
   // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
@@ -121,12 +130,13 @@ class ComputeQueue::Turn {
  private:
   friend class ComputeQueue;
   Turn(ComputeQueue& queue, int threads, uint64_t bricks)
-      : queue_(queue), threads_(threads), bricks_(bricks) {}
+      : queue_(queue), team_(queue.TakeTeam(threads)), bricks_(bricks) {}
+  ~Turn() { queue_.KeepTeam(std::move(team_)); }
   // What its clock would show had it stood still at rest.
   Clock::time_point WorkedUntil() const { return queue_.now_() - rested_; }
 
   ComputeQueue& queue_;
-  const int threads_;
+  std::unique_ptr<exec::WorkerTeam> team_;
   const uint64_t bricks_;
   const std::thread::id thread_ = std::this_thread::get_id();
   Clock::duration rested_{};

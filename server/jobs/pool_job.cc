@@ -9,7 +9,6 @@
 
 #include "absl/status/status.h"
 #include "core/exec/status_macros.h"
-#include "core/exec/worker_team.h"
 #include "server/jobs/job_memory.h"
 
 namespace bccskel::server {
@@ -162,9 +161,8 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
     WaitForTurn();
   }
   absl::StatusOr<JobWork::Turn> RunTurn(ComputeQueue::Turn& turn) {
-    exec::WorkerTeam team(turn.threads());
     exec::Context context = StopContext();
-    context.team = &team;
+    context.team = &turn.team();
     context.share = [&turn] { return turn.share(); };
     context.yield = [&turn] { turn.Yield(); };
     return work_->Run(std::move(context), memory_, [job = weak_from_this()] {

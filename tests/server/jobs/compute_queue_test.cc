@@ -52,6 +52,21 @@ TEST(ComputeQueue, ALargeJobAloneGetsAllThreads) {
   WaitForUsage(queue, Usage());
 }
 
+TEST(ComputeQueue, JobsAfterEachOtherShareTheirThreads) {
+  ComputeQueue queue(2, 1);
+  std::vector<std::thread::id> helpers(3);
+  for (std::thread::id& helper : helpers) {
+    queue.Post(Claim(2), [&helper](ComputeQueue::Turn& turn) {
+      turn.team().Run([&helper](int worker) {
+        if (worker == 1) helper = std::this_thread::get_id();
+      });
+    });
+    WaitForUsage(queue, Usage());
+  }
+  EXPECT_NE(helpers[0], std::thread::id());
+  EXPECT_EQ(helpers, std::vector(3, helpers[0]));
+}
+
 TEST(ComputeQueue, SmallJobsRunSideBySide) {
   ComputeQueue queue(3, 3);
   std::latch together(3);
