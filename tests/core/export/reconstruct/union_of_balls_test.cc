@@ -23,10 +23,10 @@ const Placement kFlat = {.spacing = {2, 2, 2}};
 const Placement kUneven = {.spacing = {2, 1, 4}, .origin = {3, 2, 1}};
 
 std::vector<LatticePoint> PointsIn(const std::vector<OpenBall>& balls, const Placement& placement) {
-  const auto& [sx, sy, sz] = placement.spacing;
   const auto inside = [&](int32_t x, int32_t y, int32_t z) {
     return std::ranges::any_of(balls, [&](const OpenBall& ball) {
       const auto& [c, radius] = ball;
+      const auto& [sx, sy, sz] = placement.spacing;
       return std::hypot((x - c[0]) * sx, (y - c[1]) * sy, (z - c[2]) * sz) / 2 < radius - 1e-4;
     });
   };
