@@ -64,7 +64,7 @@ class Context {
   // The same for workers that meet at barriers and so may have to wait for each other.
   int MeetingWorkersFor(size_t bricks, size_t work = 1) const {
     const int workers = WorkersFor(bricks, work);
-    return workers == 1 || !team->confidence().Holds() ? 1 : workers;
+    return workers == 1 || !team->in_lockstep().Holds() ? 1 : workers;
   }
 
   // Runs `work(worker)` on the first `workers` of the team; a single one does not wake the others.

@@ -22,7 +22,7 @@ class MeetingTeam {
   template <typename Part>
   void Run(Part part) {
     context_.Run(size_, [&](int worker) { barrier_.Guard([&] { part(worker); }); });
-    if (size_ > 1) patience_.Tell(context_.team->confidence());
+    if (size_ > 1) patience_.Tell(context_.team->in_lockstep());
   }
 
   // The part of shared work that a worker owns.

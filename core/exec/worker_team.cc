@@ -95,7 +95,7 @@ void WorkerTeam::Run(const std::function<void(int)>& work) {
 }
 
 void WorkerTeam::Offer(const std::function<void(int)>& work) {
-  if (size_ == 1 || !confidence_.Holds()) {
+  if (size_ == 1 || !in_offers_.Holds()) {
     work(0);
     return;
   }
@@ -117,9 +117,9 @@ void WorkerTeam::JudgeOffer(Confidence::Duration together, Confidence::Duration 
   std::lock_guard lock(mutex_);
   if (!shared_) return;
   if (preempted_ && waited > kSpinTime && waited > kMostWaiting * together) {
-    confidence_.Lose(waited);
+    in_offers_.Lose(waited);
   } else {
-    confidence_.Gain(together);
+    in_offers_.Gain(together);
   }
 }
 

@@ -15,17 +15,17 @@
 
 namespace bccskel::exec {
 
-// Whether lockstep pays. After worker 0 has been blocked because the machine ran other work on the
-// processors of the others, it works alone for twelve times as long, and for twice as long as
-// before if the next try fails, too: on a busy machine hardly any time is lost.
+// Whether working together pays. After worker 0 has been blocked because the machine ran other work
+// on the processors of the others, it works alone for twelve times as long, and for twice as long
+// as before if the next try fails, too: on a busy machine hardly any time is lost.
 class Confidence {
  public:
   using Duration = std::chrono::steady_clock::duration;
 
   bool Holds() const { return Clock::now() >= alone_until_; }
   void Lose(Duration waited);
-  // Lockstep ran for this time without loss. Resets the pause once that is as long as the last
-  // pause.
+  // Workers were together for this time without loss. Resets the pause once that is as long as the
+  // last pause.
   void Gain(Duration together);
 
  private:
@@ -48,8 +48,10 @@ class WorkerTeam {
 
   int size() const { return size_; }
 
-  // Used by worker 0 only; kept across stages.
-  Confidence& confidence() { return confidence_; }
+  // Whether lockstep and offered work pay: a machine too busy for the one often has time for the
+  // other. Used by worker 0 only; kept across stages.
+  Confidence& in_lockstep() { return in_lockstep_; }
+  Confidence& in_offers() { return in_offers_; }
 
   // Calls `work(worker)` for worker = 0..size()-1 concurrently and returns when all are done.
   // Rethrows what one of them throws, such as std::bad_alloc, once all are done; work that waits at
@@ -58,8 +60,8 @@ class WorkerTeam {
 
   // The same for work that any worker can do alone, shared by the workers that join before worker 0
   // has finished: Offer() does not wait for workers that have not started, because waking is slow
-  // or the processors are busy. Without confidence worker 0 works alone; waiting for a worker that
-  // was preempted removes confidence.
+  // or the processors are busy. Without confidence in offers worker 0 works alone; waiting for a
+  // worker that was preempted removes it.
   void Offer(const std::function<void(int worker)>& work);
 
  private:
@@ -70,7 +72,8 @@ class WorkerTeam {
   void Try(const std::function<void(int)>& work, int worker);
 
   const int size_;
-  Confidence confidence_;
+  Confidence in_lockstep_;
+  Confidence in_offers_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::condition_variable done_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -115,10 +116,23 @@ TEST(Context, LetsNobodyMeetForAWhileAfterAMeetingTookLong) {
   EXPECT_EQ(context.MeetingWorkersFor(1), 1);
   EXPECT_EQ(context.MeetingWorkersFor(100), 2);
   const auto start = Context::Clock::now();
-  team.confidence().Lose(milliseconds(5));
+  team.in_lockstep().Lose(milliseconds(5));
   EXPECT_EQ(context.WorkersFor(100), 2);
   while (context.MeetingWorkersFor(100) == 1) std::this_thread::sleep_for(milliseconds(1));
   EXPECT_GE(Context::Clock::now() - start, milliseconds(60));
+}
+
+TEST(Context, GoesOnOfferingWorkWhenMeetingsTookLong) {
+  WorkerTeam team(2);
+  Context context;
+  context.team = &team;
+  team.in_lockstep().Lose(std::chrono::hours(1));
+  std::atomic<bool> came{false};
+  context.Offer([&came](int worker) {
+    if (worker == 1) came = true;
+    while (!came) std::this_thread::yield();  // hangs unless the other is asked
+  });
+  EXPECT_TRUE(came);
 }
 
 TEST(Context, LetsNobodyMeetForTwiceAsLongWhileMeetingsGoOnTakingLong) {

@@ -215,7 +215,7 @@ bool HasConfidenceAfter(WorkerTeam& team, Theirs theirs) {
       theirs();
     }
   });
-  return team.confidence().Holds();
+  return team.in_offers().Holds();
 }
 
 #if defined(__linux__)
@@ -234,7 +234,7 @@ TEST(WorkerTeam, LosesConfidenceWhenOneWhoCameIsKeptFromWorking) {
     }
   });
   WorkerTeam team(2);
-  EXPECT_TRUE(team.confidence().Holds());
+  EXPECT_TRUE(team.in_offers().Holds());
   EXPECT_FALSE(HasConfidenceAfter(team, [] {
     const auto end = std::chrono::steady_clock::now() + milliseconds(200);
     while (std::chrono::steady_clock::now() < end) {
