@@ -5,7 +5,7 @@
 
 #include "core/certificate/certificate.h"
 #include "core/mask/mask_grid.h"
-#include "core/mask/phase_components.h"
+#include "core/mask/run_components.h"
 #include "core/mask/row_tubes.h"
 #include "core/mask/slice_rows.h"
 
@@ -29,8 +29,8 @@ class MaskTopology {
   void EndSlice();
 
   const MaskAdjacency adjacency_;
-  PhaseComponents object_;
-  PhaseComponents background_;
+  RunComponents object_;
+  RunComponents background_;
   int32_t last_z_ = 0;
   int64_t euler_ = 0;
   uint64_t voxels_ = 0;

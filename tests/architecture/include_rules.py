@@ -1,4 +1,5 @@
-"""Fails where an include points backward along the path of a volume.
+"""Fails where an include points backward along the path of a volume, or two headers define a class
+of the same name: the linker then takes either one's destructor for both.
 
 Usage: include_rules.py ROOT ARROWS
 Reads every C++ file under core, proto, server and client of ROOT; prints one line per violation.
@@ -9,6 +10,8 @@ import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
+NAMESPACE = re.compile(r"^namespace ([\w:]*) ?{$")
+CLASS = re.compile(r"^(?:class|struct) (?:alignas\(\w+\) )?(\w+)[^;]*$")
 SUFFIXES = {".h", ".cc"}
 TOP_FOLDERS = ("core", "proto", "server", "client")
 MAX_LINES = 400
@@ -95,6 +98,29 @@ def check_file(rules, path, text):
             yield f"{path}:{number}: includes {header}: {reason}"
 
 
+def classes(text):
+    """Yields the line and the full name of each class that is defined at namespace scope."""
+    namespaces = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if match := NAMESPACE.match(line):
+            namespaces.append(match.group(1))
+        elif line.startswith("}  // namespace"):
+            namespaces.pop()
+        elif match := CLASS.match(line):
+            yield number, "::".join([*namespaces, match.group(1)])
+
+
+def defined_twice(files):
+    """Yields `path:line: reason` for each class of a header that an earlier header defines, too."""
+    first = {}
+    for path, text in files:
+        if not path.endswith(".h"):
+            continue
+        for number, name in classes(text):
+            if first.setdefault(name, path) != path:
+                yield f"{path}:{number}: {first[name]} defines {name}, too"
+
+
 def sources(root):
     for top in TOP_FOLDERS:
         for path in sorted((root / top).rglob("*")):
@@ -105,15 +131,15 @@ def sources(root):
 def main(root, arrows):
     rules = Rules(pathlib.Path(arrows).read_text(encoding="utf-8"))
     found = list(rules.defects())
-    count = 0
-    for path, text in sources(pathlib.Path(root)):
-        count += 1
+    files = list(sources(pathlib.Path(root)))
+    for path, text in files:
         found += check_file(rules, path, text)
-    if count == 0:
+    found += defined_twice(files)
+    if not files:
         found.append(f"{root}: no C++ file found")
     for line in found:
         print(line)
-    print(f"{count} files read, {len(found)} violations")
+    print(f"{len(files)} files read, {len(found)} violations")
     return 1 if found else 0
 
 

@@ -2,7 +2,7 @@
 
 import unittest
 
-from include_rules import Rules, check_file
+from include_rules import Rules, check_file, defined_twice
 
 ARROWS = """
 core/lattice:
@@ -49,6 +49,17 @@ class IncludeRules(unittest.TestCase):
 
     def test_finds_arrows_that_run_in_a_circle(self):
         self.assertEqual(len(list(Rules("a: b\nb: a\n").defects())), 2)
+
+    def test_finds_a_class_that_two_headers_define(self):
+        one = "namespace a {\nclass B final : public C {\n};\n}  // namespace a\n"
+        other = "namespace a {\nstruct B {\n};\n}  // namespace a\n"
+        self.assertEqual(list(defined_twice([("x.h", one), ("y.h", other)])),
+                         ["y.h:2: x.h defines a::B, too"])
+
+    def test_allows_equal_names_in_other_namespaces_and_declarations(self):
+        one = "namespace a {\nclass B {\n};\n}  // namespace a\n"
+        other = "namespace a {\nclass B;\n}  // namespace a\nnamespace c {\nclass B {\n};\n}\n"
+        self.assertEqual(list(defined_twice([("x.h", one), ("y.h", other)])), [])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_
-#define BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_
+#ifndef BCCSKEL_CORE_MASK_RUN_COMPONENTS_H_
+#define BCCSKEL_CORE_MASK_RUN_COMPONENTS_H_
 
 #include <cstdint>
 #include <vector>
@@ -12,9 +12,9 @@ namespace bccskel {
 // runs that touch are joined, and each successful join leaves one component less. Runs of the
 // background that reach the border belong to the outside, set 0, which is not counted.
 // Memory: the runs of two slices; sets are renumbered after each.
-class PhaseComponents {
+class RunComponents {
  public:
-  PhaseComponents(MaskPhase phase, Contact contact, int32_t ny)
+  RunComponents(MaskPhase phase, Contact contact, int32_t ny)
       : phase_(phase), contact_(contact), before_(ny), runs_(ny), parents_(1) {}
 
   // The next slice: rows in order of y, of each its runs in order. Rows that are left out hold no
@@ -50,4 +50,4 @@ class PhaseComponents {
 
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_MASK_PHASE_COMPONENTS_H_
+#endif  // BCCSKEL_CORE_MASK_RUN_COMPONENTS_H_

@@ -1,4 +1,4 @@
-#include "core/mask/phase_components.h"
+#include "core/mask/run_components.h"
 
 #include <limits>
 #include <utility>
@@ -12,18 +12,18 @@ constexpr int32_t kFar = std::numeric_limits<int32_t>::max() / 2;
 
 }  // namespace
 
-void PhaseComponents::AddRow(int32_t y) {
+void RunComponents::AddRow(int32_t y) {
   runs_.AddRow(y);
   last_end_ = -kFar;
 }
 
-void PhaseComponents::AddNewSet(int32_t begin, int32_t end) {
+void RunComponents::AddNewSet(int32_t begin, int32_t end) {
   runs_.AddRun({begin, end, static_cast<uint32_t>(parents_.size())});
   parents_.push_back(static_cast<uint32_t>(parents_.size()));
   ++count_;
 }
 
-void PhaseComponents::AddObjectRun(int32_t begin, int32_t end) {
+void RunComponents::AddObjectRun(int32_t begin, int32_t end) {
   if (phase_ == MaskPhase::kObject) {
     AddNewSet(begin, end);
   } else if (last_end_ == -kFar) {
@@ -34,11 +34,11 @@ void PhaseComponents::AddObjectRun(int32_t begin, int32_t end) {
   last_end_ = end;
 }
 
-void PhaseComponents::EndRow() {
+void RunComponents::EndRow() {
   if (phase_ == MaskPhase::kBackground) runs_.AddRun({last_end_, kFar, kOutside});
 }
 
-void PhaseComponents::EndSlice() {
+void RunComponents::EndSlice() {
   for (int32_t y : runs_.rows()) LinkRow(y);
   if (phase_ == MaskPhase::kBackground) {
     for (int32_t y : runs_.rows()) LinkToOutside(y, runs_, before_);
@@ -49,7 +49,7 @@ void PhaseComponents::EndSlice() {
   runs_.Clear();
 }
 
-void PhaseComponents::LinkRow(int32_t y) {
+void RunComponents::LinkRow(int32_t y) {
   const std::span<PhaseRun> row = runs_.Row(y);
   if (runs_.Has(y - 1)) LinkRows(row, runs_.Row(y - 1));
   for (int32_t other = y - reach(); other <= y + reach(); ++other) {
@@ -59,14 +59,14 @@ void PhaseComponents::LinkRow(int32_t y) {
 
 // A row without object voxels next to this one, in its own or the other slice, is outside and
 // touches every run.
-void PhaseComponents::LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other) {
+void RunComponents::LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other) {
   bool open = !slice.Has(y - 1) || !slice.Has(y + 1);
   for (int32_t near = y - reach(); near <= y + reach(); ++near) open |= !other.Has(near);
   if (!open) return;
   for (const PhaseRun& run : slice.Row(y)) Join(run.set, kOutside);
 }
 
-void PhaseComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
+void RunComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
   const int32_t step = reach();
   for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (a[i].begin < b[j].end + step && b[j].begin < a[i].end + step) Join(a[i].set, b[j].set);
@@ -75,13 +75,13 @@ void PhaseComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
   }
 }
 
-uint32_t PhaseComponents::Find(uint32_t set) {
+uint32_t RunComponents::Find(uint32_t set) {
   while (parents_[set] != set) set = parents_[set] = parents_[parents_[set]];
   return set;
 }
 
 // The smaller number stays, so the outside keeps its own.
-void PhaseComponents::Join(uint32_t a, uint32_t b) {
+void RunComponents::Join(uint32_t a, uint32_t b) {
   a = Find(a);
   b = Find(b);
   if (a == b) return;
@@ -90,7 +90,7 @@ void PhaseComponents::Join(uint32_t a, uint32_t b) {
   --count_;
 }
 
-void PhaseComponents::Renumber() {
+void RunComponents::Renumber() {
   constexpr uint32_t kNone = ~uint32_t{0};
   std::vector<uint32_t> number(parents_.size(), kNone);
   number[kOutside] = kOutside;
