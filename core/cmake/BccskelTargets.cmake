@@ -22,6 +22,24 @@ function(bccskel_unity target)
   endforeach()
 endfunction()
 
+# Compiles kernels of a target together: reading Highway once per instruction set takes most of the
+# time of small ones. The file that includes them all takes the place of each in foreach_target.h.
+function(bccskel_kernels_together target)
+  if(NOT BCCSKEL_UNITY)
+    return()
+  endif()
+  set(all ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels.cc)
+  set(include_all "#undef HWY_TARGET_INCLUDE\n#define HWY_TARGET_INCLUDE \"${all}\"\n")
+  set(text "${include_all}#include \"hwy/foreach_target.h\"\n")
+  foreach(kernel IN LISTS ARGN)
+    string(APPEND text "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${kernel}\"\n${include_all}")
+  endforeach()
+  file(CONFIGURE OUTPUT ${all} CONTENT "${text}")
+  target_sources(${target} PRIVATE ${all})
+  set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
+  set_source_files_properties(${all} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # Language level, include root, warnings and sanitizers of one target.
 function(bccskel_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -110,17 +128,16 @@ endfunction()
 # bccskel_tests(wire_tests PREFIX wire_ TESTS options result SLOW result SOURCES helper.cc LIBS deps...)
 # makes one program of options_test.cc and result_test.cc, and of each its own ctest entry,
 # wire_options_test and wire_result_test: many small programs take minutes to compile and to link.
-# ALONE: those that have names of others; SLOW: those with the label.
+# A test of another folder is given with its path, which its entry's name leaves out.
+# SLOW: those with the label.
 function(bccskel_tests program)
-  cmake_parse_arguments(ARG "" "PREFIX" "TESTS;ALONE;SLOW;SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PREFIX" "TESTS;SLOW;SOURCES;LIBS;LABELS" ${ARGN})
   list(TRANSFORM ARG_TESTS APPEND _test.cc OUTPUT_VARIABLE sources)
   bccskel_test_program(${program} SOURCES ${sources} ${ARG_SOURCES}
                                           ${PROJECT_SOURCE_DIR}/tests/support/tests_of_source.cc
                        LIBS ${ARG_LIBS})
-  foreach(test IN LISTS ARG_ALONE)
-    set_source_files_properties(${test}_test.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endforeach()
-  foreach(test IN LISTS ARG_TESTS)
+  foreach(path IN LISTS ARG_TESTS)
+    cmake_path(GET path FILENAME test)
     add_test(NAME ${ARG_PREFIX}${test}_test COMMAND ${program} --source=${test}_test.cc)
     set(slow)
     if(test IN_LIST ARG_SLOW)
