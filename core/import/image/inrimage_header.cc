@@ -10,10 +10,10 @@
 namespace bccskel {
 namespace {
 
-constexpr std::string_view kMagic = "#INRIMAGE-4#{";
+constexpr std::string_view kInrMagic = "#INRIMAGE-4#{";
 constexpr std::string_view kEnd = "##}";
 
-absl::StatusOr<VoxelType> TypeOf(const HeaderFields& fields) {
+absl::StatusOr<VoxelType> InrTypeOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view kind, fields.Require({"TYPE"}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view bits, fields.Require({"PIXSIZE"}));
   const std::string name = std::string(kind) + " " + std::string(bits);
@@ -30,7 +30,7 @@ absl::StatusOr<VoxelType> TypeOf(const HeaderFields& fields) {
   return BadField("TYPE and PIXSIZE", name, "are not a type of numbers that is read");
 }
 
-absl::StatusOr<std::endian> ByteOrderOf(const HeaderFields& fields, VoxelType type) {
+absl::StatusOr<std::endian> InrByteOrderOf(const HeaderFields& fields, VoxelType type) {
   if (VoxelBytes(type) == 1) return std::endian::little;
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view cpu, fields.Require({"CPU"}));
   if (cpu == "decm" || cpu == "alpha" || cpu == "pc") return std::endian::little;
@@ -38,7 +38,7 @@ absl::StatusOr<std::endian> ByteOrderOf(const HeaderFields& fields, VoxelType ty
   return BadField("CPU", cpu, "is none of decm, alpha, pc, sun and sgi");
 }
 
-absl::Status CheckSupported(const HeaderFields& fields) {
+absl::Status CheckInrSupported(const HeaderFields& fields) {
   const std::string_view components = fields.Find({"VDIM"}).value_or("1");
   if (components != "1") return BadField("VDIM", components, "must be 1: choose one component");
   const std::string_view scale = fields.Find({"SCALE"}).value_or("2**0");
@@ -47,7 +47,7 @@ absl::Status CheckSupported(const HeaderFields& fields) {
       absl::StrFormat("SCALE %s is not supported, only 2**0 is", std::string(scale.substr(0, 80))));
 }
 
-absl::StatusOr<ImageSize> SizeOf(const HeaderFields& fields, const ImageLimits& limits) {
+absl::StatusOr<ImageSize> InrSizeOf(const HeaderFields& fields, const ImageLimits& limits) {
   std::array<int64_t, 3> lengths;
   constexpr std::array<std::string_view, 3> kKeys = {"XDIM", "YDIM", "ZDIM"};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ absl::StatusOr<ImageSize> SizeOf(const HeaderFields& fields, const ImageLimits& 
   return SizeOfAxes(lengths, limits);
 }
 
-absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields) {
+absl::StatusOr<Placement> InrPlacementOf(const HeaderFields& fields) {
   std::array<double, 3> spacing;
   WorldPoint origin;
   constexpr std::array<std::string_view, 3> kSpacings = {"VX", "VY", "VZ"};
@@ -73,7 +73,7 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields) {
   return PlacementOfSpacing(spacing, origin);
 }
 
-HeaderLine Classify(std::string_view line) {
+HeaderLine ClassifyInrLine(std::string_view line) {
   if (Trimmed(line) == kEnd) return HeaderLine::kEnd;
   const bool ignored = line.starts_with('#') || Trimmed(line).empty();
   return ignored ? HeaderLine::kIgnored : HeaderLine::kField;
@@ -81,19 +81,19 @@ HeaderLine Classify(std::string_view line) {
 
 }  // namespace
 
-bool IsInrimage(std::string_view front) { return front.starts_with(kMagic); }
+bool IsInrimage(std::string_view front) { return front.starts_with(kInrMagic); }
 
 absl::StatusOr<StoredImage> ParseInrimage(const ImageFront& front, const ImageLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const HeaderFields fields,
-                           HeaderFields::Read(front.bytes, {"=", Classify}));
+                           HeaderFields::Read(front.bytes, {"=", ClassifyInrLine}));
   BCCSKEL_ASSIGN_OR_RETURN(const size_t header_bytes, fields.Bytes());
-  BCCSKEL_RETURN_IF_ERROR(CheckSupported(fields));
+  BCCSKEL_RETURN_IF_ERROR(CheckInrSupported(fields));
   StoredImage image;
   image.info.format = "Inrimage";
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOf(fields, limits));
-  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, TypeOf(fields));
-  BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, ByteOrderOf(fields, image.stored_type));
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, InrSizeOf(fields, limits));
+  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, InrTypeOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, InrByteOrderOf(fields, image.stored_type));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, InrPlacementOf(fields));
   BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, header_bytes, Compression::kNone, image));
   return image;
 }

@@ -16,7 +16,7 @@ struct TypeName {
   VoxelType type;
   std::string_view name;
 };
-constexpr std::array<TypeName, 12> kTypes = {{
+constexpr std::array<TypeName, 12> kMetaTypes = {{
     {VoxelType::kInt8, "MET_CHAR"},
     {VoxelType::kUint8, "MET_UCHAR"},
     {VoxelType::kInt16, "MET_SHORT"},
@@ -31,9 +31,9 @@ constexpr std::array<TypeName, 12> kTypes = {{
     {VoxelType::kFloat64, "MET_DOUBLE"},
 }};
 
-absl::StatusOr<VoxelType> TypeOf(const HeaderFields& fields) {
+absl::StatusOr<VoxelType> MetaTypeOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view name, fields.Require({"ElementType"}));
-  for (const TypeName& entry : kTypes) {
+  for (const TypeName& entry : kMetaTypes) {
     if (name == entry.name) return entry.type;
   }
   return BadField("ElementType", name, "is not a type of numbers");
@@ -44,7 +44,7 @@ bool IsTrue(const HeaderFields& fields, std::initializer_list<std::string_view> 
   return value.starts_with('T') || value.starts_with('t') || value.starts_with('1');
 }
 
-absl::Status CheckSupported(const HeaderFields& fields) {
+absl::Status CheckMetaSupported(const HeaderFields& fields) {
   if (fields.Find({"BinaryData"}).has_value() && !IsTrue(fields, {"BinaryData"})) {
     return absl::UnimplementedError("voxels as text (BinaryData = False) are not supported");
   }
@@ -54,7 +54,7 @@ absl::Status CheckSupported(const HeaderFields& fields) {
                   "must be 1: save one channel as an image of its own");
 }
 
-absl::StatusOr<std::vector<int64_t>> SizesOf(const HeaderFields& fields) {
+absl::StatusOr<std::vector<int64_t>> MetaSizesOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view dimensions, fields.Require({"NDims"}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view text, fields.Require({"DimSize"}));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, ParseNumbers<int64_t>("DimSize", text));
@@ -65,9 +65,9 @@ absl::StatusOr<std::vector<int64_t>> SizesOf(const HeaderFields& fields) {
 }
 
 // The numbers of a field that is there, one for each of `wanted`; none where it is not.
-absl::StatusOr<std::vector<double>> NumbersOf(const HeaderFields& fields,
-                                              std::initializer_list<std::string_view> keys,
-                                              size_t wanted) {
+absl::StatusOr<std::vector<double>> MetaNumbersOf(const HeaderFields& fields,
+                                                  std::initializer_list<std::string_view> keys,
+                                                  size_t wanted) {
   const std::optional<std::string_view> text = fields.Find(keys);
   if (!text.has_value()) return std::vector<double>();
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<double> numbers, ParseNumbers<double>(*keys.begin(), *text));
@@ -77,14 +77,14 @@ absl::StatusOr<std::vector<double>> NumbersOf(const HeaderFields& fields,
 }
 
 // Row n of the TransformMatrix is where axis n points to.
-absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, size_t dimensions) {
+absl::StatusOr<Placement> MetaPlacementOf(const HeaderFields& fields, size_t dimensions) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<double> spacing,
-                           NumbersOf(fields, {"ElementSpacing", "ElementSize"}, dimensions));
+                           MetaNumbersOf(fields, {"ElementSpacing", "ElementSize"}, dimensions));
   BCCSKEL_ASSIGN_OR_RETURN(const std::vector<double> offset,
-                           NumbersOf(fields, {"Offset", "Position", "Origin"}, dimensions));
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const std::vector<double> matrix,
-      NumbersOf(fields, {"TransformMatrix", "Orientation", "Rotation"}, dimensions * dimensions));
+                           MetaNumbersOf(fields, {"Offset", "Position", "Origin"}, dimensions));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<double> matrix,
+                           MetaNumbersOf(fields, {"TransformMatrix", "Orientation", "Rotation"},
+                                         dimensions * dimensions));
   std::array<WorldPoint, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   WorldPoint origin = {0, 0, 0};
   for (size_t axis = 0; axis < std::min<size_t>(3, dimensions); ++axis) {
@@ -106,7 +106,8 @@ absl::StatusOr<std::optional<uint64_t>> SkipOf(const HeaderFields& fields) {
   return skip < 0 ? std::nullopt : std::optional(static_cast<uint64_t>(skip));
 }
 
-absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, StoredImage& image) {
+absl::Status PlaceMetaVoxels(const ImageFront& front, const HeaderFields& fields,
+                             StoredImage& image) {
   BCCSKEL_ASSIGN_OR_RETURN(const size_t header_bytes, fields.Bytes());
   const bool compressed = IsTrue(fields, {"CompressedData"});
   const Compression inner = compressed ? Compression::kDeflate : Compression::kNone;
@@ -119,7 +120,7 @@ absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, St
   return PlaceInFile(front, file, skip, inner, image);
 }
 
-HeaderLine Classify(std::string_view line) {
+HeaderLine ClassifyMetaLine(std::string_view line) {
   if (Trimmed(line).empty()) return HeaderLine::kIgnored;
   const auto field = SplitAt(line, "=");
   const bool last = field.has_value() && field->first == "ElementDataFile";
@@ -127,7 +128,7 @@ HeaderLine Classify(std::string_view line) {
 }
 
 // ITK's world, which points left, to the back and up; MetaImages of other origin do not say.
-std::string WorldOf(const HeaderFields& fields) {
+std::string MetaWorldOf(const HeaderFields& fields) {
   return fields.Find({"AnatomicalOrientation"}).has_value() ? "LPS" : "";
 }
 
@@ -142,20 +143,20 @@ bool IsMetaImage(std::string_view front) {
 
 absl::StatusOr<StoredImage> ParseMetaImage(const ImageFront& front, const ImageLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const HeaderFields fields,
-                           HeaderFields::Read(front.bytes, {"=", Classify}));
-  BCCSKEL_RETURN_IF_ERROR(CheckSupported(fields));
+                           HeaderFields::Read(front.bytes, {"=", ClassifyMetaLine}));
+  BCCSKEL_RETURN_IF_ERROR(CheckMetaSupported(fields));
   StoredImage image;
   image.info.format = "MetaImage";
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<int64_t> sizes, SizesOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<int64_t> sizes, MetaSizesOf(fields));
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(sizes, limits));
-  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, TypeOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, MetaTypeOf(fields));
   if (IsTrue(fields, {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"})) {
     image.byte_order = std::endian::big;
   }
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields, sizes.size()));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, MetaPlacementOf(fields, sizes.size()));
   image.info.unit = UnitNamed(fields.Find({"DistanceUnits"}).value_or(""));
-  image.info.world = WorldOf(fields);
-  BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));
+  image.info.world = MetaWorldOf(fields);
+  BCCSKEL_RETURN_IF_ERROR(PlaceMetaVoxels(front, fields, image));
   return image;
 }
 

@@ -15,7 +15,7 @@
 namespace bccskel {
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
 // What stands behind the key, up to the end of the dictionary.
 absl::StatusOr<std::string_view> ValueOf(std::string_view dictionary, std::string_view key) {
@@ -81,7 +81,7 @@ absl::StatusOr<std::vector<int64_t>> ShapeOf(std::string_view dictionary) {
 }
 
 // Fastest first; an axis of length 1 on either side of more than three is dropped.
-std::vector<int64_t> AxesOf(std::vector<int64_t> shape) {
+std::vector<int64_t> NpyAxesOf(std::vector<int64_t> shape) {
   std::ranges::reverse(shape);
   while (shape.size() > 3 && shape.back() == 1) shape.pop_back();
   while (shape.size() > 3 && shape.front() == 1) shape.erase(shape.begin());
@@ -110,7 +110,7 @@ absl::StatusOr<Header> HeaderOf(std::string_view front) {
 }
 
 // "'mask', 'labels', ..."
-std::string NamesOf(const std::vector<std::string>& arrays) {
+std::string NpyNamesOf(const std::vector<std::string>& arrays) {
   constexpr size_t kMost = 10;
   std::string names;
   for (size_t n = 0; n < std::min(kMost, arrays.size()); ++n) {
@@ -134,17 +134,17 @@ absl::StatusOr<uint64_t> ChosenArray(const std::vector<std::string>& members,
   if (wanted.has_value() && !chosen.has_value()) {
     return absl::InvalidArgumentError(absl::StrFormat("--array '%s' is not there; there %s %s",
                                                       *wanted, arrays.size() == 1 ? "is" : "are",
-                                                      NamesOf(arrays)));
+                                                      NpyNamesOf(arrays)));
   }
   if (wanted.has_value() || arrays.size() == 1) return *chosen;
   return absl::InvalidArgumentError(
       absl::StrFormat("the file holds %d arrays, %s; choose one with --array NAME", arrays.size(),
-                      NamesOf(arrays)));
+                      NpyNamesOf(arrays)));
 }
 
 }  // namespace
 
-bool IsNpy(std::string_view front) { return front.starts_with(kMagic); }
+bool IsNpy(std::string_view front) { return front.starts_with(kNpyMagic); }
 
 absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const Header header, HeaderOf(front.bytes));
@@ -156,7 +156,7 @@ absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits&
   image.byte_order = elements.order;
   BCCSKEL_ASSIGN_OR_RETURN(image.voxel_order, VoxelOrderOf(header.dictionary));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> shape, ShapeOf(header.dictionary));
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(AxesOf(std::move(shape)), limits));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(NpyAxesOf(std::move(shape)), limits));
   BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, header.bytes, Compression::kNone, image));
   return image;
 }

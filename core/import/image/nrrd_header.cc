@@ -17,7 +17,7 @@ struct TypeNames {
   VoxelType type;
   std::string_view names;  // between bars
 };
-constexpr std::array<TypeNames, 10> kTypes = {{
+constexpr std::array<TypeNames, 10> kNrrdTypes = {{
     {VoxelType::kInt8, "|signed char|int8|int8_t|"},
     {VoxelType::kUint8, "|uchar|unsigned char|uint8|uint8_t|"},
     {VoxelType::kInt16, "|short|short int|signed short|signed short int|int16|int16_t|"},
@@ -44,16 +44,16 @@ constexpr std::array<SpaceName, 6> kSpaces = {{
     {"lps", "LPS"},
 }};
 
-absl::StatusOr<VoxelType> TypeOf(const HeaderFields& fields) {
+absl::StatusOr<VoxelType> NrrdTypeOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view name, fields.Require({"type"}));
   const std::string wanted = absl::StrFormat("|%s|", LowerCase(name));
-  for (const TypeNames& entry : kTypes) {
+  for (const TypeNames& entry : kNrrdTypes) {
     if (entry.names.find(wanted) != entry.names.npos) return entry.type;
   }
   return BadField("type", name, "is not a type of numbers");
 }
 
-absl::StatusOr<std::endian> ByteOrderOf(const HeaderFields& fields, VoxelType type) {
+absl::StatusOr<std::endian> NrrdByteOrderOf(const HeaderFields& fields, VoxelType type) {
   if (VoxelBytes(type) == 1) return std::endian::little;
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view order, fields.Require({"endian"}));
   const std::string name = LowerCase(order);
@@ -62,7 +62,7 @@ absl::StatusOr<std::endian> ByteOrderOf(const HeaderFields& fields, VoxelType ty
   return BadField("endian", order, "is neither little nor big");
 }
 
-absl::StatusOr<Compression> CompressionOf(const HeaderFields& fields) {
+absl::StatusOr<Compression> NrrdCompressionOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view encoding, fields.Require({"encoding"}));
   const std::string name = LowerCase(encoding);
   if (name == "raw") return Compression::kNone;
@@ -75,7 +75,7 @@ absl::StatusOr<Compression> CompressionOf(const HeaderFields& fields) {
   return BadField("encoding", encoding, "is neither raw nor gzip");
 }
 
-absl::StatusOr<std::vector<int64_t>> SizesOf(const HeaderFields& fields) {
+absl::StatusOr<std::vector<int64_t>> NrrdSizesOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view dimension, fields.Require({"dimension"}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view text, fields.Require({"sizes"}));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, ParseNumbers<int64_t>("sizes", text));
@@ -148,7 +148,7 @@ void DropAxisOfOneValue(std::vector<int64_t>& sizes, AxisFields& axes) {
   if (!axes.spacings.empty()) axes.spacings.erase(axes.spacings.begin());
 }
 
-absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, const AxisFields& axes) {
+absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const AxisFields& axes) {
   WorldPoint origin = {0, 0, 0};
   if (const auto text = fields.Find({"space origin"}); text.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(origin, VectorOf("space origin", *text));
@@ -169,7 +169,7 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, const AxisFiel
   return PlacementOfSteps(steps, origin);
 }
 
-std::string WorldOf(const HeaderFields& fields) {
+std::string NrrdWorldOf(const HeaderFields& fields) {
   const std::string name = LowerCase(fields.Find({"space"}).value_or(""));
   for (const SpaceName& space : kSpaces) {
     if (name == space.name) return std::string(space.axes);
@@ -178,7 +178,7 @@ std::string WorldOf(const HeaderFields& fields) {
 }
 
 // "mm" where all axes have it.
-std::string UnitOf(const HeaderFields& fields) {
+std::string NrrdUnitOf(const HeaderFields& fields) {
   std::string unit;
   for (const auto word : Words(fields.Find({"space units", "units"}).value_or(""), "\"")) {
     if (!unit.empty() && unit != word) return "";
@@ -187,7 +187,7 @@ std::string UnitOf(const HeaderFields& fields) {
   return UnitNamed(unit);
 }
 
-HeaderLine Classify(std::string_view line) {
+HeaderLine ClassifyNrrdLine(std::string_view line) {
   if (line.empty()) return HeaderLine::kEnd;
   const bool key_value = line.find(":=") != line.npos;
   const bool ignored = line.starts_with('#') || line.starts_with("NRRD000") || key_value;
@@ -206,8 +206,9 @@ absl::Status PlaceDetached(const ImageFront& front, const HeaderFields& fields,
   return PlaceInFile(front, name, behind, compression, image);
 }
 
-absl::Status PlaceVoxels(const ImageFront& front, const HeaderFields& fields, StoredImage& image) {
-  BCCSKEL_ASSIGN_OR_RETURN(const Compression compression, CompressionOf(fields));
+absl::Status PlaceNrrdVoxels(const ImageFront& front, const HeaderFields& fields,
+                             StoredImage& image) {
+  BCCSKEL_ASSIGN_OR_RETURN(const Compression compression, NrrdCompressionOf(fields));
   if (fields.Find({"line skip", "lineskip"}).value_or("0") != "0") {
     return absl::UnimplementedError("the field 'line skip' is not supported");
   }
@@ -227,19 +228,19 @@ bool IsNrrd(std::string_view front) { return front.starts_with("NRRD000"); }
 
 absl::StatusOr<StoredImage> ParseNrrd(const ImageFront& front, const ImageLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const HeaderFields fields,
-                           HeaderFields::Read(front.bytes, {": ", Classify}));
+                           HeaderFields::Read(front.bytes, {": ", ClassifyNrrdLine}));
   StoredImage image;
   image.info.format = "NRRD";
-  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, SizesOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> sizes, NrrdSizesOf(fields));
   BCCSKEL_ASSIGN_OR_RETURN(AxisFields axes, AxisFieldsOf(fields));
   DropAxisOfOneValue(sizes, axes);
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(sizes, limits));
-  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, TypeOf(fields));
-  BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, ByteOrderOf(fields, image.stored_type));
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(fields, axes));
-  image.info.unit = UnitOf(fields);
-  image.info.world = WorldOf(fields);
-  BCCSKEL_RETURN_IF_ERROR(PlaceVoxels(front, fields, image));
+  BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, NrrdTypeOf(fields));
+  BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, NrrdByteOrderOf(fields, image.stored_type));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, NrrdPlacementOf(fields, axes));
+  image.info.unit = NrrdUnitOf(fields);
+  image.info.world = NrrdWorldOf(fields);
+  BCCSKEL_RETURN_IF_ERROR(PlaceNrrdVoxels(front, fields, image));
   return image;
 }
 
