@@ -54,6 +54,12 @@ def runs(pid):
         return False
 
 
+def generate(folder, shape, points, ending=".exr"):
+    path = pathlib.Path(folder) / f"{shape}{points}{ending}"
+    bccskel("generate", shape, "--points", points, "--noise", "0.02", "-o", path)
+    return path
+
+
 def bccskel(*words):
     subprocess.run([CLIENT, *map(str, words)], capture_output=True, text=True, check=True,
                    timeout=HANGS)
@@ -92,9 +98,7 @@ class TestCase(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def generate(self, shape, points, ending=".exr"):
-        path = self.folder / f"{shape}{points}{ending}"
-        bccskel("generate", shape, "--points", points, "--noise", "0.02", "-o", path)
-        return path
+        return generate(self.folder, shape, points, ending)
 
 
 class Results(TestCase):
@@ -236,7 +240,7 @@ class Refusals(TestCase):
 
 class Checkpoints(TestCase):
     def test_a_job_that_was_killed_is_resumed_on_other_ranks(self):
-        source = self.generate("ball", 4_000_000)
+        source = self.generate("ball", 1_000_000)
         wanted, got = self.folder / "wanted.json", self.folder / "got.json"
         bccskel("skeletonize", "--local", source, "-o", wanted)
         folder = self.folder / "shells"
@@ -272,12 +276,17 @@ class Checkpoints(TestCase):
 class Ends(TestCase):
     """Of a job in the middle of its shells."""
 
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.source = generate(folder.name, "ball", 20_000_000)
+
     def start(self):
-        source = self.generate("ball", 20_000_000)
         self.output = self.folder / "out.json"
         with open(self.folder / "log", "w", encoding="utf-8") as log:
             job = subprocess.Popen(
-                words_of(3, ("skeletonize", source, "-o", self.output, "--progress", "always")),
+                words_of(3, ("skeletonize", self.source, "-o", self.output, "--progress", "always")),
                 env=ENVIRONMENT, stdout=log, stderr=log)
         self.addCleanup(job.wait, HANGS)
         self.addCleanup(job.kill)
