@@ -14,7 +14,7 @@
 
 // What is tried again, and from where it goes on.
 
-namespace bccskel::client {
+namespace bccskel::client::durable_client {
 namespace {
 
 using std::chrono::milliseconds;
@@ -261,4 +261,4 @@ TEST_F(FetchTest, TakesAResultWithoutItsSummaryForDamaged) {
 }
 
 }  // namespace
-}  // namespace bccskel::client
+}  // namespace bccskel::client::durable_client

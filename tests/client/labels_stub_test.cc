@@ -12,7 +12,7 @@
 
 // One attempt at a call with labels, against a server that may lie.
 
-namespace bccskel::client {
+namespace bccskel::client::labels_stub {
 namespace {
 
 using Reply = v1::SkeletonizeLabelsResponse;
@@ -112,4 +112,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace bccskel::client
+}  // namespace bccskel::client::labels_stub

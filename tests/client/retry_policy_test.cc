@@ -7,7 +7,7 @@
 
 #include "proto/wire/error_details.h"
 
-namespace bccskel::client {
+namespace bccskel::client::retry_policy {
 namespace {
 
 using std::chrono::milliseconds;
@@ -77,4 +77,4 @@ TEST(PauseForTest, EndsWhenAStopIsRequested) {
 }
 
 }  // namespace
-}  // namespace bccskel::client
+}  // namespace bccskel::client::retry_policy

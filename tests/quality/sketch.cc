@@ -9,7 +9,7 @@
 namespace bccskel::quality {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The signed function of a piece: below 0 inside, and never larger than the distance to the
 // surface, inside and out.
@@ -144,8 +144,8 @@ class Sampler {
 };
 
 struct Box {
-  Vector low = {kFar, kFar, kFar};
-  Vector high = {-kFar, -kFar, -kFar};
+  Vector low = {kInfinity, kInfinity, kInfinity};
+  Vector high = {-kInfinity, -kInfinity, -kInfinity};
 };
 
 Box BoxOf(const Sketch& sketch) {

@@ -14,7 +14,7 @@
 #include "client/export/point_forest.h"
 #include "tests/client/export/sample_skeletons.h"
 
-namespace bccskel::exporting {
+namespace bccskel::exporting::swc {
 namespace {
 
 using testing::HasSubstr;
@@ -278,4 +278,4 @@ TEST(PointForestTest, CountsTheLoopsOfTheObject) {
 }
 
 }  // namespace
-}  // namespace bccskel::exporting
+}  // namespace bccskel::exporting::swc

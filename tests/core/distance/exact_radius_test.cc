@@ -11,7 +11,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
 
-namespace bccskel {
+namespace bccskel::exact_radius {
 namespace {
 
 Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 3>& spacing) {
@@ -167,4 +167,4 @@ TEST(BorderBricks, HaveLevelsOfGroupsUpToAFew) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::exact_radius

@@ -11,7 +11,7 @@
 #include "tests/core/io/handmade_exr.h"
 #include "tests/core/io/test_volumes.h"
 
-namespace bccskel {
+namespace bccskel::exr_volume {
 namespace {
 
 using testing::HasSubstr;
@@ -122,4 +122,4 @@ TEST_F(HandmadeChunks, MustNotBeEmptyWhenCompressed) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::exr_volume

@@ -12,7 +12,7 @@
 #include "core/io/volume_digest.h"
 #include "core/io/volume_encoder.h"
 
-namespace bccskel {
+namespace bccskel::volume_golden {
 namespace {
 
 constexpr LatticeExtent kExtent = {19, 6, 37};
@@ -102,4 +102,4 @@ TEST(VolumeDigestGolden, NeverChanges) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::volume_golden

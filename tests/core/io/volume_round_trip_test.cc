@@ -9,7 +9,7 @@
 #include "tests/core/io/test_volumes.h"
 #include "tests/support/contexts.h"
 
-namespace bccskel {
+namespace bccskel::volume_round_trip {
 namespace {
 
 struct Coding {
@@ -148,4 +148,4 @@ INSTANTIATE_TEST_SUITE_P(
     NameOf);
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::volume_round_trip

@@ -11,7 +11,7 @@
 #include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
 
-namespace bccskel {
+namespace bccskel::mask_radius {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -184,4 +184,4 @@ TEST(MaskRadius, OfAnyPartIsHalfAVoxelAtLeast) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::mask_radius

@@ -12,7 +12,7 @@
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
 
-namespace bccskel {
+namespace bccskel::preparing {
 namespace {
 
 using testing::AllOf;
@@ -178,4 +178,4 @@ TEST(OptionFacts, NameEveryOptionOnce) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::preparing

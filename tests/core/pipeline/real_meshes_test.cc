@@ -14,7 +14,7 @@
 #include "tests/support/contexts.h"
 #include "tests/support/reference_thinner.h"
 
-namespace bccskel {
+namespace bccskel::real_meshes {
 namespace {
 
 struct RealMesh {
@@ -157,4 +157,4 @@ TEST(RealOpenMesh, IsFilledByWindingNumberWithoutHolesOrCavities) {
 INSTANTIATE_TEST_SUITE_P(All, RealMeshes, ::testing::ValuesIn(KnownMeshes()), NameOf);
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::real_meshes

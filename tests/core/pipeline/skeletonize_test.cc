@@ -9,7 +9,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 
-namespace bccskel {
+namespace bccskel::skeletonize {
 namespace {
 
 SkeletonizeResult SkeletonOf(const Volume& object, int threads,
@@ -111,4 +111,4 @@ TEST(Skeletonize, PartialThinningKeepsTheTopologyToo) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::skeletonize

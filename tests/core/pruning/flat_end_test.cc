@@ -14,7 +14,7 @@
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/volume_where.h"
 
-namespace bccskel {
+namespace bccskel::flat_end {
 namespace {
 
 using shapes::Block;
@@ -205,4 +205,4 @@ TEST(FlatEnd, LeavesThePlateItsCorners) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::flat_end

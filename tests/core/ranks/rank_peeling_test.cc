@@ -12,7 +12,7 @@
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 
-namespace bccskel {
+namespace bccskel::rank_peeling {
 namespace {
 
 constexpr int kRanks[] = {1, 2, 3, 5, 8};
@@ -212,4 +212,4 @@ TEST(PeelOverRanks, AnEmptyObjectStaysEmpty) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::rank_peeling

@@ -16,7 +16,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/volume_where.h"
 
-namespace bccskel {
+namespace bccskel::rank_skeletonize {
 namespace {
 
 using testing::HasSubstr;
@@ -195,4 +195,4 @@ TEST(RankSkeletonize, AStopOnAnyRankStopsAll) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::rank_skeletonize

@@ -14,7 +14,7 @@
 
 // The engine against the slow reference on every generated shape, clean and noisy.
 
-namespace bccskel {
+namespace bccskel::reference_shapes {
 namespace {
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ShapesAgreement, testing::ValuesIn(kShapes), []
 });
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::reference_shapes

@@ -19,7 +19,7 @@
 // The engine gives the bits of the slow reference for the symmetric method and every kind, and the
 // laws of these skeletons hold.
 
-namespace bccskel {
+namespace bccskel::symmetric_agreement {
 namespace {
 
 constexpr SkeletonKind kKinds[] = {SkeletonKind::kCurve, SkeletonKind::kSurface,
@@ -311,4 +311,4 @@ TEST(SymmetricSlabs, EndAtEveryGap) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::symmetric_agreement

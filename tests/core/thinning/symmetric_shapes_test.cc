@@ -15,7 +15,7 @@
 // Symmetric thinning of every generated shape: the reference's bits, the object's topology, and
 // nothing thick.
 
-namespace bccskel {
+namespace bccskel::symmetric_shapes {
 namespace {
 
 struct Case {
@@ -85,4 +85,4 @@ std::string NameOf(const testing::TestParamInfo<Case>& info) {
 INSTANTIATE_TEST_SUITE_P(Shapes, SymmetricShapes, testing::ValuesIn(AllCases()), NameOf);
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::symmetric_shapes

@@ -11,7 +11,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_point_set.h"
 
-namespace bccskel {
+namespace bccskel::all_rules {
 namespace {
 
 ThinningResult Thin(const Volume& object, const ThinningOptions& options,
@@ -251,4 +251,4 @@ TEST(Thinning, GoesOnAloneWithinTheLastShell) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::all_rules

@@ -11,7 +11,7 @@
 #include "tests/core/topology/mask_symmetries.h"
 #include "tests/support/reference_conditions.h"
 
-namespace bccskel {
+namespace bccskel::removable_directions {
 namespace {
 
 constexpr int kMasks = 1 << kNeighborCount;
@@ -130,4 +130,4 @@ TEST(RemovableDirections, MoveWithAll48SymmetriesOfTheCube) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::removable_directions

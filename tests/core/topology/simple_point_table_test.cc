@@ -9,7 +9,7 @@
 #include "tests/core/topology/mask_symmetries.h"
 #include "tests/support/reference_conditions.h"
 
-namespace bccskel {
+namespace bccskel::simple_point_table {
 namespace {
 
 constexpr int kMasks = 1 << kNeighborCount;
@@ -80,4 +80,4 @@ TEST(SimplePointTable, Has554SymmetryClassesOf221SimpleOnes) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::simple_point_table

@@ -11,7 +11,7 @@
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
 
-namespace bccskel {
+namespace bccskel::labels_fault {
 namespace {
 
 using absl::StatusCode;
@@ -202,4 +202,4 @@ TEST(LabelsTooLarge, ALabelWithMoreBricksThanTheServerTakesIsNamed) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::labels_fault

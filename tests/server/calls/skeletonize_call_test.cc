@@ -11,7 +11,7 @@
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
 
-namespace bccskel {
+namespace bccskel::skeletonize_call {
 namespace {
 
 using test::Converse, test::DeclaredVolume, test::Declare, test::RequestsFor, test::SkeletonOf;
@@ -141,4 +141,4 @@ TEST(SkeletonizeCall, AcceptedNamesTheJobAndTheChunkLimit) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::skeletonize_call

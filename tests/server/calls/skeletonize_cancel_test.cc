@@ -12,7 +12,7 @@
 
 // However a call ends, its job ends with it and gives everything back.
 
-namespace bccskel {
+namespace bccskel::skeletonize_cancel {
 namespace {
 
 using test::Converse, test::RawCall, test::SkeletonOf;
@@ -143,4 +143,4 @@ TEST(SkeletonizeCancel, ManyCallsCancelledAtAllTimesLeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::skeletonize_cancel

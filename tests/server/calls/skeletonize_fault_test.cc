@@ -12,7 +12,7 @@
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
 
-namespace bccskel {
+namespace bccskel::skeletonize_fault {
 namespace {
 
 using absl::StatusCode;
@@ -306,4 +306,4 @@ TEST(SkeletonizeFault, AFullServerSaysWhenToTryAgain) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::skeletonize_fault

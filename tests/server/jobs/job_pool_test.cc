@@ -21,7 +21,7 @@
 #include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
 
-namespace bccskel::server {
+namespace bccskel::server::job_pool {
 namespace {
 
 // Remembers the job's news and lets tests wait for them.
@@ -396,4 +396,4 @@ TEST(JobPool, RefusesForNowWhenTheQueueIsFull) {
 }
 
 }  // namespace
-}  // namespace bccskel::server
+}  // namespace bccskel::server::job_pool

@@ -15,7 +15,7 @@
 
 // Jobs with many labels: turns, pauses, memory.
 
-namespace bccskel::server {
+namespace bccskel::server::labels_job {
 namespace {
 
 // Keeps the results until it is told to let go of them.
@@ -233,4 +233,4 @@ TEST(LabelsJob, ThinLabelsAreRefusedWhereThereIsNoMore) {
 }
 
 }  // namespace
-}  // namespace bccskel::server
+}  // namespace bccskel::server::labels_job

@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "tests/core/import/image/image_bytes.h"
 
-namespace bccskel {
+namespace bccskel::image_headers {
 namespace {
 
 using testing::Bytes;
@@ -159,4 +159,4 @@ TEST(ImageLimits, RefuseWhatIsLargerBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace bccskel
+}  // namespace bccskel::image_headers
