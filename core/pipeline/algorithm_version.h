@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Changes whenever the same volume and options may give another skeleton. Part of the key of stored
 // results.
-inline constexpr char kAlgorithmVersion[] = "18";
+inline constexpr char kAlgorithmVersion[] = "19";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "18.mask-6";
+inline constexpr char kMaskAlgorithmVersion[] = "19.mask-6";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

@@ -1,6 +1,9 @@
 #include "core/pruning/prune.h"
 
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -72,10 +75,22 @@ size_t DeepestOf(const ThinSet& set, const std::vector<LatticePoint>& path) {
   return deepest;
 }
 
+// Whether a half of the path, from position `deepest`, is a limb, however thick what it leaves.
+bool HasLimb(const ThinSet& set, const std::vector<LatticePoint>& path, size_t deepest,
+             double threshold, Significance& significance) {
+  const auto middle = path.begin() + static_cast<std::ptrdiff_t>(deepest);
+  const std::array<FreeBranch, 2> halves = {
+      {{{path.begin(), middle}, *middle},
+       {{path.rbegin(), std::reverse_iterator(middle + 1)}, *middle}}};
+  return std::ranges::any_of(halves, [&](const FreeBranch& half) {
+    return !half.points.empty() && significance.Of(set, half) >= threshold;
+  });
+}
+
 // What has no limb has no curve that another pose would not turn elsewhere: a cube has four
-// diagonals. So of a path whose two halves do not stick out of its deepest ball that ball's center
-// stays.
-void CollapsePaths(ThinSet& set, const Significance& significance, double threshold,
+// diagonals. So of a path whose two halves do not stick out of its deepest ball, and have no limb
+// that does, that ball's center stays.
+void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
                    const PointSet& keep) {
   constexpr double kMost = 0.25;  // a spheroid 1.3 times as long as thick has it
   for (const LatticePoint end : set.Ends()) {
@@ -92,6 +107,7 @@ void CollapsePaths(ThinSet& set, const Significance& significance, double thresh
       for (const LatticePoint p : half.points) half.radii.push_back(set.RadiusOf(p));
     }
     if (significance.OfPath(set, std::move(halves)) >= std::min(threshold, kMost)) continue;
+    if (HasLimb(set, path, deepest, threshold, significance)) continue;
     for (size_t n = 0; n < deepest; ++n) set.Remove(path[n]);
     for (size_t n = path.size() - 1; n > deepest; --n) set.Remove(path[n]);
   }

@@ -199,6 +199,19 @@ TEST(PrunedCompactObject, IsAPointInEveryPose) {
   }
 }
 
+// Of a ball with three such spines all stay.
+TEST(PrunedCompactObject, WithOneThinSpineHasItsEndInEveryPose) {
+  for (const double angle : {0.0, 0.3, 0.55, 0.8}) {
+    const Volume object = TurnedSolid(angle, [](double x, double y, double z) {
+      return std::hypot(x + 8, y, z) <= 24 || (x > 0 && x <= 24 && std::hypot(y, z) <= 2);
+    });
+    const SkeletonGraph graph = Skeletonize(object, {}, {})->graph;
+    ASSERT_EQ(EndsOf(graph), 2u) << angle;
+    const auto radius = [&](const SkeletonNode& node) { return graph.RadiusOf(node.at); };
+    EXPECT_LT(radius(*std::ranges::min_element(graph.nodes, {}, radius)), 5) << angle;
+  }
+}
+
 TEST(PrunedCompactObject, KeepsAPathWithAPointToKeepOrWithoutPruning) {
   const Volume cube = TurnedSolid(0.55, [](double x, double y, double z) {
     return std::max({std::abs(x), std::abs(y), std::abs(z)}) <= 20;
