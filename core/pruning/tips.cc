@@ -13,6 +13,7 @@
 #include "core/pruning/flat_end.h"
 #include "core/pruning/grow_along.h"
 #include "core/pruning/largest_run.h"
+#include "core/pruning/last_limb.h"
 
 namespace bccskel {
 namespace {
@@ -59,6 +60,7 @@ class TipPlacer {
         searching_(radius.searches() ? radius : ExactRadius(space)),
         depth_(space, searching_),
         flat_(object, searching_, depth_),  // it ends at the border
+        last_limb_(object, noise),
         keep_(keep),
         balls_(set, AxisScaleOf(object.placement()), context),
         step_(std::ranges::max(AxisScaleOf(object.placement()))),
@@ -240,23 +242,19 @@ class TipPlacer {
     size_t last = path_.size() - 1;
     while (last > 0 && !IsFirm(path_[last])) --last;
     const double length = set_.Between(path_[last], path_.back());
-    const double longest = std::min<double>(kHairLength, kHairRadii * MedianRadius());
-    if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
-  }
-
-  double MedianRadius() const {
     std::vector<float> radii;
     for (LatticePoint p : path_) radii.push_back(set_.RadiusOf(p));
-    return MedianOf(std::move(radii));
+    const double longest = std::min<double>(kHairLength, kHairRadii * MedianOf(std::move(radii)));
+    if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
   }
 
   // Position in the path of the first point that may become the tip. What is cut off must lie in
   // the cap that the new tip is the center of, and the new tip in the limb: a body behind a short
-  // limb has a larger distance than the limb, but the limb is no part of it.
+  // limb, or a bead, has a larger distance than the limb, but the limb is no part of it.
   size_t FirstCut() {
     size_t first = path_.size() - 1;
     while (first > 0 && path_[first] != root_ && IsInCapOf(path_[first - 1])) --first;
-    return first;
+    return last_limb_.BeginIn(set_, path_, first);
   }
 
   // The depth is no less than the radius, so mostly that is enough.
@@ -366,6 +364,7 @@ class TipPlacer {
   const ExactRadius searching_;
   FirmDepth depth_;
   FlatEnd flat_;
+  LastLimb last_limb_;
   const PointSet& keep_;
   BallIndex balls_;
   const double step_;  // the longest step along an axis, in lattice units

@@ -15,9 +15,10 @@ namespace bccskel {
 // into a round cap or off into the corner of a box: so the tip is the place with the largest sum of
 // the distance and 0.75 of the way along the limb. Distances are to the background without pits,
 // and no tip is put on a bump (FillPits(), Denoise()): a single point says nothing of the limb.
-// A tip is never cut back behind where its limb begins (LargestRun()), grows by the radius there
-// and 6 units at most, and not into the ball of another branch. Points of `keep` are not cut off.
-// Needs:  `radius` belongs to `object`; `space` is the object, or that with points beyond its
+// A tip is never cut back behind where its limb begins (LargestRun(), LastLimb), grows by the
+// radius there and 6 units at most, and not into the ball of another branch. Points of `keep` are
+// not cut off. Needs:  `radius` belongs to `object`; `space` is the object, or that with points
+// beyond its
 //         border, which no tip grows into; `noise` of its surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,

@@ -294,6 +294,30 @@ TEST(Tips, OfAShortLegStayOutsideTheBody) {
   }
 }
 
+// Behind a bead the limb is thin; the bead has a larger distance, but is not its end. Ends lay in
+// the bead.
+TEST(Tips, OfABeadedLimbLieBehindItsLastBead) {
+  const WorldPoint tip = {78, 64, 56}, way = {0.6, 0.64, 0.48};
+  const auto back = [&](double by) {
+    return WorldPoint{tip[0] - by * way[0], tip[1] - by * way[1], tip[2] - by * way[2]};
+  };
+  for (const double tail : {18.0, 24.0}) {
+    VolumeBuilder builder({90, 90, 90});
+    const auto add = [&](const WorldPoint& a, const WorldPoint& b, double radius) {
+      Capsule(a, b, radius, {1, 1, 1}).ForEachPoint([&](LatticePoint p) { builder.Add(p); });
+    };
+    add(back(76), tip, 4);
+    for (const double at : {tail, tail + 30}) add(back(at), back(at + 0.5), 12);
+    const auto result = Skeletonize(*std::move(builder).Build(), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    ASSERT_EQ(result->graph.nodes.size(), 2u);
+    for (const SkeletonNode& node : result->graph.nodes) {
+      const WorldPoint at = result->graph.PositionOf(node.at);
+      EXPECT_LT(std::min(Gap(at, tip), Gap(at, back(76))), 3) << tail;
+    }
+  }
+}
+
 // Seen from the body that it leaves, a limb that turns back ends where it bends.
 TEST(Tips, OfABentLimbLieAtItsEnd) {
   VolumeBuilder builder({130, 90, 60});

@@ -1,0 +1,40 @@
+#include "core/pruning/last_limb.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/pruning/branch_walk.h"
+#include "core/pruning/largest_run.h"
+#include "core/pruning/pruning_defaults.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kBead = 1.4;  // its radius, in radii of the limb
+
+}  // namespace
+
+size_t LastLimb::BeginIn(const ThinSet& set, std::span<const LatticePoint> path, size_t first) {
+  double most = std::numeric_limits<double>::infinity();
+  for (size_t n = path.size() - 1; n-- > first;) {
+    const double radius = set.RadiusOf(path[n]);
+    if (radius > most) return IsBranch(set, path.subspan(n)) ? n + 1 : first;
+    if (SticksOut(set, path[n], path.back())) most = std::min(most, kBead * radius);
+  }
+  return first;
+}
+
+// By more than noise makes it, so that IsBranch(), which takes longer, is rarely asked for.
+bool LastLimb::SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const {
+  const double radius = set.RadiusOf(root), fallen = radius - set.RadiusOf(tip);
+  const double allowance = noise_.Stretch(set.Way(root, tip)) * noise_.At(radius);
+  return set.Between(root, tip) - kSteepness * fallen > allowance;
+}
+
+bool LastLimb::IsBranch(const ThinSet& set, std::span<const LatticePoint> path) {
+  if (!significance_.has_value()) significance_.emplace(object_, noise_);
+  const FreeBranch branch = {{path.rbegin(), path.rend() - 1}, path.front()};
+  return significance_->Of(set, branch) >= WithDefaults({}).threshold;
+}
+
+}  // namespace bccskel

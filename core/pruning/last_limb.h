@@ -1,0 +1,38 @@
+#ifndef BCCSKEL_CORE_PRUNING_LAST_LIMB_H_
+#define BCCSKEL_CORE_PRUNING_LAST_LIMB_H_
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/pruning/significance.h"
+#include "core/pruning/surface_noise.h"
+#include "core/pruning/thin_set.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Finds the limb that a branch ends with behind a bead, a part 1.4 times as thick as the limb and
+// more: pruning would keep it as a branch of the bead.
+// Needs:   `object` outlives this; `noise` is that of its surface.
+// Threads: one thread per instance.
+class LastLimb {
+ public:
+  LastLimb(const Volume& object, const SurfaceNoise& noise) : object_(object), noise_(noise) {}
+
+  // Position of the limb's first point, which is no thicker than said, `first` if there is no bead.
+  // Needs: a path of curve points of `set`, its last point an end; `first` is a position in it.
+  size_t BeginIn(const ThinSet& set, std::span<const LatticePoint> path, size_t first);
+
+ private:
+  bool SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const;
+  bool IsBranch(const ThinSet& set, std::span<const LatticePoint> path);
+
+  const Volume& object_;
+  const SurfaceNoise noise_;
+  std::optional<Significance> significance_;  // made when it is asked for first
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_LAST_LIMB_H_
