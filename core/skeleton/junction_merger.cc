@@ -28,6 +28,12 @@ constexpr double kOneBall = 0.5;
 // In lattice units, added to the reach: by so much sampling moves the junctions of thin tubes,
 // whose radius is a few units.
 constexpr double kSampling = 1;
+// Where limbs cross, the junctions of both sides lie this many reaches apart at most, and each limb
+// is straight from a radius outside of them over so many radii and lattice units.
+constexpr double kCrossingReach = 3;
+constexpr double kStraightRadii = 2;
+constexpr double kStraightUnits = 4;
+constexpr double kStraightCosine = 0.94;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 struct OpenEdge {
@@ -51,6 +57,25 @@ Path Joined(Path first, const Path& second) {
 }
 
 Path Reversed(const Path& path) { return {path.rbegin(), path.rend()}; }
+
+// Part of a limb, away from where limbs cross.
+struct Ray {
+  Coordinates from, to;
+};
+
+Coordinates Between(const Coordinates& a, const Coordinates& b) { return Sum(b, -1, a); }
+
+// Whether the way from one point to another follows `along`, of any length.
+bool Follows(const Coordinates& way, const Coordinates& along) {
+  return Dot(way, along) >= kStraightCosine * std::sqrt(Dot(way, way) * Dot(along, along));
+}
+
+// Whether two rays in opposite directions lie in one line.
+bool IsLine(const Ray& a, const Ray& b) {
+  const Coordinates across = Between(a.from, b.from), out = Between(b.from, b.to);
+  const Coordinates in = Between(a.to, a.from);
+  return Follows(in, across) && Follows(across, out) && Follows(in, out);
+}
 
 class Merger {
  public:
@@ -97,6 +122,7 @@ class Merger {
   using Step = std::tuple<double, uint32_t, uint32_t, uint32_t>;
   using Steps = std::priority_queue<Step, std::vector<Step>, std::greater<>>;
 
+  Coordinates PlaceAt(const SkeletonPoint& p) const { return PlaceOf(p.point, scale_); }
   bool IsJunction(uint32_t n) const { return graph_.nodes[n].kind == NodeKind::kJunction; }
 
   // Those that begin and end at node n, both ends of a loop.
@@ -126,7 +152,64 @@ class Merger {
       take(to, way);
     }
     if (reached.size() > kMostJoined + 1) LetGo(reached, inside);
+    if (reached.size() == 1 && CrossAt(center)) return true;
     return node_of_[center] == center && reached.size() > 1;
+  }
+
+  // Where two straight limbs cross at a small angle, two junctions share an edge. Its middle
+  // becomes one node. Returns whether there is such an edge at the junction.
+  bool CrossAt(uint32_t center) {
+    for (uint32_t e : EdgesAt(center)) {
+      const SkeletonEdge& edge = graph_.edges[e];
+      const uint32_t to = edge.source == center ? edge.target : edge.source;
+      if (node_of_[to] != kNone || !IsJunction(to) || !IsCrossing(e, center, to)) continue;
+      Path path = PathOf(edge);
+      if (edge.source != center) path = Reversed(path);
+      const auto middle = path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2);
+      ways_[to] = {middle, path.end()};
+      ways_[center] = Reversed({path.begin(), middle + 1});
+      graph_.nodes[center].at = *middle;
+      node_of_[to] = center;
+      dissolved_[e] = 1;
+      return true;
+    }
+    return false;
+  }
+
+  bool IsCrossing(uint32_t e, uint32_t center, uint32_t to) const {
+    if (EdgesAt(center).size() != 3 || EdgesAt(to).size() != 3) return false;
+    const double radius = graph_.nodes[center].at.radius;
+    const double length = LengthOf(graph_.edges[e]);
+    if (length > kCrossingReach * reach_ * radius + kSampling) return false;
+    const auto points = graph_.PointsOf(graph_.edges[e]);
+    const Coordinates middle = PlaceAt(points[points.size() / 2]);
+    const auto rays = [&](uint32_t n) {
+      std::vector<Ray> found;
+      for (uint32_t limb : EdgesAt(n)) {
+        if (limb != e) AddRay(limb, n, middle, length / 2 + radius, radius, found);
+      }
+      return found;
+    };
+    const std::vector<Ray> here = rays(center), there = rays(to);
+    if (here.size() != 2 || there.size() != 2) return false;
+    return (IsLine(here[0], there[0]) && IsLine(here[1], there[1])) ||
+           (IsLine(here[0], there[1]) && IsLine(here[1], there[0]));
+  }
+
+  // None of a limb that is too short for one.
+  void AddRay(uint32_t limb, uint32_t n, const Coordinates& middle, double start, double radius,
+              std::vector<Ray>& rays) const {
+    const double end = start + kStraightRadii * radius + kStraightUnits;
+    Path path = PathOf(graph_.edges[limb]);
+    if (graph_.edges[limb].source != n) path = Reversed(path);
+    const auto beyond = [&](double least) {
+      return std::ranges::find_if(path, [&](const SkeletonPoint& p) {
+        const Coordinates way = Between(middle, PlaceAt(p));
+        return Dot(way, way) >= least * least;
+      });
+    };
+    const auto from = beyond(start), to = beyond(end);
+    if (to != path.end()) rays.push_back({PlaceAt(*from), PlaceAt(*to)});
   }
 
   // To the junctions that the node at `center` may take in next, each with the way there.
@@ -143,8 +226,7 @@ class Merger {
     const auto points = graph_.PointsOf(edge);
     double length = 0;
     for (size_t n = 1; n < points.size(); ++n) {
-      const Coordinates step =
-          Sum(PlaceOf(points[n].point, scale_), -1, PlaceOf(points[n - 1].point, scale_));
+      const Coordinates step = Between(PlaceAt(points[n - 1]), PlaceAt(points[n]));
       length += std::sqrt(Dot(step, step));
     }
     return length;
@@ -174,7 +256,7 @@ class Merger {
 
   bool IsNear(uint32_t e, const SkeletonPoint& at, double radius) const {
     return std::ranges::all_of(graph_.PointsOf(graph_.edges[e]), [&](const SkeletonPoint& p) {
-      const Coordinates way = Sum(PlaceOf(p.point, scale_), -1, PlaceOf(at.point, scale_));
+      const Coordinates way = Between(PlaceAt(at), PlaceAt(p));
       return Dot(way, way) <= radius * radius;
     });
   }
@@ -227,13 +309,17 @@ std::vector<OpenEdge> Merger::RemainingEdges() const {
   return edges;
 }
 
-// Returns where the nodes that stay are now, by node.
+// In canonical order; returns where the nodes that stay are now, by node.
 std::vector<uint32_t> Merger::KeepNodes() {
-  std::vector<uint32_t> place(graph_.nodes.size());
-  std::vector<SkeletonNode> kept;
+  std::vector<uint32_t> order, place(graph_.nodes.size());
   for (uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+    if (node_of_[n] == kNone || node_of_[n] == n) order.push_back(n);
+  }
+  std::ranges::sort(order, {}, [&](uint32_t n) { return graph_.nodes[n].at.point; });
+  std::vector<SkeletonNode> kept;
+  for (uint32_t n : order) {
     place[n] = static_cast<uint32_t>(kept.size());
-    if (node_of_[n] == kNone || node_of_[n] == n) kept.push_back(graph_.nodes[n]);
+    kept.push_back(graph_.nodes[n]);
   }
   graph_.nodes = std::move(kept);
   return place;

@@ -21,7 +21,9 @@ absl::Status CheckJunctionReach(double reach);
 //        its radius, regardless of the limbs), the nearest along the paths first: those edges
 //        become part of the node. One lattice unit is added to both reaches, for sampling. An
 //        absorbed junction absorbs no others, so a row of junctions along a limb stays a row. All
-//        other edges of absorbed junctions are extended to the node along the path inside it. A
+//        other edges of absorbed junctions are extended to the node along the path inside it.
+//        Where two straight limbs cross at a small angle, there is a junction on either side, up to
+//        three times `reach` apart: these two become one node in the middle of their edge. A
 //        ball with more than 17 junctions is not merged: it is a sponge, and all its edges would
 //        run to the middle.
 // Why it is right: only edges of a tree disappear, each with a node, so edges - nodes stays the

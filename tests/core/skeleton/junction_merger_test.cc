@@ -89,6 +89,44 @@ TEST(MergeJunctions, TakesTheDeepest) {
   EXPECT_EQ(junction->at.point, (LatticePoint{38, kMiddle, kMiddle}));
 }
 
+// A limb that leaves the x axis to one side by every second step.
+void AddSlanted(std::vector<LatticePoint>& points, LatticePoint from, int32_t way, int32_t side) {
+  for (int n = 0; n < 10; ++n) {
+    from = from + LatticePoint{way, side, side};
+    AddLine(points, from, {2 * way, 0, 0}, 2);
+    from = from + LatticePoint{2 * way, 0, 0};
+  }
+}
+
+// Two limbs that share a part of the x axis, and in which planes they leave it.
+enum class Planes : uint8_t { kOne, kTwo };
+std::vector<LatticePoint> SharedWay(int32_t shared, Planes planes) {
+  std::vector<LatticePoint> points;
+  AddLine(points, {kMiddle, kMiddle, kMiddle}, {2, 0, 0}, shared);
+  for (const int32_t side : {1, -1}) {
+    AddSlanted(points, {kMiddle, kMiddle, kMiddle}, -1, side);
+    const size_t first = points.size();
+    AddSlanted(points, {kMiddle + 2 * shared - 2, kMiddle, kMiddle}, 1, side);
+    if (planes == Planes::kOne) continue;
+    for (size_t n = first; n < points.size(); ++n) points[n].z = 2 * kMiddle - points[n].z;
+  }
+  return points;
+}
+
+TEST(MergeJunctions, MakesOneNodeInTheMiddleWhereStraightLimbsCross) {
+  const auto points = SharedWay(7, Planes::kOne);
+  EXPECT_EQ(JunctionsOf(Merged(points, 6, 0)), 2);
+  const SkeletonGraph merged = Merged(points, 6, kDefaultJunctionReach);
+  ASSERT_EQ(JunctionsOf(merged), 1);
+  EXPECT_EQ(merged.edges.size(), 4u);
+  const auto junction = std::ranges::find(merged.nodes, NodeKind::kJunction, &SkeletonNode::kind);
+  EXPECT_NEAR(junction->at.point.x, kMiddle + 6, 2);
+  EXPECT_TRUE(std::ranges::is_sorted(merged.nodes, {},
+                                     [](const SkeletonNode& node) { return node.at.point; }));
+  EXPECT_EQ(JunctionsOf(Merged(SharedWay(7, Planes::kTwo), 6, kDefaultJunctionReach)), 2);
+  EXPECT_EQ(JunctionsOf(Merged(points, 2, kDefaultJunctionReach)), 2);
+}
+
 TEST(MergeJunctions, KeepsTheLevelsOfEdges) {
   SkeletonGraph graph = test::Trace(Comb({30, 38}), [](LatticePoint) { return 10.0f; });
   std::vector<double> levels;
