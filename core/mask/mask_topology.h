@@ -5,8 +5,8 @@
 
 #include "core/certificate/certificate.h"
 #include "core/mask/mask_grid.h"
-#include "core/mask/run_components.h"
 #include "core/mask/row_tubes.h"
+#include "core/mask/run_components.h"
 #include "core/mask/slice_rows.h"
 
 namespace bccskel {
