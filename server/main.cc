@@ -95,7 +95,7 @@ void Greet(const Server& server) {
   }
   const std::string admin = server.admin_address();
   if (!admin.empty()) std::printf("listening for admins on %s\n", admin.c_str());
-  const std::string metrics = server.metrics_address();
+  const std::string& metrics = server.metrics_address();
   if (!metrics.empty()) std::printf("metrics at http://%s/metrics\n", metrics.c_str());
   std::fflush(stdout);
 }

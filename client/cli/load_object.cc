@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/console.h"
@@ -193,7 +194,9 @@ absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
   absl::StatusOr<ImageObject> object = Convert(path, arguments, kept, context);
   if (!object.ok()) return WithPath(object.status(), path);
   if (arguments.mask.part.index > 0) return object;  // the first of the ranks that read it warns
-  for (const std::string& warning : object->image.warnings) Warn(path + ": " + warning);
+  for (const std::string& warning : object->image.warnings) {
+    Warn(absl::StrCat(path, ": ", warning));
+  }
   return object;
 }
 

@@ -269,7 +269,7 @@ absl::Status DurableJobs::EraseJob(JobStore& store, const JobRow& job, Erased& e
 std::shared_ptr<Watch> DurableJobs::WatchJob(const std::string& tenant, const std::string& job,
                                              uint64_t after_sequence,
                                              std::shared_ptr<JobWatcher> watcher) {
-  const auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
+  auto watch = std::make_shared<Watch>(after_sequence, std::move(watcher));
   BeginWatch(tenant, job, after_sequence, watch);
   return watch;
 }
