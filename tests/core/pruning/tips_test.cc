@@ -16,16 +16,12 @@ namespace {
 Volume Capsule(std::array<double, 3> a, std::array<double, 3> b, double radius,
                std::array<double, 3> spacing) {
   const Placement placement = {.spacing = spacing};
-  LatticeExtent extent = {1, 1, 1};
   const auto cells = [&](size_t axis) {
     return static_cast<int32_t>(std::ceil((std::max(a[axis], b[axis]) + radius) / spacing[axis])) +
            2;
   };
-  extent = {cells(0), cells(1), cells(2)};
+  const LatticeExtent extent = {cells(0), cells(1), cells(2)};
   VolumeBuilder builder(extent, placement);
-  const auto dot = [](const WorldPoint& u, const WorldPoint& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-  };
   const WorldPoint axis = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   for (Sublattice s : kSublattices) {
     for (int32_t k = 0; k < extent.nz; ++k) {
@@ -34,10 +30,10 @@ Volume Capsule(std::array<double, 3> a, std::array<double, 3> b, double radius,
           const LatticePoint p = PointAt(s, i, j, k);
           const WorldPoint w = placement.ToWorld(p);
           const WorldPoint from = {w[0] - a[0], w[1] - a[1], w[2] - a[2]};
-          const double t = std::clamp(dot(from, axis) / dot(axis, axis), 0.0, 1.0);
+          const double t = std::clamp(Dot(from, axis) / Dot(axis, axis), 0.0, 1.0);
           const WorldPoint off = {from[0] - t * axis[0], from[1] - t * axis[1],
                                   from[2] - t * axis[2]};
-          if (dot(off, off) <= radius * radius) builder.Add(p);
+          if (Dot(off, off) <= radius * radius) builder.Add(p);
         }
       }
     }
@@ -75,15 +71,13 @@ SkeletonGraph GraphOfVoxels(const WorldPoint& a, const WorldPoint& b, double rad
   absl::StatusOr<MaskConverter> converter = MaskConverter::Create(grid, {});
   EXPECT_TRUE(converter.ok()) << converter.status();
   const WorldPoint axis = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
   for (int32_t z = 0; z < kEdge; ++z) {
     std::vector<uint64_t> words(kEdge);
     for (int32_t y = 0; y < kEdge; ++y) {
       for (int32_t x = 0; x < kEdge; ++x) {
         const WorldPoint at = {1.0 * x, 1.0 * y, edge_z * z};
-        const double along =
-            (at[0] - a[0]) * axis[0] + (at[1] - a[1]) * axis[1] + (at[2] - a[2]) * axis[2];
-        const double t = std::clamp(along / square, 0.0, 1.0);
+        const WorldPoint from = {at[0] - a[0], at[1] - a[1], at[2] - a[2]};
+        const double t = std::clamp(Dot(from, axis) / Dot(axis, axis), 0.0, 1.0);
         const WorldPoint nearest = {a[0] + t * axis[0], a[1] + t * axis[1], a[2] + t * axis[2]};
         if (Gap(at, nearest) > radius) continue;
         words[static_cast<size_t>(y)] |= uint64_t{1} << x;
