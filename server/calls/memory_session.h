@@ -108,11 +108,6 @@ class MemorySession : public Session<Request, Response>,
   Responses responses_;  // guarded by the call's lock
 
  private:
-  // Every reply costs about 30 us on either side. The threads of gRPC that send it, and a caller on
-  // the same machine, interrupt workers in lockstep for ten times as long: with a reply each
-  // millisecond two threads were slower than one. The newest progress is always sent.
-  static constexpr std::chrono::milliseconds kProgressInterval{10};
-
   const std::shared_ptr<Call> call_;
   JobRunner& runner_;
   const VolumeLimits limits_;

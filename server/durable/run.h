@@ -120,9 +120,6 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   }
 
  private:
-  // Progress that is told more often would cost the computation time.
-  static constexpr std::chrono::milliseconds kProgressInterval{10};
-
   RunObserver& observer_;
   const std::string tenant_;
   const Operations::Token operation_;
