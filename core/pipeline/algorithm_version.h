@@ -10,7 +10,7 @@ namespace bccskel {
 inline constexpr char kAlgorithmVersion[] = "19";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "19.mask-6";
+inline constexpr char kMaskAlgorithmVersion[] = "19.mask-7";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

@@ -42,7 +42,8 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   const double width = unit * TunnelWidthOf(edge, placement);  // two voxels
   const PreparingOptions& preparing = options.preparing;
   const double cut =
-      std::max(preparing.tunnel_width, unit * TunnelWidthOf(preparing.tunnel_cells, placement));
+      std::max(preparing.tunnel_width, unit * CellsPerVoxel(options.source) *
+                                           TunnelWidthOf(preparing.tunnel_cells, placement));
   const bool dust = result.certificate.input.components > 1 &&
                     preparing.min_component_points == 0 && preparing.min_component_volume == 0;
   if (cut > 0 && (cut < width || !dust)) return;

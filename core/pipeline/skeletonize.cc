@@ -128,8 +128,9 @@ class Pipeline {
 
  private:
   absl::StatusOr<Volume> PrepareObject(const Volume& given) {
-    BCCSKEL_ASSIGN_OR_RETURN(PreparedObject prepared,
-                             Prepare(given, options_.preparing, memory_, context_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        PreparedObject prepared,
+        Prepare(given, options_.preparing, memory_, context_, CellsPerVoxel(options_.source)));
     result_.certificate.unprepared = prepared.before;
     result_.preparing = std::move(prepared.steps);
     result_.timings.preparing = clock_.Lap();

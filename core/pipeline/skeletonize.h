@@ -32,6 +32,9 @@ enum class ObjectSource : uint8_t {
 // about that.
 double SurfaceStepOf(ObjectSource source);
 
+// Edges of the cubic cell that a voxel's edge is long; 1 for objects without voxels.
+int32_t CellsPerVoxel(ObjectSource source);
+
 // What lies beyond the border of the lattice, or of the image that it was made of. Across an image
 // of one slice objects always continue.
 enum class Border : uint8_t {

@@ -23,11 +23,15 @@ double SurfaceStepOf(ObjectSource source) {
   return 1;
 }
 
+int32_t CellsPerVoxel(ObjectSource source) {
+  return source == ObjectSource::kRefinedVoxels ? 2 : 1;
+}
+
 std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
                                      const SkeletonizeOptions& options) {
   if (options.source == ObjectSource::kPoints) return std::nullopt;
   const bool sampled = options.source == ObjectSource::kSampledVoxels;
-  const auto refinement = static_cast<int32_t>(SurfaceStepOf(options.source)) / 2;
+  const int32_t refinement = CellsPerVoxel(options.source);
   const std::array<int32_t, 3> cells = {extent.nx, extent.ny, extent.nz};
   std::optional<size_t> axis;
   for (size_t n = 0; n < 3; ++n) {

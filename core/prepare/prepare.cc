@@ -24,8 +24,8 @@ uint64_t PointsIn(double volume, const Placement& placement) {
 class Preparation {
  public:
   Preparation(const Volume& object, const PreparingOptions& options, exec::MemoryBudget& memory,
-              const exec::Context& context)
-      : options_(options), memory_(memory), context_(context) {
+              const exec::Context& context, int32_t cells_per_voxel)
+      : options_(options), memory_(memory), context_(context), cells_per_voxel_(cells_per_voxel) {
     prepared_.object = object;
   }
 
@@ -71,9 +71,9 @@ class Preparation {
 
   absl::Status RunFillTunnels() {
     const double unit = WorldUnitsPerLatticeUnit(prepared_.object.placement());
-    const double width =
-        std::max(options_.tunnel_width / unit,
-                 TunnelWidthOf(options_.tunnel_cells, prepared_.object.placement()));
+    const double width = std::max(
+        options_.tunnel_width / unit,
+        cells_per_voxel_ * TunnelWidthOf(options_.tunnel_cells, prepared_.object.placement()));
     if (width > kMaxTunnelWidth) {
       return absl::InvalidArgumentError(absl::StrFormat(
           "width of tunnels to fill %g: must be at most %g, that is %g edges of the cubic cell",
@@ -94,6 +94,7 @@ class Preparation {
   const PreparingOptions& options_;
   exec::MemoryBudget& memory_;
   const exec::Context& context_;
+  const int32_t cells_per_voxel_;
   PreparedObject prepared_;
 };
 
@@ -125,9 +126,10 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options) {
 }
 
 absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
-                                       exec::MemoryBudget& memory, const exec::Context& context) {
+                                       exec::MemoryBudget& memory, const exec::Context& context,
+                                       int32_t cells_per_voxel) {
   BCCSKEL_RETURN_IF_ERROR(CheckPreparingOptions(options));
-  return Preparation(object, options, memory, context).Run();
+  return Preparation(object, options, memory, context, cells_per_voxel).Run();
 }
 
 }  // namespace bccskel

@@ -34,8 +34,8 @@ struct PreparingOptions {
   // fills none. Components and cavities stay as they are, so a tunnel in which another component
   // lies stays, too.
   double tunnel_width = 0;
-  // The same in shortest edges of the cubic cell, which is a voxel where that becomes two points;
-  // see TunnelWidthOf() for cells that are longer one way.
+  // The same in shortest edges of a voxel, or of the cubic cell where the object has no voxels; see
+  // TunnelWidthOf() for those that are longer one way.
   double tunnel_cells = 0;
 
   // A larger object is not made: cavities may hold far more bricks than the object.
@@ -51,9 +51,9 @@ struct PreparingOptions {
 };
 inline constexpr int32_t kMaxDenoisePasses = 16;
 
-// The width of tunnels in lattice units that PreparingOptions::tunnel_cells stands for: noise
-// leaves gaps as high as the longest edge of a cell, so at least a quarter more than that. Fewer
-// cells than this count as longest edges.
+// The width of tunnels in lattice units that PreparingOptions::tunnel_cells stands for, where a
+// voxel is one cell: noise leaves gaps as high as the longest edge of a cell, so at least a quarter
+// more than that. Fewer cells than this count as longest edges.
 double TunnelWidthOf(double cells, const Placement& placement);
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
@@ -84,12 +84,14 @@ struct PreparedObject {
   std::vector<PreparingStep> steps;  // those that were wanted, in their order
 };
 
-// What tunnels need is taken from the budget.
+// The memory for filling tunnels is taken from the budget.
+// `cells_per_voxel`: how many edges of the cubic cell make a voxel's edge, for tunnel_cells.
 // Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), those of the
 //         budget, CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
 absl::StatusOr<PreparedObject> Prepare(const Volume& object, const PreparingOptions& options,
-                                       exec::MemoryBudget& memory, const exec::Context& context);
+                                       exec::MemoryBudget& memory, const exec::Context& context,
+                                       int32_t cells_per_voxel = 1);
 
 }  // namespace bccskel
 

@@ -23,7 +23,8 @@ using testing::IsEmpty;
 // A bar of 40 x 7 x 7 voxels with square holes across it, each as wide as told, and a voxel in the
 // middle of the last one, or just above if it is that narrow, if there shall be dust.
 SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double voxel,
-                               const PreparingOptions& preparing = {}, bool dust = false) {
+                               const PreparingOptions& preparing = {}, bool dust = false,
+                               VoxelPoints points = VoxelPoints::kTwo) {
   test::ReferenceMask mask{44, 20, 11, std::vector<uint8_t>(44 * 20 * 11)};
   const auto set = [&](int32_t x, int32_t y, uint8_t value) {
     for (int32_t z = 1; z < 8; ++z) mask.voxels[mask.Index(x, y, z)] = value;
@@ -44,9 +45,11 @@ SkeletonizeResult BarWithHoles(std::initializer_list<int32_t> widths, double vox
   if (dust) mask.voxels[mask.Index(at - 9 - width + width / 2, 10, width > 1 ? 4 : 9)] = 1;
   Placement placement;
   placement.spacing = {voxel, voxel, voxel};
-  SkeletonizeOptions options = {.source = ObjectSource::kVoxels};
+  const bool two = points == VoxelPoints::kTwo;
+  SkeletonizeOptions options = {.source =
+                                    two ? ObjectSource::kVoxels : ObjectSource::kRefinedVoxels};
   options.preparing = preparing;
-  return *Skeletonize(Converted(mask, {}, placement).volume, options, {});
+  return *Skeletonize(Converted(mask, {.points = points}, placement).volume, options, {});
 }
 
 TEST(NarrowLoops, AreCountedByTheWidthOfTheirTunnels) {
@@ -66,6 +69,13 @@ TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, {.tunnel_width = 16});
   EXPECT_EQ(closed.certificate.skeleton.loops, 1);
   EXPECT_THAT(NotesOn(closed), ElementsAre(HasSubstr("loops 3 -> 1")));
+}
+
+TEST(NarrowLoops, AreClosedByWidthsInVoxelsForAnyNumberOfPointsPerVoxel) {
+  for (const VoxelPoints points : {VoxelPoints::kTwo, VoxelPoints::kSixteen}) {
+    const SkeletonizeResult result = BarWithHoles({1, 3, 5}, 8, {.tunnel_cells = 4}, false, points);
+    EXPECT_EQ(result.certificate.skeleton.loops, 1);
+  }
 }
 
 TEST(NarrowLoops, StayWithDustInThemUnlessItIsDropped) {
