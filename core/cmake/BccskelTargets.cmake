@@ -108,6 +108,11 @@ endfunction()
 
 # Labels of a test: its folder under tests (core, proto, server, client, integration) and `ARGN`.
 function(bccskel_label_test name)
+  get_property(labeled GLOBAL PROPERTY BCCSKEL_TESTS)
+  if(name IN_LIST labeled)
+    message(FATAL_ERROR "two tests have the name ${name}")
+  endif()
+  set_property(GLOBAL APPEND PROPERTY BCCSKEL_TESTS ${name})
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/tests
              OUTPUT_VARIABLE folder)
   string(REGEX REPLACE "/.*" "" folder ${folder})
