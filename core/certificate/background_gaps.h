@@ -14,8 +14,8 @@
 
 namespace bccskel {
 
-// Where the bricks before the last ones looked up are, one number for each kind of neighbor, since
-// each kind is asked for in increasing order. One per thread.
+// Caches, for each kind of neighbor, where the last lookup was, since lookups of one kind come in
+// increasing order. One per thread.
 class GapPlaces {
  public:
   size_t& of(BrickCoordinates brick, int position) {
@@ -26,8 +26,8 @@ class GapPlaces {
   alignas(64) std::array<std::array<size_t, 14>, 2> places_ = {};
 };
 
-// The layers of bricks that are known, where an object is spread over several holders: beyond them
-// a brick that is not stored need not be background.
+// The layers of bricks that are known when an object is spread over several holders. Beyond them, a
+// brick that is not stored need not be background.
 struct KnownLayers {
   int32_t first = std::numeric_limits<int32_t>::min();
   int32_t last = std::numeric_limits<int32_t>::max();
@@ -37,9 +37,9 @@ struct KnownLayers {
 
 // The background where no bricks are stored, as few pieces instead of many empty bricks. A row is
 // all bricks of one sublattice with the same by and bz. The bricks missing between two stored
-// bricks of a row are one piece, a gap. All other missing bricks are the outside: they lie at the
-// end of a row or in a row without stored bricks. Cost: follows the number of stored bricks,
-// however large the box.
+// bricks of a row form one piece, a gap. All other missing bricks form the outside: they lie at the
+// end of a row or in a row without stored bricks. Cost: proportional to the number of stored
+// bricks, however large the box.
 class BackgroundGaps {
  public:
   // Needs: `keys` strictly increasing, those of whole known layers.
@@ -53,8 +53,9 @@ class BackgroundGaps {
   size_t node_limit() const { return 1 + place_count(); }
   int64_t node_count() const { return 1 + gap_count_; }
 
+  // The node of a missing brick. `place` caches the position between calls.
   // Needs: no brick is stored there.
-  // Cost:  a few steps when `place`, taken from the last call, is not far off.
+  // Cost:  a few steps if `place` is close.
   size_t NodeAt(BrickCoordinates missing, size_t& place) const;
 
   // The missing bricks of one row from `first` to `last_x`.
@@ -70,9 +71,9 @@ class BackgroundGaps {
   size_t place_count() const { return rows_[0].size() + rows_[1].size(); }
   std::optional<Gap> GapBefore(size_t place) const;
 
-  // Unites that gap, if there is one, with the gaps and the outside that touch it in the eight
-  // neighboring rows of known layers. Node g is member first_member + g of the sets. Returns how
-  // many sets it joined. Needs: place < place_count().
+  // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
+  // touch it in the eight neighboring rows of known layers. Node g is member first_member + g of
+  // the sets. Returns how many sets it joined. Needs: place < place_count().
   int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places, UnionFind& sets) const;
 
  private:

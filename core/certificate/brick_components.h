@@ -14,7 +14,7 @@ namespace bccskel {
 
 enum class Phase : uint8_t { kObject, kBackground };
 
-// What one test of bits shows about the points of a brick.
+// What a single bit test shows about the points of a brick.
 enum class Connectivity : uint8_t {
   kEmpty,
   kConnected,  // inside the brick

@@ -18,7 +18,7 @@ struct BrickContact {
 
 // Where the bricks of one sublattice touch their 14 neighboring bricks.
 struct BrickContacts {
-  // By direction: eight contacts at most for D8, one for D6.
+  // By direction: at most eight contacts for D8, one for D6.
   std::array<std::vector<BrickContact>, kNeighborCount> along;
   // By position: all points with any neighbor in the brick there.
   std::array<BrickBits, kNeighborCount> points_at;

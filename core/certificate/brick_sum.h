@@ -11,7 +11,7 @@
 
 namespace bccskel {
 
-// In the unit of Context::WorkersFor(): workers meet once.
+// Work per brick, for Context::WorkersFor(): workers meet once.
 inline constexpr size_t kBrickSumWork = 8;
 
 // The sum of term(worker, batch) over batches that make up 0..count-1, in increasing order for

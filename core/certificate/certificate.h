@@ -29,31 +29,31 @@ int64_t CountEulerCharacteristic(const Volume& object, const exec::Context& cont
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<BettiNumbers> CountBettiNumbers(const Volume& object, const exec::Context& context);
 
-// Which simple points (Condition 1) count: all, or those that are no end points (Condition 2).
+// Which simple points (Condition 1) to count: all, or those that are not end points (Condition 2).
 enum class SimplePoints : uint8_t { kAll, kNonEnd };
 
-// How many points that count are not in `spared`.
+// The number of these points that are not in `spared`.
 uint64_t CountSimplePoints(const Volume& object, SimplePoints which, const Volume& spared,
                            const exec::Context& context);
 
-// The topology before and after, part of every result.
+// The topology before and after thinning; part of every result.
 struct Certificate {
-  // Of the cubic mask that the object was made from, counted on the cubic grid, where there is one.
+  // Of the cubic mask from which the object was made, if any, counted on the cubic grid.
   std::optional<BettiNumbers> mask = std::nullopt;
-  // Of the object as it was given, where it was prepared before thinning.
+  // Of the object before it was prepared for thinning, if it was.
   std::optional<BettiNumbers> unprepared = std::nullopt;
   BettiNumbers input;  // of the object that was thinned
   BettiNumbers skeleton;
-  // Simple points that the kind of skeleton would still remove. 0 if thinning ran to its end.
+  // Simple points that this kind of skeleton would still remove; 0 if thinning was completed.
   uint64_t simple_points_left = 0;
-  // Whether the object is a sampling of the mask, which may have changed the topology, instead of
+  // Whether the object is a sampling of the mask, which may have changed the topology, rather than
   // an exact conversion.
   bool sampled = false;
 
-  // Of the object as it was given.
+  // The numbers of the object as it was given.
   const BettiNumbers& Given() const { return unprepared.has_value() ? *unprepared : input; }
   bool TopologyKept() const { return input == skeleton; }
-  // Whether the object has the numbers of the mask, where there is one.
+  // Whether the object has the numbers of its mask, if it has one.
   bool MaskKept() const { return !mask.has_value() || *mask == Given(); }
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };

@@ -13,12 +13,12 @@
 
 namespace bccskel {
 
-// The connected components of an object, or of its background, the outside being one of those.
-// Which points belong together does not depend on threads; the names of the sets do.
+// The connected components of an object, or of its background including the outside. The partition
+// does not depend on the threads; the names of the sets do.
 class ComponentSets {
  public:
-  // Unfinished when the context says stop. `object` must outlive it and has all bricks of the known
-  // layers and no others; what touches in a layer beyond them is not linked.
+  // Incomplete if the context requests a stop. `object` must outlive this and has all bricks of the
+  // known layers and no others; contacts with layers beyond are not linked.
   ComponentSets(const Volume& object, Phase phase, const exec::Context& context,
                 const KnownLayers& known = {});
 
@@ -29,7 +29,7 @@ class ComponentSets {
   // Component names are below this.
   size_t name_limit() const { return sets_.size(); }
 
-  // Of the background: where no bricks are stored.
+  // The background where no bricks are stored.
   const BackgroundGaps& gaps() const { return *gaps_; }
   size_t SetOfGap(size_t node) { return sets_.Find(pieces_.number_limit() + node); }
   bool IsOutside(size_t set) { return set == SetOfGap(BackgroundGaps::kOutside); }

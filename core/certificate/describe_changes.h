@@ -7,10 +7,11 @@
 
 namespace bccskel {
 
-// What became of a topology, such as "components 1 -> 3, loops 2 -> 7"; empty when nothing.
+// Describes a change of topology, such as "components 1 -> 3, loops 2 -> 7"; empty if nothing
+// changed.
 std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& after);
 
-// What the certificate proves: "topology kept", or what kept or changed it.
+// What the certificate proves, in words: "topology kept", or what changed it.
 std::string VerdictInWords(const Certificate& certificate);
 
 }  // namespace bccskel

@@ -21,7 +21,8 @@ struct BrickSurroundings {
   std::array<BrickBits, kNeighborCount> around;
 };
 
-// For each direction 512 bits: whether the neighbor of each point in that direction is a point.
+// For each direction a plane of 512 bits: whether the neighbor of each point in that direction is a
+// point.
 using NeighborPlanes = std::array<BrickBits, kNeighborCount>;
 
 NeighborPlanes FindNeighborPlanes(Sublattice sublattice, const BrickSurroundings& bricks);

@@ -13,9 +13,8 @@
 
 namespace bccskel {
 
-// The components of each stored brick of an object, or of the background within each stored brick:
-// the pieces that component labeling joins. Nearly all bricks have one or none; only the
-// others keep labels.
+// The components of an object, or of its background, within each stored brick: the pieces that
+// component labeling joins. Nearly all bricks have one or none; only the others store labels.
 class PhaseComponents {
  public:
   PhaseComponents(const Volume& object, Phase phase, const exec::Context& context);
@@ -24,8 +23,8 @@ class PhaseComponents {
   bool HasPoints(BrickIndex n) const { return connectivity_[n] != Connectivity::kEmpty; }
   const BrickFragments* fragments(BrickIndex n) const { return fragments_[n]; }  // may be null
 
-  // Components have numbers below number_limit(), though not all numbers have a component. That of
-  // a brick's main component is the brick's own.
+  // Numbers of components are below number_limit(); some are unused. The main component of a brick
+  // has the number of the brick.
   size_t number_limit() const { return number_limit_; }
   // Needs: `bit` is a point of this phase.
   size_t NumberOf(BrickIndex n, int bit) const {
@@ -34,8 +33,8 @@ class PhaseComponents {
     return label == 0 ? n : split->first_number + label - 1;
   }
 
-  // The points of each brick's main component. One longer than the bricks: the last one, for bricks
-  // that are not stored, is background all over.
+  // The points of each brick's main component, and a padding brick for bricks that are not stored,
+  // which is all background.
   std::span<const BrickBits> mains() const { return mains_; }
   BrickBits PointsOf(BrickIndex n) const {
     BrickBits points = mains_[n];

@@ -9,8 +9,8 @@
 namespace bccskel {
 
 // Disjoint sets of the numbers 0..size-1.
-// Threads: all members from any thread. How many calls of Unite() join two sets, and hence how many
-//          sets are left, does not depend on the order of the calls.
+// Threads: all members may be called from any thread. How many calls of Unite() join two sets, and
+//          hence how many sets remain, does not depend on the order of the calls.
 class UnionFind {
  public:
   explicit UnionFind(size_t size) : parents_(size) {
@@ -19,8 +19,8 @@ class UnionFind {
 
   size_t size() const { return parents_.size(); }
 
-  // The set's smallest member. Relaxed order is enough: a parent that is read late is still an
-  // ancestor, and only a root's parent is ever decided on, by compare and exchange.
+  // The set's smallest member. Relaxed order is enough: a stale parent is still an ancestor, and
+  // only a root's parent decides anything, by compare and exchange.
   size_t Find(size_t n) {
     for (;;) {
       const size_t parent = Parent(n);
@@ -31,10 +31,10 @@ class UnionFind {
     }
   }
 
-  // False when n is not in the root's set; true when that takes no search to see.
+  // True if n's parent is `root`: a sufficient test for being in the root's set, without a search.
   bool IsRightBelow(size_t n, size_t root) const { return Parent(n) == root; }
 
-  // True when a and b were in different sets until now.
+  // Joins the sets of a and b. Returns whether they were different.
   bool Unite(size_t a, size_t b) {
     for (;;) {
       a = Find(a);

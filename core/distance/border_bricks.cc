@@ -86,7 +86,7 @@ void BorderBricks::AddBackgroundOf(const Volume& object, BrickIndex n) {
   Add({n, PointOf(brick, 0)}, BoxAround(BackgroundIn(bits), brick));
 }
 
-// Of bricks that are not stored, what may lie beside points of brick n.
+// Adds background of bricks that are not stored, as far as it may lie next to points of brick n.
 void BorderBricks::AddBackgroundBeside(const Volume& object, const BrickNeighborhood& near,
                                        BrickIndex n) {
   const auto none = static_cast<BrickIndex>(object.brick_count());
@@ -109,7 +109,7 @@ void BorderBricks::Add(const Place& place, const CellBox& box) {
   Append(AxesOf(box.low), AxesOf(box.high), boxes_);
 }
 
-// Those of `count` boxes, which are not padded.
+// The groups of `count` boxes, which are not padded.
 Boxes BorderBricks::Grouped(const Boxes& boxes, size_t count) {
   Boxes groups;
   for (size_t n = 0; n < count; n += kBoxGroup) {

@@ -19,8 +19,9 @@ inline bool IsFull(const BrickBits& bits) {
   return ~all == 0;
 }
 
-// Boxes along the axes, in lattice coordinates, which floats hold exactly; by axis, then by box.
-// Both sides belong to the box. Padded to a multiple of kBoxGroup by boxes that are infinitely far.
+// Axis-aligned boxes in lattice coordinates, which floats hold exactly; indexed by axis, then by
+// box. Both sides belong to the box. Padded to a multiple of kBoxGroup by boxes that are infinitely
+// far away.
 struct Boxes {
   std::array<std::vector<float>, 3> low;
   std::array<std::vector<float>, 3> high;
@@ -29,13 +30,13 @@ struct Boxes {
 };
 inline constexpr size_t kBoxGroup = 64;
 
-// Does:  lists where the background begins: the bricks that hold background points with an object
-//        point beside them, each with a box around its background, in groups with a box around each
-//        group.
-// Why it is right: of the points of the background, a nearest one to an object point p has an
-//   object point beside it. If it is two or more away from p along an axis, the next point along
-//   that axis toward p is nearer to p and so none of the background; else p itself is beside it.
-// Cost:  40 bytes for each brick with background; some 10 ns for each brick of the object.
+// Does:  lists where the background begins: the bricks that hold background points next to an
+//        object point, each with a box around its background, and groups of boxes with a box around
+//        each group.
+// Why it is right: a nearest background point of an object point p has an object point next to it.
+//   If it is two or more away from p along an axis, the next point along that axis toward p is
+//   nearer to p and so not background; otherwise p itself is next to it.
+// Cost:  40 bytes for each brick with background; about 10 ns for each brick of the object.
 class BorderBricks {
  public:
   struct Place {
@@ -46,15 +47,16 @@ class BorderBricks {
   BorderBricks() = default;
   explicit BorderBricks(const Volume& object);
 
-  // Place n has box n; places are not padded.
+  // Place n has box n; unlike boxes, places are not padded.
   std::span<const Place> places() const { return places_; }
-  // A stored brick's place, if it has background, and the places beside it that are not stored.
+  // The place of a stored brick, if it has background, and the places next to it that are not
+  // stored.
   std::span<const Place> PlacesOf(BrickIndex brick) const {
     return places().subspan(first_of_[brick], first_of_[brick + 1] - first_of_[brick]);
   }
   const Boxes& boxes() const { return boxes_; }
-  // Box n of a level is around the boxes from n * kBoxGroup on of the level before, the first level
-  // around boxes(); the last level has few.
+  // Box n of a level encloses the boxes from n * kBoxGroup on of the level before; the first level
+  // encloses boxes(). The last level has few boxes.
   std::span<const Boxes> groups() const { return groups_; }
 
  private:
@@ -68,7 +70,7 @@ class BorderBricks {
   static Boxes Grouped(const Boxes& boxes, size_t count);
 
   std::vector<Place> places_;
-  std::vector<uint32_t> first_of_;  // by brick, and the end
+  std::vector<uint32_t> first_of_;  // by brick, with the end as the last entry
   Boxes boxes_;
   std::vector<Boxes> groups_;
 };

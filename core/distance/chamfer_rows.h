@@ -19,28 +19,28 @@ namespace bccskel {
 // Distances along x within eight points of a row, in 16-bit counts.
 struct RunTables {
   static constexpr int kPoints = 8;
-  // Stands for "more than any final distance".
+  // Means "more than any final distance".
   static constexpr uint32_t kFar = 0xffff;
 
-  // By the bits of the points: to the nearest background point among them.
+  // Indexed by the bits of the points: distances to the nearest background point among them.
   alignas(16) std::array<std::array<uint16_t, kPoints>, 256> inside = {};
-  // From the point before the first, and from the point after the last.
+  // Distances from the point before the first, and from the point after the last.
   alignas(16) std::array<uint16_t, kPoints> up = {};
   alignas(16) std::array<uint16_t, kPoints> down = {};
   uint32_t axial = 0;        // counts of a step along x
   uint32_t longest_run = 0;  // runs along x are followed for this many steps
 
-  // Distances below this one are exact; larger ones may be anything from here up.
+  // Distances below this are exact; larger ones may have any value from here up.
   uint32_t limit() const { return longest_run * axial; }
 };
 RunTables RunTablesFor(const ChamferWeights& weights);
 
-// Whether steps are short enough for 16 bits to be of use.
+// Whether steps are short enough for 16-bit distances to pay.
 bool FitShortRows(const ChamferWeights& weights);
 
-// What the loops work on. Shapes: values holds kBrickPoints per brick of the object and as many
-// zeros for the padding brick, in bit order; if a window has bricks beside it, the largest number
-// as often for the brick that stands for those.
+// The data of the loops. Shapes: `values` holds kBrickPoints per brick of the object in bit order,
+// then as many zeros for the padding brick. If a window has bricks beside it, as many of the
+// largest number follow, for the brick that represents those.
 template <typename T>
 struct DistanceView {
   const BrickBits* object = nullptr;
@@ -60,7 +60,7 @@ void SweepWithinLayers(const DistanceView<uint16_t>& view, BrickIndex first, Bri
 void SweepWithinLayers(const DistanceView<uint32_t>& view, BrickIndex first, BrickIndex last);
 
 // Propagates distances from the adjacent layer of the other sublattice (four D8 steps) and the next
-// layer of the own one (a D6 step along z), for layer k of the given bricks.
+// layer of the same one (a D6 step along z) to layer k of the given bricks.
 // Needs: `bricks` are of `sublattice`; no thread writes the adjacent layers during the call.
 void JoinLayers(const DistanceView<uint16_t>& view, Sublattice sublattice,
                 std::span<const BrickIndex> bricks, int k, ScanDirection direction);

@@ -13,7 +13,7 @@ uint32_t* Row(const View& view, BrickIndex brick, int k, int j) {
   return view.values + size_t{brick} * kBrickPoints + static_cast<size_t>(64 * k + kBrickX * j);
 }
 
-// Within a wide flat layer the first pass can exceed the type; the far value then stands for "more
+// Within a wide flat layer the first pass can overflow the type; the far value then means "more
 // than any final distance".
 uint32_t SaturatedSum(uint32_t a, uint32_t b) {
   const uint32_t sum = a + b;

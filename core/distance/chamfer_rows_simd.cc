@@ -93,8 +93,8 @@ HWY_INLINE Row FromUpperColumn(const Row& own, const Row& beside) {
   return out;
 }
 
-// Distances along x of half a row whose points are `bits`, eight at a time or as many as a register
-// holds; `left` and `right` are the runs beside it.
+// Distances along x of half a row with these object `bits`, eight at a time or as many as a
+// register holds; `left` and `right` are the runs beside it.
 HWY_INLINE hn::Vec<HalfTag> HalfRow(const RunTables& runs, uint32_t bits, uint32_t left,
                                     uint32_t right, size_t i) {
   const HalfTag tag;
@@ -105,8 +105,8 @@ HWY_INLINE hn::Vec<HalfTag> HalfRow(const RunTables& runs, uint32_t bits, uint32
   return hn::Min(hn::Load(tag, runs.inside[bits].data() + i), hn::Min(up, down));
 }
 
-// Distances along x of a whole row. It stays in registers: reading back what was just written in
-// halves would wait for the stores.
+// Distances along x of a whole row. They stay in registers: reading back halves that were just
+// written would wait for the stores.
 HWY_INLINE Row RowOfRuns(const RunTables& runs, uint32_t bits, uint32_t left, uint32_t right) {
   const uint32_t low = bits & 0xff, high = bits >> 8;
   const auto from_low = static_cast<uint32_t>(std::countl_one(static_cast<uint8_t>(low)));
@@ -155,7 +155,7 @@ HWY_INLINE void SweepBrickBackward(const DistanceView<uint16_t>& view, BrickInde
   }
 }
 
-// Beside the window nothing ends a run.
+// Outside the window no background ends a run.
 void FillUnknown(const DistanceView<uint16_t>& view, BrickIndex first, BrickIndex last,
                  SideRuns<uint16_t>& runs) {
   const auto longest = static_cast<uint16_t>(view.runs->longest_run);
@@ -207,8 +207,7 @@ HWY_INLINE void JoinLayer(const DistanceView<uint16_t>& view, BrickIndex brick, 
   }
 }
 
-// The layers of a brick lie a kilobyte away from those of the next, which is too far for what a
-// processor fetches by itself.
+// The layers of consecutive bricks are a kilobyte apart, too far for hardware prefetching.
 constexpr size_t kAhead = 6;
 HWY_INLINE void PrefetchRows(const uint16_t* layer) {
   __builtin_prefetch(layer);

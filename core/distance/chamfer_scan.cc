@@ -16,14 +16,14 @@
 
 // Does:  chamfer distance to the background for every point of the stored bricks.
 // Paper: section 4, local distances sqrt(3) between D8 and 2 between D6 neighbors; for unequal
-//        spacings the lengths that these steps have in the world.
-// Why it is right: nothing blocks a shortest path, so its steps may be taken in any order:
-//   first the steps within a layer of constant z (D6 along x and y), then those that raise z, then
-//   those that lower it. All points of a shortest path to the nearest background point are object
-//   points, so bricks that are not stored count as background and nothing else is ever needed of
-//   them. In a window, where steps that all go up at first may lead out, those up are followed by
-//   those down in pairs: pairs are taken within layers, then what is left goes only up or down.
-// Cost:  one pass within layers, one up, one down; 2 bytes per point read and written in each.
+//        spacings the lengths of these steps in the world.
+// Why it is right: nothing blocks a shortest path, so its steps may be taken in any order: first
+//   the steps within a layer of constant z (D6 along x and y), then those that raise z, then those
+//   that lower it. All points of a shortest path to the nearest background point are object points,
+//   so bricks that are not stored count as background and are not needed otherwise. In a window,
+//   steps that all go up at first may lead outside, so steps up and down are paired: pairs are
+//   taken within layers, and the rest goes only up or only down.
+// Cost:  one pass within layers, one up, one down; each reads and writes 2 bytes per point.
 
 namespace bccskel {
 namespace {
@@ -61,7 +61,7 @@ class SectionScan {
     exec::MeetingTeam team(LayerWorkers(), context_);
     team.Run([&](int worker) {
       for (const BrickSlab& slab : slabs_) {
-        // A slab is still in the cache when it is raised.
+        // The slab is then still in the cache for the upward scan.
         if (alone) Sweep(slab);
         Raise(slab, worker, team);
         if (!team.GoOn(worker)) return;
@@ -84,8 +84,8 @@ class SectionScan {
   }
 
  private:
-  // In the unit of Context::WorkersFor(): workers that sweep take whole slabs, others meet after
-  // each layer of a slab, where they have nearly the same to do.
+  // Work per brick, for Context::WorkersFor(): workers that sweep take whole slabs; others meet
+  // after each layer of a slab, where they have nearly the same to do.
   static constexpr size_t kSweepWork = 8, kLayerWork = 8;
 
   size_t brick_count() const {
@@ -127,7 +127,7 @@ class SectionScan {
     }
   }
 
-  // Layers follow each other, so the workers meet after each.
+  // Layers depend on each other, so the workers meet after each.
   void Join(const BrickSlab& slab, Sublattice sublattice, int k, ScanDirection direction,
             int worker, exec::MeetingTeam& team) const {
     const std::span<const BrickIndex> bricks = slab.bricks[static_cast<size_t>(sublattice)];
@@ -157,11 +157,12 @@ absl::StatusOr<exec::UninitializedVector<T>> Scan(const Volume& object,
   return std::move(section).TakeValues();
 }
 
-// Of a section, where an object has several, or more where less would not save memory; a slab with
-// more is one all the same.
+// Points of a section where an object has several; more if less would not save memory. A slab with
+// more points is still one section.
 constexpr size_t kSectionPoints = size_t{1} << 22;
 
-// What a holder tells the next: the layer of bricks that the distances are of, and these.
+// The data that a holder passes to the next: distances and the layer of bricks to which they
+// belong.
 template <typename T>
 LayerRelay::Bytes PackLayer(int32_t bz, const exec::UninitializedVector<T>& layer) {
   LayerRelay::Bytes bytes(sizeof(bz) + layer.size() * sizeof(T));
@@ -170,7 +171,7 @@ LayerRelay::Bytes PackLayer(int32_t bz, const exec::UninitializedVector<T>& laye
   return bytes;
 }
 
-// Nothing where the distances are of another layer: then none lies beside the section.
+// Empty if the distances belong to another layer: then none is next to the section.
 template <typename T>
 exec::UninitializedVector<T> UnpackLayer(const LayerRelay::Bytes& bytes, int32_t wanted) {
   int32_t bz = -1;
@@ -182,7 +183,7 @@ exec::UninitializedVector<T> UnpackLayer(const LayerRelay::Bytes& bytes, int32_t
   return layer;
 }
 
-// Of an object that one holder has as a whole.
+// For an object that one holder has as a whole.
 class NoRelay : public LayerRelay {
  public:
   Bytes TakeFromBelow() override { return {}; }
@@ -192,8 +193,8 @@ class NoRelay : public LayerRelay {
   uint32_t Largest(uint32_t own) override { return own; }
 };
 
-// Scans a holder's layers section by section: all from below, where each leaves its top layer, then
-// all from above, where each but the last is scanned from below once more.
+// Scans a holder's layers section by section: first all upward, keeping the top layer of each, then
+// all downward, where each but the last is scanned upward once more.
 template <typename T>
 class Stream {
  public:
@@ -222,8 +223,8 @@ class Stream {
     starts_.push_back(last);
   }
 
-  // Returns the largest distance of all holders, or one that is not below `limit` and then was too
-  // large. A holder that has to stop still gives and takes, or others would wait for it.
+  // Returns the largest distance of all holders, or a number of `limit` or more if the type was too
+  // small. A holder that has to stop still gives and takes layers, since others would wait for it.
   uint32_t Run(uint32_t limit, DistanceSink& sink, LayerRelay& relay) {
     if (sections() == 0) {
       relay.GiveAbove(relay.TakeFromBelow());
@@ -251,8 +252,8 @@ class Stream {
  private:
   using Layer = typename ChamferSection<T>::Layer;
 
-  // Points of a section with which it and the top layers of the others take least: k of s slabs
-  // take k slabs and s / k / kBrickZ.
+  // The section size that minimizes the memory of a section and the top layers of the others: k of
+  // s slabs take k slabs and s / k / kBrickZ.
   static size_t LeastMemory(size_t points, size_t slabs) {
     const double sections = std::sqrt(static_cast<double>(kBrickZ) * static_cast<double>(slabs));
     return static_cast<size_t>(static_cast<double>(points) / sections);
@@ -297,14 +298,14 @@ class Stream {
   const RunTables* const runs_;
   const exec::Context& context_;
   const std::vector<BrickSlab> slabs_;
-  std::vector<size_t> starts_;                // of the sections, and the end
+  std::vector<size_t> starts_;                // of the sections, with the end as the last entry
   Layer below_;                               // below the first section
-  std::vector<Layer> tops_;                   // of the sections, as seen from below
+  std::vector<Layer> tops_;                   // of the sections, after the upward scan
   Layer above_;                               // above the section that is finished next
-  std::optional<ChamferSection<T>> highest_;  // which has risen
+  std::optional<ChamferSection<T>> highest_;  // after the upward scan
 };
 
-// Made once for equal spacing: small objects would spend more time on them than on their points.
+// Cached for equal spacing: small objects would spend more time on the tables than on their points.
 RunTables RunTablesOf(const ChamferWeights& weights) {
   static const RunTables equal_spacing = RunTablesFor(kShortChamfer);
   return weights == kShortChamfer ? equal_spacing : RunTablesFor(weights);
@@ -316,8 +317,8 @@ ChamferWeights InUnitOf(DistanceKind kind, const ChamferWeights& weights, const 
 
 }  // namespace
 
-// Hardly any object is too thick for 16 bits, and a bound from the box would send thin trees in
-// large boxes the slow way.
+// Tries 16 bits first: hardly any object is too thick for them, and a bound from the box would send
+// thin trees in large boxes the slow way.
 absl::StatusOr<DistanceField> ComputeChamfer(const Volume& object, DistanceKind kind,
                                              const exec::Context& context) {
   const AxisScale scale = AxisScaleOf(object.placement());

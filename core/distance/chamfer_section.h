@@ -20,13 +20,13 @@ struct BrickSlab {
   BrickIndex first = 0;
   BrickIndex last = 0;
   std::array<std::vector<BrickIndex>, 2> bricks;  // by sublattice
-  std::vector<BrickIndex> lines;                  // where those of one by begin
+  std::vector<BrickIndex> lines;                  // where the bricks of each `by` begin
 
   size_t size() const { return last - first; }
 };
 
-// Slabs that follow each other, with numbers of their own for their bricks, and room for their
-// distances. Lies between the slabs before and after it, of which it has the layer beside it.
+// Consecutive slabs whose bricks are numbered from 0, with room for their distances. Of the slabs
+// before and after, the section holds the adjacent layer.
 template <typename T>
 class ChamferSection {
  public:
@@ -34,11 +34,11 @@ class ChamferSection {
   static constexpr size_t kLayer = kBrickX * kBrickY;
   using Layer = exec::UninitializedVector<T>;
 
-  // All of the object.
+  // Covers the whole object.
   ChamferSection(const Volume& object, std::span<const BrickSlab> slabs)
       : ChamferSection(object, slabs, 0, slabs.size()) {}
 
-  // The slabs [first, last) of all.
+  // Covers the slabs [first, last) of `all`.
   ChamferSection(const Volume& object, std::span<const BrickSlab> all, size_t first, size_t last)
       : below_(first > 0 ? all[first - 1].size() : 0),
         above_(last < all.size() ? all[last].size() : 0),
@@ -55,7 +55,7 @@ class ChamferSection {
   }
 
   std::span<const BrickSlab> slabs() const { return slabs_; }
-  // What to add to a brick's number for its number in the volume.
+  // Add this to a brick's number to get its number in the volume.
   BrickIndex start() const { return start_; }
   DistanceView<T> View(const ChamferWeights& weights, const RunTables* runs) {
     return {bricks_, neighbors_.data(), values_.data(), weights, runs, unknown_};
@@ -66,7 +66,8 @@ class ChamferSection {
     return std::move(values_);
   }
 
-  // The layers at the section's sides, and those beside it: what one section takes from the next.
+  // The first and last layer of the section, and the adjacent layers of the slabs beside it: what
+  // consecutive sections exchange.
   Layer TopLayer() const { return LayerOf(slabs_.back().first, slabs_.back().size(), kBrickZ - 1); }
   Layer BottomLayer() const { return LayerOf(slabs_.front().first, slabs_.front().size(), 0); }
   void SetLayerBelow(const Layer& layer) { SetLayer(0, layer, kBrickZ - 1); }
@@ -93,7 +94,7 @@ class ChamferSection {
     neighbors_ = own_neighbors_;
   }
 
-  // Needs: all of the object.
+  // Needs: the section covers the whole object.
   void AddUnknown(const Volume& object) {
     unknown_ = padding_ + 1;
     values_.insert(values_.end(), kBrickPoints, std::numeric_limits<T>::max());
@@ -129,7 +130,7 @@ class ChamferSection {
     }
   }
 
-  size_t below_;  // bricks beside it
+  size_t below_;  // number of bricks in the slab below; likewise above
   size_t above_;
   BrickIndex start_;
   BrickIndex padding_ = 0;
@@ -141,8 +142,8 @@ class ChamferSection {
   exec::UninitializedVector<T> values_;
 };
 
-// Takes distances of a row from that beside it along y, where a step up and one down lead to the
-// columns on either side.
+// Updates the distances of a row from the adjacent row along y: a pair of D8 steps, one up and one
+// down, leads to the columns on either side.
 template <typename T>
 void TakeInPairs(const DistanceView<T>& view, BrickIndex brick, int row, int way) {
   const auto row_of = [&](BrickIndex at, int n) {

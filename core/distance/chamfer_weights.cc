@@ -35,7 +35,7 @@ RoundedWeights Round(const StepLengths& lengths, uint32_t counts_in_two_units) {
   return rounded;
 }
 
-// The best resolution of up to `most` counts in two lattice units and not less than half of it.
+// The best resolution between most / 2 and `most` counts in two lattice units.
 ChamferWeights BestWeights(const AxisScale& scale, uint32_t most) {
   const StepLengths lengths = LengthsOf(scale);
   RoundedWeights best = Round(lengths, most);

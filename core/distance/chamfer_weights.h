@@ -8,8 +8,8 @@
 
 namespace bccskel {
 
-// Spacing along x, y and z relative to the smallest of the three, so at least 1. Ratios beyond
-// kMaxSpacingRatio count as that one.
+// Spacing along x, y and z relative to the smallest of the three, so at least 1. Ratios above
+// kMaxSpacingRatio count as that.
 using AxisScale = std::array<double, 3>;
 inline constexpr AxisScale kIsotropic = {1, 1, 1};
 inline constexpr double kMaxSpacingRatio = 10'000;
@@ -22,19 +22,19 @@ double WorldUnitsPerLatticeUnit(const Placement& placement);
 struct ChamferWeights {
   uint32_t diagonal = 0;               // D8
   std::array<uint32_t, 3> axial = {};  // D6, along x, y and z
-  double counts_per_unit = 1;          // in one lattice unit
+  double counts_per_unit = 1;          // counts per lattice unit
 
   friend constexpr bool operator==(const ChamferWeights&, const ChamferWeights&) = default;
 };
 
-// For equal spacing: sqrt(3) and 2 lattice units (section 4). Rounds as the real weights do up to a
-// distance of 627 lattice units; 16 bits hold it.
+// For equal spacing: sqrt(3) and 2 lattice units (section 4). Rounds like the real weights up to a
+// distance of 627 lattice units, which fits 16 bits.
 inline constexpr ChamferWeights kShortChamfer = {181, {209, 209, 209}, 104.5};
-// The same up to 4200 lattice units and beyond, in 32 bits.
+// The same up to 4200 lattice units and more, in 32 bits.
 inline constexpr ChamferWeights kLongChamfer = {2521, {2911, 2911, 2911}, 1455.5};
 
-// The lengths of the steps as whole numbers, with the resolution among those of the given size that
-// keeps their ratios best. The short and the long weights above for equal spacing.
+// The lengths of the steps as integers of the given size, at the resolution that best preserves
+// their ratios. For equal spacing, kShortChamfer and kLongChamfer.
 ChamferWeights ShortWeights(const AxisScale& scale);
 ChamferWeights LongWeights(const AxisScale& scale);
 

@@ -15,13 +15,13 @@
 
 namespace bccskel {
 
-// How the distance of a point to the background is measured. All are in lattice units, half the
-// shortest edge of the cubic cell, so an anisotropic placement is measured as it lies in the world.
+// How the distance of a point to the background is measured. All kinds are in lattice units, half
+// the shortest edge of the cubic cell, so distances of an anisotropic placement are those in the
+// world.
 enum class DistanceKind : uint8_t {
-  // Shortest digital paths with the real lengths of their steps (section 4): up to 24 % too long,
-  // never too short.
+  // Shortest digital paths with the real lengths of their steps (section 4): 0 to 24 % too long.
   kChamfer,
-  // The same paths with the best local distances: 11 % off at most, either way.
+  // The same paths with optimal local distances: at most 11 % off, either way.
   kChamferOptimal,
   // Straight distances.
   kEuclidean,
@@ -44,17 +44,17 @@ class DistanceField {
       : kind_(kind), weights_(weights), values_(std::move(values)), largest_(largest) {}
 
   DistanceKind kind() const { return kind_; }
-  // Of chamfer distances.
+  // For chamfer distances only.
   const ChamferWeights& weights() const { return weights_; }
   const Values& values() const { return values_; }
 
-  // A number that grows with the distance: its counts, its square, or the bits of the float that
-  // holds the square. Equal if and only if the distances are.
+  // A number that increases with the distance: its counts, its square, or the bits of the float
+  // that holds the square. Equal if and only if the distances are equal.
   uint32_t At(BrickIndex brick, int bit) const {
     const size_t n = size_t{brick} * kBrickPoints + static_cast<size_t>(bit);
     return std::visit([n](const auto& v) { return RankOf(v[n]); }, values_);
   }
-  // Of Euclidean distances: the squared lattice units themselves.
+  // The squared distance in lattice units. For Euclidean distances only.
   float SquareAt(BrickIndex brick, int bit) const {
     const size_t n = size_t{brick} * kBrickPoints + static_cast<size_t>(bit);
     return std::visit([n](const auto& v) { return static_cast<float>(v[n]); }, values_);

@@ -15,7 +15,7 @@ namespace {
 // Positions in a BrickNeighborhood.
 constexpr size_t kRightBrick = 8, kLeftBrick = 9;
 
-// Which way rows are walked.
+// The direction in which rows are walked.
 enum class Side : int8_t { kLeft = -1, kRight = 1 };
 
 BrickCoordinates PlaceBeside(BrickCoordinates brick, Side side) {
@@ -23,7 +23,8 @@ BrickCoordinates PlaceBeside(BrickCoordinates brick, Side side) {
   return brick;
 }
 
-// Between a brick and the one beside it the order of a Volume has at most one other.
+// The stored brick beside brick n along x. In the order of a Volume at most one other brick lies
+// between them.
 std::optional<BrickIndex> BrickBeside(const Volume& object, BrickIndex n, Side side) {
   const BrickKey wanted(PlaceBeside(object.keys()[n].coordinates(), side));
   for (int64_t places = 1; places <= 2; ++places) {
@@ -34,7 +35,7 @@ std::optional<BrickIndex> BrickBeside(const Volume& object, BrickIndex n, Side s
   return std::nullopt;
 }
 
-// Lengthens the runs of the open rows by what a brick has of them. Returns the rows still open.
+// Extends the runs of the open rows into a brick. Returns the rows that are still open.
 uint32_t Lengthen(const BrickBits& brick, Side side, uint32_t open, RowRuns<uint32_t>& runs) {
   for (uint32_t rest = open; rest != 0; rest &= rest - 1) {
     const auto row = static_cast<size_t>(std::countr_zero(rest));
@@ -46,7 +47,7 @@ uint32_t Lengthen(const BrickBits& brick, Side side, uint32_t open, RowRuns<uint
   return open;
 }
 
-// The runs beside a brick's rows. Beside the window nothing ends them.
+// The runs beside a brick's rows. Outside the window no background ends them.
 RowRuns<uint32_t> WalkRuns(const Volume& object, BrickIndex n, Side side) {
   constexpr auto kAllRows = ~uint32_t{0};
   RowRuns<uint32_t> runs = {};
@@ -69,7 +70,7 @@ RowRuns<uint32_t> WalkRuns(const Volume& object, BrickIndex n, Side side) {
   return runs;
 }
 
-// `bricks` of the object are those of the part.
+// The runs beside a part, which consists of these `bricks` of the object.
 SideRuns<uint32_t> RunsBesidePart(const Volume& object, std::span<const BrickIndex> bricks,
                                   const Volume& part, const exec::Context& context) {
   SideRuns<uint32_t> runs(bricks.size());

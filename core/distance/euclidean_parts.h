@@ -14,9 +14,9 @@
 #include "core/exec/uninitialized.h"
 #include "core/volume/volume.h"
 
-// The two halves of the Euclidean distance, for callers that measure an object part by part. Along
-// x the first half needs only side runs, so columns of bricks can be measured separately; if the
-// layers of bricks are on several machines, squares are sent between the halves.
+// The two halves of the Euclidean distance transform, for callers that measure an object part by
+// part. Along x the first half needs only side runs, so columns of bricks can be measured
+// separately. If the layers of bricks are on several machines, squares are sent between the halves.
 // T as in euclidean_rows.h.
 
 namespace bccskel {
@@ -32,40 +32,42 @@ struct EuclideanParts {
   exec::UninitializedVector<T> beside;
 };
 
-// Some bricks of an object, numbered anew, and how far the whole object extends beside their rows.
+// Some bricks of an object, renumbered, and how far the whole object extends beside their rows.
 struct ObjectPart {
   Volume volume;
   SideRuns<uint32_t> runs;
 };
-// Needs: increasing `bricks`, all that the object has between two of them along x.
-// Cost:  no table of the object's neighbors, and no runs but the part's: where it ends, the bricks
-//        beside it are walked through.
+// Needs: increasing `bricks`, with all bricks of the object that lie between two of them along x.
+// Cost:  computes neither the neighbor table nor the runs of the whole object: beyond the part, it
+//        walks through the adjacent bricks.
 ObjectPart PartOf(const Volume& object, std::span<const BrickIndex> bricks,
                   const exec::Context& context);
-// That of the whole object.
+// The side runs of the whole object.
 SideRuns<uint32_t> SideRunsOf(const Volume& object, const exec::Context& context);
 
-// Shapes: `runs` beside the bricks of `object`, which may be a part of what they were found in.
-// Right for the `wanted` bricks, which are those of whole layers, if these and the layers above and
-// below them are whole along y; leaves the others undefined.
+// Computes distances within layers.
+// Shapes: `runs` beside the bricks of `object`, which may be a part of the object in which they
+//         were found. Results are right for the `wanted` bricks, which make up whole layers, if
+//         these and the layers below and above them are whole along y; others are undefined.
 template <typename T>
 void MeasureWithinLayers(const Volume& object, exec::Share wanted, const SideRuns<uint32_t>& runs,
                          const exec::Context& context, EuclideanParts<T>& parts);
-// Calls `done` with stacks of bricks whose squares are final, on several workers at once. Returns
-// the largest square: 16 bits are enough where that is below kFirstUnsureSquare. Needs: all bricks
-// above and below each other are there, with both kinds of squares.
+// Computes distances across layers. Calls `done` with stacks of bricks whose squares are final, on
+// several workers at once. Returns the largest square; 16 bits are enough if it is below
+// kFirstUnsureSquare.
+// Needs: all bricks of each column along z, with both kinds of squares.
 template <typename T>
 float MeasureAcrossLayers(const Volume& object, const exec::Context& context,
                           EuclideanParts<T>& parts, const std::function<void(BrickStack)>& done);
 
-// How many bricks an object has at each bx.
+// The number of bricks at each bx.
 std::vector<uint64_t> BricksAtX(const Volume& object);
-// The bricks of an object in groups of whole columns: those of a bx lie in one group. A group ends
-// where the `counts` by bx of what it has add up to `least` or more, whatever the object has there.
+// The bricks of an object in groups of whole columns: all bricks of one bx are in one group. A
+// group ends where the sum of `counts` over its bx reaches `least`, whatever the object has there.
 std::vector<std::vector<BrickIndex>> ColumnsOf(const Volume& object,
                                                std::span<const uint64_t> counts, size_t least);
 
-// Whether 16 bits are not worth a try for these bricks of the object.
+// Whether these bricks are so deep that 16-bit squares would most likely overflow.
 bool IsDeep(const Volume& object, std::span<const BrickIndex> bricks);
 bool IsDeep(const Volume& object);
 

@@ -10,34 +10,35 @@
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
 
-// The inner loops of the Euclidean distance, for one or two rows of 16 points at a time; compiled
-// for every instruction set and picked at run time. See euclidean_scan.cc for what they add up to.
+// The inner loops of the Euclidean distance, for one or two rows of 16 points at a time, compiled
+// for every instruction set and selected at run time. euclidean_scan.cc explains how they combine.
 //
 // Squares are of type T: uint16_t, whole squared lattice units with saturation, where the spacing
-// is the same along all axes and the object is not too deep, else float.
+// is the same along all axes and the object is not too deep; otherwise float.
 
 namespace bccskel {
 
-// A layer's 64 points and a brick's layers, with one more layer beside them.
+// The points of a layer of a brick, and the layers of `beside`: a brick's own and one more.
 inline constexpr size_t kLayerPoints = kBrickX * kBrickY;
 inline constexpr size_t kLayersBeside = kBrickZ + 1;
 
-// In 16 bits, lengths along a row are cut off at the root of this, and so squares from here on may
-// be too small. Those below are right: they are sums of lengths that were not cut off.
+// In 16 bits, lengths along a row are clipped at 255, so squares from 255 * 255 on may be too
+// small. Smaller squares are right: they are sums of unclipped lengths.
 inline constexpr uint16_t kFirstUnsureSquare = 255 * 255;
 
-// What the loops work on. Squared distances in lattice units.
+// The data of the loops: squared distances in lattice units.
 template <typename T>
 struct EuclideanView {
   const BrickBits* object = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
   BrickIndex padding = 0;  // the brick that stands for those not stored
-  // Shapes: kBrickPoints per brick. First within the layer, to background of the same sublattice;
-  //         in the end to all background.
+  // Shapes: kBrickPoints per brick. First the distances within the layer, to background of the same
+  //         sublattice; in the end those to all background.
   T* own = nullptr;
-  // Shapes: kLayersBeside * kLayerPoints per brick. From the places above (even brick) or below
-  //         (odd brick) its points, within the layer of the other sublattice that lies there, to
-  //         that layer's background. The last layer is the one on the other side of the brick.
+  // Shapes: kLayersBeside * kLayerPoints per brick. Distances from the positions above (even brick)
+  //         or below (odd brick) its points to the background of the layer of the other sublattice
+  //         that contains these positions. The last layer is the one on the other side of the
+  //         brick.
   T* beside = nullptr;
 };
 
@@ -52,27 +53,28 @@ struct SquaredLengths {
 // A stack of stored bricks of one sublattice, each the next one's neighbor along an axis.
 using BrickStack = std::span<const BrickIndex>;
 
-// What follows before and after a stack: background, or points outside the window, from which there
-// is no distance to take. Only for floats.
+// What lies before and after a stack: background, or points outside the window, which give no
+// distance. Only for floats.
 struct StackEnds {
   bool unknown_before = false;
   bool unknown_after = false;
 
   constexpr bool AreKnown() const { return !unknown_before && !unknown_after; }
 };
-// The run beside a row with no background before the end of the window: longer than any other.
+// The run beside a row that has no background up to the end of the window: longer than any real
+// run.
 inline constexpr uint32_t kUnknownRun = uint32_t{1} << 26;
-// Rows that loops may look past the ends of a stack.
+// The most rows that loops may read beyond the ends of a stack.
 inline constexpr size_t kMostEndRows = 20;
 
-// Some of the kBrickZ layers of points that each brick of a stack along y has.
+// The layers [first, end) of each brick of a stack along y.
 struct LayersOfBrick {
   size_t first = 0;
   size_t end = kBrickZ;
 };
 
-// Distances within the layers of a stack along y: `own` of its bricks, `beside` of the bricks of
-// the other sublattice that lie at the same place.
+// Computes distances within the layers of a stack along y: `own` of its bricks, and `beside` of the
+// bricks of the other sublattice at the same coordinates.
 // Shapes: `runs` of all bricks.
 void ScanLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                 Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
@@ -81,7 +83,7 @@ void ScanLayers(const EuclideanView<uint16_t>& view, const SquaredLengths<uint16
                 Sublattice sublattice, BrickStack stack, StackEnds ends, LayersOfBrick layers,
                 const SideRuns<uint32_t>& runs);
 
-// From distances within layers to distances in space: `own` of a stack along z.
+// Turns distances within layers into distances in space: `own` of a stack along z.
 // Needs: ScanLayers() for all stacks.
 void ScanAcrossLayers(const EuclideanView<float>& view, const SquaredLengths<float>& lengths,
                       Sublattice sublattice, BrickStack stack, StackEnds ends);

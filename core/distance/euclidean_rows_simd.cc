@@ -19,18 +19,18 @@ namespace bccskel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vector of 64 bytes at most: a row of floats, or two rows of whole numbers.
+// A vector of at most 64 bytes: a row of floats, or two rows of integers.
 template <typename T>
 using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
 template <typename T>
 using Vector = hn::Vec<Tag<T>>;
-// Rows that are looked at together have as many points.
+// The number of points of the rows that are processed together.
 template <typename T>
 inline constexpr size_t kBandPoints = 64 / sizeof(T);
 
-// Rows of background on either side of a stack. Two rows look outward together, two steps at a
-// time: one of them may look three rows past the first of background. Rows of unknown points stop
-// nothing: so many are passed as there are steps, and three.
+// The number of padding rows on either side of a stack. Two rows search outward together, two steps
+// at a time, so one of them may read three rows past the first row of background. Rows of unknown
+// points do not stop a search, so there are as many as steps, and three more.
 constexpr size_t EndRows(StackEnds ends) { return ends.AreKnown() ? 4 : kMostEndRows; }
 
 // Far from all background.
@@ -45,17 +45,17 @@ HWY_INLINE Vector<uint16_t> Sum(Vector<uint16_t> a, Vector<uint16_t> b) {
   return hn::SaturatedAdd(a, b);
 }
 
-// Looking outward takes a step per unit of distance. Floats stop after as many steps, which is when
-// the search of a whole column takes no longer; whole numbers never come so far.
+// The most steps of a search outward, which takes one per unit of distance. Floats stop when the
+// search of a whole column would take no longer; integers never get that far.
 template <typename T>
 inline constexpr size_t kMostSteps = 512;
 template <>
 inline constexpr size_t kMostSteps<float> = 16;
 static_assert(kMostSteps<float> + 3 < kMostEndRows);
 
-// Lowers `best` to what rows ever farther to both sides add to the squares of their distances: the
-// n-th pair of rows, kPitch values apart, lies squares[n * kStride] away. Rows hold at least
-// `least`. Returns whether nothing nearer can be farther away.
+// Lowers `best` to the minimum of the rows ever farther to both sides, each plus the square of its
+// distance: the n-th pair of rows, kPitch values apart, is squares[n * kStride] away. All values of
+// rows are at least `least`. Returns whether nothing nearer can be farther away.
 template <size_t kStride, size_t kPitch, typename T>
 HWY_INLINE bool LookOutward(Vector<T>& best, const T* before, const T* after, const T* squares,
                             T least) {
@@ -120,7 +120,7 @@ HWY_INLINE void ReadLayer(const EuclideanView<T>& view, T unit_square, BrickStac
   }
 }
 
-// A brick's rows of a layer. Returns whether they are settled; here and below.
+// Measures a brick's rows of a layer. Returns whether they are settled, as do the functions below.
 template <typename T>
 HWY_INLINE bool WriteOwnRows(const SquaredLengths<T>& lengths, const T* rows, T* to) {
   const Tag<T> tag;
@@ -135,7 +135,7 @@ HWY_INLINE bool WriteOwnRows(const SquaredLengths<T>& lengths, const T* rows, T*
   return true;
 }
 
-// The places between those rows and the next ones.
+// Measures the positions between those rows and the next ones.
 template <typename T>
 HWY_INLINE bool WriteBetween(const SquaredLengths<T>& lengths, const T* rows, T* to) {
   const Tag<T> tag;
@@ -170,7 +170,8 @@ HWY_INLINE bool WriteAcross(const SquaredLengths<T>& lengths, const T* row, T* t
   return true;
 }
 
-// Where the distances between the points of layer k of a brick go; null if nobody needs them.
+// The destination of the distances between the points of layer k of a brick; null if they are not
+// needed.
 template <typename T>
 HWY_INLINE T* BesideLayer(const EuclideanView<T>& view, BrickIndex brick, Sublattice sublattice,
                           size_t k) {
@@ -183,12 +184,12 @@ HWY_INLINE T* BesideLayer(const EuclideanView<T>& view, BrickIndex brick, Sublat
   return is_outermost && near[4] != view.padding ? layer(near[4], kBrickZ) : nullptr;
 }
 
-// The rows of a column, `step` units apart, and what becomes of them where looking outward takes
-// too long. The farther along the column a place is, the farther along is the row that it takes its
-// distance from: so the place in the middle halves the rows left to the places on either side, and
-// a column takes a few steps per row, not one per unit of distance.
+// Searches the rows of a column, `step` units apart, where searching outward takes too long. The
+// farther along the column a position is, the farther along is the row that determines its
+// distance. So the row for the middle position splits the rows for the positions on either side,
+// and a column takes a few steps per row instead of one per unit of distance.
 // Source: Aggarwal, Klawe, Moran, Shor and Wilber, Geometric applications of a matrix-searching
-// algorithm, 1987.
+//         algorithm, 1987.
 template <typename T>
 class Column {
  public:
@@ -196,13 +197,14 @@ class Column {
       : rows_(rows), step_(step), squares_(squares) {}
 
   bool is_settled() const { return !settled_.empty(); }
-  // Settles rows 2 units apart, `count` of them, the first one so far from the column's first row.
+  // Settles `count` rows 2 units apart; `place` is the distance of the first one from the first row
+  // of the column.
   HWY_INLINE void Settle(size_t place, size_t count) {
     first_place_ = place;
     settled_.resize(count * kBandPoints<T>);
     Search(0, count, {0, rows_.size() / kBandPoints<T> - 1});
   }
-  // Writes settled rows from the n-th on, each so many values after the one before.
+  // Writes `count` settled rows from the n-th on, `pitch` values apart.
   void Write(size_t n, size_t count, size_t pitch, T* to) const {
     for (const size_t end = n + count; n < end; ++n, to += pitch) {
       std::copy_n(settled_.data() + n * kBandPoints<T>, kBandPoints<T>, to);
@@ -215,7 +217,7 @@ class Column {
     size_t last = 0;
   };
 
-  // Places begin..end - 1, which take their distances from these rows.
+  // Settles positions begin..end - 1, whose distances come from `rows`.
   void Search(size_t begin, size_t end, RowRange rows) {
     if (begin == end) return;
     const size_t middle = begin + (end - begin) / 2;
@@ -224,7 +226,7 @@ class Column {
     Search(middle + 1, end, {nearest.first, rows.last});
   }
 
-  // Of all points of a row together: results must not depend on the size of vectors.
+  // For all points of a row together: results must not depend on the size of vectors.
   HWY_INLINE RowRange TakeLeast(size_t n, RowRange rows) {
     const Tag<T> tag;
     const size_t place = first_place_ + 2 * n;
@@ -245,7 +247,7 @@ class Column {
         at = hn::Add(at, one);
       }
       hn::StoreU(best, tag, settled_.data() + n * kBandPoints<T> + i);
-      // Points that are far from all background take their distances from no row.
+      // Points far from all background get their distances from no row.
       const auto is_far = hn::Eq(best, none);
       const auto least = hn::IfThenElse(is_far, last_row, from);
       const auto most = hn::IfThenElse(is_far, first_row, from);
@@ -268,7 +270,7 @@ HWY_INLINE void ScanLayersOf(const EuclideanView<T>& view, const SquaredLengths<
                              Sublattice sublattice, BrickStack stack, StackEnds ends,
                              LayersOfBrick layers, const SideRuns<uint32_t>& runs) {
   LayerRows<T> rows(stack.size(), ends, lengths.x);
-  // The place that belongs to a row lies after it for even points, before it for odd ones.
+  // The position that belongs to a row lies after it for even points, before it for odd ones.
   const size_t back = sublattice == Sublattice::kEven ? 0 : 1;
   const size_t count = kBrickY * stack.size();
   for (size_t k = layers.first; k < layers.end; ++k) {

@@ -14,20 +14,21 @@
 #include "core/volume/brick_neighbors.h"
 
 // Does:  exact squared Euclidean distance to the background for every point of the stored bricks.
-// Paper: goes beyond it; section 4 takes chamfer distances.
-// Why it is right: the square of a distance is a sum over the axes, so the least one is found axis
-//   by axis. Background of either sublattice may be the nearest. So each layer of a sublattice
-//   gives distances within it at two kinds of places: its own points, and the places between them
-//   that lie above and below points of the other sublattice. The scan along z then takes the least
-//   of layer distance plus squared height, over layers of both kinds.
-//   Bricks that are not stored are background: beside them the nearest background of a layer is one
-//   step away along both axes. A scan ends at the first background point of its own column, where
-//   everything farther is farther. In a window it also ends with that: what is nearest lies in the
-//   window, as all places on the way do.
-// Cost:  as much memory again as the squares, and an eighth. One or two rows of 16 points look
-//   outward together, until no point can find anything nearer: about a step per lattice unit of
-//   distance, each two or three cycles for all of them. Columns of floats, which objects deeper
-//   than 254 units have, are searched by halves where they are deep.
+// Paper: goes beyond it; section 4 uses chamfer distances.
+// Why it is right: the square of a distance is a sum over the axes, so the minimum can be found
+//   axis by axis. Background of either sublattice may be the nearest. So for each layer of a
+//   sublattice, distances within the layer are measured at two kinds of positions: its own points,
+//   and the positions between them that lie above and below points of the other sublattice. The
+//   scan along z then takes the minimum of layer distance plus squared height, over layers of both
+//   kinds.
+// Bricks that are not stored are background: next to them the nearest background of a layer is one
+// step away along both axes. A scan ends at the first background point of its own column, since
+// everything beyond is farther. The same holds in a window: the nearest point lies in the window,
+// and so do all positions on the way.
+// Cost:  as much memory again as the squares, and an eighth. One or two rows of 16 points search
+//        outward together until no point can find anything nearer: about a step per lattice unit of
+//        distance, each of two or three cycles for all of them. Columns of floats, which objects
+//        deeper than 254 units have, are searched by bisection where they are deep.
 
 namespace bccskel {
 namespace {
@@ -37,7 +38,7 @@ constexpr size_t kAboveX = 8, kBelowX = 9, kAboveY = 10, kBelowY = 11, kAboveZ =
 
 uint16_t LargestIn(std::span<const uint16_t> squares) { return LargestOf(squares); }
 float LargestIn(std::span<const float> squares) {
-  uint32_t largest = 0;  // whole numbers, which compare many at a time
+  uint32_t largest = 0;  // integers, so that the loop vectorizes
   for (const float square : squares) largest = std::max(largest, std::bit_cast<uint32_t>(square));
   return std::bit_cast<float>(largest);
 }
@@ -97,10 +98,11 @@ class EuclideanScan {
  private:
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
   static constexpr size_t kScanWork = 16;  // in the unit of Context::WorkersFor()
-  // Some steps more than to the end of a stack: rows along y are two apart.
+  // Some steps past the end of a stack: rows along y are two apart.
   static constexpr size_t kFartherThanStack = 4 * kMostEndRows;
 
-  // Hands out the items to the workers, who ask before every `at_once` of them whether to stop.
+  // Distributes the items among the workers, which ask before every `at_once` of them whether to
+  // stop.
   template <typename Work>
   void Share(const exec::Context& context, size_t count, size_t at_once, Work work) const {
     exec::Portions portions(count, at_once);
@@ -137,8 +139,8 @@ class EuclideanScan {
 
   Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
 
-  // Which layers of a stack write squares of wanted bricks: of those below and above only the layer
-  // of the other sublattice that touches them.
+  // The layers of a stack that write squares of wanted bricks: of the stacks below and above, only
+  // the layer of the other sublattice that touches them.
   LayersOfBrick LayersFor(exec::Share wanted, BrickIndex foot) const {
     const bool is_odd = SublatticeOf(foot) == Sublattice::kOdd;
     constexpr size_t kLayers = kBrickZ;
@@ -147,7 +149,7 @@ class EuclideanScan {
     return {};
   }
 
-  // The bricks that stacks begin with.
+  // The first brick of each stack.
   std::vector<BrickIndex> StackFeet(size_t back) const {
     std::vector<BrickIndex> feet;
     for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
@@ -164,7 +166,7 @@ class EuclideanScan {
     return longest;
   }
 
-  // Squares for the longest stacks: no scan looks farther than its stack is long.
+  // Computes squares for the longest stacks: no scan looks farther than its stack is long.
   void MeasureSteps() {
     const AxisScale scale = AxisScaleOf(object_.placement());
     lengths_.x = Square(scale[0]);
@@ -184,7 +186,7 @@ class EuclideanScan {
     return squares;
   }
 
-  // Places beside which no brick of the other sublattice will write.
+  // Fills the positions that no brick of the other sublattice writes.
   void FillBeside(size_t brick) const {
     const T one_step = static_cast<T>(lengths_.x + lengths_.y[1]);
     const auto nearest = [&](size_t position) {
@@ -206,8 +208,8 @@ class EuclideanScan {
   SquaredLengths<T> lengths_;
 };
 
-// Whether a brick has full bricks around it as far as a point does whose square is unsure. Only
-// tells what to try first.
+// Whether a brick is surrounded by full bricks as far as the background of a point whose 16-bit
+// square would be unsure. Only decides what to try first.
 bool IsDeepInside(const Volume& object, BrickIndex brick) {
   // Positions in a BrickNeighborhood, and how many bricks that way have no point farther than 255
   // units from any point of the brick.

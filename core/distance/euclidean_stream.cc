@@ -12,14 +12,14 @@
 namespace bccskel {
 namespace {
 
-// Many enough for several workers, few enough for caches.
+// Enough for several workers, few enough for the caches.
 size_t BricksAtOnce(const Volume& object, size_t at_once) {
   constexpr size_t kParts = 8;
   const bool is_small = object.brick_count() * kBrickPoints <= at_once;
   return is_small ? object.brick_count() : at_once / kBrickPoints / kParts;
 }
 
-// A part of an object, with its bricks numbered anew.
+// A part of an object, with renumbered bricks.
 struct Columns {
   const std::vector<BrickIndex>& bricks;  // of the object
   const Volume& volume;
@@ -88,7 +88,7 @@ class EuclideanStream {
     return true;
   }
 
-  // The field as it is from now on; null where there is none.
+  // The field that results are stored in from now on; null if none is kept.
   template <typename T>
   T* RoomFor() {
     using Squares = exec::UninitializedVector<T>;
@@ -100,7 +100,7 @@ class EuclideanStream {
     return has_field_ ? std::get<Squares>(field_).data() : nullptr;
   }
 
-  // What is known is right in both types.
+  // Values known so far are right in both types.
   template <typename T>
   exec::UninitializedVector<T> AsOtherSquares() const {
     exec::UninitializedVector<T> squares((object_.brick_count() + 1) * kBrickPoints);

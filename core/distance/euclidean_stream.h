@@ -10,34 +10,35 @@
 
 namespace bccskel {
 
-// Takes squared distances brick by brick, in any order, where they are measured.
+// Receives squared distances brick by brick, in any order.
 // Threads: Take() is called on several workers at once, for different bricks.
 class SquareSink {
  public:
   virtual ~SquareSink() = default;
 
-  // Shapes: kBrickPoints in bit order, of the object's brick. A brick may come again: its last
-  // squares count.
+  // Shapes: kBrickPoints in bit order. A brick may come again; its last squares count.
   virtual void Take(BrickIndex brick, const uint16_t* squares) = 0;
   virtual void Take(BrickIndex brick, const float* squares) = 0;
 };
 
-// Which distances stay.
+// Whether the distance field is kept in memory.
 enum class KeepField : uint8_t {
   kAlways,
-  // If they take 2 bytes a point, or are kMostFloatsKept at most: they pay where curves are long.
+  // If it takes 2 bytes per point, or has at most kMostFloatsKept values: a field pays for long
+  // curves.
   kIfSmall,
 };
 inline constexpr size_t kMostFloatsKept = size_t{1} << 24;
 
-// More lattice points than this are measured in parts. A part costs a tenth more time per point
-// than the whole, and has the planes of the other parts' shells beside it, not their squares.
+// Above this number of lattice points, objects are measured in parts. A part takes a tenth more
+// time per point than the whole, but only its own squares are in memory, beside the shell planes of
+// the other parts.
 inline constexpr size_t kMostSquaresAtOnce = size_t{1} << 21;
 
-// The distances of ComputeDistance() for kEuclidean: see euclidean_scan.cc. Those of objects with
-// more than `at_once` lattice points are measured column of bricks by column. `sink` may be null.
-// Cost:   4.8 bytes per lattice point of the bricks that are measured together, 9 where they are
-//         deeper than 16 bits or axes have different spacings.
+// Streams the distances of ComputeDistance() for kEuclidean (euclidean_scan.cc). Objects with more
+// than `at_once` lattice points are measured column by column of bricks. `sink` may be null.
+// Cost:   4.8 bytes per lattice point of the bricks that are measured together, 9 if they are too
+//         deep for 16 bits or the spacings differ.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<std::optional<DistanceField>> StreamEuclidean(const Volume& object,
                                                              const exec::Context& context,

@@ -12,25 +12,27 @@
 #include "core/lattice/directions.h"
 #include "core/volume/brick_neighbors.h"
 
-// Does:  looks for the nearest background point among the bricks where the background begins.
-// Why it is right: the search reaches farther until a background point is known within its reach,
-//   and every brick that could hold a nearer one is looked at. Sums are formed in the order of
+// Does:  searches for the nearest background point among the bricks where the background begins.
+// Why it is right: the search extends until a background point is known within its reach, and every
+//   brick that could hold a nearer one is visited. Sums are formed in the order of
 //   euclidean_scan.cc, so both give the same bits.
-// Cost:  groups of 64 bricks out of reach cost a 16th of 40 instructions, bricks of the others as
-//   much, and only those whose box comes nearer than what is known some 20 ns. On objects of
-//   850,000 points a radius takes 1.6 us (horse, 32 bricks looked into) to 5 us (torus, 93: the
-//   surface around its ring is equally near), a third of what windows of all bricks around took.
+// Cost:  a group of 64 bricks out of reach costs a 16th of 40 instructions, as does each brick of
+//        other groups; only a brick whose box is nearer than the nearest point so far costs about
+//        20 ns. On objects of 850,000 points a radius takes 1.6 us (horse, 32 bricks visited) to 5
+//        us (torus, 93: the surface around its ring is equally near), a third of the time of
+//        windows of all bricks around.
 
 namespace bccskel {
 namespace {
 
-// In lattice units, where nothing is known yet.
+// The first reach in lattice units, when nothing is known yet.
 constexpr float kFirstReach = 16;
-// The next point's radius is mostly like the last one's.
+// The radius of the next point is usually close to the previous one.
 constexpr float kReachFactor = 1.25f;
-// Rounding must not take a brick out of the tables, nor the rest of a brick beyond its box.
+// Slack, so that rounding excludes neither a brick from the tables nor the rest of a brick from its
+// box.
 constexpr float kRoundingSlack = 1.001f;
-// A square may be more than that of the root that it has.
+// Slack, since a square may exceed that of its rounded root.
 constexpr float kRoundingUp = 1.00001f;
 constexpr int32_t kBrickLength = 2 * kBrickZ;
 constexpr int32_t kFirstWays = static_cast<int32_t>(kRoundingSlack * kFirstReach) + kBrickLength;
@@ -38,7 +40,7 @@ constexpr float kFewBricks = 12;  // a ball of this radius lies in few bricks
 
 float Square(double unit) { return static_cast<float>(unit * unit); }
 
-// The likeliest first: what it holds may rule out the others.
+// Puts the nearest box first: its points may rule out the others.
 void PutNearestFirst(std::span<NearBox> boxes) {
   if (boxes.empty()) return;
   std::iter_swap(boxes.begin(), std::ranges::min_element(boxes, {}, &NearBox::squared));
@@ -124,7 +126,7 @@ LatticePoint ExactRadius::FirstNearestAt(LatticePoint p, float radius) {
   return *first;
 }
 
-// None if the nearest background points are not as far away as that.
+// No value if the nearest background points are not at this distance.
 std::optional<LatticePoint> ExactRadius::FirstAtDistance(LatticePoint p, float radius) {
   const size_t count =
       radius > kFewBricks ? FindInGroups(p, radius) : FindInBricksAround(p, radius);
@@ -139,8 +141,8 @@ std::optional<LatticePoint> ExactRadius::FirstAtDistance(LatticePoint p, float r
   return is_known ? std::optional(at) : std::nullopt;
 }
 
-// With the same spacing along all axes, squares to points of the same sublattice are multiples of
-// 4, and others to those of the other.
+// With equal spacings, squared distances are multiples of 4 to points of the same sublattice and no
+// multiples of 4 to points of the other.
 void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
   const float reach = kRoundingSlack * radius, squared = reach * reach;
   const auto most = static_cast<int32_t>(reach);
@@ -151,7 +153,7 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
     if (is_known && (sublattice == SublatticeOf(p)) != is_same) continue;
     const auto odd = static_cast<int32_t>(sublattice);
     const auto cell = [&](int32_t at) { return (at - odd) >> 1; };
-    // From a coordinate to the cells of a brick along an axis.
+    // The distance from a coordinate to the cells of a brick along an axis.
     const auto to_brick = [&](size_t axis, int32_t at, int32_t low, int32_t cells) {
       const int32_t way = std::max({low - at, at - (low + 2 * (cells - 1)), 0});
       return squares_[axis] * static_cast<float>(way) * static_cast<float>(way);
@@ -194,7 +196,7 @@ size_t ExactRadius::FindInGroups(LatticePoint p, float radius) {
   return found;
 }
 
-// Infinite where a way along y or z is longer than `most`, and to what a window does not show.
+// Infinite if the distance along y or z exceeds `most`, and to points outside the window.
 float ExactRadius::SquareTo(LatticePoint background, LatticePoint p, int32_t most) const {
   const LatticePoint way = background - p;
   const bool is_unknown = object_.window().has_value() && background == kOutside.at;
@@ -222,7 +224,7 @@ void ExactRadius::TakeFromBackground(LatticePoint q) {
   if (last_.at == q) last_ = kOutside;
 }
 
-// A brick that is not stored is made one, which all its places have then.
+// Copies the brick for a change; one that is not stored is created, for all of its places.
 BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
   const BrickIndex stored = near_bricks_.Find(brick), none = near_bricks_.none();
   if (stored != none) return stored;

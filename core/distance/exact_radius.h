@@ -18,40 +18,40 @@
 
 namespace bccskel {
 
-// The exact Euclidean distance of single points to the nearest background point, where only few are
-// asked for. Taken from a Euclidean field; else searched for, brick by brick. Copies share what was
-// found out about the object.
+// Computes the exact Euclidean distance of single points to the nearest background point, for a few
+// points: read from a Euclidean field, or searched for brick by brick. Copies share what was
+// computed for the object.
 // Needs:   `object` and `field`, which belongs to it, outlive this.
 // Threads: one thread per instance.
 class ExactRadius {
  public:
-  // One that searches. Looking at all bricks first takes as long as 50 to 200 searches.
+  // Always searches. The constructor visits all bricks, which takes as long as 50 to 200 searches.
   explicit ExactRadius(const Volume& object);
-  // Searches unless the field is Euclidean; of others the kind is enough, their values are not
-  // read.
+  // Searches unless the field is Euclidean; of other fields the values are not read.
   ExactRadius(const Volume& object, const DistanceField& field);
 
   bool searches() const { return field_ == nullptr; }
 
-  // Lattice units; 0 for background points. The same bits however it is found.
+  // Lattice units; 0 for background points. The bits do not depend on how it is found.
   float At(LatticePoint p);
-  // Its square, which At() takes the root of.
+  // The square of At().
   float SquaredAt(LatticePoint p);
-  // A background point as far away as At() said last; which, depends on the points asked for
-  // before. Needs: this searches, and At() was asked for an object point.
+  // A background point at the distance that At() returned last; which one depends on the previous
+  // queries.
+  // Needs: this searches, and At() was called for an object point.
   LatticePoint nearest() const { return last_.at; }
-  // Whether there is one: in a window all may be taken. Then At() says more than the extent is
-  // long.
+  // Whether there is one: in a window all background may have been removed. At() is then larger
+  // than the extent.
   bool has_nearest() const { return last_.at != kOutside.at; }
-  // Of the background points that are nearest to p, the first by z, y and x.
-  // Needs: this searches and nothing was taken; an object point; `radius`, At(p) or less. If it is
-  //        At(p), only the few bricks that are about as far away are looked into.
+  // Of the background points nearest to p, the first by z, y and x.
+  // Needs: this searches and nothing was removed from the background; p is an object point; radius
+  //        <= At(p). If they are equal, only the few bricks at about that distance are visited.
   LatticePoint FirstNearestAt(LatticePoint p, float radius);
-  // From p to a background point, with the bits of At().
+  // The distance from p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 
-  // From now on this copy does not find q. Background that has no object point beside it might not
-  // be found either, so q must have enough of them around: see FirmDepth.
+  // Removes q from the background of this copy. Background without object points beside it might
+  // not be found either, so q must have enough of them around it (FirmDepth).
   // Needs: this searches.
   void TakeFromBackground(LatticePoint q);
 
@@ -71,9 +71,10 @@ class ExactRadius {
   float SquareTo(LatticePoint background, LatticePoint p, int32_t most) const;
 
   const Volume& object_;
-  const DistanceField* field_;                  // null where background is searched for
-  std::shared_ptr<const BorderBricks> border_;  // null where it is not
-  // Empty where nothing was taken. Behind the padding brick come those that are not stored.
+  const DistanceField* field_;                  // null if this searches
+  std::shared_ptr<const BorderBricks> border_;  // null if it does not
+  // Empty if nothing was removed from the background. Bricks that are not stored follow the padding
+  // brick.
   std::vector<BrickBits> changed_bricks_;
   std::vector<BorderBricks::Place> changed_places_;
   std::vector<NearBox> near_groups_;  // room for all
@@ -84,7 +85,7 @@ class ExactRadius {
   SquaredWays<kBrickY> squared_z_;
   std::vector<BorderBricks::Place> bricks_around_;
   std::vector<NearestInPlace> found_;
-  NearestPoint last_ = kOutside;  // of the point asked for before, which is mostly close by
+  NearestPoint last_ = kOutside;  // of the previous query, which is usually close by
 };
 
 // The radii of all points of `thin`, in the order of Volume::ForEachPoint().

@@ -19,14 +19,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToSigned<Floats>;
 
-// The place of the highest bit of numbers below 2^16.
+// The position of the highest bit of numbers below 2^16.
 HWY_INLINE hn::Vec<Floats> HighestBit(hn::Vec<Words> bits) {
   const Words i32;
   const auto exponent = hn::ShiftRight<23>(hn::BitCast(i32, hn::ConvertTo(Floats(), bits)));
   return hn::ConvertTo(Floats(), hn::Sub(exponent, hn::Set(i32, 127)));
 }
 
-// Along x, from a place to the nearest set bit; `before` are the bits up to the place.
+// The distance along x from a position to the nearest set bit; `before` are the bits up to the
+// position.
 HWY_INLINE hn::Vec<Floats> ToNearestBit(hn::Vec<Words> row, hn::Vec<Words> before,
                                         hn::Vec<Floats> place) {
   const Floats f32;
@@ -40,7 +41,7 @@ HWY_INLINE hn::Vec<Floats> ToNearestBit(hn::Vec<Words> row, hn::Vec<Words> befor
                  hn::IfThenElse(hn::RebindMask(f32, hn::Eq(high, none)), far, right));
 }
 
-// The bits of a row up to a place.
+// The bits of a row up to a position.
 HWY_INLINE int32_t BitsBefore(int32_t place) {
   if (place < 0) return 0;
   return place >= 2 * kBrickX - 2 ? 0xffff : (2 << (place >> 1)) - 1;
@@ -56,8 +57,8 @@ HWY_INLINE int NearestBit(uint32_t row, int32_t place) {
   return place - 2 * last <= 2 * first - place ? last : first;
 }
 
-// The squares of the ways to boxes. Sums are rounded otherwise elsewhere: a hundred thousandth less
-// is less than any.
+// The squared distances to boxes, lowered by 1e-5 relative, since the sums are rounded differently
+// elsewhere: a lower bound.
 HWY_INLINE hn::Vec<Floats> SquaresToBoxes(const Boxes& boxes, size_t n, const PointSearch& search) {
   const Floats f32;
   const std::array<int32_t, 3> at = {search.at.x, search.at.y, search.at.z};
@@ -85,8 +86,8 @@ HWY_INLINE uint32_t LanesBelow(hn::Vec<Floats> values, float limit) {
   return BitsOf(hn::Lt(values, hn::Set(Floats(), limit)));
 }
 
-// Of the boxes [first, last) of the highest level. A box comes as near as any that lies in it, with
-// rounding, too.
+// Searches the boxes [first, last) of the highest level. A box is at least as near as any box in
+// it, with rounding, too.
 NearBox* FindNearBoxesIn(std::span<const Boxes> levels, size_t first, size_t last,
                          const PointSearch& search, float below, NearBox* found) {
   const Floats f32;
@@ -113,7 +114,7 @@ size_t FindNearBoxesTarget(std::span<const Boxes> levels, const PointSearch& sea
       FindNearBoxesIn(levels, 0, levels.back().size(), search, below, found) - found);
 }
 
-// Where a point is, seen from a brick.
+// The position of a point relative to a brick.
 struct SeenFrom {
   int32_t place;  // along x, from the brick's first cell, in lattice coordinates
   const float* squared_y;
@@ -132,8 +133,7 @@ HWY_INLINE hn::Vec<Floats> SquaresOfRows(const SeenFrom& seen, float square_x,
   const auto x = ToNearestBit(background, hn::Set(i32, BitsBefore(seen.place)),
                               hn::Set(f32, static_cast<float>(seen.place)));
   const auto squared_x = hn::Mul(hn::Mul(x, x), hn::Set(f32, square_x));
-  // A row's number is 4k + j: j repeats itself every 128 bits or, one lane at a time, is n
-  // modulo 4.
+  // The number of a row is 4k + j: j repeats every 128 bits or, one lane at a time, is n modulo 4.
   return hn::Add(hn::Add(squared_x, hn::LoadDup128(f32, seen.squared_y + n % kBrickY)),
                  hn::LoadU(f32, seen.squared_z + n));
 }
@@ -192,7 +192,7 @@ void FindNearestTarget(std::span<const BorderBricks::Place> places, const Boxes&
 
 constexpr float kJustMore = 1.000001f;
 
-// Whether the brick has background nearer than `below`, which it brings down.
+// Whether the brick has background nearer than `below`, which is then lowered.
 HWY_INLINE bool TakePlace(const BorderBricks::Place& place, size_t number,
                           std::span<const BrickBits> object, const PointSearch& search,
                           float& below, NearestInPlace* found) {

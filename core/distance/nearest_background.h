@@ -13,18 +13,18 @@
 
 namespace bccskel {
 
-// Squares of the ways of n lattice coordinates along an axis, as floats; each is there `kCopies`
-// times in a row, and those of one parity of n follow each other.
+// Squared lengths of n lattice coordinates along an axis, as floats. Each is stored `kCopies` times
+// in a row, and those of one parity of n are contiguous.
 template <size_t kCopies>
 class SquaredWays {
  public:
   explicit SquaredWays(double unit) : unit_(unit) {}
 
-  // Those of n, n + 2, n + 4, ... Needs: Reach() for all of them.
+  // The squares of n, n + 2, n + 4, ... Needs: Reach() for all of them.
   const float* From(int32_t n) const {
     return squares_[n & 1].data() + (n >> 1) * static_cast<ptrdiff_t>(kCopies) + middle_;
   }
-  // Makes room for -most to most.
+  // Computes the squares of -most to most.
   void Reach(int32_t most) {
     if (most <= most_) return;
     most_ = 2 * most;
@@ -46,17 +46,17 @@ class SquaredWays {
   std::array<std::vector<float>, 2> squares_;  // by parity
 };
 
-// Boxes that may hold something nearer to a point than a distance.
+// A box that may hold a point nearer than a given distance.
 struct NearBox {
   uint32_t box = 0;
-  float squared = 0;  // no more than the square of the distance to anything in the box
+  float squared = 0;  // lower bound of the squared distance to any point of the box
 };
 
-// From where background is looked for.
+// The point from which a search starts.
 struct PointSearch {
   LatticePoint at;
   std::array<float, 3> squares = {1, 1, 1};  // of a lattice coordinate along each axis
-  // As long as the object is wide.
+  // Cover the width of the object.
   const SquaredWays<1>& y;
   const SquaredWays<kBrickY>& z;
 };
@@ -67,15 +67,16 @@ struct NearestPoint {
   float squared = 0;
 };
 
-// The boxes of the first level that may hold something nearer, in their order. Levels as
-// BorderBricks::groups(): only boxes in near ones of the level above are looked at.
+// Finds the boxes of the first level that may hold something nearer than `below` (squared), in
+// order. Levels as BorderBricks::groups(); only boxes inside near ones of the level above are
+// visited.
 // Shapes: `found` has room for all boxes of the first level. Returns: how many were found.
 size_t FindNearBoxes(std::span<const Boxes> levels, const PointSearch& search, float below,
                      NearBox* found);
 
-// Looks for a nearer background point in a group of bricks. The square of a distance is
-// x * x * squares[0] + y + z in this order, with a rounding after each step.
-// `places` and `boxes` belong to each other.
+// Searches a group of bricks for a nearer background point. The square of a distance is x * x *
+// squares[0] + y + z, added in this order and rounded after each step. `places` and `boxes` belong
+// together.
 void FindNearestBackground(std::span<const BorderBricks::Place> places, const Boxes& boxes,
                            size_t group, std::span<const BrickBits> object,
                            const PointSearch& search, NearestPoint& nearest);
@@ -86,8 +87,9 @@ struct NearestInPlace {
   size_t place = 0;
 };
 
-// Of the bricks of a group, in their order, those with the nearest background points, if these are
-// nearer than `below`, which becomes a little more than their square; and maybe others.
+// Finds the bricks of a group, in order, that have the nearest background points, if these are
+// nearer than `below`, and possibly some others. Lowers `below` to slightly more than their squared
+// distance.
 // Shapes: `found` has room for a group. Returns: how many were found.
 size_t FindAllNearest(std::span<const BorderBricks::Place> places, const Boxes& boxes, size_t group,
                       std::span<const BrickBits> object, const PointSearch& search, float& below,

@@ -14,8 +14,8 @@
 
 namespace bccskel {
 
-// A place between lattice points, or a way from one to another: in lattice units along the axes of
-// the lattice, so stretched where spacings differ.
+// A position between lattice points, or the vector from one to another, in lattice units along the
+// axes of the lattice, so stretched where spacings differ.
 using Coordinates = std::array<double, 3>;
 
 // a + t * b.
@@ -23,12 +23,12 @@ inline Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
 
-// Of length 1. Needs: `way` has a length.
+// Normalizes a vector. Needs: its length is not 0.
 inline Coordinates Unit(const Coordinates& way) {
   return Sum({0, 0, 0}, 1 / std::sqrt(Dot(way, way)), way);
 }
 
-// Two directions of length 1, across `way` and each other. Needs: `way` has length 1.
+// Two unit vectors perpendicular to `way` and to each other. Needs: `way` has length 1.
 inline std::array<Coordinates, 2> Across(const Coordinates& way) {
   const auto least = std::ranges::min_element(way, {}, [](double v) { return std::abs(v); });
   Coordinates axis = {0, 0, 0};
@@ -41,18 +41,18 @@ inline Coordinates PlaceOf(LatticePoint p, const AxisScale& scale) {
   return {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
 }
 
-// Straight, in lattice units.
+// Euclidean distance in lattice units.
 inline double StraightDistance(LatticePoint a, LatticePoint b, const AxisScale& scale) {
   const double x = scale[0] * (a.x - b.x), y = scale[1] * (a.y - b.y), z = scale[2] * (a.z - b.z);
   return std::sqrt(x * x + y * y + z * z);
 }
 
-// The nearest whole number. Needs: more than -1024. No call of the library, which has to ask how to
-// round.
+// The nearest integer. Needs: v > -1024. Avoids the library call, which depends on the rounding
+// mode.
 inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }
 
-// A lattice point next to the place: the nearest where spacings are equal. It may lie outside of
-// the extent. Needs: no coordinate of the place below -2000.
+// A lattice point next to the position, the nearest one if spacings are equal. It may lie outside
+// the extent. Needs: no coordinate below -2000.
 inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {
   const auto near = [&place](const AxisScale& unit) -> LatticePoint {
     std::array<std::array<int32_t, 3>, 2> best;
@@ -69,12 +69,12 @@ inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) 
     const auto& [x, y, z] = best[squares[0] <= squares[1] ? 0 : 1];
     return {x, y, z};
   };
-  // Divisions by known ones are none.
+  // The compiler removes divisions by a constant 1.
   return scale == kIsotropic ? near(kIsotropic) : near(scale);
 }
 
-// Finds bricks of points that lie close together: remembers what it found, all of it where the
-// extent has few bricks. Memory goes with the object's bricks, not with the extent.
+// Finds the bricks of points that lie close together. Caches earlier results, all of them if the
+// extent has few bricks. Memory depends on the number of bricks, not on the extent.
 class NearbyBricks {
  public:
   // Needs: `object` outlives this.
@@ -86,7 +86,7 @@ class NearbyBricks {
 
   BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
-  // The padding brick, none(), if it is not stored.
+  // The index of the brick; none(), the padding brick, if it is not stored.
   BrickIndex Find(const BrickCoordinates& brick) {
     Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
@@ -96,9 +96,9 @@ class NearbyBricks {
     return found.brick;
   }
 
-  // As Volume::Contains(): beside the extent there are no bricks, and no points in those at its
-  // end. True outside the object's window, where it has one.
-  // Needs: a lattice point that lies less than 2^20 units outside of the extent.
+  // As Volume::Contains(): no bricks lie outside the extent, and those at its end have no points
+  // outside it. Returns true outside the object's window, if it has one.
+  // Needs: a lattice point less than 2^20 units outside the extent.
   bool Contains(LatticePoint p) {
     if (window_.has_value() && !window_->Contains(p)) return true;
     const BrickAddress address = AddressOf(p);
@@ -107,12 +107,12 @@ class NearbyBricks {
 
  private:
   struct Found {
-    BrickKey key;  // the default is that of no brick
+    BrickKey key;  // the default belongs to no brick
     BrickIndex brick = 0;
   };
 
-  // A brick's place are the low bits of its coordinates and its sublattice. The extent's bricks
-  // have different places, if the most bits are enough.
+  // The slot of a brick consists of the low bits of its coordinates and its sublattice. If enough
+  // bits are available, all bricks of the extent have different slots.
   struct Bits {
     int x = 1, y = 1, z = 1;
 
@@ -126,7 +126,7 @@ class NearbyBricks {
     };
     Bits bits = {bits_for(extent.nx, kBrickX), bits_for(extent.ny, kBrickY),
                  bits_for(extent.nz, kBrickZ)};
-    // Eight places or more for each brick: those that are not stored are asked for, too.
+    // At least eight slots per brick, since bricks that are not stored are looked up, too.
     const int most = std::clamp(static_cast<int>(std::bit_width(object.brick_count())) + 3, 6, 13);
     while (bits.All() > most)
       --(bits.x >= std::max(bits.y, bits.z) ? bits.x : bits.y >= bits.z ? bits.y : bits.z);

@@ -20,7 +20,7 @@ struct NearPoint {
   Lanes squared;
 };
 
-// The nearest point of a sublattice. As PointNear() does it, step by step.
+// The nearest point of a sublattice, computed step by step as in PointNear().
 HWY_INLINE NearPoint NearestOf(double odd, const std::array<Lanes, 3>& at, const AxisScale& scale,
                                bool is_scaled) {
   const Doubles f64;

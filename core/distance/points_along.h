@@ -9,7 +9,7 @@
 
 namespace bccskel {
 
-// Lattice points next to places along a line, by axis.
+// Lattice points next to positions along a line, stored by axis.
 struct PointsAlong {
   static constexpr size_t kCount = 8;
 
@@ -18,8 +18,9 @@ struct PointsAlong {
   alignas(64) std::array<std::array<int32_t, kCount>, 3> axes;
 };
 
-// Point n is PointNear() of from + (first + n) * step * way: several at once, with the same bits.
-// Needs: what PointNear() needs of each place.
+// Point n is PointNear(from + (first + n) * step * way). Computes several at once, with the same
+// bits.
+// Needs: the preconditions of PointNear() for each position.
 PointsAlong FindPointsAlong(const Coordinates& from, const Coordinates& way, double first,
                             double step, const AxisScale& scale);
 

@@ -37,13 +37,13 @@ HWY_INLINE Run HighestBit(Run bits, int32_t none) {
                         hn::Sub(exponent, hn::Set(ints, 127)));
 }
 
-// A row's background, and how far the object extends beside it, in points.
+// The background of a row, and how many object points continue it on either side.
 struct RowEnds {
   int32_t background;  // a bit per point
   int32_t left;
   int32_t right;
 
-  // How many object points there are in a row: up to point i, and from point i on.
+  // The number of consecutive object points up to point i, and from point i on.
   HWY_INLINE Run UpTo(int32_t i) const {
     const RunTag ints;
     const auto bits =
@@ -72,8 +72,8 @@ HWY_INLINE void StoreSquares(Run units, uint16_t, uint16_t* to) {
   hn::StoreU(hn::DemoteTo(tag, hn::Mul(length, length)), tag, to);
 }
 
-// Squared distances along x to the background of a row: at its points, and at the places between
-// them, which lie to the right of even points and to the left of odd ones.
+// Squared distances along x to the background of a row: from its points, and from the positions
+// between them, which lie to the right of even points and to the left of odd ones.
 template <typename T>
 HWY_INLINE void MeasureRow(const RowEnds& row, Sublattice sublattice, T unit_square, T* own,
                            T* between) {

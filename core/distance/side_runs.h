@@ -13,7 +13,7 @@
 
 namespace bccskel {
 
-// How many points of each of a brick's 32 rows can be walked from one side without meeting the
+// For each of a brick's 32 rows, how many points can be walked from one side without meeting
 // background, in this brick and the ones before it. Row 4k + j.
 template <typename T>
 using RowRuns = std::array<T, 4 * kBrickZ>;
@@ -44,9 +44,9 @@ void ContinueRuns(const BrickBits& brick, uint32_t longest, const RowRuns<T>& ne
   }
 }
 
-// The runs beside the bricks [first, last), none longer than `longest`.
-// Shapes: runs[0] is of brick `origin`; all are 0, but where a brick has none beside it and another
-//         run shall begin.
+// Computes the runs beside the bricks [first, last), none longer than `longest`.
+// Shapes: runs[0] belongs to brick `origin`; all are 0, except where no brick lies beside a brick
+//         and another run shall begin.
 // Needs: the bricks are whole layers of bricks (all of one bz), in the order of a Volume.
 template <typename T>
 void FindSideRuns(const BrickBits* object, const BrickNeighborhood* neighbors, BrickIndex first,

@@ -23,8 +23,8 @@ struct ShellProgress {
 };
 
 // Passed from stage to stage: the threads that a job may use, when it must stop, and who receives
-// its progress. The default context has one thread, never stops and reports nothing.
-// Threads: ShouldStop() and StopStatus() from any worker; Report() from worker 0 only.
+// its progress. The default context has one thread, never stops and reports nothing. Threads:
+// ShouldStop() and StopStatus() from any worker; Report() from worker 0 only.
 class Context {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,8 +33,8 @@ class Context {
   std::stop_token stop;
   Clock::time_point deadline = Clock::time_point::max();
   std::function<void(const ShellProgress&)> on_shell;
-  // Called by Yield() and ShouldStop(), on the worker that calls them: it may use the thread for
-  // more urgent work. It must return and not throw. Results do not depend on it.
+  // Called by Yield() and ShouldStop() on the calling worker; may use the thread for more urgent
+  // work. Must return and not throw. Results do not depend on it.
   std::function<void()> yield = nullptr;
 
   // How many of its threads the job should use now, at least 1; null means all. Called where a
@@ -53,8 +53,8 @@ class Context {
 
   int threads() const { return team == nullptr ? 1 : team->size(); }
   int usable_threads() const { return share ? std::min(share(), threads()) : threads(); }
-  // How many workers share `bricks` bricks; at least 1, at most usable_threads(). `work` is what is
-  // done with a brick between two meetings, compared with a directional pass.
+  // How many workers share `bricks` bricks; at least 1, at most usable_threads(). `work` is the
+  // work per brick between two barriers, relative to a directional pass.
   int WorkersFor(size_t bricks, size_t work = 1) const {
     const size_t shares = bricks * work / (min_bricks_per_worker == 0 ? 1 : min_bricks_per_worker);
     const auto most = static_cast<size_t>(usable_threads());
@@ -75,7 +75,7 @@ class Context {
     });
   }
 
-  // For work that any worker can do alone, such as taking Portions: those of the first `workers`
+  // For work that any worker can do alone, such as taking Portions: of the first `workers`, those
   // that start in time take part.
   void Offer(const std::function<void(int)>& work) const { Offer(usable_threads(), work); }
   void Offer(int workers, const std::function<void(int)>& work) const {

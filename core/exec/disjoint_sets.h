@@ -7,7 +7,8 @@
 
 namespace bccskel {
 
-// Sets of 0..size-1 that grow together; each set is known by its smallest member.
+// A partition of 0..size-1 into sets that can be joined; each set is identified by its smallest
+// member.
 class DisjointSets {
  public:
   explicit DisjointSets(size_t size) : parent_(size) {

@@ -8,15 +8,15 @@
 namespace bccskel::exec {
 namespace {
 
-// Huge pages begin at such addresses.
+// Huge pages are aligned to their size.
 constexpr std::align_val_t kAlignment{size_t{2} << 20};
 
-// A job of 8 million points has 30 MB in such blocks. More would be memory that the admission of
-// jobs does not know of.
+// A job of 8 million points has 30 MB in such blocks. The admission of jobs does not account for
+// idle blocks, so few are kept.
 constexpr size_t kMostIdle = size_t{64} << 20;
 constexpr size_t kMostIdleBlocks = 256;
 
-// Steps of an eighth, so that jobs of about the same size can use each other's blocks.
+// Rounds up in steps of an eighth, so that jobs of about the same size can use each other's blocks.
 size_t SizeFor(size_t bytes) {
   size_t step = LargeBlocks::kSmallest / 8;
   while (step * 16 < bytes) step *= 2;
@@ -39,12 +39,12 @@ void* LargeBlocks::Take(size_t bytes) {
   const size_t size = SizeFor(bytes);
   if (void* idle = TakeIdle(size); idle != nullptr) return idle;
   void* block = ::operator new(size, kAlignment, std::nothrow);
-  if (block == nullptr) {  // for want of what lies idle here, perhaps
+  if (block == nullptr) {  // idle blocks of other sizes may hold the memory
     ReleaseUnused();
     ReleaseUnused();
     block = ::operator new(size, kAlignment);
   }
-  PreferHugePages(block, bytes);  // what lies behind takes no memory until it is used
+  PreferHugePages(block, bytes);  // the rest takes no memory until it is used
   return block;
 }
 
@@ -102,7 +102,8 @@ size_t LargeBlocks::idle_bytes() const {
 }
 
 LargeBlocks& ProcessLargeBlocks() {
-  static LargeBlocks& blocks = *new LargeBlocks(kMostIdle);  // outlives all who give blocks back
+  static LargeBlocks& blocks =
+      *new LargeBlocks(kMostIdle);  // never destroyed: blocks are given back until the end
   return blocks;
 }
 

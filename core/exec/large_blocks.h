@@ -38,8 +38,8 @@ class LargeBlocks {
     bool seen;  // by ReleaseUnused()
   };
 
-  // Null if no block has this size. Then frees as many bytes, the longest idle blocks first, so
-  // that a job's peak is about what it would be without the pool.
+  // Null if no block has this size. In that case frees as many bytes, the longest idle blocks
+  // first, so that a job's peak is about what it would be without the pool.
   void* TakeIdle(size_t size);
   void MakeRoom(size_t size);
 
@@ -49,7 +49,7 @@ class LargeBlocks {
   size_t idle_bytes_ = 0;   // guarded by mutex_
 };
 
-// Those of this process.
+// The pool of this process.
 LargeBlocks& ProcessLargeBlocks();
 
 }  // namespace bccskel::exec

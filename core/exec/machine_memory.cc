@@ -25,7 +25,7 @@ uint64_t PhysicalMemoryBytes() {
              : kUnknown;
 }
 
-// kNone for "max" and where there is no such file.
+// The limit in a file; kNone for "max" or if there is no such file.
 uint64_t LimitIn(const std::string& path) {
   std::string text;
   std::ifstream(path) >> text;
@@ -33,8 +33,8 @@ uint64_t LimitIn(const std::string& path) {
   return absl::SimpleAtoi(text, &bytes) && bytes > 0 ? bytes : kNone;
 }
 
-// Of a group like "/a/b" and of those around it. In a container its own group may be the topmost
-// one that is seen, whatever it is called outside.
+// The smallest limit of a group like "/a/b" and its ancestors. In a container its own group may be
+// the topmost one that is visible, whatever its name is outside.
 uint64_t LeastLimit(const std::string& mount, std::string group, const std::string& file) {
   uint64_t least = LimitIn(absl::StrCat(mount, "/", file));
   for (; group.size() > 1; group.resize(group.rfind('/'))) {

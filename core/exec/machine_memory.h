@@ -10,13 +10,13 @@
 
 namespace bccskel::exec {
 
-// Memory that this process may use, in bytes: that of the machine, or the least limit of its
-// control groups and of those around them, v1 and v2. 4 GiB where nothing can be read. `root` is
-// where proc and sys are found.
+// The memory that this process may use, in bytes: that of the machine, or the smallest limit of its
+// control groups and their ancestors, v1 and v2. 4 GiB if nothing can be read. `root` is the folder
+// that contains proc and sys.
 uint64_t AvailableMemoryBytes(const std::string& root = "");
 
-// The budget of a job that has the machine to itself. Without one, an object of noise, whose
-// skeleton has more points than the object, would make the kernel end some process.
+// The budget of a job that has the machine to itself. Without it, an object of noise, whose
+// skeleton has more points than the object, would make the kernel kill some process.
 class MachineMemory final : public MemoryBudget {
  public:
   explicit MachineMemory(uint64_t limit = AvailableMemoryBytes()) : limit_(limit) {}

@@ -57,8 +57,8 @@ class MeetingTeam {
     return true;
   }
 
-  // Where there is something to take over. Called by all before a meeting; by that meeting
-  // parting() is what worker 0 has found.
+  // Decides whether the others leave, if worker 0 must take over state from them. Called by all
+  // before a meeting; after that meeting parting() holds the decision of worker 0.
   void ConsiderParting(int worker) {
     if (worker != 0 || !meets(0)) return;
     parting_ = patience_.Lost() || context_.usable_threads() == 1;
@@ -76,7 +76,7 @@ class MeetingTeam {
   // Written by worker 0 before a meeting that all others reach after they have read the last value.
   bool stopped_ = false;
   bool parting_ = false;
-  bool alone_ = false;  // read by worker 0 only once the others leave
+  bool alone_ = false;  // read only by worker 0 once the others leave
 };
 
 }  // namespace bccskel::exec

@@ -11,11 +11,11 @@
 
 namespace bccskel::exec {
 
-// For input that is read in order and used in order: calls `read(n, room)` and then `use(n, room)`
-// for n = 0..count-1. Part n + 1 is read while n is used, if a second thread is free: a part should
-// take 0.1 ms or more, since threads meet after each. Memory: the two rooms.
-// Threads: neither runs twice at once; both may run on any worker.
-// Errors: the first of `read` or `use`, both `absl::Status`; no part after that is used.
+// For input that is read and used in order: calls `read(n, room)` and then `use(n, room)` for n =
+// 0..count-1. Part n + 1 is read while n is used if a second thread is free. A part should take at
+// least 0.1 ms, since threads meet after each. Memory: two rooms.
+// Threads: neither function runs twice at once; both may run on any worker.
+// Errors: the first error of `read` or `use`, both `absl::Status`; no part after that is used.
 template <typename Room, typename Read, typename Use>
 absl::Status ReadAhead(const Context& context, size_t count, Read read, Use use) {
   std::array<Room, 2> rooms;

@@ -7,8 +7,8 @@
 
 namespace bccskel {
 
-// Asks a context once in 1024 steps whether to stop: for loops over single points, well within
-// 20 ms. Stays true once it is true.
+// Asks a context once in 1024 steps whether to stop; for loops over single points, so well within
+// 20 ms. Once true, it stays true.
 class StopPoll {
  public:
   explicit StopPoll(const exec::Context& context) : context_(context) {}

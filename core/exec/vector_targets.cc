@@ -1,5 +1,6 @@
 // Does:  tells Highway which instruction sets this processor has, in place of Highway's own
-//   library, which measures the timer's resolution whenever it is loaded: 3.6 ms of every start.
+//        library, which measures the resolution of the timer whenever it is loaded: 3.6 ms at every
+//        start.
 
 #include <cpuid.h>
 
@@ -17,7 +18,7 @@ constexpr uint32_t Bits(std::initializer_list<int> places) {
   return bits;
 }
 
-// Features as CPUID tells them: registers of leaves 1, 7 and 0x80000001.
+// Features as reported by CPUID: registers of leaves 1, 7 and 0x80000001.
 struct Features {
   uint32_t basic_c = 0, more_b = 0, more_c = 0, extended_c = 0;
 
@@ -29,19 +30,19 @@ struct Features {
 
 // SSE3, SSSE3.
 constexpr uint32_t kSsse3 = Bits({0, 9});
-// And SSE4.1, SSE4.2, PCLMUL, AES.
+// With SSE4.1, SSE4.2, PCLMUL, AES.
 constexpr uint32_t kSse4 = kSsse3 | Bits({19, 20, 1, 25});
-// And OSXSAVE, AVX, FMA, F16C.
+// With OSXSAVE, AVX, FMA, F16C.
 constexpr uint32_t kAvx = kSse4 | Bits({27, 28, 12, 29});
 // BMI, AVX2, BMI2.
 constexpr uint32_t kAvx2 = Bits({3, 5, 8});
-// And AVX-512 F, DQ, CD, BW, VL.
+// With AVX-512 F, DQ, CD, BW, VL.
 constexpr uint32_t kAvx512 = kAvx2 | Bits({16, 17, 28, 30, 31});
 // AVX-512 VBMI, VBMI2, GFNI, VAES, VPCLMULQDQ, VNNI, BITALG, VPOPCNTDQ.
 constexpr uint32_t kAvx512More = Bits({1, 6, 8, 9, 10, 11, 12, 14});
 constexpr uint32_t kLzcnt = Bits({5});
 
-// What the system saves of XMM and YMM, and of the registers of AVX-512 besides.
+// Register state that the operating system saves: XMM and YMM, then also those of AVX-512.
 constexpr uint32_t kYmmState = Bits({1, 2});
 constexpr uint32_t kZmmState = kYmmState | Bits({5, 6, 7});
 

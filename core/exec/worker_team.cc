@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Longer than a healthy pass over a small object, far shorter than a time slice. Pauses last 40 to
-// 140 cycles, depending on the processor, so the clock decides.
+// Longer than a normal pass over a small object, far shorter than a time slice. A pause instruction
+// takes 40 to 140 cycles, depending on the processor, so the clock decides.
 constexpr auto kSpinTime = std::chrono::microseconds(100);
 constexpr int kPausesPerLook = 16;
 
@@ -25,8 +25,8 @@ void Pause() {
 #endif
 }
 
-// Returns whether it came true in time. With more workers than processors the others cannot come
-// while this one spins. Calls `between` about every microsecond.
+// Returns whether the condition became true in time. Does not spin if there are more workers than
+// processors, since the others could not run meanwhile. Calls `between` about every microsecond.
 template <typename Condition, typename Between>
 bool SpinUntil(size_t workers, Condition condition, Between between) {
   static const size_t processors = std::thread::hardware_concurrency();
@@ -49,10 +49,10 @@ bool SpinUntil(size_t workers, Condition condition) {
 
 constexpr Confidence::Duration kLongestPause = std::chrono::milliseconds(3200);
 
-// Of the time of offered work; less is no loss, since the others did their part.
+// Share of the time of offered work; shorter waits are no loss, since the others did their part.
 constexpr double kMostWaiting = 0.2;
 
-// How often this thread had to leave its processor to others.
+// How often this thread was preempted.
 long TimesPreempted() {
 #if defined(__linux__)
   rusage usage = {};
@@ -112,7 +112,7 @@ void WorkerTeam::Offer(const std::function<void(int)>& work) {
   JudgeOffer(end - start, end - done);
 }
 
-// Portions may be uneven: who is waited for without having been kept from working is no loss.
+// Portions may be uneven: waiting for a worker that was not preempted is no loss.
 void WorkerTeam::JudgeOffer(Confidence::Duration together, Confidence::Duration waited) {
   std::lock_guard lock(mutex_);
   if (!shared_) return;
@@ -155,8 +155,8 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
   uint64_t seen = 0;
   while (true) {
     const std::function<void(int)>* work = nullptr;
-    // On a busy machine worker 0 may share this processor. (Between meetings that must be told as
-    // waiting: there nobody gives way.)
+    // On a busy machine worker 0 may share this processor, so yield to it. (At a barrier this would
+    // count as waiting, so no thread yields there.)
     SpinUntil(
         static_cast<size_t>(size_), [&] { return generation_ != seen; }, std::this_thread::yield);
     {
@@ -185,7 +185,8 @@ void Barrier::Arrive(int worker) {
 }
 
 Barrier::Duration Barrier::Await(int worker) {
-  // Breaking raises all counts: who sees its own raised sees that the barrier is broken, too.
+  // Break() raises all counts: a worker that sees its own count raised also sees that the barrier
+  // is broken.
   const uint32_t count = meetings_[static_cast<size_t>(worker)].count.load();
   CheckWhole();
   Duration blocked = {};
@@ -194,7 +195,7 @@ Barrier::Duration Barrier::Await(int worker) {
   return blocked;
 }
 
-// Counts may be one ahead: who has seen all come goes on to the next meeting.
+// Counts may be one ahead: a worker that has seen all arrive goes on to the next meeting.
 Barrier::Duration Barrier::WaitFor(const Meetings& other, uint32_t count) const {
   const auto has_come = [&] {
     const uint32_t theirs = other.count.load(std::memory_order_acquire);
@@ -206,8 +207,7 @@ Barrier::Duration Barrier::WaitFor(const Meetings& other, uint32_t count) const 
   return Clock::now() - start;
 }
 
-// Counts that are far ahead let go of everyone who waits; whoever comes later sees that the barrier
-// is broken.
+// Counts that are far ahead release all waiting workers; later ones see that the barrier is broken.
 void Barrier::Break(std::exception_ptr cause) {
   if (breaking_.exchange(true)) return;
   cause_ = std::move(cause);

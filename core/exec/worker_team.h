@@ -15,24 +15,25 @@
 
 namespace bccskel::exec {
 
-// Whether working together pays. After worker 0 has been blocked because the machine ran other work
-// on the processors of the others, it works alone for twelve times as long, and for twice as long
-// as before if the next try fails, too: on a busy machine hardly any time is lost.
+// Estimates whether working together pays. When worker 0 has been blocked because the machine ran
+// other work on the processors of the others, it works alone for twelve times as long as it was
+// blocked, and for twice the last pause if the next try fails, too. On a busy machine hardly any
+// time is lost.
 class Confidence {
  public:
   using Duration = std::chrono::steady_clock::duration;
 
   bool Holds() const { return Clock::now() >= alone_until_; }
   void Lose(Duration waited);
-  // Workers were together for this time without loss. Resets the pause once that is as long as the
-  // last pause.
+  // Workers worked together for this time without loss. Resets the pause after as much such time as
+  // the last pause took.
   void Gain(Duration together);
 
  private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point alone_until_ = {};
   Duration pause_ = {};     // the last one, while it is remembered
-  Duration together_ = {};  // since then
+  Duration together_ = {};  // time worked together since then
 };
 
 // A fixed team of threads that run one function together. The caller is worker 0, so a team of one
@@ -48,8 +49,8 @@ class WorkerTeam {
 
   int size() const { return size_; }
 
-  // Whether lockstep and offered work pay: a machine too busy for the one often has time for the
-  // other. Used by worker 0 only; kept across stages.
+  // Whether lockstep and offered work pay: a machine too busy for lockstep often has time for
+  // offered work. Used by worker 0 only; kept across stages.
   Confidence& in_lockstep() { return in_lockstep_; }
   Confidence& in_offers() { return in_offers_; }
 
@@ -58,10 +59,10 @@ class WorkerTeam {
   // a Barrier must make sure that the others end (Barrier::Guard()).
   void Run(const std::function<void(int worker)>& work);
 
-  // The same for work that any worker can do alone, shared by the workers that join before worker 0
-  // has finished: Offer() does not wait for workers that have not started, because waking is slow
-  // or the processors are busy. Without confidence in offers worker 0 works alone; waiting for a
-  // worker that was preempted removes it.
+  // The same for work that any worker can do alone. Workers that join before worker 0 has finished
+  // share it; Offer() does not wait for workers that have not started because waking is slow or the
+  // processors are busy. Without confidence in offers worker 0 works alone; waiting for a worker
+  // that was preempted reduces confidence.
   void Offer(const std::function<void(int worker)>& work);
 
  private:
@@ -79,8 +80,8 @@ class WorkerTeam {
   std::condition_variable done_;
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_; null once withdrawn
   bool offered_ = false;                 // guarded by mutex_; joining workers increment running_
-  bool shared_ = false;                  // guarded by mutex_; a worker joined
-  bool preempted_ = false;               // guarded by mutex_; and was kept from working
+  bool shared_ = false;                  // guarded by mutex_; another worker joined
+  bool preempted_ = false;               // guarded by mutex_; and lost its processor
   std::atomic<uint64_t> generation_{0};  // changed under mutex_
   std::atomic<int> running_{0};          // changed under mutex_
   std::exception_ptr thrown_;            // guarded by mutex_; the first of a run
@@ -147,13 +148,13 @@ class Patience {
   explicit Patience(double share) : share_(share) {}
 
   void Blocked(Barrier::Duration time) { blocked_ += time; }
-  // Whether waiting has taken more than its share of the time, other than in single outliers.
+  // Whether waiting has taken more than its share of the time, ignoring a single outlier.
   bool Lost() {
     constexpr auto kHiccup = std::chrono::microseconds(300);
     lost_ = lost_ || blocked_ - kHiccup > share_ * Elapsed();
     return lost_;
   }
-  // At the end.
+  // Called at the end.
   void Tell(Confidence& confidence) {
     if (Lost()) {
       confidence.Lose(blocked_);

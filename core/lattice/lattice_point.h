@@ -41,7 +41,7 @@ struct LatticePoint {
   friend constexpr LatticePoint operator-(LatticePoint a) { return {-a.x, -a.y, -a.z}; }
 };
 
-// True when the three coordinates have one parity.
+// True if all three coordinates have the same parity.
 constexpr bool IsOnLattice(LatticePoint p) {
   return ((p.x ^ p.y) & 1) == 0 && ((p.x ^ p.z) & 1) == 0;
 }
@@ -75,7 +75,7 @@ struct LatticeExtent {
   }
 };
 
-// Ends included.
+// A box of lattice points, both corners included.
 struct LatticeBox {
   LatticePoint low;
   LatticePoint high;

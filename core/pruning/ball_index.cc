@@ -60,17 +60,17 @@ void BallIndex::SetOwn(std::span<const LatticePoint> own) {
   }
 }
 
-bool BallIndex::IsCovered(LatticePoint p, double way, const ThinSet& set) const {
+bool BallIndex::IsCovered(LatticePoint p, double distance_to_junction, const ThinSet& set) const {
   const Coordinates place = PlaceOf(p, scale_);
   const auto covers = [&](const Ball& ball) {
     const Coordinates between = Sum(PlaceOf(ball.center, scale_), -1, place);
     const double reach = kInside * ball.radius;
     return Dot(between, between) < reach * reach && ball.branch != branch_ &&
-           2 * ball.radius < way && set.Contains(ball.center);
+           2 * ball.radius < distance_to_junction && set.Contains(ball.center);
   };
   // Balls of a level have at least half the radius of its cubes' width.
   double width = 1;
-  for (size_t level = 0; level < kLevels && width <= way; ++level, width *= 2) {
+  for (size_t level = 0; level < kLevels && width <= distance_to_junction; ++level, width *= 2) {
     const PointTable<uint32_t>& cubes = levels_[level];
     if (cubes.empty()) continue;
     const double reach = kInside * width;

@@ -14,34 +14,35 @@
 
 namespace bccskel {
 
-// Tells whether a point of a branch lies in the ball of another branch.
-// Does:  keeps the points of all curves by the power of two above their radius, in cubes twice as
-//        wide as that power: a ball that holds a point has its center in one of 8 cubes.
-// Cost:  a search visits the points of a few cubes for each power.
+// Finds out whether a point of one branch lies in the ball of another branch.
+// Does:  groups all curve points by the smallest power of two above their radius. Each group is
+//        stored in cubes twice as wide as that power, so the center of a ball that contains a point
+//        lies in one of 8 cubes.
+// Cost:  a query visits the points of a few cubes per power of two.
 // Threads: one thread per instance.
 class BallIndex {
  public:
-  // The points that `set` has now, with their radii. Points may go from the set later. Left
-  // unfinished where the context says to stop.
+  // Indexes the points that `set` contains now, with their radii. Points may be removed from the
+  // set later. The index is incomplete if the context requests a stop.
   BallIndex(const ThinSet& set, const AxisScale& scale, const exec::Context& context = {});
 
-  // The branch that IsCovered() is asked about from now on.
+  // Selects the branch that the following IsCovered() calls are about.
   void SetOwn(std::span<const LatticePoint> own);
 
-  // Whether p lies within 0.9 of the radius of a point of `set` that is not one of its own branch.
-  // `way` leads from p to the branch's junction: points with a radius of half of that and more do
-  // not count, since branches that meet are always near each other.
-  bool IsCovered(LatticePoint p, double way, const ThinSet& set) const;
+  // Whether p lies within 0.9 of the radius of a point of `set` that is not on p's own branch.
+  // `distance_to_junction`: from p. Points whose radius is half of that or more do not count, since
+  // branches that meet are always close to each other there.
+  bool IsCovered(LatticePoint p, double distance_to_junction, const ThinSet& set) const;
 
  private:
   static constexpr size_t kLevels = 32;
   struct Ball {
     LatticePoint center;
     float radius;
-    uint32_t branch = 0;  // the last that it was an own one of
+    uint32_t branch = 0;  // the last branch selected by SetOwn() that it belongs to
   };
   struct Cube {
-    uint32_t first = 0;  // of its balls
+    uint32_t first = 0;  // index of its first ball
     uint32_t end = 0;
   };
 
@@ -50,7 +51,7 @@ class BallIndex {
   AxisScale scale_;
   std::vector<Ball> balls_;  // cube by cube
   std::vector<Cube> cubes_;
-  std::array<PointTable<uint32_t>, kLevels> levels_;  // the number of each cube
+  std::array<PointTable<uint32_t>, kLevels> levels_;  // index of each cube
   PointTable<uint32_t> ball_at_;
   uint32_t branch_ = 1;
 };

@@ -18,21 +18,23 @@
 
 namespace bccskel {
 
-// Does:  removes spurious branches, the least significant first, and then evaluates the junction
-//        again: two branches that remain of three become one.
-// Why it is right: a branch is removed from its end on, and an end point is simple; then points at
-//   the junction that have become simple go one after the other. So nothing but branches with a
-//   free end can vanish, and of a path with two ends nothing does.
-// A branch is worth the number that the rule compares with the threshold. So what a threshold takes
-// is what every larger one takes first: the results of all thresholds are nested.
-// Cost:  follows the points of the branches that end; each removal looks at one junction.
+// Does:  removes spurious branches, the least significant first. After each removal it evaluates
+//        the junction again, since two of three branches become one.
+// Why it is right: a branch is removed starting from its end, and an end point is simple. Then
+//   points at the junction that have become simple are removed one by one. So only branches with a
+//   free end can vanish, and a path with two ends stays.
+// The value of a branch is the number that the rule compares with the threshold. The branches
+// removed at one threshold are the first ones removed at any larger threshold, so the results of
+// all thresholds are nested.
+// Cost:  follows the points of the branches with an end; each removal visits one junction.
 class BranchPruner {
  public:
-  // A removed point, and the worth of its branch.
+  // A removed point, and the value of its branch.
   using OnRemoved = std::function<void(LatticePoint, double)>;
 
-  // `threshold` in the rule's unit: lattice units, radii of the junction, or persistence.
-  // The arguments must outlive the pruner.
+  // `threshold` in the unit of the rule: none for significance, lattice units for a length, radii
+  // of the junction for a relative length, passes for persistence. The arguments must outlive the
+  // pruner.
   BranchPruner(ThinSet& set, Significance& significance, PruningRule rule, double threshold,
                const PointSet& keep, const exec::Context& context)
       : set_(set),
@@ -42,7 +44,7 @@ class BranchPruner {
         keep_(keep),
         context_(context) {}
 
-  // Returns the number of branches removed. Stops early when the context says so.
+  // Returns the number of branches removed. Stops early if the context requests it.
   uint64_t Run(const OnRemoved& on_removed = [](LatticePoint, double) {});
 
  private:

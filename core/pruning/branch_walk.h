@@ -9,13 +9,13 @@
 
 namespace bccskel {
 
-// The points from an end along curve points.
+// A branch with a free end: the points from the end to the first junction.
 struct FreeBranch {
   std::vector<LatticePoint> points;      // the end first; without the junction
-  std::optional<LatticePoint> junction;  // none: the walk came to the other end
+  std::optional<LatticePoint> junction;  // none: the path leads to another end
 };
 
-// Whether there are two neighbors: such points make up curves.
+// Whether exactly two neighbors are set, as for the inner points of a curve.
 inline bool IsPair(NeighborMask mask) {
   return std::has_single_bit(static_cast<NeighborMask>(mask & (mask - 1)));
 }

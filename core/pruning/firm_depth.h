@@ -10,29 +10,28 @@
 
 namespace bccskel {
 
-// The distance of object points to the background without pits (FillPits()), where only few are
-// asked for.
-// Does:  looks for the nearest background point and, while that is a pit, takes it from the
-//        background and looks again. There are few pits near tips: filling those of the whole
-//        object, and finding out where the background of the result begins, took as long as 600
-//        searches.
-// Why it is right: what is found is no pit, so it stays background however many pits are filled.
-//   Were q nearer and no pit either, the next point from q along an axis toward the point asked for
-//   would be nearer still, so an object point or a pit: call it r. Then q lies in one of the boxes
-//   of BorderBricks and would have been found. Beside object points that is what they are. Beside
-//   a pit r, one of the four neighbors that q and r share is an object point; or at least eight of
-//   the other nine neighbors of r but q are, so at least three of the four that lie across the way
-//   to q. Two of those lie in other bricks than r at most, so one in r's brick, which is stored
-//   then, and the box around that brick's points, with one cell more, reaches q.
+// Computes the distance of a few object points to the background without pits (FillPits()).
+// Does:  finds the nearest background point. While that is a pit, removes it from the background
+//        and searches again. Few pits lie near tips; filling those of the whole object and locating
+//        the border of the resulting background took as long as 600 searches.
+// Why it is right: the point found is not a pit, so it stays background however many pits are
+//   filled. Suppose a point q that is not a pit were nearer. The next point r from q along an axis,
+//   toward the query point, would be nearer still, so r is an object point or a pit. Then q lies in
+//   one of the boxes of BorderBricks and would have been found: if r is an object point, those
+//   boxes hold its neighbors. If r is a pit, either one of the four neighbors that q and r share is
+//   an object point; or at least eight of the other nine neighbors of r except q are object points,
+//   so at least three of the four that lie across the direction to q. At most two of those lie in
+//   other bricks than r, so one lies in r's brick. That brick is then stored, and the box around
+//   its points, grown by one cell, reaches q.
 // Threads: one thread per instance.
 class FirmDepth {
  public:
   // Needs: `object`, to which `radius` belongs, outlives this.
   FirmDepth(const Volume& object, const ExactRadius& radius);
 
-  // Lattice units. Needs: an object point.
+  // Lattice units. Needs: p is an object point.
   float At(LatticePoint p);
-  // At(p) is no more. Not searched for: the distance to background found lately.
+  // An upper bound of At(p) without a search: the distance to background points found recently.
   float AtMost(LatticePoint p) const;
 
  private:
@@ -41,9 +40,10 @@ class FirmDepth {
   void Remember(LatticePoint background);
 
   NearbyBricks bricks_;
-  ExactRadius radius_;  // in the object without the pits that were filled
+  ExactRadius radius_;  // of the object with the pits found so far filled
   PointTable<float> known_;
-  // Background without pits. A ridge has some all around, so that of the last search is not enough.
+  // Background points found recently that are not pits. A ridge has background all around it, so
+  // the result of the last search alone is not enough.
   std::array<LatticePoint, 8> lately_;
   size_t oldest_ = 0;
 };

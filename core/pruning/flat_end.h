@@ -15,42 +15,42 @@
 
 namespace bccskel {
 
-// Finds where the curve of a flat limb should end. In something flat the radius hardly changes up
-// to the rim, so thinning leads the curve into one of the limb's corners. In the limb's own plane
-// widths are what radii are in space: W, the distance to the rim within the sheet, is the same
-// along the limb and falls toward a corner.
-// Does:  walks along the middle of the sheet, where the rim is as far on either side, from where
-//        the limb is as wide as anywhere, and one W before, to the rim. The end is the place with
-//        the largest sum of W and 0.85 of the way, as for tips in space (tips.h). Where the rim
-//        ahead is nearer than W, the walk goes straight on: there the middle leads into a corner
-//        as well.
-//        Where the limb cannot grow along this way, its end is the place of its path with the
-//        largest sum of W and 0.75 of the way along the limb, less 0.4 of the way aside: the point
-//        of a leaf lies ahead, a corner of a strip aside. The limb's direction is that of the way
-//        to the last place that is as wide as any.
-//        The removed part lies within 1.75 W and 6 units of an end, and the limb is at least
-//        0.4 W long before it: corners of plates, which do not end limbs, stay. The normal of a
-//        place is that to the nearest background.
+// Finds where the curve of a flat limb should end. In a flat part the radius hardly changes up to
+// the rim, so thinning leads the curve into one of the limb's corners. W, the distance to the rim
+// within the sheet, plays the role of the radius there: it is constant along the limb and falls
+// toward a corner.
+// Does:  walks along the middle of the sheet, where the rim is equally far on either side. The walk
+//        begins one W before the last place that is as wide as any. The end is the place with the
+//        largest sum of W and 0.85 of the distance walked, as for tips of round limbs (tips.h).
+//        Where the rim ahead is nearer than W, the walk goes straight on, since the middle leads
+//        into a corner there, too.
+// Where the limb cannot grow along this walk, its end is the place of its path with the largest W
+// plus 0.75 of the distance along the limb minus 0.4 of the distance aside: the point of a leaf
+// lies ahead, a corner of a strip aside. The limb's direction leads to the last place that is as
+// wide as any.
+// The removed part lies within 1.75 W + 6 units of the end, and the limb before it is at least 0.4
+// W long: corners of plates, which do not end limbs, stay. The normal at a place points to the
+// nearest background.
 // Threads: one thread per instance.
 class FlatEnd {
  public:
   struct Place {
     size_t position = 0;
     double width = 0;
-    bool flat = false;  // much wider than deep
+    bool flat = false;  // W is much larger than the radius
   };
   struct Tip {
-    size_t last = 0;                  // position in the path of the last point to keep, unless the
-    size_t from = 0;                  // limb grows from here
-    std::vector<Coordinates> middle;  // by these places
+    size_t last = 0;  // position in the path of the last point to keep if the limb cannot grow
+    size_t from = 0;  // else: position in the path where growth starts
+    std::vector<Coordinates> middle;  // the places along which the limb grows
   };
 
   // Needs: `object`, to which `radius` and `depth` belong, and `depth` outlive this; `radius`
   //        searches.
   FlatEnd(const Volume& object, const ExactRadius& radius, FirmDepth& depth);
 
-  // None where the limb is not flat.
-  // Needs: a path of at least one point, from where the limb begins to its end, all in `set`.
+  // No value if the limb is not flat. Needs: a path of at least one point, from where the limb
+  // begins to its end, all in `set`.
   std::optional<Tip> In(std::span<const LatticePoint> path, const ThinSet& set);
 
  private:
@@ -59,15 +59,15 @@ class FlatEnd {
                               const ThinSet& set);
   Coordinates NormalAt(std::span<const LatticePoint> path, size_t position, const ThinSet& set);
 
-  // One that walks along the middle of the limb.
+  // A position of the walk along the middle of the limb.
   struct Walker {
     Coordinates place;
     Coordinates normal;  // of length 1
-    Coordinates way;     // the same, across the normal
+    Coordinates way;     // of length 1, perpendicular to the normal
   };
   struct Sides {
     double width = 0;  // W
-    double ahead = 0;  // to the rim
+    double ahead = 0;  // distance to the rim
   };
   std::vector<Coordinates> MiddleFrom(Walker walker, double widest, double longest);
   bool Step(Walker& walker);
@@ -77,7 +77,7 @@ class FlatEnd {
   ExactRadius radius_;
   FlatSheet sheet_;
   FirmDepth& depth_;
-  std::vector<std::optional<Coordinates>> ways_;  // to the background, where asked for
+  std::vector<std::optional<Coordinates>> ways_;  // cached directions to the background
 };
 
 }  // namespace bccskel

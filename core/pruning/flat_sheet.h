@@ -9,28 +9,28 @@
 
 namespace bccskel {
 
-// Ways in something flat. They follow it where it bends: where a way leaves the object it goes on
-// where the object is above or below. All lengths are in lattice units; `normal`, `way` and `side`
-// have length 1 and are perpendicular.
+// Measures distances within a flat part of the object. Its lines follow the sheet where it bends:
+// where a line leaves the object it continues where the object lies above or below. All lengths are
+// in lattice units; `normal`, `way` and `side` are perpendicular and have length 1.
 // Threads: one thread per instance.
 class FlatSheet {
  public:
   // Needs: `object`, to which `radius` belongs, outlives this; `radius` searches.
   FlatSheet(const Volume& object, const ExactRadius& radius);
 
-  // The shortest of 16 ways across the normal, `longest` at most.
+  // The shortest of 16 lines across the normal; at most `longest`.
   double WidthAt(const Coordinates& place, const Coordinates& normal, double longest);
-  // To the rim, within half a unit; `longest` where it is farther.
+  // The distance to the rim, within half a unit; `longest` if the rim is farther away.
   double WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
                   double longest);
-  // The shortest of seven ways between `way`, `side` and the way back: the distance to the rim on
-  // that side, however the sheet tapers.
+  // The shortest of seven lines between `way`, `side` and the reverse of `way`: the distance to the
+  // rim on that side, however the sheet tapers.
   double WayToSide(const Coordinates& place, const Coordinates& way, const Coordinates& side,
                    const Coordinates& normal, double longest);
-  // The place, or one above or below it, moved to the middle of the sheet's thickness; none beyond
-  // the rim.
+  // Moves the place, or the sheet directly above or below it, to the middle of the sheet's
+  // thickness. No value beyond the rim.
   std::optional<Coordinates> MiddleNear(const Coordinates& place, const Coordinates& normal);
-  // The normal there, where it is known nearby: turned toward the nearest background, unless that
+  // The normal at `place`: `normal` from nearby, turned toward the nearest background unless that
   // is the rim.
   Coordinates NormalNear(const Coordinates& place, const Coordinates& normal);
 

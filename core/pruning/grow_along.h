@@ -11,9 +11,10 @@
 
 namespace bccskel {
 
-// Replaces the points of a branch behind position `from` of its path by points along the places, if
-// they reach the last: each touches the set only at the point before it, so the topology stays and
-// the curve is thin. New points have the radius 0. Returns whether it did; else nothing changes.
+// Replaces the points of a branch after position `from` of its path by points along the places, if
+// these points reach the last place. Each new point touches the set only at the point before it, so
+// the topology stays and the curve is thin. New points have the radius 0. Returns whether it did;
+// otherwise nothing changes.
 // Needs: the path ends at an end of `set`; at least one place, the first beside path[from].
 bool GrowAlong(std::span<const Coordinates> places, size_t from,
                const std::function<bool(LatticePoint)>& may_add, std::vector<LatticePoint>& path,

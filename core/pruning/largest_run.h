@@ -9,24 +9,26 @@
 
 namespace bccskel {
 
-// The part of a branch that sticks out most for its radius.
+// The part of a branch that sticks out most relative to its radius, from q = path[from] to p =
+// path[to].
 struct Run {
-  size_t from = 0;  // positions in the path, the junction's end first
+  size_t from = 0;  // positions in the path, which begins at the junction
   size_t to = 0;
-  double elongation = 0;  // |p - q| - 2 (D(q) - D(p)) from q to p, lattice units
-  double ratio = 0;       // what of that is no noise, in radii at `from`
+  double elongation = 0;  // |p - q| - 2 (D(q) - D(p)), D the radius; lattice units
+  double ratio = 0;       // (elongation - noise allowance) / D(q)
 };
 
-// So much of what the radius falls by counts against a limb: all of it where it falls by half the
-// way.
+// Factor of D(q) - D(p) in the elongation: a part whose radius falls by half its length does not
+// stick out.
 inline constexpr double kSteepness = 2;
 
-// Needs: at least two points, from the junction, or the middle of a path, to the end. The run
-// begins at position `first` or later. Long paths are sampled at 48 positions.
+// Finds the run with the largest ratio that begins at position `first` or later. Long paths are
+// sampled at 48 positions.
+// Needs: at least two points, from the junction, or the middle of a path, to the end.
 Run LargestRun(const ThinSet& set, const BranchPath& path, const SurfaceNoise& noise,
                size_t first = 0);
 
-// The largest elongation of a run, whatever its radius; 0 or more.
+// The largest elongation of any run, at least 0.
 double LargestElongation(const ThinSet& set, const BranchPath& path);
 
 }  // namespace bccskel

@@ -12,16 +12,16 @@
 
 namespace bccskel {
 
-// Finds the limb that a branch ends with behind a bead, a part 1.4 times as thick as the limb and
-// more: pruning would keep it as a branch of the bead.
+// Finds the last limb of a branch behind a bead: a part at least 1.4 times as thick as the limb
+// after it, from which the limb would stay as a branch of its own.
 // Needs:   `object` outlives this; `noise` is that of its surface.
 // Threads: one thread per instance.
 class LastLimb {
  public:
   LastLimb(const Volume& object, const SurfaceNoise& noise) : object_(object), noise_(noise) {}
 
-  // Position of the limb's first point, which is no thicker than said, `first` if there is no bead.
-  // Needs: a path of curve points of `set`, its last point an end; `first` is a position in it.
+  // Position of the limb's first point; `first` if there is no bead. Needs: a path of curve points
+  // of `set` whose last point is an end; `first` is a position in it.
   size_t BeginIn(const ThinSet& set, std::span<const LatticePoint> path, size_t first);
 
  private:
@@ -30,7 +30,7 @@ class LastLimb {
 
   const Volume& object_;
   const SurfaceNoise noise_;
-  std::optional<Significance> significance_;  // made when it is asked for first
+  std::optional<Significance> significance_;  // created on first use
 };
 
 }  // namespace bccskel

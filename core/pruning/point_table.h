@@ -12,9 +12,10 @@
 
 namespace bccskel {
 
-// Values by lattice point, in one block with linear probing: two thirds of the time of the standard
-// library's tables, and copied as a block. Unlike Abseil's it stays whole when an allocation
-// throws: the new block is there before anything is changed. Needs: no point has x = INT32_MIN.
+// A hash table from lattice points to values, one block with linear probing: two thirds of the time
+// of the standard library's tables, and copied as a block. Unlike Abseil's tables it stays valid
+// when an allocation throws, since the new block is allocated before anything changes.
+// Needs: no point has x = INT32_MIN.
 template <typename Value>
 class PointTable {
  public:
@@ -28,7 +29,7 @@ class PointTable {
     if (slots > slots_.size()) Rehash(slots);
   }
 
-  // None if the point is not there.
+  // Null if the point is not in the table.
   const Value* Find(LatticePoint p) const {
     const Slot& slot = slots_[PlaceOf(p)];
     return slot.point == p ? &slot.value : nullptr;
@@ -42,7 +43,7 @@ class PointTable {
     slot = {p, value};
   }
 
-  // Needs: the point is there. Points behind it move up where that shortens their way.
+  // Needs: the point is in the table. Moves later entries of the probe sequence up to fill the gap.
   void Remove(LatticePoint p) {
     size_t gap = PlaceOf(p);
     for (size_t n = Next(gap); slots_[n].point != kFree.point; n = Next(n)) {
@@ -55,7 +56,7 @@ class PointTable {
     --size_;
   }
 
-  // Calls visit(LatticePoint, const Value&) for all, in any order.
+  // Calls visit(LatticePoint, const Value&) for all entries, in any order.
   template <typename Visit>
   void ForEach(Visit visit) const {
     for (const Slot& slot : slots_) {
@@ -75,7 +76,7 @@ class PointTable {
   size_t Next(size_t n) const { return (n + 1) & Mask(); }
   size_t HomeOf(LatticePoint p) const { return LatticePointHash()(p) & Mask(); }
 
-  // Where the point is, or the free slot where it would be.
+  // The slot of the point, or the free slot where it would be inserted.
   size_t PlaceOf(LatticePoint p) const {
     size_t n = HomeOf(p);
     while (slots_[n].point != p && slots_[n].point != kFree.point) n = Next(n);
@@ -91,7 +92,7 @@ class PointTable {
   }
   explicit PointTable(size_t slots) : slots_(slots, kFree) {}
 
-  std::vector<Slot> slots_;  // a power of two, half of them free at least
+  std::vector<Slot> slots_;  // a power of two, at least half of them free
   size_t size_ = 0;
 };
 

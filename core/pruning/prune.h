@@ -14,26 +14,27 @@
 
 namespace bccskel {
 
-// Which branches, from an end to the first junction, are spurious.
+// Decides which branches, from an end to the first junction, are spurious.
 enum class PruningRule : uint8_t {
-  // Those that stick out by less than the threshold, 0.45 by default, in half-widths of the object
-  // beside them: bumps, ribs of flat parts, and strands beside another one. See significance.h.
-  // What then is left of an object without limbs, such as a cube, is its deepest point.
+  // Branches that stick out by less than the threshold, 0.45 by default, in half-widths of the
+  // object beside them: bumps, ribs of flat parts, and strands beside another strand. See
+  // significance.h. Of an object without limbs, such as a cube, only the deepest point stays.
   kSignificance,
-  // Those shorter than the threshold, in world units.
+  // Branches shorter than the threshold, in world units.
   kLength,
-  // Those shorter than threshold * R; R is the largest radius of the junction, the factor 1 by
-  // default.
+  // Branches shorter than threshold * R, where R is the largest radius at the junction and the
+  // threshold is 1 by default.
   kRelativeLength,
-  // Those of a persistence below the threshold: see persistence.h. Needs the births of isthmuses.
+  // Branches with a persistence below the threshold, 6 by default (persistence.h). Needs the births
+  // of isthmuses.
   kPersistence,
   kNone,
 };
 
-// Of the rule of significance, half-widths.
+// Default threshold of kSignificance, in half-widths.
 inline constexpr double kDefaultSignificance = 0.45;
 
-// Whether ends are moved along the ridge of the distances to where it ends.
+// Whether ends are moved to where the ridge of the distances ends.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };
 
 struct PruningOptions {
@@ -47,25 +48,26 @@ struct PruningOptions {
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 
-// Where pruning measures.
+// The object that pruning measures.
 struct PrunedObject {
   const Volume& object;
   const ExactRadius& radius;  // of the object
-  // Lattice units: 1 where the object's surface was sampled point by point, else a voxel's edge.
+  // In lattice units: 1 where the object's surface was sampled point by point, otherwise the edge
+  // of a voxel.
   double surface_step = 1;
-  // That voxels were cut into along x, y and z.
+  // Into how many slabs each voxel was cut along x, y and z.
   std::array<int32_t, 3> slabs = {1, 1, 1};
-  // Where depths are measured, if not in the object: the same in a window. Widths across branches
-  // end where the object is cut off: beyond, all of a thin stack would be as wide as it is not
-  // high.
+  // The object in its window; null: `object`. Depths are measured here. Widths across branches are
+  // measured in `object`, so that they end where the object is cut off: otherwise a thin stack
+  // would seem wide beyond its faces.
   const Volume* space = nullptr;
 };
 
-// Removes spurious branches and places the tips of the others. Points go and come one by one, each
-// simple at its turn, so the topology stays: loops and components have no end to begin at. A branch
-// with points of `keep` stays. Levels are those of the skeleton as pruned, before tips were placed.
-// Isthmuses that later became simple make curves thick: where births are known, such points go
-// first.
+// Removes spurious branches and places the tips of the others. Points are removed and added one by
+// one, each simple at its turn, so the topology stays: loops and components have no end to begin
+// at. Branches with points of `keep` stay. Levels are those of the skeleton as pruned, before tips
+// are placed. Isthmuses that later became simple make curves thick; where births are known, such
+// points are removed first.
 // Shapes: the points of `curves` are points of the object.
 // Needs:  a thin curve skeleton, or one of isthmuses with their births.
 // Errors: INVALID_ARGUMENT (options, or persistence without births), CANCELLED, DEADLINE_EXCEEDED.

@@ -5,7 +5,8 @@
 
 namespace bccskel {
 
-// The same options with the rule's default in place of a threshold of 0, and of none for no rule.
+// Returns the options with a threshold of 0 replaced by the rule's default; without a rule the
+// threshold becomes 0.
 PruningOptions WithDefaults(PruningOptions options);
 
 }  // namespace bccskel

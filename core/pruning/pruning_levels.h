@@ -10,16 +10,17 @@
 
 namespace bccskel {
 
-// For each point of a branch, the threshold above which it goes; infinity where it never does.
-// Points at junctions have none.
+// The level of each point of a branch: the threshold above which the point is removed; infinity if
+// it is never removed. Points at junctions have none.
 using PruningLevels = PointTable<double>;
 
-// Does:  answers every threshold of a rule in one run: pruning by a threshold leaves the
-//        points whose level is not below it. Branches go one after the other, the least first; the
-//        level of a branch is the most that it or a branch before it was worth, 0 at least.
-// Why it is right: the rule takes the least first, so pruning by a threshold is the first part of
-//        this run, up to where all branches left are worth the threshold or more.
-// Errors: none; what is left when the context says stop stays at infinity.
+// Does:  answers every threshold of a rule in one run: pruning by a threshold leaves the points
+//        whose level is not below it. Branches are removed one by one, the smallest value first.
+//        The level of a branch is the largest value of all branches up to and including it, at
+//        least 0.
+// Why it is right: the rule removes the smallest value first, so pruning by a threshold is the
+//   first part of this run, until all remaining branches reach the threshold.
+// Errors: none; points that remain when the context requests a stop keep the level infinity.
 PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRule rule,
                               const PointSet& keep, const exec::Context& context);
 

@@ -12,39 +12,40 @@
 
 namespace bccskel {
 
-// How much each point of a surface skeleton stands for, by the erosion thickness of its sheet.
-// Does:  burns the skeleton from its rims and ends inward, points one by one as they become simple.
-//        A fire starts at a point q when a ball that grows from nothing has its radius, D(q), and
-//        comes to p when it has D(q) + 0.8 |p - q|. The erosion thickness of p is how much more
-//        that is than D(p): how long the sheet is beside what its balls are wide. Where fires come
-//        late, at or before D(p), the sheet behind them was the ball's own bump, and p starts a
-//        fire of its own. A place where sheets meet burns when all but one of them have burned,
-//        with the fire that came last. A point is worth the most of those that its fire reached
-//        through it, along ways that are no detours.
-// Why:   noise makes sheets from the rim to the surface's bumps, in which D falls by one a unit, or
-//        between two pits a distance d apart, in which it falls by less than 0.8 only near the
-//        pits: those are worth 0.2 d. The fin has burned when the fire of the sheet that it
-//        stands on comes by, so it does not share in that sheet's worth; the bevels of a box burn
+// Rates each point of a surface skeleton by the erosion thickness of its sheet.
+// Does:  burns the skeleton from its rims and ends inward, one point at a time as points become
+//        simple. A fire that starts at q reaches p at the time D(q) + 0.8 |p - q|, D the radius.
+//        The erosion thickness of p is that time minus D(p): the length of the sheet relative to
+//        the width of its balls. Where the fire arrives at D(p) or earlier, the sheet behind it was
+//        a bump of the ball at p, and p starts a fire of its own. A point where sheets meet burns
+//        when all but one of them have burned, with the fire that came last. The value of a point
+//        is the largest erosion thickness among the points that its fire reached through it, along
+//        paths without detours.
+// Why:   noise makes sheets from the rim to bumps of the surface, in which D falls by one per unit,
+//        or between two pits at distance d, in which D falls by less than 0.8 only near the pits:
+//        those have the value 0.2 d. Such a fin has burned before the fire of the sheet on which it
+//        stands arrives, so it does not share the value of that sheet. The bevels of a box burn
 //        last before its middle and do.
 // Source: Yan, Sykes, Chambers, Letscher, Ju, "Erosion thickness on medial axes of 3D shapes"
-//         (2016), with straight distances for those along the sheet, which the lattice overstates.
+//         (2016), with straight distances instead of those along the sheet, which the lattice
+//         overstates.
 class SheetBurning {
  public:
-  // Both outlive this. Points p with kept[p] other than 0 do not burn.
+  // Needs: `points` outlives this. Points p with kept[p] != 0 do not burn.
   SheetBurning(const ThinPoints& points, const AxisScale& scale, std::span<const uint8_t> kept,
                StopPoll& poll);
 
-  // Those that burned, the first first.
+  // The points that burned, in the order in which they burned.
   const std::vector<PointIndex>& burned() const { return burned_; }
-  // Of a point that burned; lattice units.
+  // The value of a point that burned, in lattice units.
   double WorthOf(PointIndex p) const { return fires_[p].worth; }
 
  private:
   struct Fire {
     PointIndex origin = 0;
     bool is_out = false;
-    bool waits = false;  // it is simple
-    double arrival = 0;  // of the fire that comes first since the point last became simple
+    bool waits = false;  // the point is simple and waits for its turn
+    double arrival = 0;  // of the first fire since the point last became simple
     double time = 0;     // when it burns
     double exposed = 0;  // when it became simple
     double worth = 0;

@@ -10,13 +10,13 @@
 
 namespace bccskel {
 
-// Lattice units, where the surface was sampled point by point.
+// Lattice units, for surfaces sampled point by point.
 inline constexpr double kDefaultSheetMargin = 4;
 
-// Does:  removes points that are worth less than the margin (sheet_burning.h), as they burn; then
-//        curves that end and whose balls leave that of the place where they begin by less than the
-//        margin, the way counted half; then points that have become simple and are neither
-//        isthmuses nor ends, as thinning would.
+// Does:  removes points with a value below the margin (sheet_burning.h) in the order in which they
+//        burn. Then removes curves that end and whose balls extend beyond the ball where they begin
+//        by less than the margin, with distances counted half. Then removes points that have become
+//        simple and are neither isthmuses nor ends, as thinning would.
 // Why it is right: each point is simple at its turn. Points of `keep` stay.
 // Needs: a surface skeleton with the births of its isthmuses.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.

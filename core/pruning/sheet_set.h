@@ -14,23 +14,23 @@
 
 namespace bccskel {
 
-// Which points of a surface skeleton are left while points go. By index instead of ThinSet's
-// table, since sheets have many points: neighbors lie close in memory.
+// The remaining points of a surface skeleton while points are removed. Indexed, unlike ThinSet,
+// since sheets have many points: neighbors are close in memory.
 class SheetSet {
  public:
-  // All of `points`, which must outlive the set.
+  // Contains all of `points`, which must outlive the set.
   explicit SheetSet(const ThinPoints& points);
 
   bool Contains(PointIndex p) const { return left_[p] != 0; }
-  // The neighbors that are left; 0 for points that went.
+  // The remaining neighbors; 0 for removed points.
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
   void Remove(PointIndex p);
-  // Those left, in lattice order.
+  // The remaining points, in lattice order.
   std::vector<PointIndex> Points() const;
 
-  // Removes points of `from`, then their neighbors, and so on: whoever is simple at its turn and of
-  // whom `may_go(PointIndex)` is true, those with the least `key(PointIndex)` first, of equal ones
-  // in lattice order. Returns whether any went.
+  // Removes points of `from`, then their neighbors, and so on: every point that is simple at its
+  // turn and for which `may_go(PointIndex)` is true. The order is by `key(PointIndex)`, smallest
+  // first, then lattice order. Returns whether any point was removed.
   template <typename MayGo, typename Key>
   bool RemoveSimple(std::span<const PointIndex> from, MayGo may_go, Key key, StopPoll& poll) {
     using Turn = std::pair<decltype(key(0)), PointIndex>;

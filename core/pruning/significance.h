@@ -22,79 +22,73 @@
 namespace bccskel {
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
-// Does:  lets the branch go on to where its limb may end (WayOn), where that may matter, and finds
-//        its run: leaving a body or going up a bump the radius D falls about as fast
-//        as the way grows, along a limb it hardly falls. The run may begin anywhere, so what counts
-//        is the limb, not where in a thick body its junction lies. Then
-//          S = sqrt(elongation^2 - noise^2) / (D + 2.2 (H - D)) * uncovered,
-//        noise the allowance for a branch of this radius and 2 units, stretched by how long voxels
-//        are along it, D the radius where the limb begins, at one of the first seven of 11 places
-//        of the run, whichever makes the most of it: the run may begin in something flat that the
-//        limb leaves. H is the half-width of the object across the branch, the median of the places
-//        from there on, each the widest of eight lines and, where S by these is 0.35 or more and H
-//        more than 1.5 D + 1, of up to ten more beside the widest: lines that do not lie in a thin
-//        plate leave it soon. Where the branch ends 1.2 times as thick as it begins, it is a bulge,
-//        and only places outside 0.9 of the ball that it begins in count. In a wall, where H > 2.5
-//        D + 3, the widest line goes on where the wall bends, round or with an edge; so do 16 lines
-//        in the wall, of which the third shortest is W, the radius of the circle inscribed in the
-//        wall. Where 0.4 (W(q) - W(p)) is more than 2 (D(q) - D(p)), it takes the place of that in
-//        the elongation: in a wall W is what D is in space. `uncovered` is the share of the run
-//        that lies outside 0.9 of the balls of other branches. In a limb H is D; a rib lies in
-//        something wide; a strand lies in the balls of the strand beside it. A limb may begin late
-//        in a long run through something wide, as a thumb does behind a palm. So the largest run of
-//        the later half is evaluated, too, and so on; the largest S counts. On rough surfaces of
-//        voxels D is measured without pits (FirmDepth), where that may decide. A branch that the
-//        border of an image cuts off counts as going on beyond (GoOnBeyond()), unless it is shorter
-//        than the radius at its end.
-// S is a ratio of lengths of the shape. Only the noise goes with the sampling, so S is the same at
+// README.md of this folder gives the steps and the reason for each.
+// Does:  follows the branch beyond its end where that may matter (WayOn, or GoOnBeyond() where the
+//        border of an image cuts it off) and finds its run, the part with the largest (elongation -
+//        noise) / D. The elongation from q to p is |p - q| - 2 (D(q) - D(p)); D is the radius, on
+//        rough surfaces of voxels without pits (FirmDepth). Then
+//          S = sqrt(elongation^2 - (noise + 2)^2) / (D(q) + 2.2 (H - D(q))) * uncovered.
+// q is one of the first seven of 11 positions of the run, the one that maximizes S. H is the
+// half-width of the object across the branch: the median, from q on, of the widest of eight lines.
+// Up to ten more lines refine it where S is at least 0.35 and H > 1.5 D + 1. Where the branch ends
+// 1.2 times as thick as it begins, only positions outside 0.9 of the ball at its start count. Where
+// H > 2.5 D + 3, lines follow the wall where it bends, and 16 lines in the wall give W, the radius
+// of its inscribed circle, as their third shortest; 0.4 (W(q) - W(p)) then replaces 2 (D(q) - D(p))
+// where it is larger. `uncovered` is the share of the run outside 0.9 of the balls of other
+// branches. The best run of the later half of a run is evaluated in the same way, and so on; the
+// largest S counts.
+// S is a ratio of lengths of the shape. Only the noise depends on the sampling, so S is the same at
 // any resolution and in any pose.
-// Cost:  for each of these runs, of which there are one to five, 48 points of the branch; where it
-//        may be the largest, 176 rays if it sticks out at all, up to 396 if it may stay and is not
-//        round, and in a wall up to 198 more that follow it.
+// Cost:  48 points of the branch for each of one to five runs. For a run that may be the best, 176
+//        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
+//        wall up to 198 more that follow it.
 // Threads: one thread per instance; LookAhead() uses the context's.
 class Significance {
  public:
-  static constexpr size_t kPlaces = 11;  // of a run, evenly spaced
-  static constexpr size_t kWork = 256;   // a branch takes as long as this many bricks elsewhere
+  static constexpr size_t kPlaces = 11;  // positions of a run, evenly spaced
+  static constexpr size_t kWork = 256;   // work of a branch, for Context::WorkersFor()
 
-  // Needs: `object` outlives this; `noise` is that of its surface; `way_on` in the same object,
-  //        none for branches that end where thinning ended them; `firm_depth` in the same object,
-  //        for radii without pits as far as the surface is rough, none for radii as they are;
-  //        `border` of the image, where limbs that it cuts off go on.
+  // Needs: `object` outlives this; `noise` is that of its surface. `way_on`, of the same object,
+  //        extends branches beyond the end that thinning gave them; none: they end there.
+  //        `firm_depth`, of the same object, measures radii without pits as far as the surface is
+  //        rough; none: radii as they are. `border` of the image, where limbs that it cuts off are
+  //        extended.
   Significance(const Volume& object, const SurfaceNoise& noise,
                std::optional<WayOn> way_on = std::nullopt,
                std::optional<FirmDepth> firm_depth = std::nullopt,
                const std::optional<LatticeBox>& border = std::nullopt);
 
-  // Needs: the branch is one of `set`, whose points are points of the object, and has a junction;
-  //        it is always the same set, from which points go, and radii never change.
+  // The significance of a branch.
+  // Needs: the branch belongs to `set`, whose points are points of the object, and has a junction.
+  //        All calls pass the same set; its points may be removed, but their radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
-  // Of a path with two ends: by how much its two ways from the deepest point stick out, less a step
-  // of the surface, in radii of that point. The width does not count: what is flat has a curve.
+  // The significance of a path with two ends: how far its two halves stick out of the ball at the
+  // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
+  // since a flat object has a curve. `ways`: both from the deepest point to an end.
   double OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const;
-  // Measures branches on the context's threads, so that Of() knows them; not all of them where the
-  // context says to stop. Needs: as Of().
+  // Measures branches on the context's threads and caches the results for Of(). Leaves some out if
+  // the context requests a stop. Needs: as Of().
   void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
                  const exec::Context& context);
 
  private:
-  // What was found of a branch, which is asked for again whenever something near it goes.
+  // The cached result for a branch, needed again whenever something near it is removed.
   struct Verdict {
     LatticePoint junction;
     size_t points = 0;
     Run run;
-    double value = 0;  // as if nothing of it were covered
+    double value = 0;  // without the factor `uncovered`
   };
 
-  // Across a branch, in one place of its run.
+  // A cross-section of the object at one position of the run.
   struct Section {
-    Coordinates middle, way;  // `way` of the branch, of length 1
+    Coordinates middle, way;  // `way`: direction of the branch, of length 1
     double radius = 0;
-    Coordinates side = {0, 0, 0};  // of the widest line, of length 1
-    double half_width = 0;         // along it, the mean of its two sides
+    Coordinates side = {0, 0, 0};  // direction of the widest line, of length 1
+    double half_width = 0;         // the mean of the two sides of that line
     double inscribed = 0;          // radius of the circle inscribed in a wall; 0: not known yet
   };
-  // Of a line that goes on in a bent wall.
+  // The state of a line that follows a bent wall.
   struct Front {
     Coordinates middle;  // of the wall
     Coordinates way;     // of length 1
@@ -104,14 +98,14 @@ class Significance {
   using Sections = std::array<Section, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
-  // Null if the branch was not looked at, or was another one.
+  // Null if the end has no cached result or its branch has changed.
   const Verdict* Known(const FreeBranch& branch) const;
   Run RunOf(const ThinSet& set, BranchPath& path);
   void LookPastPits(BranchPath& path);
-  // As if nothing of it were covered.
+  // The value of a run without the factor `uncovered`.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
-  // ValueOf() is no more, in floating point, too; without rays.
   double BeyondNoise(double elongation, double radius, const Coordinates& way) const;
+  // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
@@ -132,8 +126,8 @@ class Significance {
   std::optional<WayOn> way_on_;
   std::optional<FirmDepth> firm_depth_;
   const std::optional<LatticeBox> border_;
-  std::optional<BallIndex> balls_;  // made when it is asked for first
-  PointTable<Verdict> verdicts_;    // by the branch's end
+  std::optional<BallIndex> balls_;  // created on first use
+  PointTable<Verdict> verdicts_;    // by the end of the branch
 };
 
 }  // namespace bccskel

@@ -9,13 +9,13 @@
 
 namespace bccskel {
 
-// Removes points that are simple and no ends, shallow ones first, of equally deep ones in lattice
-// order: of those in `from`, then of their neighbors, and so on. Points of `keep` stay.
-// Returns: the points that went, in turn.
+// Removes points that are simple and no ends, shallow ones first, equally deep ones in lattice
+// order: first those in `from`, then their neighbors, and so on. Points of `keep` stay.
+// Returns: the removed points in order.
 std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<LatticePoint>& from,
                                              const PointSet& keep, StopPoll* poll = nullptr);
 
-// The same for the whole set. Both leave some where `poll` says stop.
+// The same for the whole set. Both leave some points if `poll` requests a stop.
 void RemoveSimplePoints(ThinSet& set, const PointSet& keep, StopPoll& poll);
 
 }  // namespace bccskel

@@ -17,29 +17,29 @@
 
 namespace bccskel {
 
-// A table of the standard library, since it stays whole when an allocation throws. Abseil's does
-// not: a resize without memory leaves the new capacity with the old block, and the destructor then
-// frees what it never got, which ends the process.
+// From the standard library, since it stays valid when an allocation throws. Abseil's set does not:
+// after a failed resize it has the new capacity with the old block, and its destructor then frees
+// memory that it never got, which ends the process.
 using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 
-// The points of a skeleton while branches go and tips move: each with what is known of it and its
-// neighbors in the set.
+// The points of a skeleton while branches are removed and tips move, each with its radius, its
+// birth and its neighbors in the set.
 class ThinSet {
  public:
-  // Empty or incomplete where the context says to stop.
+  // Empty or incomplete if the context requests a stop.
   explicit ThinSet(const ThinSkeleton& skeleton, const exec::Context& context = {});
 
   bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
-  // Of points of the set.
+  // Need: p is in the set.
   float RadiusOf(LatticePoint p) const { return points_.Find(p)->radius; }
   int32_t BirthOf(LatticePoint p) const { return points_.Find(p)->birth; }
   NeighborMask NeighborsOf(LatticePoint p) const { return points_.Find(p)->neighbors; }
   int Degree(LatticePoint p) const;
-  // Of any place: the neighbors that are in the set.
+  // The neighbors of any lattice point that are in the set.
   NeighborMask NeighborsAround(LatticePoint p) const;
 
   void Add(LatticePoint p, float radius);
-  void SetRadius(LatticePoint p, float radius) { points_.Find(p)->radius = radius; }  // of the set
+  void SetRadius(LatticePoint p, float radius) { points_.Find(p)->radius = radius; }
   void Remove(LatticePoint p);
 
   // End points, in lattice order.
@@ -50,7 +50,7 @@ class ThinSet {
   void ForEachPoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry&) { visit(p); });
   }
-  // The same for the points on plain curves and ends.
+  // The same for points with at most two neighbors: inner points of curves and ends.
   template <typename Visit>
   void ForEachBranchPoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry& entry) {
@@ -61,7 +61,7 @@ class ThinSet {
   // Straight distance in lattice units.
   double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }
 
-  // In lattice units.
+  // The vector between the points, in lattice units.
   Coordinates Way(LatticePoint from, LatticePoint to) const {
     return Sum(PlaceOf(to, scale_), -1, PlaceOf(from, scale_));
   }
@@ -72,7 +72,8 @@ class ThinSet {
     return std::sqrt(Dot(way, way));
   }
 
-  // The points on the grid of `like`, with its births: points that went and came back keep theirs.
+  // The points as a skeleton on the grid of `like`, with its births: points that were removed and
+  // added again keep theirs.
   ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
 
  private:

@@ -12,27 +12,28 @@
 
 namespace bccskel {
 
-// A branch and what may lie beyond its end. Shapes: as many radii as points.
+// A branch and its extension beyond the end. Shapes: as many radii as points.
 struct BranchPath {
   std::vector<LatticePoint> points;  // the junction first
   std::vector<float> radii;          // lattice units
 };
 
 // Follows a limb beyond the end that thinning gave its branch. Thinning ends branches a few lattice
-// units before the tips of their limbs, how many differs by pose and sampling: for limbs a few
+// units before the tips of their limbs; how many depends on pose and sampling. For limbs a few
 // points thick that is a large part of how far they stick out.
-// Does:  goes on by object points in the way of the last ten points, each the one toward which the
-//        radius falls least; kLongest at most. Nothing is added to the set.
+// Does:  continues by object points in the direction of the last ten points, each time to the one
+//        toward which the radius falls least, by at most kLongest. Adds nothing to the set.
 // Threads: one thread per instance.
 class WayOn {
  public:
-  static constexpr double kLongest = 3;        // lattice units
-  static constexpr double kLargestRise = 0.5;  // of the radius: beyond, another limb begins
+  static constexpr double kLongest = 3;  // lattice units
+  static constexpr double kLargestRise =
+      0.5;  // of the radius, lattice units: beyond it another limb begins
 
   // Needs: `radius` belongs to `object`, which outlives this.
   WayOn(const Volume& object, const ExactRadius& radius);
 
-  // Needs: at least two points.
+  // Needs: a path of at least two points.
   void Append(BranchPath& path);
 
  private:
@@ -47,12 +48,13 @@ class WayOn {
   ExactRadius radius_;
 };
 
-// The way of the path around its point n, of length 1.
+// The direction of the path around its point n, of length 1.
 Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale);
 
-// Adds a place twice the last radius beyond the end, where the border of an image cuts the limb
-// off: where the path leads to the border and the ball at its end reaches it. Where a limb ends
-// before the border, so does that ball. Not for single points. Returns whether it did.
+// Extends the path by a point twice the last radius beyond its end where the border of an image
+// cuts the limb off: the path leads to the border, and the ball at its end reaches the border. (A
+// limb that ends before the border has a ball that does, too.) Ignores single points. Returns
+// whether it extended the path.
 bool GoOnBeyond(const std::optional<LatticeBox>& image, const AxisScale& scale, BranchPath& path);
 
 }  // namespace bccskel

@@ -11,7 +11,7 @@
 namespace bccskel {
 namespace {
 
-// Of a brick's points.
+// The extremes of a brick's points.
 struct DistanceExtremes {
   uint32_t smallest;
   uint32_t largest;
@@ -22,7 +22,8 @@ ShellRule RuleFor(const ChamferWeights& weights, double shell_width) {
       static_cast<uint64_t>(std::llround(weights.counts_per_unit * shell_width * 128)));
 }
 
-// For objects deeper than 16 bits and for the rare width whose borders single precision misses.
+// Slices point by point, for objects deeper than 16 bits and for the rare width whose borders
+// single precision misses.
 template <typename T>
 DistanceExtremes SliceExactly(const ShellRule& rule, const BrickBits& object, const T* distances,
                               ShellPlanes& planes) {
@@ -39,7 +40,7 @@ DistanceExtremes SliceExactly(const ShellRule& rule, const BrickBits& object, co
   return found;
 }
 
-// Slices bricks of chamfer distances by the fastest exact way.
+// Slices bricks of chamfer distances in the fastest exact way.
 class ChamferSlicer {
  public:
   // Needs: no distance is above `largest`.
@@ -65,7 +66,7 @@ class ChamferSlicer {
   const CheckedFloatRule fast_;
 };
 
-// Slices a field, one brick after the other.
+// Slices a distance field brick by brick.
 class FieldSlicer {
  public:
   FieldSlicer(const Volume& object, const DistanceField& distance, double width)
@@ -125,7 +126,7 @@ void KeepDepths(const ShellPlanes& planes, DepthPlanes& depths) {
   std::copy_n(planes.begin(), kDepthPlanes, depths.begin());
 }
 
-// Slices chamfer distances while they are at hand.
+// Slices chamfer distances as they are streamed.
 class StreamSlicer : public DistanceSink {
  public:
   // Needs: `object` outlives this.
@@ -190,8 +191,8 @@ int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_w
   return RuleFor(weights, shell_width)(distance);
 }
 
-// Distances of two points of a brick differ by no more than the distance between them, which for
-// chamfer distances is a bit longer than the straight one.
+// The distances of two points of a brick differ by at most the distance between them; a chamfer
+// distance is slightly longer than the straight one.
 double EffectiveShellWidth(double wanted, const AxisScale& scale) {
   const double x = 2 * (kBrickX - 1) * scale[0], y = 2 * (kBrickY - 1) * scale[1],
                z = 2 * (kBrickZ - 1) * scale[2];

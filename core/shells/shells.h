@@ -21,12 +21,12 @@
 namespace bccskel {
 
 // The shell of a distance: floor(distance / shell_width + 1/2), at least 1 (section 4, S_i, for
-// object points). `distance` in counts of `weights`; `shell_width` in lattice units, rounded to a
-// 128th of a count so that the rule is one of integers.
+// object points). `distance` in counts of `weights`; `shell_width` in lattice units, rounded to
+// 1/128 count so that the rule uses integers.
 int32_t ShellOf(uint32_t distance, const ChamferWeights& weights, double shell_width);
 
-// The thickness that shells really have: the wanted one, or more where the spacing differs so much
-// between the axes that a brick could hold more than 63 shells of that thickness.
+// The actual thickness of shells: the wanted one, or more if the spacings differ so much that a
+// brick could hold more than 63 shells of that thickness.
 double EffectiveShellWidth(double wanted, const AxisScale& scale);
 
 // The shells of an object's points, sliced into bit planes: plane b of a brick holds bit b of
@@ -44,13 +44,13 @@ class Shells {
   Shells(exec::UninitializedVector<ShellPlanes> planes, std::vector<Range> ranges);
 
   int32_t last() const { return last_; }
-  // Where these are a part of the object's: its deepest shell.
+  // Sets the deepest shell of the whole object, if these shells are a part of it.
   void SetLast(int32_t last) { last_ = last; }
   const Range& RangeOf(BrickIndex brick) const { return ranges_[brick]; }
   size_t brick_count() const { return ranges_.size(); }
 
-  // Planes of shell modulo 64, padded for the brick that stands for those not stored. Background
-  // points may have any bits.
+  // The planes of shell modulo 64, with a padding brick for bricks that are not stored. Bits of
+  // background points are arbitrary.
   std::span<const ShellPlanes> planes() const { return planes_; }
 
  private:
@@ -65,39 +65,39 @@ Shells BuildShells(const Volume& object, const DistanceField& distance, double s
                    const exec::Context& context);
 
 // The same from chamfer distances that are not needed afterwards: measured and sliced in one pass,
-// in less memory. `at_once` as for StreamChamfer().
+// with less memory. `at_once` as for StreamChamfer().
 // Needs:  not kEuclidean.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<Shells> StreamShells(const Volume& object, DistanceKind kind, double shell_width,
                                     const exec::Context& context,
                                     size_t at_once = kMostPointsAtOnce);
 
-// Thinner shells, modulo 32, that determine which of two neighbors is deeper: those of neighbors
-// differ by less than 16. Shapes: planes for each brick and the padding brick. Background points
-// may have any bits.
+// Depths of points: thinner shells, modulo 32, which determine the deeper one of two neighbors,
+// since those of neighbors differ by less than 16. Shapes: planes for each brick and the padding
+// brick. Bits of background points are arbitrary.
 using BrickDepths = exec::UninitializedVector<DepthPlanes>;
 
 BrickDepths BuildDepths(const Volume& object, const DistanceField& distance,
                         const exec::Context& context);
 
-// Where a brick's shells and depths are to be written.
-// Threads: places are asked for on several workers at once.
+// Where the shells and depths of a brick are written.
+// Threads: called on several workers at once.
 struct ShellPlace {
   ShellPlanes* planes;
   Shells::Range* range;
 };
 struct ShellPlaces {
   std::function<ShellPlace(BrickIndex)> shells;
-  std::function<DepthPlanes&(BrickIndex)> depths =
-      nullptr;  // as from BuildDepths(); null: not wanted
+  // As from BuildDepths(); null if not wanted.
+  std::function<DepthPlanes&(BrickIndex)> depths = nullptr;
 };
 
-// StreamShells() of one holder's layers, as StreamChamferOfLayers().
+// StreamShells() for one holder's layers, as StreamChamferOfLayers().
 absl::Status StreamShellsOfLayers(const Volume& object, const HeldLayers& held, DistanceKind kind,
                                   double shell_width, const exec::Context& context,
                                   LayerRelay& relay, const ShellPlaces& places);
 
-// Slices squared distances to their places.
+// Slices squared distances and writes them to `places`.
 class SquareSlicer : public SquareSink {
  public:
   // `shell_width` is the wanted thickness in lattice units; `scale` that of the object.
@@ -114,18 +114,18 @@ class SquareSlicer : public SquareSink {
   const ShellPlaces places_;
 };
 
-// The thickness of such a shell: a quarter of a lattice unit, or more where the spacing differs so
-// much between the axes that neighbors could be 16 quarters apart.
+// The thickness of the shells of BuildDepths(): a quarter of a lattice unit, or more if the
+// spacings differ so much that neighbors could be 16 quarters apart.
 double DepthWidth(const AxisScale& scale);
 
-// Whether the method compares depths, which the symmetric one does.
+// Whether the thinning method compares depths, as the symmetric one does.
 enum class Depths : uint8_t { kNone, kWanted };
 
-// Shells and, if wanted, depths from Euclidean distances, sliced while those are measured.
+// Shells and, if wanted, depths from Euclidean distances, sliced while distances are measured.
 struct EuclideanShells {
   Shells shells;
   BrickDepths depths;
-  std::optional<DistanceField> distance;  // where KeepField::kIfSmall keeps it
+  std::optional<DistanceField> distance;  // if KeepField::kIfSmall keeps it
 };
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<EuclideanShells> StreamEuclideanShells(const Volume& object, double shell_width,

@@ -15,7 +15,7 @@ namespace bccskel {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Shell modulo 64 of all points, a byte each.
+// Writes the shell modulo 64 of each point as a byte.
 HWY_INLINE void WriteShellBytes(const FloatShellRule& rule, const uint16_t* distances,
                                 uint8_t* shells) {
   const hn::CappedTag<float, 16> f32;
@@ -26,7 +26,7 @@ HWY_INLINE void WriteShellBytes(const FloatShellRule& rule, const uint16_t* dist
   const auto one = hn::Set(i32, 1), modulo = hn::Set(i32, 63);
   for (size_t n = 0; n < kBrickPoints; n += hn::Lanes(f32)) {
     const auto distance = hn::ConvertTo(f32, hn::PromoteTo(i32, hn::LoadU(u16, distances + n)));
-    // Two roundings on purpose: a fused one would differ between machines.
+    // Rounds twice on purpose: a fused operation would differ between machines.
     const auto shell = hn::ConvertTo(i32, hn::Add(hn::Mul(distance, scale), offset));
     hn::Store(hn::DemoteTo(u8, hn::And(hn::Max(shell, one), modulo)), u8, shells + n);
   }
@@ -39,7 +39,7 @@ HWY_INLINE void WritePlanes(const uint8_t* shells, std::array<BrickBits, kCount>
   for (size_t b = 0; b < kCount; ++b) {
     const auto bit = hn::Set(u8, static_cast<uint8_t>(1u << b));
     auto* bytes = reinterpret_cast<uint8_t*>(planes[b].words.data());
-    if (lanes < 8) {  // no vectors at all: collect single bits
+    if (lanes < 8) {  // no vectors: collect single bits
       planes[b] = BrickBits();
       for (int n = 0; n < kBrickPoints; ++n) {
         if ((shells[n] >> b & 1) != 0) planes[b].Set(n);
@@ -91,12 +91,12 @@ HWY_INLINE hn::Vec<Floats> LoadSquares(const uint16_t* squared) {
   return hn::ConvertTo(Floats(), hn::PromoteTo(i32, hn::LoadU(u16, squared)));
 }
 
-// A division by a power of two is a product, with the same bits.
+// A multiplication replaces the division by a power of two, with the same bits.
 struct Slicer {
   explicit Slicer(const EuclideanShellRule& rule)
       : width(rule.width()), multiplies(std::bit_cast<uint32_t>(width) << 9 == 0) {}
 
-  // Shell modulo 64, of points at these distances.
+  // The shell modulo 64 of points at these distances.
   HWY_INLINE hn::Vec<hn::Rebind<uint8_t, Floats>> operator()(hn::Vec<Floats> distance) const {
     const Floats f32;
     const hn::RebindToSigned<Floats> i32;
@@ -197,7 +197,8 @@ SquaredRange SliceBrick(const SquareRules& rules, const uint16_t* squared, Shell
 }
 
 CheckedFloatRule MakeFloatRule(const ShellRule& exact, uint32_t largest) {
-  // Borders lie at multiples of 1/256 count; half of that keeps whole distances away from them.
+  // Borders lie at multiples of 1/256 count; an offset of half of that keeps integer distances away
+  // from them.
   const double width = static_cast<double>(exact.width()) / 128;
   const FloatShellRule rule = {static_cast<float>(1 / width),
                                static_cast<float>(0.5 + 1.0 / 512 / width)};

@@ -12,12 +12,12 @@ namespace bccskel {
 
 inline constexpr int kShellPlanes = 6;
 using ShellPlanes = std::array<BrickBits, kShellPlanes>;
-// Of depths: see BrickDepths.
+// The planes of depths: see BrickDepths.
 inline constexpr int kDepthPlanes = 5;
 using DepthPlanes = std::array<BrickBits, kDepthPlanes>;
 
-// Which shell a distance is in, exactly: the shell grows by one at every multiple of the width less
-// a half. Lengths are scaled by 128 so that half widths are whole.
+// The exact rule from distances to shells: the shell grows by one at every multiple of the width
+// minus half of it. Lengths are scaled by 128 so that half widths are integers.
 class ShellRule {
  public:
   explicit ShellRule(uint64_t scaled_width) : width_(scaled_width) {}
@@ -38,9 +38,9 @@ struct FloatShellRule {
   float offset;
 };
 
-// Finds factors that give ShellRule's result for every distance up to `largest`; because rounding
-// is monotonic it is enough to look at both sides of each shell's border. Returns: whether they do,
-// with the factors.
+// Finds factors that give ShellRule's result for every distance up to `largest`. Rounding is
+// monotonic, so it checks only both sides of each shell's border. Returns the factors and whether
+// they are exact.
 struct CheckedFloatRule {
   FloatShellRule rule;
   bool exact;
@@ -58,8 +58,8 @@ struct DistanceRange {
 DistanceRange SliceBrick(const FloatShellRule& rule, const uint16_t* distances,
                          ShellPlanes& planes);
 
-// The shell of a squared Euclidean distance in lattice units. Single precision throughout, which
-// every machine rounds alike; exact for whole squares, distances up to 500 and widths in quarters.
+// The shell of a squared Euclidean distance in lattice units, in single precision, which every
+// machine rounds alike; exact for integer squares, distances up to 500 and widths in quarters.
 class EuclideanShellRule {
  public:
   explicit EuclideanShellRule(double width) : width_(static_cast<float>(width)) {}
@@ -85,7 +85,7 @@ struct SquareRules {
   EuclideanShellRule shell;
   EuclideanShellRule depth;
 };
-// `depths` may be null; else they are cut by their own rule, modulo 32.
+// Slices shells and, unless `depths` is null, depths modulo 32.
 SquaredRange SliceBrick(const SquareRules& rules, const float* squared, ShellPlanes& planes,
                         DepthPlanes* depths);
 SquaredRange SliceBrick(const SquareRules& rules, const uint16_t* squared, ShellPlanes& planes,

@@ -9,7 +9,7 @@
 
 namespace bccskel {
 
-// "If the neighbor `near` is an object point, its neighbor `far` = near + d is one too."
+// "If the neighbor `near` is an object point, so is its neighbor `far` = near + d."
 struct Implication {
   Direction near;
   Direction far;

@@ -51,8 +51,8 @@ struct alignas(64) BrickBits {
 };
 static_assert(sizeof(BrickBits) == 64);
 
-// Which brick: its coordinates in units of bricks and its sublattice. Ordered by (bz, by, bx,
-// sublattice), the order in which a Volume keeps its bricks.
+// The coordinates of a brick, in units of bricks, and its sublattice. Ordered by (bz, by, bx,
+// sublattice), the order in which a Volume stores its bricks.
 struct BrickCoordinates {
   int32_t bx = 0;
   int32_t by = 0;
@@ -95,7 +95,8 @@ struct BrickAddress {
   int bit = 0;
 };
 constexpr BrickAddress AddressOf(LatticePoint p) {
-  const int32_t i = p.x >> 1, j = p.y >> 1, k = p.z >> 1;  // floor: odd points lose their half cell
+  const int32_t i = p.x >> 1, j = p.y >> 1,
+                k = p.z >> 1;  // floor: drops the half cell of odd points
   return {{i >> 4, j >> 2, k >> 3, SublatticeOf(p)}, 64 * (k & 7) + 16 * (j & 3) + (i & 15)};
 }
 constexpr LatticePoint PointOf(BrickCoordinates brick, int bit) {
@@ -103,7 +104,7 @@ constexpr LatticePoint PointOf(BrickCoordinates brick, int bit) {
                  brick.by * kBrickY + ((bit >> 4) & 3), brick.bz * kBrickZ + (bit >> 6));
 }
 
-// That of its points.
+// The bounding box of the points of a brick.
 constexpr LatticeBox BoxOf(BrickCoordinates brick) {
   return {PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)};
 }

@@ -12,22 +12,21 @@
 namespace bccskel {
 
 // The 14 bricks that hold the N14 neighbors of a brick's points.
-//   [0..7]  the other sublattice, same or one step back (even brick) or forth (odd brick) per axis:
-//           bit 0 of the position says a step along x, bit 1 along y, bit 2 along z; [0] is the
-//           brick at the same coordinates.
+//   [0..7]  the other sublattice; per axis the same brick or the previous (even brick) or next (odd
+//           brick) one: bit 0 of the position stands for a step along x, bit 1 along y, bit 2 along
+//           z; [0] is the brick at the same coordinates.
 //   [8..13] the same sublattice, one brick along +x, -x, +y, -y, +z, -z.
-// A brick that is not stored is given as the index of the padding brick, keys.size().
+// A brick that is not stored has the index of the padding brick, keys.size().
 using BrickNeighborhood = std::array<BrickIndex, 14>;
 
 // Shapes: `keys` strictly increasing; one neighborhood per key.
 // Cost:   11 linear merges of the key list with itself.
 std::vector<BrickNeighborhood> FindBrickNeighbors(std::span<const BrickKey> keys);
 
-// The table of one list of keys, made on first use and shared by copies.
-// Threads: safe.
+// The neighborhoods for one list of keys, computed on first use and shared by copies.
 class LazyBrickNeighbors {
  public:
-  // Needs: always the same keys.
+  // Needs: the same keys in every call.
   std::span<const BrickNeighborhood> Of(std::span<const BrickKey> keys) const;
 
   // Independent of the points, so comparisons of volumes ignore it.

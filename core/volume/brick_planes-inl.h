@@ -93,7 +93,7 @@ HWY_INLINE BrickLane PlusBits(BrickLane sum, const Plane& plane) {
 }
 HWY_INLINE uint64_t TotalOf(BrickLane sum) { return hn::GetLane(hn::SumOfLanes(BrickTag(), sum)); }
 
-// Which way the cells of the neighbor plane lie: kDown takes the cell with the smaller index.
+// The direction of the neighbor plane's cells: kDown takes the cell with the smaller index.
 enum class Step : uint8_t { kDown, kUp };
 
 #undef BCCSKEL_HAVE_FUNNEL_SHIFT
@@ -206,7 +206,7 @@ template <Step kStep>
 struct PlaneReader {
   const BrickBits* bricks;
   const BrickNeighborhood& neighbors;
-  size_t stride = 1;  // from one brick to the next, where several planes of a brick lie together
+  size_t stride = 1;  // between bricks, where several planes of a brick are stored together
 
   HWY_INLINE Plane Brick(size_t position) const {
     return LoadPlane(bricks[neighbors[position] * stride]);

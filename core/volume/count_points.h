@@ -8,8 +8,8 @@
 
 namespace bccskel {
 
-// The number of set bits. Counted in registers: one by one, each word would cost a call into the
-// compiler's library, which may not assume that the processor can count bits.
+// The number of set bits, counted in vector registers: counting word by word would call into the
+// compiler's library for each, since the baseline instruction set has no population count.
 uint64_t CountPoints(std::span<const BrickBits> bricks);
 
 }  // namespace bccskel

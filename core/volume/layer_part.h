@@ -9,19 +9,20 @@
 
 namespace bccskel {
 
-// Every count-th layer of bricks, from layer `index` on: what one of several readers takes of an
-// object. Layers in turn give all of them about as much, wherever in its box the object lies.
+// Every count-th layer of bricks, starting with layer `index`: the part of an object that one of
+// several readers takes. Interleaved layers give every reader about the same amount, wherever the
+// object lies in its box.
 // Needs: 0 <= index < count.
 struct LayerPart {
   int32_t index = 0;
   int32_t count = 1;
 
   constexpr bool Has(int32_t bz) const { return bz % count == index; }
-  // Or a layer beside one that it has.
+  // Whether the part has this layer or one beside it.
   constexpr bool IsNear(int32_t bz) const { return Has(bz - 1) || Has(bz) || Has(bz + 1); }
 };
 
-// The bricks of the part's layers.
+// Returns the object with only the bricks of the part's layers.
 inline Volume OnlyLayers(const Volume& object, const LayerPart& part) {
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bricks;

@@ -42,23 +42,24 @@ class Volume {
   std::span<const BrickKey> keys() const { return keys_; }  // strictly increasing
   // bricks()[n] belongs to keys()[n].
   std::span<const BrickBits> bricks() const { return {bricks_.data(), keys_.size()}; }
-  // One longer: the last brick is empty and stands for every brick that is not stored.
+  // The same with a padding brick at the end, which is empty and stands for every brick that is not
+  // stored.
   std::span<const BrickBits> padded_bricks() const { return bricks_; }
-  // neighbors()[n] are the bricks around keys()[n]. Found on first use and kept, since every stage
-  // asks for them.
+  // neighbors()[n] are the bricks around keys()[n]. Computed on first use and kept, since every
+  // stage needs them.
   std::span<const BrickNeighborhood> neighbors() const { return neighbors_.Of(keys_); }
 
-  // What is known, where not all is: whoever measures distances then takes no point outside for
-  // background. Needs: in a stored brick the points outside are set.
+  // The box in which the object is known; none: everywhere. Distances take no point outside it for
+  // background. Needs: in stored bricks, the points outside the window are set.
   const std::optional<LatticeBox>& window() const { return window_; }
   void SetWindow(const std::optional<LatticeBox>& window) { window_ = window; }
-  // Whether all of the brick lies outside the window. Bricks before the first ones cannot be
-  // stored: along an axis where the window has no end they are all background, whose points outside
-  // the window lie no nearer to those in it than others do.
+  // Whether all of the brick lies outside the window. Bricks with negative coordinates cannot be
+  // stored. Along an axis on which the window does not end they are all background, and their
+  // points outside the window are no nearer to points inside than others.
   bool IsUnknown(const BrickCoordinates& brick) const {
     return window_.has_value() && !IsBefore(brick) && !window_->Meets(BoxOf(brick));
   }
-  // Whether some of it does.
+  // Whether some of the brick lies outside the window.
   bool IsPartlyUnknown(const BrickCoordinates& brick) const {
     return window_.has_value() && !IsBefore(brick) && !window_->Contains(BoxOf(brick));
   }
@@ -82,7 +83,7 @@ class Volume {
   friend bool operator==(const Volume&, const Volume&) = default;
 
  private:
-  // Whether it lies before the first bricks, but only where the window has no end.
+  // Whether the brick has a negative coordinate along an axis on which the window does not end.
   bool IsBefore(const BrickCoordinates& brick) const {
     const LatticePoint& low = window_->low;
     const auto ends_before = [](int32_t b, int32_t from) { return b < 0 && from >= 0; };
