@@ -88,7 +88,7 @@ class EuclideanStream {
     return true;
   }
 
-  // The field that results are stored in from now on; null if none is kept.
+  // The storage of the field for squares of type T; null if no field is kept.
   template <typename T>
   T* RoomFor() {
     using Squares = exec::UninitializedVector<T>;
@@ -100,7 +100,7 @@ class EuclideanStream {
     return has_field_ ? std::get<Squares>(field_).data() : nullptr;
   }
 
-  // Values known so far are right in both types.
+  // Squares measured so far are right in both types.
   template <typename T>
   exec::UninitializedVector<T> AsOtherSquares() const {
     exec::UninitializedVector<T> squares((object_.brick_count() + 1) * kBrickPoints);

@@ -224,7 +224,7 @@ void ExactRadius::TakeFromBackground(LatticePoint q) {
   if (last_.at == q) last_ = kOutside;
 }
 
-// Copies the brick for a change; one that is not stored is created, for all of its places.
+// The index of a brick to be changed; one that is not stored is created, for all of its places.
 BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
   const BrickIndex stored = near_bricks_.Find(brick), none = near_bricks_.none();
   if (stored != none) return stored;

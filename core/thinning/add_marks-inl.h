@@ -1,5 +1,5 @@
-// How kernels hand over what they mark in a brick. Include it inside a Highway foreach_target
-// source.
+// How kernels return the points that they mark in a brick. Include it inside a Highway
+// foreach_target source.
 
 #include <cstddef>
 #include <vector>
@@ -19,15 +19,15 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-// Appends the points as marks if there are any. It always writes and then advances by a comparison:
-// a branch on what is often there is mispredicted too often to pay.
+// Appends the points as marks if there are any. Always writes and then advances by the result of a
+// comparison: a branch that is often taken would be mispredicted too often.
 HWY_INLINE void Append(const Plane& marks, BrickIndex brick, MarkedBrick* marked, size_t& count) {
   StorePlane(marks, marked[count].marks);
   marked[count].brick = brick;
   count += IsEmpty(marks) ? 0 : 1;
 }
 
-// The same for what is rarely there.
+// The same for marks that are rare.
 HWY_INLINE void AddIfAny(const Plane& marks, BrickIndex brick, std::vector<MarkedBrick>& marked) {
   if (IsEmpty(marks)) return;
   marked.push_back({{}, brick});

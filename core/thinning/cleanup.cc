@@ -15,7 +15,7 @@ struct Address {
 };
 
 // Points that may be simple, by subfield. Removals only take neighbors away, so a point that is not
-// among them at first never will be.
+// among them at first never becomes one.
 class PossiblySimplePoints {
  public:
   explicit PossiblySimplePoints(const ThinningState& state) {

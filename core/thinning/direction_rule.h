@@ -13,10 +13,10 @@ enum class DirectionOrder : uint8_t {
   kAlternating,  // 7 to 0 in every second cycle
 };
 
-// Does:  eight passes a cycle, one along each direction of D8 (Fig. 9).
-// Paper: Conditions 1 to 4. The order of the directions is open in the text; in one that never
-//        changes, the first ones always come first and pull the curve to their side.
-// Why it is right: see mark_removable.h; any order of passes is.
+// Does:  eight passes per cycle, one along each direction of D8 (Fig. 9).
+// Paper: Conditions 1 to 4. The text leaves the order of the directions open; in a fixed order, the
+//        first directions always come first and pull the curve to their side.
+// Why it is right: see mark_removable.h; the passes may come in any order.
 class DirectionRule : public PassRule {
  public:
   // `state` must outlive the rule.

@@ -29,8 +29,8 @@ HWY_INLINE Plane AtMostOne(const Plane& a, const Plane& b, const Plane& c, const
   return AndNot(Or(two, And(Or(a, b), Or(c, d))), among);
 }
 
-// Conditions 1 to 4. `kAxes` are the axes of d. Most bricks have no candidates with at most one
-// object neighbor along y and z, so that is tested before the end points are looked for.
+// Conditions 1 to 4. `kAxes` are the axes of d. In most bricks no candidate has at most one object
+// neighbor along y and z, so that is tested before searching for end points.
 template <Sublattice kSublattice, int kAxes>
 HWY_INLINE Plane Removable(const ObjectView& view, BrickIndex brick,
                            std::vector<MarkedBrick>& ends) {

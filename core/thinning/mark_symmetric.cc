@@ -71,10 +71,11 @@ size_t MarkIsthmusesIn(const ObjectView& view, SkeletonKind kind,
   return count;
 }
 
-// For each of a set of neighbors, a plane of the points that have a color higher than it. Colors
-// are (x + y + z + pass) mod 4: D6 neighbors are two apart, D8 neighbors one or minus one.
+// For each of a set of neighbors, a plane of the points whose color is higher than that neighbor's.
+// Colors are (x + y + z + pass) mod 4: those of D6 neighbors differ by two, those of D8 neighbors
+// by one or minus one.
 struct HigherColor {
-  Plane by_step[4];  // that of the neighbor less that of the point, modulo 4
+  Plane by_step[4];  // by color of the neighbor minus that of the point, modulo 4
 
   HWY_INLINE HigherColor(Sublattice sublattice, int32_t pass) {
     // Cells with an odd sum of indices; a brick starts at an even one.
@@ -100,7 +101,7 @@ struct HigherColor {
   static constexpr uint64_t kOddInEvenLayer = 0x5555aaaa5555aaaa;
 };
 
-// What subtracting two planes of bits borrows from the next place.
+// The borrow of subtracting two bit planes.
 HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borrowed) {
 #if HWY_TARGET <= HWY_AVX3
   return {{BrickLane{
@@ -110,9 +111,9 @@ HWY_INLINE Plane Borrow(const Plane& from, const Plane& bits, const Plane& borro
 #endif
 }
 
-// For each neighbor, the points whose priority is higher than its. Depths of neighbors differ by
-// at most nine quarters, so the sign of their difference modulo 32 decides; a point that wins by
-// its color needs no more than an equal depth.
+// For each neighbor, the points with a higher priority. Depths of neighbors differ by at most nine
+// quarters, so the sign of their difference modulo 32 decides; a point with the higher color also
+// wins at equal depth.
 template <Sublattice kSublattice>
 HWY_INLINE void HigherThanNeighbors(const RuleBView& view, BrickIndex brick,
                                     const HigherColor& color, Plane (&higher)[14]) {
@@ -138,7 +139,7 @@ HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
   for (int n = 0; n < 14; ++n) planes[n] = And(planes[n], with[n]);
 }
 
-// The next pass visits bricks that lost points again.
+// The next pass revisits bricks where points were sent back.
 HWY_INLINE void MarkDirtyIf(const Plane& sent_back, DirtyMask& brick) {
   brick = static_cast<DirtyMask>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsDirty));
 }

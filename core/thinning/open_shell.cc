@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-// Planes are read from far away, a brick in some place at a time: a processor waits for fewer lines
-// at once than it can have under way.
+// Planes are not in cache and read in no order, so prefetch them: otherwise the processor waits for
+// fewer cache lines at once than it could.
 constexpr size_t kAhead = 6;
 HWY_INLINE BrickIndex Ahead(std::span<const BrickIndex> bricks, size_t at) {
   return bricks[std::min(at + kAhead, bricks.size() - 1)];

@@ -13,13 +13,13 @@
 
 namespace bccskel {
 
-// Shells that are cut out of the planes together: planes lie far away, six to a brick, and would
-// otherwise be read for every shell. Whole groups of them share all but two planes.
+// The number of shells extracted from the planes at a time: planes are not in cache, six per brick,
+// and would otherwise be read for every shell. Aligned groups of shells share all but two planes.
 inline constexpr int32_t kShellsAtOnce = 4;
 
-// The points of the shells from `first` on, modulo 64.
-// Shapes: `points` has room for kShellsAtOnce times the bricks; those of shell first + k in the
-//         bricks begin at k times the number of bricks.
+// Extracts the points of kShellsAtOnce shells from `first` on, modulo 64.
+// Shapes: `points` has room for kShellsAtOnce times the bricks; the points of shell first + k begin
+//         at k times the number of bricks.
 // Needs:  first is a multiple of kShellsAtOnce.
 void CutShells(std::span<const ShellPlanes> planes, int32_t first,
                std::span<const BrickIndex> bricks, BrickBits* points);
@@ -27,7 +27,7 @@ void CutShells(std::span<const ShellPlanes> planes, int32_t first,
 // What opening a shell reads and changes.
 struct OpeningView {
   const BrickBits* object = nullptr;
-  const BrickBits* kept = nullptr;  // points that never go; null if there are none
+  const BrickBits* kept = nullptr;  // points that are never removed; null if there are none
   BrickBits* candidates = nullptr;
   DirtyBricks dirty;
   DirtyMask* enabled = nullptr;

@@ -14,14 +14,14 @@ namespace bccskel {
 // The bricks in which one worker marks points during a pass. Only grows.
 class MarkBuffer {
  public:
-  // Room for `count` more bricks, of which Add() then keeps some.
+  // Returns room for `count` more bricks, some of which Add() then keeps.
   MarkedBrick* Room(size_t count) {
     if (marked_.size() < count_ + count) marked_.resize(count_ + count);
     return marked_.data() + count_;
   }
   void Add(size_t count) { count_ += count; }
   void Clear() { count_ = 0; }
-  // Keeps the bricks that `stays` says yes to.
+  // Keeps only the bricks for which `stays` returns true.
   template <typename Stays>
   void Filter(Stays stays) {
     size_t kept = 0;
@@ -37,16 +37,16 @@ class MarkBuffer {
   size_t count_ = 0;
 };
 
-// Where a sweep is: shells are thinned in cycles, cycles consist of passes, and a pass marks in
-// steps before it removes.
+// The position of a sweep: shells are thinned in cycles, cycles consist of passes, and a pass marks
+// points in steps before it removes them.
 struct PassStep {
   int32_t shell = 0;
   int32_t cycle = 0;  // counted over all shells
-  int pass = 0;       // of the cycle
-  int step = 0;       // of the pass
+  int pass = 0;       // within the cycle
+  int step = 0;       // within the pass
 };
 
-// How a pass chooses the points to remove. The object stays as it is until all steps of a pass are
+// How a pass chooses the points to remove. The object does not change until all steps of a pass are
 // done, and no worker begins a step before all have finished the one before.
 // Threads: Mark() and Finish() are called by several workers at once, for different bricks.
 class PassRule {
@@ -55,17 +55,17 @@ class PassRule {
 
   virtual int passes_per_cycle() const = 0;
   virtual int steps() const = 0;
-  // Of a pass, in the unit of Context::WorkersFor().
+  // Work of a pass per brick, for Context::WorkersFor().
   virtual size_t work() const = 0;
   // A pass visits bricks that are dirty in one of these bits.
   virtual DirtyMask BitsToVisit(const PassStep& at) const = 0;
 
   // Marks points to remove in the listed bricks. May shorten the lists, which the next step of the
-  // pass gets, and make listed bricks dirty again. The first step adds the listed bricks' end
-  // points to `ends`, if end points stay.
+  // pass receives, and make listed bricks dirty again. The first step adds the end points of the
+  // listed bricks to `ends`, if end points are kept.
   virtual void Mark(const PassStep& at, BrickLists& bricks, DirtyMask* dirty, MarkBuffer& marks,
                     std::vector<MarkedBrick>& ends) = 0;
-  // After the last step, while workers remove.
+  // Called after the last step, while workers remove points.
   virtual void Finish(const BrickLists& bricks) = 0;
 };
 

@@ -9,14 +9,14 @@
 
 namespace bccskel {
 
-// Tells which points of an object have gone since it was last asked.
+// Finds the points of an object that were removed since the last call.
 class PeeledPoints {
  public:
   // `object` must outlive this.
   explicit PeeledPoints(const Volume& object)
       : object_(object), before_(object.bricks().begin(), object.bricks().end()) {}
 
-  // Shapes: `now` in the brick order of the object, padding or not; a part of what it was before.
+  // Shapes: `now` in the brick order of the object, padded or not; a subset of the previous one.
   Volume Take(std::span<const BrickBits> now) {
     std::vector<BrickKey> keys;
     std::vector<BrickBits> gone;

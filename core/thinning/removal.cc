@@ -17,8 +17,8 @@
 namespace bccskel {
 namespace {
 
-// The position in a BrickNeighborhood at which the neighbor p + offset of a point p may be stored,
-// if it is not in the brick that `position` names: whether the offset can lead there.
+// Whether the neighbor p + offset of a point p may be stored in the brick at `position` of a
+// BrickNeighborhood.
 constexpr bool LeadsTo(Sublattice sublattice, int position, int direction) {
   if (position >= 8 || direction >= 8) return position == direction;
   // Steps along an axis towards the sublattice's side may leave the brick, the others cannot.
@@ -26,8 +26,9 @@ constexpr bool LeadsTo(Sublattice sublattice, int position, int direction) {
   return (position & ~toward) == 0;
 }
 
-// What a removal can make dirty in the brick at each position. Removing r can make p removable
-// along d only if d.(r - p) < 0: either r is p - d, or it stood on the left of an implication.
+// The bits that a removal can make dirty in the brick at each position. Removing r can make p
+// removable along d only if d.(r - p) < 0: either r is p - d, or r was the left side of an
+// implication.
 constexpr std::array<std::array<DirtyMask, 14>, 2> kWakes = [] {
   std::array<std::array<DirtyMask, 14>, 2> wakes = {};
   for (size_t sublattice = 0; sublattice < 2; ++sublattice) {
@@ -48,8 +49,8 @@ constexpr std::array<std::array<DirtyMask, 14>, 2> kWakes = [] {
   return wakes;
 }();
 
-// Which sides of a brick removed points touch: bits 0 to 2 the low sides along x, y and z, bits 3
-// to 5 the high ones.
+// The sides of a brick that removed points touch: bits 0 to 2 the low sides along x, y and z, bits
+// 3 to 5 the high ones.
 using Sides = uint32_t;
 
 // Whether points at these sides have neighbors in the brick at a position.
@@ -63,8 +64,8 @@ constexpr bool Sees(Sublattice sublattice, Sides sides, int position) {
   return ((position % 2 == 0 ? high : low) >> axis & 1) != 0;
 }
 
-// What a removal makes dirty around it, by sublattice and sides: a table because the loop over the
-// neighbors has no other branch that could be mispredicted.
+// The bits that a removal makes dirty in the bricks around, by sublattice and sides. A table, so
+// that the loop over the neighbors has no branch that could be mispredicted.
 using WakeRow = std::array<DirtyMask, 14>;
 using WakeRows = std::array<std::array<WakeRow, 64>, 2>;
 constexpr WakeRows kWakeRows = [] {
@@ -99,7 +100,7 @@ HWY_INLINE Sides SidesOf(const BrickBits& removed) {
          bit(any & 0x8000800080008000, 3) | bit(any >> 48, 4) | bit(removed.words[7], 5);
 }
 
-// Takes the points out of the brick and makes it dirty. Most bricks run out of candidates before
+// Removes the points from the brick and makes it dirty. Most bricks run out of candidates before
 // the next shell opens; visiting them again would be two thirds of all pre-tests.
 HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
   const Plane left_over = AndNot(LoadPlane(m.marks), LoadPlane(view.object[m.brick]));

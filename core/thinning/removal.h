@@ -18,7 +18,7 @@ struct RemovalView {
   const BrickBits* candidates = nullptr;
   const BrickNeighborhood* neighbors = nullptr;
   DirtyBricks dirty;
-  DirtyMask* enabled = nullptr;  // what may become dirty; 0 while there are no candidates
+  DirtyMask* enabled = nullptr;  // bits that may become dirty; 0 while there are no candidates
   int32_t* changed = nullptr;    // the cycle in which points were last removed
   int32_t cycle = 0;
   BrickIndex first = 0;  // own bricks
@@ -26,8 +26,8 @@ struct RemovalView {
   BrickIndex none = 0;  // the padding brick
 };
 
-// Removes the marked points, marks the sleeping bricks that see them dirty, and appends to
-// `elsewhere` those outside [first, last). Returns: the number of points removed.
+// Removes the marked points, makes the sleeping bricks that border on them dirty, and appends those
+// outside [first, last) to `elsewhere`. Returns: the number of points removed.
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
                       std::vector<BrickIndex>& elsewhere);
 

@@ -32,14 +32,14 @@ void ShellOpener::CutFrom(int32_t first) {
   }
   cut_from_ = first;
   const size_t room = static_cast<size_t>(kShellsAtOnce) * opening_.size();
-  if (points_.capacity() < room) points_ = {};  // growing would keep both for a while
+  if (points_.capacity() < room) points_ = {};  // growing would hold both blocks for a while
   points_.resize(room);
   CutShells(shells_->planes(), first, opening_, points_.data());
   ClearOtherShells();
 }
 
-// Planes tell shells modulo 64, so those that are cut together with shells of a brick may seem to
-// be others of its shells, where it has nearly as many.
+// Planes store shells modulo 64. Where a brick has nearly as many shells, a group of them may also
+// match other shells of the brick.
 void ShellOpener::ClearOtherShells() {
   for (size_t at = 0; at < opening_.size(); ++at) {
     const Shells::Range range = shells_->RangeOf(opening_[at]);

@@ -13,16 +13,17 @@
 
 namespace bccskel {
 
-// Opens one shell after the other in some bricks: its points become candidates (Condition 5).
+// Opens shells one after the other in some bricks: the points of a shell become candidates
+// (Condition 5).
 class ShellOpener {
  public:
   // Needs: `shells` outlive this.
   void Begin(const Shells& shells, exec::Share bricks);
 
-  // Returns: how many points the shell has. Needs: shells come in their order, from 1 on.
+  // Returns: the number of points of the shell. Needs: shells are opened in order, from 1 on.
   uint64_t Open(const OpeningView& view, int32_t shell);
 
-  // From now on the other's bricks are opened here, too.
+  // Takes over the bricks of another opener.
   void TakeOver(ShellOpener& other);
 
  private:
@@ -32,9 +33,9 @@ class ShellOpener {
 
   const Shells* shells_ = nullptr;
   std::vector<BrickIndex> by_first_shell_;  // in the order in which shells reach them
-  size_t reached_ = 0;                      // how many of them have been reached
-  // Shells are cut kShellsAtOnce at a time: the first of those, the bricks with points in them, and
-  // the points as CutShells() has them.
+  size_t reached_ = 0;                      // number of those reached so far
+  // Shells are extracted kShellsAtOnce at a time: the first of the current group, the bricks with
+  // points in the group, and the points in the layout of CutShells().
   static constexpr int32_t kNone = -1;
   int32_t cut_from_ = kNone;
   std::vector<BrickIndex> opening_;

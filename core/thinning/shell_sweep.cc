@@ -62,7 +62,7 @@ class ShellSweep {
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
     Prepare(index, worker);
-    int32_t cycle = done_;  // each of those shells had one
+    int32_t cycle = done_;  // each of those shells took one cycle
     for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
     for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
       OpenShell(worker, shell);
@@ -101,7 +101,7 @@ class ShellSweep {
     }
   }
 
-  // Returns whether this worker goes on; worker 0 takes over from the others, once.
+  // Returns whether this worker continues; worker 0 takes over from the others, once.
   bool JoinedInOne(int index, Worker& first) {
     team_.Meet(index);  // the others have left their bricks
     if (index != 0) return false;
@@ -142,11 +142,11 @@ class ShellSweep {
     for (ShellOpener& opener : worker.ghost_openers) opener.Open(view, shell);
   }
 
-  // With a single pass a cycle there is nothing to gain from visiting bricks that did not change.
+  // With a single pass per cycle nothing is gained from visiting bricks that did not change.
   bool sleeps() const { return rule_.passes_per_cycle() > 1; }
 
-  // Bricks around which nothing has changed in this cycle have been visited in all its passes,
-  // so they are settled. All that are awake were listed in the last one.
+  // Bricks around which nothing changed in this cycle were visited in all of its passes, so they
+  // are settled. The last pass listed all bricks that are awake.
   void FallAsleep(Worker& worker, int32_t cycle) {
     worker.beside_sleepers_elsewhere.clear();
     for (const Part& part : worker.parts) {
@@ -184,12 +184,12 @@ class ShellSweep {
 
   DirtyBricks DirtyView() { return {dirty_.data(), busy_groups_.data()}; }
 
-  // One more than full groups, so that there is room for the padding brick.
+  // One more than the full groups, so that there is room for the padding brick.
   size_t groups() const { return state_.brick_count() / kDirtyGroup + 1; }
 
   // One pass. Returns false when the job was stopped; all workers return the same.
   bool Pass(int index, Worker& worker, PassStep at) {
-    team_.Await(index);  // what others removed near here is gone
+    team_.Await(index);  // others have removed their points near here
     if (index == 0) {
       if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
@@ -197,11 +197,11 @@ class ShellSweep {
     TakeOverDirty(worker);
     if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
-      if (at.step > 0) team_.Await(index);  // and what they did in the step before is done
+      if (at.step > 0) team_.Await(index);  // others have finished the previous step
       if (index == 0) context_.Yield();
       BorderFirst(index, worker, [&](Part& part) { Mark(at, part); });
     }
-    team_.Await(index);  // nobody reads any more what is removed near others
+    team_.Await(index);  // no worker reads points near its border any more
     if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(worker);
     worker.seen_elsewhere.clear();
@@ -210,9 +210,9 @@ class ShellSweep {
     return true;
   }
 
-  // While a slab is at its first step, those behind it are each at a later one, so that all a pass
-  // touches stays near. A step of a slab reads what slabs beside it were left by the step before,
-  // and their object, which they lose after that.
+  // While a slab is at its first step, each slab before it is one step further, so that all data of
+  // a pass stay in near caches. A step of a slab reads what the previous step left in the adjacent
+  // slabs, and their points, which they remove later.
   bool PassInSlabs(Worker& worker, PassStep at) {
     const auto steps = static_cast<size_t>(rule_.steps());
     for (size_t n = 0; n < worker.slabs.size() + steps && !stopped_; ++n) {
@@ -233,7 +233,7 @@ class ShellSweep {
     return !stopped_;
   }
 
-  // What ghosts lose their owners know.
+  // The owners of ghosts know which points these lose.
   void TradeMarks(int index, int32_t cycle, Worker& worker) {
     for (Part& part : worker.parts) {
       part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrMarkDirty(m.brick); });
@@ -251,14 +251,14 @@ class ShellSweep {
     RemoveMarked(ViewFor(cycle, worker), worker.ghost_marks, worker.seen_elsewhere);
   }
 
-  // A ghost whose marks are dropped has simple points still, so it must be visited again.
+  // A ghost whose marks are dropped still has simple points, so it must be visited again.
   bool IsOwnOrMarkDirty(BrickIndex n) {
     if (n >= own_.begin && n < own_.end) return true;
     DirtyView().Add(n, enabled_[n]);
     return false;
   }
 
-  // Returns whether all go on; the sums are then those of all partners.
+  // Returns whether all continue; the sums are then those of all partners.
   bool Agree(int index, int32_t shell) {
     if (index == 0) {
       std::array<uint64_t, 3> sums = {RemovedHere(), ShellPointsHere(shell),
@@ -272,8 +272,8 @@ class ShellSweep {
     return !stopped_;
   }
 
-  // The bricks near others' first: while this worker is at the rest, others learn that they are
-  // done, so that hardly anybody has to wait.
+  // Processes the bricks that border on others' first and then signals; while this worker processes
+  // the rest, others learn that they are done, so that hardly any worker has to wait.
   template <typename Work>
   void BorderFirst(int index, Worker& worker, Work work) {
     for (Part& part : std::span(worker.parts).first(2)) {

@@ -18,16 +18,16 @@ struct SweepPlan {
   const Shells& shells;
   int32_t last = 0;  // shell
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
-  // Called on worker 0 after each shell, while nobody removes anything.
+  // Called on worker 0 after each shell, while no worker removes points.
   std::function<void(int32_t shell)> after_shell = nullptr;
-  // Null: the object is all here.
+  // Null: this sweep has the whole object.
   SweepPartners* partners = nullptr;
-  // Shells that were thinned before, less than `last`: the state is what they left. Totals are of
+  // Shells that were thinned earlier, fewer than `last`: the state is their result. Totals count
   // the rest.
   int32_t done = 0;
 };
 
-// What the options make of a plan.
+// The parts of a plan that follow from the options.
 int32_t LastShellOf(const ThinningOptions& options, const Shells& shells);
 StubblePolicy StubbleOf(const ThinningOptions& options);
 
@@ -39,16 +39,17 @@ struct SweepTotals {
 // Does:  the algorithm of section 5: for each shell, one cycle of the rule's passes; on the last
 //        shell cycles repeat until a whole cycle removes nothing.
 // Paper: Figs. 9 and 10; Condition 5 (candidates are the remaining points of shells <= the current
-//        one) and Condition 6 (stubble points go in the same pass).
-// Why it is right: a pass marks on a frozen object and removes afterwards, which is what the proofs
-//        of the rules need, whatever the order and the number of workers.
-// Cost:  in a cycle of several passes each of them visits a brick until a whole cycle
-//        changes neither it nor a brick around; then, and with one pass a cycle always, only after
-//        a change.
+//        one) and Condition 6 (stubble points are removed in the same pass).
+// Why it is right: a pass marks points on a frozen object and removes them afterwards, as the
+//   proofs of the rules require, for any order and any number of workers.
+// Cost:  with several passes per cycle, each pass visits a brick until neither the brick nor one
+//        around it has changed for a whole cycle; after that, and always with one pass per cycle,
+//        only after a change.
 // Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
-// Threads: worker w owns a contiguous range of bricks; one more barrier per pass than it has steps.
-// Partners: exchange what bricks lose once per pass, and sums once per cycle; the same points
-//        removed. Totals and progress are those of all; stop requests take effect after a cycle.
+// Threads: worker w owns a contiguous range of bricks; a pass has one more barrier than steps.
+// Partners: exchange the points that bricks lose once per pass, and sums once per cycle; the same
+//           points removed. Totals and progress are those of all; stop requests take effect after a
+//           cycle.
 // Errors:  CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SweepTotals> SweepShells(const SweepPlan& plan, PassRule& rule,
                                         const exec::Context& context, ThinningState& state);

@@ -7,7 +7,7 @@
 namespace bccskel {
 namespace {
 
-// How many end points stand before direction `before` among the neighbors of a point.
+// The number of end points among the neighbors of a point that come before direction `before`.
 int EndPointsBefore(const ThinningState& state, const NeighborAddress& q, NeighborMask neighbors,
                     Direction before) {
   int count = 0;

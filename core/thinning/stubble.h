@@ -9,11 +9,11 @@ namespace bccskel {
 
 // End points of one brick, judged on the frozen object.
 struct JudgedEnds {
-  // Condition 6. A stubble point's neighbor is never removed in the same pass: it is neither an end
-  // point nor simple, so the topology is kept.
+  // Condition 6. The neighbor of a stubble point is never removed in the same pass: it is neither
+  // an end point nor simple. So the topology stays.
   BrickBits stubble;
-  // No pass will remove these: no rule removes an end point but as stubble, and the neighbor has
-  // two neighbors at most and gets no more.
+  // End points that no pass will remove: rules remove end points only as stubble, and the neighbor
+  // has at most two neighbors and gets no more.
   BrickBits stay;
 };
 

@@ -23,7 +23,7 @@ struct SweepPart {
   BrickLists to_do;
   BrickLists end_points_to_do;
   std::vector<MarkedBrick> ends;  // end points, judged as stubble or not
-  MarkBuffer marks;               // of this pass
+  MarkBuffer marks;               // of the current pass
 
   bool empty() const { return bricks.begin == bricks.end; }
 };
@@ -31,46 +31,48 @@ struct SweepPart {
 // One worker's bricks and buffers.
 struct alignas(128) SweepWorker {
   exec::Share bricks = {0, 0};
-  // Its bricks near others' below and above, and those between.
+  // Its bricks near those of others below and above, and the bricks between.
   std::array<SweepPart, 3> parts;
-  // Where it is alone: see SweepShells(). Parts take turns at the slabs.
+  // Used if it works alone, see SweepShells(). Parts take turns at the slabs.
   std::vector<exec::Share> slabs;
   std::vector<SweepPart> slab_parts;
   ShellOpener opener;
-  // Of partners' bricks below and above its own, whose points do not count here.
+  // For partners' bricks below and above its own, whose points are not counted here.
   std::array<ShellOpener, 2> ghost_openers;
 
   // Bricks of other workers that border on points removed here. Written while points are removed
   // and read by their owners before the next marks.
   std::vector<BrickIndex> seen_elsewhere;
-  // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
+  // Bricks of other workers beside a brick that fell asleep here. Written between cycles and read
+  // in the first pass.
   std::vector<BrickIndex> beside_sleepers_elsewhere;
   std::vector<MarkedBrick> ghost_marks;  // what its ghosts lose in this pass
   uint64_t removed = 0;
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 };
 
-// Makes the parts of a worker's bricks. Whether a point goes depends on points three steps away, so
-// bricks with a layer of bricks between them and others' have nothing to do with those.
+// Splits a worker's bricks into parts. Whether a point is removed depends on points up to three
+// steps away, so bricks that are separated from those of others by a layer of bricks do not depend
+// on them.
 void SplitParts(const ThinningState& state, SweepWorker& worker);
 
-// Makes slabs of all bricks, of which only those next to each other touch, and parts for passes of
-// so many steps.
+// Splits all bricks into slabs, of which only consecutive ones touch, and creates parts for passes
+// of `steps` steps.
 void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 
-// Marks the bricks that border on other workers'.
+// Marks the bricks that border on those of other workers.
 void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty);
 
-// Condition 6, for the end points that the rule found and those of bricks listed for them. End
-// points that stay for good are no candidates from then on. Whether another one is a stubble point
+// Applies Condition 6 to the end points that the rule found and those of bricks listed for them.
+// End points that stay for good are no longer candidates. Whether another one is a stubble point
 // depends on points up to three steps away, so its brick stays dirty for end points.
 void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask> dirty,
                  SweepPart& part);
 
-// Needs: `shells` outlive the worker; bricks outside of `own` are partners'.
+// Needs: `shells` outlive the worker; bricks outside `own` belong to partners.
 void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
 
-// Sends all marks of a pass to partners. Needs: those of ghosts are gone.
+// Sends all marks of a pass to partners. Needs: marks of ghosts have been removed.
 void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel

@@ -50,7 +50,7 @@ void SymmetricRule::KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBu
   }
 }
 
-// Takes points out of the candidates for good.
+// Removes points from the candidates for good.
 void SymmetricRule::Keep(int32_t pass, std::span<const MarkedBrick> points) {
   for (const MarkedBrick& m : points) {
     BrickBits& candidates = state_.candidates[m.brick];

@@ -14,20 +14,20 @@
 
 namespace bccskel {
 
-// Whether a kind of skeleton keeps end points, and with them has stubble.
+// Whether a kind of skeleton keeps end points and so has stubble.
 constexpr EndPoints EndPointsOf(SkeletonKind kind) {
   return kind == SkeletonKind::kCurve || kind == SkeletonKind::kSurface ? EndPoints::kStay
                                                                         : EndPoints::kMayGo;
 }
 
-// Does:  one pass a cycle for all sides at once: finds the simple points, then in three steps sends
-//        some of them back, so that the others may go together (rule B).
+// Does:  one pass per cycle for all sides at once: finds the simple points, then in three steps
+//        sends some of them back so that the others can be removed together (rule B).
 // Paper: the non-directional thinning of its outlook.
-// Why it is right: see mark_symmetric.h. A step needs what the step before has left in the bricks
-//        around, so workers meet between steps. A brick in no list has no simple candidates: it had
-//        none when last visited, and neither it nor a neighboring brick has changed since.
-// Cost:  a brick is visited again only after it, or a brick that it borders on, has changed, or
-//        if some of its points were sent back.
+// Why it is right: see mark_symmetric.h. A step needs the results of the previous step in the
+//   bricks around, so workers meet between steps. A brick in no list has no simple candidates: it
+//   had none when last visited, and neither it nor an adjacent brick has changed since.
+// Cost:  a brick is visited again only after it, or a brick on which it borders, has changed, or if
+//        some of its points were sent back.
 class SymmetricRule : public PassRule {
  public:
   // `depth` as from BuildDepths(). It and `state` must outlive the rule.
@@ -58,7 +58,7 @@ class SymmetricRule : public PassRule {
   const BrickDepths& depth_;
   const SkeletonKind kind_;
   ThinningState& state_;
-  // What each step leaves; padded, and empty between passes.
+  // The result of each step; padded, and empty between passes.
   std::array<std::vector<BrickBits>, 3> simple_;
   std::vector<uint8_t> larger_cliques_;
   std::mutex births_mutex_;

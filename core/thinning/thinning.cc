@@ -57,7 +57,7 @@ class Thinning {
   absl::StatusOr<ThinningResult> Run(const Shells& shells, const BrickDepths& depths) && {
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
     result_.times.shells = clock_.Lap();
-    // A symmetric pass removes something as long as anything is simple: nothing to clean up.
+    // A symmetric pass removes points as long as any are simple, so there is nothing to clean up.
     if (options_.method == ThinningMethod::kSymmetric) {
       BCCSKEL_RETURN_IF_ERROR(SweepSymmetrically(shells, depths));
     } else {

@@ -33,12 +33,12 @@ enum class ThinnessCleanup : uint8_t { kOn, kOff };
 
 // How points are chosen for removal.
 enum class ThinningMethod : uint8_t {
-  // The paper's: eight passes a shell, one along each direction of D8.
+  // The paper's: eight passes per shell, one along each direction of D8.
   kDirectional,
-  // The same with the order of the directions reversed on every second cycle, so that no side comes
-  // first each time.
+  // The same with the order of the directions reversed on every second cycle, so that no side
+  // always comes first.
   kDirectionalAlternating,
-  // One pass a shell for all sides at once, the paper's future work. Does not depend on an order of
+  // One pass per shell for all sides at once, the paper's future work. Independent of an order of
   // directions, so curves lie closer to the center.
   kSymmetric,
 };
@@ -47,24 +47,25 @@ constexpr Depths DepthsOf(ThinningMethod method) {
   return method == ThinningMethod::kSymmetric ? Depths::kWanted : Depths::kNone;
 }
 
-// What is kept besides the topology, and so what a thin result is. All but kCurve need kSymmetric.
+// What is kept besides the topology, which also defines when a result is thin. All but kCurve need
+// kSymmetric.
 enum class SkeletonKind : uint8_t {
-  // End points (Condition 2). Thin: no simple point is left but end points.
+  // End points (Condition 2). Thin: only end points are simple.
   kCurve,
-  // End points, and points once they separate the background around them (2-isthmuses). Thin: no
-  // simple point is left but end points and those.
+  // End points, and points as soon as they separate the background around them (2-isthmuses). Thin:
+  // only those are simple.
   kSurface,
-  // Nothing: a ball becomes a point, a torus a ring. Thin: no simple point is left.
+  // Nothing: a ball becomes a point, a torus a ring. Thin: no point is simple.
   kKernel,
-  // Points once they separate the object around them (1-isthmuses), instead of end points. Thin: no
-  // simple point is left but those.
+  // Points as soon as they separate the object around them (1-isthmuses), instead of end points.
+  // Thin: only those are simple.
   kIsthmusCurve,
 };
 
 struct ThinningOptions {
   ThinningMethod method = ThinningMethod::kDirectional;
   SkeletonKind kind = SkeletonKind::kCurve;
-  // Goes with end points: kinds that keep none have no stubble.
+  // Applies to end points; kinds that keep none have no stubble.
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
   ThinnessCleanup cleanup = ThinnessCleanup::kOn;
   // Thickness of a shell in lattice units (a D6 step is 2), kMinShellWidth to kMaxShellWidth.
@@ -80,14 +81,14 @@ absl::Status CheckThinningOptions(const ThinningOptions& options);
 
 struct ThinningTimes {
   std::chrono::nanoseconds shells{0};
-  std::chrono::nanoseconds passes{0};  // the volume that they leave included
+  std::chrono::nanoseconds passes{0};  // includes making the resulting volume
   std::chrono::nanoseconds cleanup{0};
 };
 
-// A point that its kind of skeleton keeps as an isthmus, and the pass in which it first was one,
-// counted from 1 over all shells. There is one pass a shell, and more at the last shell, so the
-// pass is about the depth at which what was around the point had gone. Early births belong to thin
-// parts and to noise on the surface.
+// A point that is kept as an isthmus, and the pass in which it first was one, counted from 1 over
+// all shells. Each shell takes one pass and the last one several, so the pass is roughly the depth to
+// which the object around the point had been peeled. Early births belong to thin parts and to noise
+// on the surface.
 struct IsthmusBirth {
   LatticePoint point;
   int32_t pass = 0;
@@ -100,22 +101,22 @@ struct ThinningResult {
   // Of kSurface and kIsthmusCurve, in lattice order.
   std::vector<IsthmusBirth> isthmuses;
   int32_t last_shell = 0;  // the deepest shell of the object
-  uint64_t removed = 0;    // by passes, which includes stubble
+  uint64_t removed = 0;    // by passes, including stubble
   uint64_t removed_by_cleanup = 0;
   uint32_t passes = 0;
   ThinningTimes times;
 };
 
-// Of the points of `thin`, in the order of Volume::ForEachPoint(); 0 for those that never were
-// isthmuses.
+// The births of the points of `thin`, in the order of Volume::ForEachPoint(); 0 for points that
+// never were isthmuses.
 std::vector<int32_t> BirthsOf(const ThinningResult& result);
 
-// Hears which points of the object went while a shell was thinned: once for each shell, in order,
-// also where none did; and, as shell `last_shell + 1`, those that went after the shells. Called on
-// worker 0 while the others go on, so the sooner it returns the better.
+// Receives the points that were removed while a shell was thinned: once for each shell, in order,
+// even if there are none; and, as shell `last_shell + 1`, those removed after the shells. Called on
+// worker 0 while the others continue, so it should return soon.
 using OnShellPoints = std::function<void(int32_t shell, Volume points)>;
 
-// Parallel thinning with shells: section 5, by the method and to the kind of skeleton wanted.
+// Parallel thinning with shells (section 5), by the given method and to the given kind of skeleton.
 // Cost:   with `on_points`, a copy of the object and a visit to all bricks after each shell.
 // Errors: INVALID_ARGUMENT (options), CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.
@@ -124,8 +125,8 @@ absl::StatusOr<ThinningResult> ThinObject(const Volume& object, const DistanceFi
                                           const exec::Context& context,
                                           const OnShellPoints& on_points = nullptr);
 
-// The same where the distances can be gone: shells of options.shell_width, and depths for the
-// symmetric method.
+// The same without distances: from shells of options.shell_width, and depths for the symmetric
+// method.
 absl::StatusOr<ThinningResult> ThinByShells(const Volume& object, const Shells& shells,
                                             const BrickDepths& depths,
                                             const ThinningOptions& options,

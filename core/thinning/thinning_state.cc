@@ -6,7 +6,7 @@ namespace bccskel {
 namespace {
 
 // Which of the 14 neighboring bricks holds a neighbor of a point, and at which bit; position -1 is
-// the point's own brick. Depends on the sublattice, the direction and the point's bit alone.
+// the point's own brick. Depends only on the sublattice, the direction and the point's bit.
 struct Hop {
   int8_t position;
   int16_t bit;
@@ -66,7 +66,7 @@ NeighborAddress NeighborAt(const ThinningState& state, BrickIndex brick, int bit
   return {state.neighbors[brick][static_cast<size_t>(hop.position)], hop.bit};
 }
 
-// Most diagonal neighbors lie in one brick, pairs of them side by side in a word.
+// Most diagonal neighbors lie in one brick, in pairs of adjacent bits of a word.
 unsigned ThinningState::DiagonalNeighborsOf(BrickIndex brick, int bit) const {
   const int back = SublatticeOf(brick) == Sublattice::kEven ? 1 : 0;
   const int i = (bit & 15) - back, j = ((bit >> 4) & 3) - back, k = (bit >> 6) - back;

@@ -17,8 +17,8 @@ namespace bccskel {
 struct ThinningState {
   std::span<const BrickKey> keys;
   std::vector<BrickBits> object;                    // padded with one empty brick
-  exec::UninitializedVector<BrickBits> candidates;  // points that may go
-  std::vector<BrickBits> kept;                      // empty, or points that never go
+  exec::UninitializedVector<BrickBits> candidates;  // points that may be removed
+  std::vector<BrickBits> kept;                      // empty, or points that are never removed
   std::span<const BrickNeighborhood> neighbors;
 
   ThinningState(const Volume& volume, std::span<const LatticePoint> keep);
@@ -28,7 +28,7 @@ struct ThinningState {
     return static_cast<Sublattice>(keys[brick].value() & 1);
   }
   ObjectView View() const {
-    constexpr size_t kNearBricks = 8192;  // 200 bytes each, of which the surface is at work
+    constexpr size_t kNearBricks = 8192;  // 200 bytes each; only bricks at the surface are in use
     return {object.data(), candidates.data(), neighbors.data(), brick_count() > kNearBricks};
   }
 
@@ -37,7 +37,7 @@ struct ThinningState {
 
   unsigned DiagonalNeighborsOf(BrickIndex brick, int bit) const;
 
-  // What is left, with the extent and placement of the volume it came from.
+  // The remaining points, with the extent and placement of the original volume.
   Volume ToVolume(const Volume& source) &&;
 };
 

@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 constexpr DirtyMask kSomeToDo = kDirectionsDirty | kEndPointsDirty | kAwake;
 
-// Bit n of each: what lane n of a group says.
+// Bit n of each belongs to lane n of a group.
 struct GroupBits {
   uint32_t found = 0;
   uint32_t end_points = 0;
@@ -93,8 +93,8 @@ void TakeDirtyTarget(const DirtyBricks& dirty, size_t first, size_t last, DirtyM
     uint8_t& some = dirty.groups[at / kDirtyGroup];
     if (some == 0) continue;
     GroupBits bits = TakeGroup(dirty.bricks + at, to_visit);
-    // Bricks that are found may become dirty again in this pass, so their group does not rest
-    // before the next one.
+    // Listed bricks may become dirty again in this pass, so their group rests only from the next
+    // one on.
     some = bits.rest ? 0 : 1;
     bits.end_points &= ~bits.found;
     if ((bits.found | bits.end_points) == 0) continue;

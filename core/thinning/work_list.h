@@ -13,13 +13,13 @@
 
 namespace bccskel {
 
-// For each brick: bit d says that points may have become removable along direction d, bit 8 that
-// there may be end points. A brick whose shell has just opened is awake: every pass visits it,
-// whatever these bits say, since nearly all such bricks change and notifying 14 neighbors of
-// each change would cost more than a visit. It falls asleep after a cycle in which neither it nor a
-// neighboring brick has changed; from then on changes beside it make it dirty. Bits 13 to 15 say
-// that it lies beside a sleeping brick and so must notify its neighbors of changes, that some of
-// these belong to other workers, and that it is of the odd sublattice.
+// State bits of a brick. Bit d: points may have become removable along direction d; bit 8: there
+// may be end points. A brick whose shell has just opened is awake: every pass visits it whatever
+// these bits are, since nearly all such bricks change and notifying 14 neighbors of each change
+// would cost more than a visit. It falls asleep after a cycle in which neither it nor an adjacent
+// brick has changed; from then on changes beside it make it dirty. Bit 13: it lies beside a
+// sleeping brick and so must notify its neighbors of changes; bit 14: some of these belong to other
+// workers; bit 15: it is of the odd sublattice.
 using DirtyMask = uint16_t;
 inline constexpr DirtyMask kEndPointsDirty = 1 << 8;
 inline constexpr DirtyMask kDirectionsDirty = kEndPointsDirty - 1;
@@ -34,8 +34,8 @@ inline constexpr size_t kDirtyGroup = 32;
 // Arrays for all bricks. Copies share them.
 struct DirtyBricks {
   DirtyMask* bricks = nullptr;
-  // One for each group: 0 says that all its bricks are settled and asleep. Most are, and so passes
-  // do not read the bricks.
+  // One for each group; 0: all its bricks are settled and asleep, as most are, so passes do not
+  // read them.
   uint8_t* groups = nullptr;
 
   void Add(BrickIndex brick, DirtyMask bits) const {
@@ -44,8 +44,8 @@ struct DirtyBricks {
   }
 };
 
-// Bricks listed for a pass, by sublattice. The storage is as long as the list can get, and a
-// register longer; it is never cleared, so refilling it costs nothing.
+// The bricks listed for a pass, by sublattice. The storage has the maximum length of the list plus
+// a register; it is never cleared, so refilling it costs nothing.
 class BrickLists {
  public:
   void Reserve(size_t bricks) {
@@ -62,7 +62,7 @@ class BrickLists {
   std::array<BrickIndex*, 2> storage() { return {storage_[0].data(), storage_[1].data()}; }
   void SetCounts(size_t even, size_t odd) { count_ = {even, odd}; }
 
-  // Where the next ones go, of which Add() then keeps some.
+  // Room for the next bricks, some of which Add() then keeps.
   BrickIndex* Room(Sublattice sublattice) {
     const auto s = static_cast<size_t>(sublattice);
     return storage_[s].data() + count_[s];
@@ -76,11 +76,11 @@ class BrickLists {
   std::array<size_t, 2> count_ = {0, 0};
 };
 
-// Lists the bricks in [first, last) that are awake or dirty in one of the directions of
-// `to_visit`, and of the others those that are for end points; all are then settled until
-// something beside them is removed.
-// Needs: first is a multiple of kDirtyGroup, and so is last or the rest of its group is zero;
-//        the lists have room for last - first.
+// Lists the bricks in [first, last) that are awake or dirty in one of the directions of `to_visit`
+// in `found`, and other bricks that are dirty for end points in `end_points`. All are then settled
+// until something beside them is removed.
+// Needs: first is a multiple of kDirtyGroup; so is last, or the rest of its group is zero. The
+//        lists have room for last - first.
 void TakeDirty(const DirtyBricks& dirty, size_t first, size_t last, DirtyMask to_visit,
                BrickLists& found, BrickLists& end_points);
 
