@@ -16,7 +16,7 @@ BrickCoordinates BrickAtPlace(uint64_t place, Sublattice sublattice) {
   return {field(0), field(21), field(42), sublattice};
 }
 
-// std::lower_bound that looks near `start` first.
+// std::lower_bound that searches near `start` first.
 size_t LowerBoundFrom(const std::vector<uint64_t>& places, size_t start, uint64_t wanted) {
   if (start > places.size() || (start > 0 && places[start - 1] >= wanted)) start = 0;
   size_t step = 1;
@@ -43,8 +43,8 @@ bool BackgroundGaps::IsGapBefore(const Places& places, size_t n) const {
   return n > 0 && RowOf(places[n - 1]) == RowOf(places[n]) && places[n - 1] + 1 != places[n];
 }
 
-// The node of the missing bricks just before the n-th stored brick, seen from a row: outside unless
-// both the n-th brick and the one before lie in that row.
+// The node of the missing bricks just before the n-th stored brick, within a row: the outside,
+// unless both the n-th brick and the one before lie in that row.
 size_t BackgroundGaps::NodeBefore(Sublattice sublattice, size_t n, uint64_t row) const {
   const Places& places = rows_[static_cast<size_t>(sublattice)];
   if (n == 0 || n == places.size()) return kOutside;
@@ -111,7 +111,7 @@ int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hi
     link({brick.bx, brick.by + dy, brick.bz + dz, sublattice}, last_x);
   }
   // An even brick touches the odd bricks at its own coordinates and one step back, an odd brick the
-  // even ones at its own coordinates and one step forth.
+  // even ones at its own coordinates and one step ahead.
   const int32_t step = odd ? 1 : -1;
   const Sublattice other = odd ? Sublattice::kEven : Sublattice::kOdd;
   for (const auto& [dy, dz] : {std::pair{0, 0}, {step, 0}, {0, step}, {step, step}}) {

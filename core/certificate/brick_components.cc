@@ -35,9 +35,10 @@ HWY_INLINE bool HasOnePoint(const Plane& points) {
   return words == 1 && hn::AllTrue(tag, hn::Eq(more, hn::Zero(tag)));
 }
 
-// From every point walk down against the signs sx, sy, sz as long as there is a neighbor: all walks
-// end at points without a neighbor that way. If there is only one such point, all are connected to
-// it. The part of a smooth object in a brick passes for the signs of its surface's normal.
+// From every point, walk against the signs sx, sy, sz as long as there is a neighbor: all walks end
+// at points without a neighbor in those directions. If there is only one such point, all are
+// connected to it. For the signs of its surface normal, the part of a smooth object in a brick
+// passes the test.
 HWY_INLINE bool IsPlainlyConnected(const Plane& points) {
   const Plane beyond = Repeat(0);
   const Plane x[2] = {StepX<Step::kDown>(points, beyond), StepX<Step::kUp>(points, beyond)};

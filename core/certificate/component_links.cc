@@ -9,7 +9,7 @@ namespace {
 
 constexpr bool IsDownward(Direction d) { return d.offset().x + d.offset().y + d.offset().z < 0; }
 
-// Each pair of neighboring bricks is looked at from one side: even from odd, + from -.
+// Each pair of neighboring bricks is processed from one side: even from odd, + from -.
 constexpr PositionMask ComputeLinkedFrom(Sublattice sublattice) {
   PositionMask linked = sublattice == Sublattice::kEven ? 0xff : 0;
   for (int position = 8; position < kNeighborCount; ++position) {
@@ -26,8 +26,7 @@ BrickBits Intersection(const BrickBits& a, const BrickBits& b) {
   return both;
 }
 
-// The points of a set without a point before them along x, y or z: at least one of each connected
-// part.
+// The points of a set without a predecessor along x, y or z: at least one of each connected part.
 BrickBits FirstOfParts(const BrickBits& points) {
   constexpr uint64_t kFirstOfRows = 0x0001000100010001;
   BrickBits first;
@@ -43,7 +42,7 @@ void ForEachPosition(PositionMask positions, Visit visit) {
   for (; positions != 0; positions &= positions - 1) visit(std::countr_zero(positions));
 }
 
-// The positions of `among` that hang together with `position`, itself included.
+// The positions of `among` that are connected with `position`, including itself.
 PositionMask GroupOf(int position, PositionMask among, Sublattice sublattice) {
   const BrickContacts& contacts = ContactsOf(sublattice);
   PositionMask group = 0;
@@ -78,8 +77,8 @@ int64_t ComponentLinks::LinkBrick(BrickIndex n, GapPlaces& places) {
   return joined;
 }
 
-// Most bricks around are in the same set already, by way of bricks linked before, and most of those
-// right below the set's root.
+// Most adjacent bricks are in the same set already, through bricks linked before, and most of those
+// directly below the root of the set.
 ComponentLinks::BricksAround ComponentLinks::LookAround(BrickIndex n) {
   const size_t root = sets_.Find(n), stored = object_.brick_count();
   BricksAround around = {0, 0};
@@ -115,8 +114,8 @@ int64_t ComponentLinks::LinkMains(BrickIndex n, PositionMask touched) {
   return joined;
 }
 
-// Bricks that are not stored are background all over, and gaps that touch each other are linked:
-// one of each group is enough.
+// Bricks that are not stored are all background, and gaps that touch each other are linked: one of
+// each group is enough.
 int64_t ComponentLinks::LinkMainToGaps(BrickIndex n, PositionMask touched, PositionMask missing,
                                        GapPlaces& places) {
   int64_t joined = 0;
@@ -134,7 +133,7 @@ size_t ComponentLinks::GapAt(BrickIndex n, int position, GapPlaces& places) cons
          gaps_->NodeAt(NeighborBrick(brick, position), places.of(brick, position));
 }
 
-// To all that they touch in other bricks.
+// Links fragments to all components that they touch in other bricks.
 int64_t ComponentLinks::LinkFragments(BrickIndex n) {
   BrickSurroundings bricks{components_.PointsOf(n), {}};
   for (size_t position = 0; position < kNeighborCount; ++position) {
@@ -149,7 +148,7 @@ int64_t ComponentLinks::LinkFragments(BrickIndex n) {
   return joined;
 }
 
-// Points side by side whose neighbors are in one other brick link the same two components.
+// Adjacent points whose neighbors are in one other brick link the same two components.
 int64_t ComponentLinks::LinkFragmentsAlong(BrickIndex n, Direction d,
                                            const BrickBits& having_neighbor) {
   const Sublattice sublattice = SublatticeAt(n);

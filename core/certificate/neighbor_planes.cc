@@ -41,8 +41,8 @@ HWY_INLINE Plane StepAlong(const Plane& own, const Plane& next) {
   if constexpr (kAxis == 2) return StepZ<kStep>(own, next);
 }
 
-// The cells that have a neighbor in a brick of the other sublattice, which lies one brick away
-// along the axes in kAway. Along such an axis the neighbor is one cell further, along the others it
+// The cells that have a neighbor in the brick of the other sublattice that lies one brick away
+// along the axes in kAway. Along such an axis the neighbor is one cell further; along the others it
 // has the same index or is one cell further.
 template <int kAway, Step kStep, int kAxis = 0>
 HWY_INLINE Plane CellsThatSee(const Plane& brick) {

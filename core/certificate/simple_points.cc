@@ -20,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-// Points that may count. A simple point lacks a neighbor, and one that is no end point has two that
-// are adjacent to each other.
+// Points that may have to be counted. A simple point lacks a neighbor, and one that is not an end
+// point has two that are adjacent to each other.
 HWY_INLINE Plane PossiblySimple(SimplePoints which, const Plane& own,
                                 const Plane (&planes)[kNeighborCount]) {
   Plane adjacent_pair = AndNot(own, own), all = own;

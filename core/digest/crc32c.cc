@@ -12,7 +12,7 @@ using Tables = std::array<std::array<uint32_t, 256>, kSlices>;
 
 constexpr uint32_t Shift(uint32_t crc) { return (crc >> 1) ^ ((crc & 1) != 0 ? kPolynomial : 0); }
 
-// tables[n][b]: what byte b adds to the CRC when n more bytes follow.
+// tables[n][b]: the contribution of byte b to the CRC if n more bytes follow.
 constexpr Tables MakeTables() {
   Tables tables = {};
   for (uint32_t byte = 0; byte < 256; ++byte) {

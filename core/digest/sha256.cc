@@ -1,7 +1,7 @@
 #include "core/digest/sha256.h"
 
-// OpenSSL's digests load its configuration first or are deprecated, and loading it takes as long as
-// the skeleton of a small object.
+// Not OpenSSL: its digests load its configuration first or are deprecated, and loading takes as
+// long as the skeleton of a small object.
 #include <nettle/sha2.h>
 
 namespace bccskel {
@@ -12,7 +12,7 @@ class Sha256::State {
   void Add(std::span<const std::byte> bytes) {
     sha256_update(&context_, bytes.size(), reinterpret_cast<const uint8_t*>(bytes.data()));
   }
-  Sha256Digest Finish() {  // and begins anew
+  Sha256Digest Finish() {  // and starts a new message
     Sha256Digest digest;
     sha256_digest(&context_, digest.bytes.size(), digest.bytes.data());
     return digest;

@@ -25,27 +25,26 @@ namespace bccskel {
 struct MaskOptions {
   MaskAdjacency adjacency = MaskAdjacency::k26;
   VoxelPoints points = VoxelPoints::kTwo;  // of the exact conversion
-  // None: the exact conversion, which keeps the mask's topology.
+  // No value: the exact conversion, which keeps the topology of the mask.
   std::optional<MaskSamplingOptions> sampling = std::nullopt;
   uint64_t max_bricks = uint64_t{1} << 28;
-  LayerPart part = {};  // of the object, that is made
+  LayerPart part = {};  // the part of the object to create
 };
 
-// The edge of a voxel in lattice units, which is the height of the steps in the object's surface:
-// 2 after the exact conversion, 4 with sixteen points a voxel.
+// The edge of a voxel in lattice units, which is the height of the steps of the object's surface: 2
+// after the exact conversion, 4 with sixteen points per voxel.
 double VoxelEdge(const MaskOptions& options);
 
 struct ConvertedMask {
   Volume volume;      // the part of the object
-  BettiNumbers mask;  // of all, counted on the cubic grid, in the reading of MaskOptions::adjacency
+  BettiNumbers mask;  // of the whole mask, on the cubic grid, by MaskOptions::adjacency
   uint64_t voxels = 0;
 };
 
-// Turns a cubic mask into a bcc object while its slices pass by, and counts its topology.
-// The exact conversion keeps components, loops and cavities; whether a sampling did is seen by
-// comparing ConvertedMask::mask with CountBettiNumbers(volume), which is Certificate::input of the
-// skeleton.
-// Memory: ten slices at most, and the object.
+// Converts a cubic mask to a bcc object slice by slice and counts its topology. The exact
+// conversion keeps components, loops and cavities. Whether a sampling did is seen by comparing
+// ConvertedMask::mask with CountBettiNumbers(volume), which is Certificate::input of the skeleton.
+// Memory: at most ten slices, and the object.
 class MaskConverter {
  public:
   // Errors: INVALID_ARGUMENT (grid, options), with the value and the limit.
@@ -56,13 +55,13 @@ class MaskConverter {
   //         RESOURCE_EXHAUSTED (max_bricks), CANCELLED, DEADLINE_EXCEEDED.
   absl::Status AddSlice(std::span<const uint64_t> words, const exec::Context& context);
 
-  // The same for rows that are gathered already, taken out of `rows`.
-  // Needs: rows inside the grid, z grows from call to call; slices left out are empty.
+  // The same for rows that are collected already; moves them out of `rows`.
+  // Needs: rows inside the grid; z increases from call to call; omitted slices are empty.
   absl::Status AddRows(int32_t z, SliceRows& rows, const exec::Context& context);
 
-  // Errors: INVALID_ARGUMENT when slices are missing.
+  // Errors: INVALID_ARGUMENT if slices are missing.
   absl::StatusOr<ConvertedMask> Finish() &&;
-  // After AddRows(), where slices may be left out.
+  // Finish() after AddRows(), which allows slices to be omitted.
   absl::StatusOr<ConvertedMask> FinishRows() &&;
 
  private:

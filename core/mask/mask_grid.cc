@@ -10,7 +10,7 @@
 namespace bccskel {
 namespace {
 
-// The volume's invariants rest on it: a stray bit would be a point outside the extent.
+// The invariants of the volume depend on it: a stray bit would be a point outside the extent.
 absl::Status CheckUnusedBits(const MaskGrid& grid, std::span<const uint64_t> words, int32_t z) {
   if (grid.nx % 64 == 0) return absl::OkStatus();
   const uint64_t unused = ~uint64_t{0} << grid.nx % 64;

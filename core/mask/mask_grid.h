@@ -12,23 +12,25 @@
 
 namespace bccskel {
 
-// Which voxels of a cubic mask touch each other, object first: the two readings that keep the
-// object's and the background's topology in step.
+// Which voxels of a cubic mask touch each other, object first: the two conventions for which the
+// topologies of object and background are consistent.
 enum class MaskAdjacency : uint8_t {
   k26,  // (26, 6): object voxels that share a corner are connected
   k6,   // (6, 26): only those that share a face
 };
 
-// Lattice points that an exact conversion makes of a voxel of a solid object. Both keep topology.
+// The lattice points that an exact conversion creates per voxel of a solid object. Both keep the
+// topology.
 enum class VoxelPoints : uint8_t {
   kTwo,      // the center of the voxel and a corner
   kSixteen,  // the same of a mask refined 2 x 2 x 2, for finer curves
 };
 
-// Equal parts that voxels are cut into, along x, y and z.
+// The number of equal parts into which voxels are cut along x, y and z.
 using VoxelParts = std::array<int32_t, 3>;
 
-// Largest number of voxels along an axis: sixteen points a voxel make 2 n + 1 cells of n voxels.
+// Largest number of voxels along an axis: with sixteen points per voxel, n voxels take 2 n + 1
+// cells.
 inline constexpr int32_t kMaxMaskVoxels = (kMaxExtentCells - 1) / 2;
 
 // A grid of voxels. Here `placement` places voxel centers: `spacing` is the size of a voxel,
@@ -43,7 +45,7 @@ struct MaskGrid {
   // is bit x % 64 of word x / 64, and bits from nx on are zero.
   size_t WordsPerRow() const { return (static_cast<size_t>(nx) + 63) / 64; }
   size_t WordsPerSlice() const { return WordsPerRow() * static_cast<size_t>(ny); }
-  // A slice of labels holds one value a voxel, x fastest.
+  // A slice of labels holds one value per voxel, x fastest.
   size_t VoxelsPerSlice() const { return static_cast<size_t>(nx) * static_cast<size_t>(ny); }
 
   friend bool operator==(const MaskGrid&, const MaskGrid&) = default;
@@ -58,17 +60,19 @@ absl::Status CheckMaskGrid(const MaskGrid& grid);
 absl::Status CheckMaskSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> words);
 absl::Status CheckLabelSlice(const MaskGrid& grid, int32_t z, std::span<const uint64_t> labels);
 
-// The axis along which an image has one slice, as a 2-D image has; none for one of a single row.
+// The axis along which an image has a single slice, as a 2-D image has; no value for an image of a
+// single row.
 std::optional<size_t> AxisOfOneSlice(const MaskGrid& grid);
 
-// The placement of voxels on the lattice: theirs, but across an image of one slice they count as
-// long as they are wide there. The object continues beyond that slice (core/pipeline), so its
-// thickness is no part of the shape, and curves would zigzag through a thick one.
+// The placement of voxels on the lattice: that of the image, except that voxels of an image of one
+// slice count as long across the slice as they are wide. The object continues beyond that slice
+// (core/pipeline), so its thickness is no part of the shape, and curves would zigzag through a
+// thick one.
 Placement VoxelPlacement(const MaskGrid& grid);
 
-// What makes the parts of thick slices at most three times as long as they are wide: eight at most,
-// and as many as the extent allows. On longer ones curves would fork and end early, see README.md.
-// Parts of voxels touch each other as the voxels do, so the topology is the same.
+// The slabs that make the parts of voxels at most three times as long as wide: at most eight, and
+// as many as the extent allows. On longer parts curves would fork and end early (README.md). The
+// parts touch each other as the voxels do, so the topology is the same.
 VoxelParts SlabsOf(const MaskGrid& grid, VoxelPoints points);
 
 // All parts of an exact conversion: the slabs, each cut in two along each axis for sixteen points.

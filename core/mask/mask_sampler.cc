@@ -47,7 +47,7 @@ absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingO
     const double wanted = std::min(std::ceil(voxels[axis] / edges[axis]), 2.0 * kMaxExtentCells);
     cells[axis] = std::max(static_cast<int32_t>(wanted), 1);
     lattice.step[axis] = edges[axis] / 2;
-    // As much room before the first point as behind the last.
+    // Equal margins before the first point and after the last.
     lattice.first[axis] = (voxels[axis] - 1 - lattice.step[axis] * (2 * cells[axis] - 1)) / 2;
   }
   lattice.placement.origin =
@@ -94,12 +94,12 @@ void MaskSampler::AdvanceTo(int32_t z) {
   for (; next_layer_ < 2 * lattice_.extent.nz; ++next_layer_) {
     const Stop stop = StopAt(2, next_layer_);
     if (stop.lower + (stop.upper_weight > 0 ? 1 : 0) > z) return;
-    if (next_layer_ % (2 * kBrickZ) == 0) places_.clear();  // all bricks behind are complete
+    if (next_layer_ % (2 * kBrickZ) == 0) places_.clear();  // all earlier bricks are complete
     if (part_.Has(next_layer_ / (2 * kBrickZ))) SampleLayer(next_layer_);
   }
 }
 
-// The first lattice point of an axis that is not before `voxel`.
+// The first lattice coordinate of an axis at or after `voxel`.
 int32_t MaskSampler::FirstPointFrom(size_t axis, double voxel) const {
   const double p = std::ceil((voxel - lattice_.first[axis]) / lattice_.step[axis]);
   return static_cast<int32_t>(std::max(p, 0.0));

@@ -17,14 +17,14 @@ namespace bccskel {
 
 // The shape of the lattice cells that sample a mask.
 enum class CellShape : uint8_t {
-  kVoxel,  // as long along each axis, counted in voxels
-  kCube,   // as long along each axis in the world
+  kVoxel,  // equally long along each axis, in voxels
+  kCube,   // equally long along each axis, in world units
 };
 
 // Weights of the voxels around a point.
 enum class MaskWeights : uint8_t {
   kNearest,    // the voxel that holds the point
-  kTrilinear,  // linear along each axis between the centers of voxels; the object from 1/2 on
+  kTrilinear,  // linear between voxel centers along each axis; object from 1/2 on
 };
 
 inline constexpr double kMinPointsPerVoxel = 0.01;
@@ -36,7 +36,7 @@ struct MaskSamplingOptions {
   CellShape cells = CellShape::kVoxel;
 };
 
-// The lattice that samples a mask: point p of an axis lies at first + step * p, counted in voxels.
+// The lattice that samples a mask: coordinate p of an axis lies at first + step * p, in voxels.
 struct MaskLattice {
   LatticeExtent extent;
   Placement placement;
@@ -47,14 +47,14 @@ struct MaskLattice {
 // Errors: INVALID_ARGUMENT (density, too many cells), with the value and the limit.
 absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingOptions& options);
 
-// Samples a mask at the points of a lattice while its slices pass by. Topology may change.
-// Memory: the occupied rows of two slices. Cost: follows the runs and the points near them.
+// Samples a mask at the points of a lattice, slice by slice. The topology may change.
+// Memory: the occupied rows of two slices. Cost: proportional to the runs and the points near them.
 class MaskSampler {
  public:
   MaskSampler(const MaskGrid& grid, MaskWeights weights, const MaskLattice& lattice,
               const LayerPart& part = {});
 
-  // Needs: z grows from call to call; slices that are left out are empty.
+  // Needs: z increases from call to call; omitted slices are empty.
   void AddSlice(int32_t z, const SliceRows& rows);
   size_t brick_count() const { return keys_.size(); }
   // Errors: as Volume::Create().
@@ -88,8 +88,8 @@ class MaskSampler {
   const LayerPart part_;
   std::vector<BrickKey> keys_;
   std::vector<BrickBits> bricks_;
-  std::unordered_map<uint64_t, size_t> places_;  // of the layer's bricks
-  BrickKey last_key_;                            // of the brick at last_place_
+  std::unordered_map<uint64_t, size_t> places_;  // of the bricks of the layer
+  BrickKey last_key_;                            // the brick at last_place_
   size_t last_place_ = 0;
   std::vector<Stop> stops_x_;
   SliceRows before_, current_;
@@ -97,7 +97,7 @@ class MaskSampler {
   int32_t current_z_ = -1;
   int32_t before_z_ = -1;
   int32_t next_layer_ = 0;
-  std::vector<uint64_t> any_;    // of the rows of one lattice row
+  std::vector<uint64_t> any_;    // union of the mask rows for one lattice row
   std::vector<double> profile_;  // weighted voxels from profile_begin_ on
   int32_t profile_begin_ = 0;
 };

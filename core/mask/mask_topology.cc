@@ -27,7 +27,7 @@ struct Intersection {
   static uint64_t Join(uint64_t a, uint64_t b) { return a & b; }
 };
 
-// Runs that begin in this word of a joined row, word and word before.
+// The runs that begin in this word of a joined row, given this word and the one before.
 int RunsBegun(uint64_t word, uint64_t before) {
   return std::popcount(word & ~(word << 1 | before >> 63));
 }

@@ -11,13 +11,13 @@
 
 namespace bccskel {
 
-// Betti numbers of a mask, counted on the cubic grid while its slices pass by.
-// Memory: the runs of two slices. Cost: follows the runs and the occupied words.
+// Counts the Betti numbers of a mask on the cubic grid, slice by slice.
+// Memory: the runs of two slices. Cost: proportional to the runs and the occupied words.
 class MaskTopology {
  public:
   MaskTopology(const MaskGrid& grid, MaskAdjacency adjacency);
 
-  // Needs: z grows from call to call; slices that are left out are empty.
+  // Needs: z increases from call to call; omitted slices are empty.
   void AddSlice(int32_t z, const SliceRows& rows);
   // The tubes of the same slices, for the Euler characteristic.
   void AddTube(const RowTube& tube);

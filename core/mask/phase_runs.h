@@ -7,7 +7,7 @@
 
 namespace bccskel {
 
-// The object's voxels or the others.
+// The voxels of the object or of the background.
 enum class MaskPhase : uint8_t { kObject, kBackground };
 // Whether voxels that share a corner touch, or only those that share a face.
 enum class Contact : uint8_t { kFace, kCorner };
@@ -26,7 +26,7 @@ class PhaseRuns {
   explicit PhaseRuns(int32_t ny) : row_at_(static_cast<size_t>(ny) + 2, kAbsent) {}
 
   void Clear();
-  // Starts row y. Needs: y grows.
+  // Starts row y. Needs: y increases.
   void AddRow(int32_t y);
   void AddRun(PhaseRun run) { runs_.push_back(run); }
 

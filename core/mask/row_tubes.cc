@@ -10,7 +10,7 @@ int32_t RowTubes::NextTube(int32_t by) {
   for (size_t s = 0; s < slices_.size(); ++s) {
     size_t& at = cursors_[s];
     while (at < slices_[s].size() && slices_[s].y(at) < kBrickY * by - 1) ++at;
-    // The last slice only decides about corners that others touch.
+    // The last slice only affects corners that touch voxels of other slices.
     if (at == slices_[s].size() || s + 1 == slices_.size()) continue;
     const int32_t tube = std::max(by, slices_[s].y(at) / kBrickY);
     next = next < 0 ? tube : std::min(next, tube);

@@ -11,16 +11,16 @@
 
 namespace bccskel {
 
-// All voxels that decide about one line of bricks along x. Line (by, bz) holds rows 4 by to 4 by +
-// 3 of slices 8 bz to 8 bz + 7. Corners lie before their voxels, so they touch the row and the
-// slice before; and whether one stays depends on the row and the slice after, too.
+// All voxels that determine one line of bricks along x. Line (by, bz) holds rows 4 by to 4 by + 3
+// of slices 8 bz to 8 bz + 7. Corners lie before their voxels, so they touch the previous row and
+// slice; whether one stays also depends on the next row and slice.
 struct RowTube {
   static constexpr int kSlices = kBrickZ + 2;
   static constexpr int kRows = kBrickY + 2;
 
   int32_t by = 0;
   int32_t bz = 0;
-  int32_t first_word = 0;  // of all rows
+  int32_t first_word = 0;  // the same for all rows
   int32_t word_count = 0;
   const uint64_t* words = nullptr;  // of row (0, 0)
   size_t stride = 0;
@@ -32,13 +32,13 @@ struct RowTube {
   }
 };
 
-// Cuts a mask, slice after slice, into its occupied tubes.
+// Cuts a mask, slice by slice, into its occupied tubes.
 // Memory: the occupied rows of ten slices. Cost: each row is copied into at most four tubes.
 class RowTubes {
  public:
-  // Takes the rows of slice z out of `rows` and calls visit(const RowTube&) for the tubes that are
+  // Moves the rows of slice z out of `rows` and calls visit(const RowTube&) for the tubes that are
   // complete, in order of (bz, by).
-  // Needs: z grows from call to call; slices that are left out are empty.
+  // Needs: z increases from call to call; omitted slices are empty.
   template <typename Visit>
   void AddSlice(int32_t z, SliceRows& rows, Visit visit) {
     while (z > FirstSlice() + RowTube::kSlices - 1) VisitLayer(z / kBrickZ, visit);
@@ -54,7 +54,7 @@ class RowTubes {
  private:
   int32_t FirstSlice() const { return kBrickZ * bz_ - 1; }
 
-  // Goes on to the next layer of bricks that may be occupied, at most `limit`.
+  // Continues with the next layer of bricks that may be occupied, at most `limit`.
   template <typename Visit>
   void VisitLayer(int32_t limit, Visit visit) {
     cursors_ = {};

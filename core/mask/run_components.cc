@@ -7,7 +7,7 @@ namespace bccskel {
 namespace {
 
 constexpr uint32_t kOutside = 0;
-// Half the range, so that ends can be compared with a step added.
+// Half the range, so that ends plus a step can be compared.
 constexpr int32_t kFar = std::numeric_limits<int32_t>::max() / 2;
 
 }  // namespace
@@ -70,7 +70,8 @@ void RunComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
   const int32_t step = reach();
   for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (a[i].begin < b[j].end + step && b[j].begin < a[i].end + step) Join(a[i].set, b[j].set);
-    // Runs of a row leave a gap, so the next one behind the nearer end is out of the other's reach.
+    // Runs of a row are separated by gaps, so the run after the one with the nearer end does not
+    // reach the other.
     a[i].end < b[j].end ? ++i : ++j;
   }
 }
@@ -80,7 +81,7 @@ uint32_t RunComponents::Find(uint32_t set) {
   return set;
 }
 
-// The smaller number stays, so the outside keeps its own.
+// The smaller number becomes the root, so that the outside stays set 0.
 void RunComponents::Join(uint32_t a, uint32_t b) {
   a = Find(a);
   b = Find(b);

@@ -8,23 +8,23 @@
 
 namespace bccskel {
 
-// Counts the components of one phase of a mask, slice after slice: every run is a set of its own,
-// runs that touch are joined, and each successful join leaves one component less. Runs of the
-// background that reach the border belong to the outside, set 0, which is not counted.
+// Counts the components of one phase of a mask, slice by slice: every run is a set of its own, runs
+// that touch are joined, and each successful join reduces the number of components by one. Runs of
+// the background that reach the border belong to the outside, set 0, which is not counted.
 // Memory: the runs of two slices; sets are renumbered after each.
 class RunComponents {
  public:
   RunComponents(MaskPhase phase, Contact contact, int32_t ny)
       : phase_(phase), contact_(contact), before_(ny), runs_(ny), parents_(1) {}
 
-  // The next slice: rows in order of y, of each its runs in order. Rows that are left out hold no
-  // object voxel.
+  // Adds the next slice: rows in order of y, and the runs of each in order. Omitted rows have no
+  // object voxels.
   void AddRow(int32_t y);
   void AddObjectRun(int32_t begin, int32_t end);
   void EndRow();
   void EndSlice();
 
-  // Needs: as many empty slices at the end as there are (one is enough).
+  // Needs: the empty slices at the end have been added (one is enough).
   int64_t count() const { return count_; }
 
  private:
@@ -36,12 +36,12 @@ class RunComponents {
   uint32_t Find(uint32_t set);
   void Renumber();
 
-  // How far in y a row of the slice before may lie.
+  // The largest difference in y to a touching row of the previous slice.
   int32_t reach() const { return contact_ == Contact::kCorner ? 1 : 0; }
 
   const MaskPhase phase_;
   const Contact contact_;
-  PhaseRuns before_;  // the slice before
+  PhaseRuns before_;  // the previous slice
   PhaseRuns runs_;    // this slice
   int32_t last_end_ = 0;
   std::vector<uint32_t> parents_;

@@ -48,7 +48,7 @@ class SliceRows {
   void SetDense(const MaskGrid& grid, std::span<const uint64_t> words);
   // Adds the voxels [begin, end). Needs: called in order of y, then x; runs do not overlap.
   void AddRun(int32_t y, int32_t begin, int32_t end);
-  // Replaces the rows by those of voxels cut into so many parts along x and y.
+  // Replaces the rows by those of `voxels` cut into px by py parts.
   void SetParts(const SliceRows& voxels, int32_t px, int32_t py);
 
   bool empty() const { return rows_.empty(); }
@@ -58,7 +58,7 @@ class SliceRows {
     const Row& row = rows_[n];
     return {row.y, row.first_word, std::span(words_).subspan(row.offset, row.count)};
   }
-  // Row y; no words when it is not occupied.
+  // Row y; no words if it is not occupied.
   MaskRow Find(int32_t y) const;
 
  private:

@@ -12,7 +12,7 @@ using Words = std::array<std::array<uint64_t, kRows>, kSlices>;
 using TubeWords = Words<RowTube::kSlices, RowTube::kRows>;
 using BrickWords = Words<kBrickZ, kBrickY>;
 
-// The phase that the rule is applied to; everything outside the mask is background.
+// The phase to which the rule is applied; everything outside the mask is background.
 template <MaskAdjacency kAdjacency>
 uint64_t Phase(uint64_t voxels) {
   return kAdjacency == MaskAdjacency::k26 ? voxels : ~voxels;
@@ -38,7 +38,7 @@ uint64_t AnyVoxel(const RowTube& tube, int32_t n) {
   return any;
 }
 
-// The slabs across x: bit i is set where one of the four voxels i of the rows around a corner is.
+// The slabs across x: bit i is set if one of the four voxels i of the rows around a corner is set.
 BrickWords SlabsAcrossX(const TubeWords& v) {
   BrickWords slabs;
   for (size_t k = 0; k < kBrickZ; ++k) {
@@ -94,7 +94,7 @@ void Exchange(uint64_t& low, uint64_t& high, int shift, uint64_t mask) {
   low ^= change << shift;
 }
 
-// From four rows of four times 16 points to the layers of four bricks: words transposed.
+// Transposes words: from four rows of four times 16 points to the layers of four bricks.
 std::array<uint64_t, kBrickY> LayersOf(std::array<uint64_t, kBrickY> rows) {
   constexpr uint64_t kLowHalf = 0x00000000ffffffff, kEvenLanes = 0x0000ffff0000ffff;
   Exchange(rows[0], rows[2], 32, kLowHalf);

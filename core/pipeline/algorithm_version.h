@@ -5,8 +5,8 @@
 
 namespace bccskel {
 
-// Changes whenever the same volume and options may give another skeleton. Part of the key of stored
-// results.
+// Changes whenever the same volume and options may give a different skeleton. Part of the key of
+// stored results.
 inline constexpr char kAlgorithmVersion[] = "19";
 
 // The same for masks; it also changes with their conversion.

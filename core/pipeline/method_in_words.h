@@ -9,7 +9,7 @@
 
 namespace bccskel {
 
-// The kind of skeleton and the method, in one line for the user of a result.
+// The kind of skeleton and the method, in one line for users of the result.
 std::string MethodInWords(const ThinningOptions& thinning, DistanceKind distance,
                           ObjectSource source = ObjectSource::kPoints);
 

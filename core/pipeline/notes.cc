@@ -62,8 +62,8 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
                                          width));
 }
 
-// Of the object, in the balls along the curves: those of isolated points, and of each edge that of
-// its tube and its largest. More than there is where these overlap.
+// The share of the object in the balls along the curves: those of isolated points, and for each
+// edge its tube and its largest ball. Too large where these overlap.
 double ShareInBalls(const SkeletonizeResult& result) {
   constexpr double kVolumeOfPoint = 4;  // in lattice units
   const SkeletonGraph& graph = result.graph;
@@ -88,9 +88,9 @@ double ShareInBalls(const SkeletonizeResult& result) {
   return volume / (cell * static_cast<double>(result.object_points));
 }
 
-// Curves say little of plates and shells.
+// Curves represent plates and shells poorly.
 void AddFlatObject(const SkeletonizeResult& result, Notes& notes) {
-  constexpr double kLeastShare = 0.2;  // of limbs four times as wide as thick
+  constexpr double kLeastShare = 0.2;  // the share for limbs four times as wide as thick
   const ThinningOptions& thinning = result.options.thinning;
   if (result.object_points == 0 || result.certificate.input.cavities > 0 ||
       !MakesCurves(thinning.kind) || thinning.last_shell > 0) {
@@ -104,7 +104,7 @@ void AddFlatObject(const SkeletonizeResult& result, Notes& notes) {
                       100 * share));
 }
 
-// So many parts are seldom wanted.
+// Notes a number of components that is seldom intended.
 void AddSpecks(const SkeletonizeResult& result, Notes& notes) {
   constexpr int64_t kMany = 1000;
   const int64_t components = result.certificate.input.components;

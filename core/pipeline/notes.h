@@ -8,13 +8,13 @@
 
 namespace bccskel {
 
-// What the user of this result should know, one sentence each: closed surfaces that cavities leave
-// in a curve skeleton, plates and shells, of which curves say little, loops of a mask as narrow as
-// noise makes them, very many components, topology that preparing changed, simple points left on
-// purpose, an object that preparing removed entirely. Mostly empty.
+// What users of this result should know, one sentence each: closed surfaces that cavities leave in
+// a curve skeleton; plates and shells, which curves represent poorly; loops of a mask as narrow as
+// noise makes them; very many components; topology changed by preparing; simple points left on
+// purpose; an object that preparing removed entirely. Usually empty.
 std::vector<std::string> NotesOn(const SkeletonizeResult& result);
 
-// "5 cavities filled" and the like.
+// Describes the step, for example "5 cavities filled".
 std::string WordsFor(const PreparingStep& step);
 
 }  // namespace bccskel

@@ -7,7 +7,7 @@
 namespace bccskel {
 namespace {
 
-// In the shortest form that reads back to the same value.
+// The shortest text that reads back to the same value.
 template <typename Number>
 OptionFact NumberFact(const char* name, Number value) {
   std::array<char, 32> digits;

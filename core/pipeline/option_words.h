@@ -43,7 +43,7 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
      {"voxels", ObjectSource::kVoxels},
      {"refined-voxels", ObjectSource::kRefinedVoxels},
      {"sampled-voxels", ObjectSource::kSampledVoxels}}};
-// The last one is no choice.
+// The last one occurs only in results.
 inline constexpr Words<Border, 3> kBorderWords = {{{"ends", Border::kEnds},
                                                    {"continues", Border::kContinues},
                                                    {"slice", Border::kContinuesAcrossSlice}}};
@@ -71,8 +71,8 @@ struct OptionFact {
   Type type = Type::kText;
 };
 
-// All options that the result depends on, except for the points to keep; also those that this kind
-// of skeleton does not use.
+// All options on which the result depends, except the points to keep; including options that this
+// kind of skeleton does not use.
 std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options);
 
 }  // namespace bccskel

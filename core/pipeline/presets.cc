@@ -10,8 +10,8 @@
 namespace bccskel {
 namespace {
 
-// Sizes are in voxels, since a scan's flaws have its resolution. tests/quality/report.md has what
-// each does to real masks.
+// Sizes are in voxels, since the flaws of a scan have its resolution. tests/quality/report.md shows
+// the effect of each preset on real masks.
 constexpr std::array kPresets = {
     Preset{"neuron",
            "traced or segmented neurons: removes cavities, small tunnels and specks",

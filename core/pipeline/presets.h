@@ -10,7 +10,7 @@
 
 namespace bccskel {
 
-// Options for a kind of data. Options that it does not name stay unchanged.
+// Options for a kind of data. Other options stay unchanged.
 struct Preset {
   const char* name;
   const char* data;  // what it is for
@@ -23,7 +23,7 @@ std::span<const Preset> Presets();
 // Errors: INVALID_ARGUMENT for an unknown name; the message lists the known ones.
 absl::Status ApplyPreset(std::string_view name, SkeletonizeOptions& options);
 
-// The options that it sets, as on the command line: "--fill-cavities --min-component 100".
+// The options that the preset sets, as on the command line: "--fill-cavities --min-component 100".
 std::string OptionsOf(const Preset& preset);
 
 }  // namespace bccskel

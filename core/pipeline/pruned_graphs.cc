@@ -65,8 +65,8 @@ absl::StatusOr<ThinSkeleton> SkeletonOf(const KnownPoints& known, const Placemen
   return skeleton;
 }
 
-// Removes branches with a free end, those of the lowest levels first, as they were removed when
-// levels were found.
+// Removes branches with a free end, lowest levels first, in the order in which they were removed
+// when levels were computed.
 class LevelPruner {
  public:
   LevelPruner(const KnownPoints& known, ThinSet& set) : known_(known), set_(set) {

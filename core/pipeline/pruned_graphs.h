@@ -10,18 +10,18 @@
 
 namespace bccskel {
 
-// Receives the level and the graph that pruning by a threshold just above it leaves.
+// Receives a level and the graph that pruning with a threshold just above it leaves.
 using OnPrunedGraph = std::function<void(double, const SkeletonGraph&)>;
 
 // Does:  prunes the graph of a result further, level by level of its edges, and calls `visit` for
-//        each in ascending order. Branches are removed as by Prune(), then the points are traced
-//        and junctions merged as for any result, so nodes and edges are those of another run with
-//        that threshold. Tips stay where they are; where another run moves one, widths of limbs may
-//        differ so little that junctions at the edge of their reach are merged in one of the two.
-//        Levels below the 10 largest are visited in equal steps where tracing for each of them
-//        would take more than `most_points` points in total.
-// Shapes: a result's graph, as MergeJunctions() with `junction_reach` left it. Graphs visited have
-//         the same placement, and the births and shifts of their points.
+//        each level in ascending order. Branches are removed as by Prune(), then the points are
+//        traced and junctions merged as for any result, so nodes and edges are those of another run
+//        with that threshold. Tips do not move. Where another run moves one, widths of limbs may
+//        differ so little that junctions at the edge of their reach are merged in only one of the
+//        two. If tracing for every level would take more than `most_points` points in total, levels
+//        below the 10 largest are visited in equal steps.
+// Shapes: the graph of a result, as returned by MergeJunctions() with `junction_reach`. Visited
+//         graphs have the same placement, and the births and shifts of their points.
 // Errors: those of the context and of Volume::Create().
 absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reach,
                                 uint64_t most_points, const exec::Context& context,

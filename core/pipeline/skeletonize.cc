@@ -28,8 +28,8 @@ void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph
   for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
 }
 
-// The points that stay though they may be simple: isthmuses where they are not made curves of, and
-// those that the caller keeps.
+// Points that stay although they may be simple: isthmuses, if they do not form curves, and those
+// that the caller keeps.
 Volume SparedPoints(const ThinSkeleton& skeleton, const ThinningOptions& thinning) {
   VolumeBuilder spared(skeleton.points.extent(), skeleton.points.placement());
   if (!HasCurves(thinning) && !skeleton.births.empty()) {
@@ -75,9 +75,9 @@ DistanceField NoDistances(DistanceKind kind) {
   return DistanceField(kind, ChamferWeights(), DistanceField::Values(), 0);
 }
 
-// Radii of few points are searched for one by one, and so is what centers their curves. A search
-// costs about as much as measuring one brick (0.6 to 2 on objects of 850,000 points) and needs no
-// memory; both give the same bits.
+// Radii of few points are searched for one by one, and so are the distances that center their
+// curves. A search costs about as much as measuring one brick (0.6 to 2 on objects of 850,000
+// points) and needs no memory; both give the same bits.
 absl::Status PrepareRadii(const Volume& object, uint64_t searches, DistanceField& distance,
                           const exec::Context& context) {
   if (distance.kind() == DistanceKind::kEuclidean) return absl::OkStatus();
@@ -87,10 +87,10 @@ absl::Status PrepareRadii(const Volume& object, uint64_t searches, DistanceField
   return absl::OkStatus();
 }
 
-// The stages, in their order, and what they hand to each other.
+// The stages in order, and the data that they pass on.
 class Pipeline {
  public:
-  // `peeler` may be null: this process peels.
+  // `peeler` may be null: then this process peels.
   Pipeline(const SkeletonizeOptions& options, exec::MemoryBudget& memory,
            const exec::Context& context, const OnShellPoints& on_points, const Peeler* peeler)
       : options_(options),
@@ -105,7 +105,7 @@ class Pipeline {
     result_.algorithm_version = AlgorithmVersionOf(options.source);
   }
 
-  // The whole object takes the place of the part that is given.
+  // The whole object replaces the given part.
   absl::StatusOr<SkeletonizeResult> RunByPeeler(Volume& given) && {
     if (options_.preparing.Wanted()) {
       BCCSKEL_ASSIGN_OR_RETURN(Volume prepared, PrepareObject(given));
@@ -165,7 +165,7 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  // Where widths and distances are measured.
+  // The volume in which widths and distances are measured.
   const Volume& SpaceOf(const Volume& object) const {
     return space_.has_value() ? *space_ : object;
   }
@@ -176,7 +176,7 @@ class Pipeline {
     return FinishIn(object, std::move(distance));
   }
 
-  // Those who peel elsewhere keep the distances, so radii are searched for.
+  // A peeler keeps the distances elsewhere, so radii are searched for.
   absl::Status PeelAndRun(Volume& object) {
     BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, options_.thinning));
     TakeOver(std::move(peeled.thinned));
@@ -210,8 +210,8 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  // The radii that the result states. By them nodes are chosen and junctions merged, so that
-  // whoever has the result can trace what pruning leaves of it (ForEachPrunedGraph()).
+  // The radii stated in the result. Nodes are chosen and junctions merged by these, so that pruning
+  // can be repeated from the result alone (ForEachPrunedGraph()).
   absl::StatusOr<std::vector<float>> StatedRadii(const Volume& space,
                                                  const std::vector<float>& exact) {
     if (!IsConverted(options_.source)) return exact;
@@ -231,7 +231,8 @@ class Pipeline {
     return absl::OkStatus();
   }
 
-  // Shells are made of chamfer distances while those are measured, of Euclidean ones depths, too.
+  // Shells are made while chamfer distances are measured; shells and depths while Euclidean
+  // distances are.
   bool NeedsField() const {
     const bool depths = DepthsOf(options_.thinning.method) == Depths::kWanted;
     return space_.has_value() || (depths && options_.distance != DistanceKind::kEuclidean);

@@ -22,32 +22,32 @@ namespace bccskel {
 
 // The source of the object's points.
 enum class ObjectSource : uint8_t {
-  kPoints,         // nothing else: the lattice of a solid
-  kVoxels,         // a mask, converted exactly: two points a voxel
-  kRefinedVoxels,  // the same with sixteen points
+  kPoints,         // lattice points of a solid
+  kVoxels,         // a mask, converted exactly with two points per voxel
+  kRefinedVoxels,  // the same with sixteen points per voxel
   kSampledVoxels,  // a mask, sampled: its topology may have changed
 };
 
-// How high the steps of the object's surface are, in lattice units: a voxel's edge, for samplings
-// about that.
+// The height of the steps of the object's surface in lattice units: the edge of a voxel, which is
+// approximate for samplings.
 double SurfaceStepOf(ObjectSource source);
 
-// Edges of the cubic cell that a voxel's edge is long; 1 for objects without voxels.
+// How many edges of the cubic cell make an edge of a voxel; 1 for objects without voxels.
 int32_t CellsPerVoxel(ObjectSource source);
 
-// What lies beyond the border of the lattice, or of the image that it was made of. Across an image
-// of one slice objects always continue.
+// What lies beyond the border of the lattice, or of the image from which it was made. Across an
+// image of one slice objects always continue.
 enum class Border : uint8_t {
   kEnds,       // background: the object ends there
-  kContinues,  // is unknown: a limb that is cut off there runs straight to the border
-  // The same beyond both faces across an image of one slice, background beyond the others: what
-  // kEnds means for such an image. Stated by results.
+  kContinues,  // unknown: a limb that is cut off there runs straight to the border
+  // As kContinues beyond both faces of an image of one slice, background beyond the others: the
+  // meaning of kEnds for such an image. Stated by results.
   kContinuesAcrossSlice,
 };
 
 struct SkeletonizeOptions {
   PreparingOptions preparing = {};
-  // The symmetric method centers curves better than the paper's directions do.
+  // The symmetric method centers curves better than the paper's directional one.
   ThinningOptions thinning = {.method = ThinningMethod::kSymmetric};
   // Defines the shells. Euclidean distances center curves better than chamfer distances, and also
   // give the exact radii.
@@ -55,8 +55,8 @@ struct SkeletonizeOptions {
   // Skipped if thinning stops at a shell, which leaves no curves.
   PruningOptions pruning = {};
   ObjectSource source = ObjectSource::kPoints;
-  // The slabs that the voxels of a mask were cut into along x, y and z, since they were long: noise
-  // of the mask is so much longer than the lattice says. 1 to 8.
+  // The number of slabs into which the voxels of a mask were cut along x, y and z because they were
+  // long: noise of the mask is longer than the lattice suggests by this factor. 1 to 8.
   std::array<int32_t, 3> voxel_slabs = {1, 1, 1};
   // Merges junctions within this many radii of each other; 0 merges none. Only for graphs of
   // curves.
@@ -74,7 +74,7 @@ struct SkeletonizeResult {
   StageTimings timings;
   SkeletonizeOptions options;            // CanonicalOptions(), without the points to keep
   std::vector<PreparingStep> preparing;  // what was done to the object before thinning
-  uint64_t object_points = 0;            // after that
+  uint64_t object_points = 0;            // after preparing
   uint64_t skeleton_points = 0;
   int32_t last_shell = 0;
   std::string method;             // MethodInWords()
@@ -85,10 +85,10 @@ struct SkeletonizeResult {
 // Runs all stages: preparing, distance, shells, thinning, pruning, certificate, graph. An empty
 // object gives an empty graph. `on_points`, if given, receives all points that are removed; those
 // that pruning removes come after the shells. A tip that moves outward may add points again.
-// Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (preparing makes too large an object,
-//         or thinning leaves more points than this machine has memory for),
-//         CANCELLED, DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost,
-//         which would be a defect of this library.
+// Errors: INVALID_ARGUMENT (options); RESOURCE_EXHAUSTED (preparing makes too large an object, or
+//         thinning leaves more points than fit this machine's memory); CANCELLED,
+//         DEADLINE_EXCEEDED; INTERNAL if the certificate shows that topology was lost, which would
+//         be a defect of this library.
 absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object,
                                               const SkeletonizeOptions& options,
                                               const exec::Context& context,

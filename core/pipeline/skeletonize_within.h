@@ -12,20 +12,20 @@
 namespace bccskel {
 
 // Memory for each point that thinning leaves, from pruning to the graph; see kTraceBytesPerPoint.
-// How many depends on the object: a brick of dust leaves 256 points, a solid brick at most
+// The number of points depends on the object: a brick of dust leaves 256, a solid brick at most
 // one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
 
-// The axis along which the mask of an object has one slice, as that of a 2-D image: the object
-// continues beyond both faces across it, whatever SkeletonizeOptions::border says, since its shape
-// is that in the slice. None for masks of one row, and for what is no mask. Of samplings with
-// several cells a voxel the lattice does not tell.
+// The axis along which the mask of an object has a single slice, as that of a 2-D image: the object
+// continues beyond both faces across it, whatever SkeletonizeOptions::border is, since its shape is
+// that in the slice. No value for masks of one row, and for objects that are not masks. The lattice
+// does not show it for samplings with several cells per voxel.
 std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
                                      const SkeletonizeOptions& options);
 
-// Skeletonize() within a budget. The caller has reserved what follows from the object's bricks; the
-// pipeline reserves kBytesPerThinPoint before it prunes, and what TraceSkeleton() needs. All of it
-// stays reserved, also for the result.
+// Skeletonize() within a budget. The caller has reserved the memory that follows from the object's
+// bricks; the pipeline reserves kBytesPerThinPoint before it prunes, and the needs of
+// TraceSkeleton(). All of it stays reserved, also for the result.
 // Errors: as Skeletonize(); the budget's.
 absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
                                                     const Volume& object,
@@ -35,19 +35,19 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeWithin(exec::MemoryBudget& memory,
 
 // An object that a Peeler has thinned.
 struct PeeledObject {
-  ThinningResult thinned;  // as of ThinObject()
+  ThinningResult thinned;  // as from ThinObject()
   BettiNumbers topology;   // of the object
   uint64_t points = 0;
 };
 
-// Thins in place of ThinObject(), and counts the topology of the object in place of
-// CountBettiNumbers(). `object` may be a part of the object, and is the whole afterwards.
+// Replaces ThinObject() and, for the object, CountBettiNumbers(). On entry `object` may be a part
+// of the object; on return it is the whole.
 using Peeler =
     std::function<absl::StatusOr<PeeledObject>(Volume& object, const ThinningOptions& options)>;
 
-// Skeletonize() with a peeler, which may hold most of the object: the same result. Pruning, the
-// certificate of the result and the graph are made here, of the whole object. Preparing needs the
-// whole object from the beginning.
+// Skeletonize() with a peeler, which may hold most of the object: the same result. This process
+// prunes, computes the certificate of the result and traces the graph, all for the whole object.
+// Preparing needs the whole object from the beginning.
 // Errors: as Skeletonize(); those of the peeler; INVALID_ARGUMENT for objects that continue beyond
 //         their border, as masks of one slice do.
 absl::StatusOr<SkeletonizeResult> SkeletonizeBy(const Peeler& peeler, Volume& object,

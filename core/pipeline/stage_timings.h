@@ -11,7 +11,7 @@ struct StageTimings {
   using Duration = std::chrono::nanoseconds;
   Duration preparing{0};
   Duration distance{0};
-  Duration shells{0};    // 0 where they are cut while distances are measured
+  Duration shells{0};    // 0 if they are made while distances are measured
   Duration thinning{0};  // until stable
   Duration cleanup{0};
   Duration pruning{0};  // radii, branches and tips

@@ -19,16 +19,16 @@
 namespace bccskel {
 namespace {
 
-// Of the bricks around the object: a distance field while it is made, and bits.
+// Memory per brick around the object: a distance field while it is computed, and bits.
 constexpr uint64_t kBytesPerRoomBrick = 5120;
-// A ball of at most this radius is compared point by point: distance fields take up to five times
-// as long.
+// A ball of at most this radius is compared with the object point by point: distance fields take up
+// to five times as long.
 constexpr double kFewPoints = 5;
-// So is a larger one if it has so few points for each brick of the distance fields: the bricks
-// around dust are many times those that it lies in.
+// So is a larger ball if it has at most this many points per brick of the distance fields: the
+// bricks around dust are many times those that contain it.
 constexpr double kVisitsPerBrick = 32;
 
-// As distance fields have it.
+// Rounded as in distance fields.
 double RoundedLength(LatticePoint way, const AxisScale& scale) {
   const auto square = [](double length) { return static_cast<float>(length * length); };
   const auto x = static_cast<float>(std::abs(way.x));
@@ -37,8 +37,8 @@ double RoundedLength(LatticePoint way, const AxisScale& scale) {
   return std::sqrt(static_cast<double>(squared));
 }
 
-// The way from the middle of the ball to each other point in it, the farthest first: most points
-// near an object have background there.
+// The offsets from the center of the ball to its other points, the farthest first: most points near
+// an object have background there.
 std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
   std::vector<std::pair<double, LatticePoint>> ways;
   const auto reach = static_cast<int32_t>(radius);
@@ -60,7 +60,7 @@ std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
   return sorted;
 }
 
-// The points with background beside them.
+// Visits the points with adjacent background.
 template <typename Visit>
 void ForEachSurfacePoint(const Volume& object, Visit visit) {
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
@@ -88,15 +88,14 @@ Volume PointsAt(const Volume& volume, const DistanceField& distance, Passes pass
                                   {volume.keys().begin(), volume.keys().end()}, std::move(bricks));
 }
 
-// How a ball is compared with the object, and how far around it one has to look.
+// How a ball is compared with the object, and how far around it bricks are visited.
 struct Closing {
   bool by_points = false;
   BrickCoordinates room;
 };
 
-// Nothing is known of what lies beyond the bricks that are looked at, and they count as background.
-// That is wrong by up to two radii from there, and matters to the closing up to two radii from the
-// object.
+// Bricks that are not visited count as background. That is wrong by up to two radii from there, and
+// affects the closing up to two radii from the object.
 Closing ClosingOf(const Volume& object, double radius) {
   const BrickCoordinates room = RoomFor(4 * radius);
   const AxisScale scale = AxisScaleOf(object.placement());
@@ -110,7 +109,7 @@ Closing ClosingOf(const Volume& object, double radius) {
   return {false, room};
 }
 
-// Reserves and lists the bricks to look at.
+// Reserves memory for the bricks to visit and lists them.
 absl::StatusOr<std::vector<BrickKey>> BricksToLookAt(const Volume& object, BrickCoordinates room,
                                                      exec::MemoryBudget& memory) {
   BCCSKEL_RETURN_IF_ERROR(memory.TakeFor(MostBricksAround(object, room), kBytesPerListedBrick,
@@ -137,7 +136,7 @@ absl::StatusOr<Volume> ClosedByDistances(const Volume& object, const Volume& bri
   return PointsAt(grown, depth, [&](double deep) { return deep >= radius; });
 }
 
-// The nearest point of the object is one of its surface: one of its neighbors would be nearer.
+// Surface points are enough: one of the neighbors of any other point would be nearer.
 absl::StatusOr<Volume> ClosedByPoints(const Volume& object, const Volume& bricks, double radius,
                                       const exec::Context& context) {
   const std::vector<LatticePoint> ways = WaysInBall(radius, AxisScaleOf(object.placement()));
@@ -186,7 +185,7 @@ absl::StatusOr<Volume> OutOfReach(const Volume& object, double radius, exec::Mem
                            by_points ? ClosedByPoints(within, bricks, radius, context)
                                      : ClosedByDistances(within, bricks, radius, context));
   const LatticePoint moved = {2 * kBrickX * room.bx, 2 * kBrickY * room.by, 2 * kBrickZ * room.bz};
-  // The builder drops what lies outside the extent.
+  // The builder drops points outside the extent.
   VolumeBuilder beyond(object.extent(), object.placement());
   Difference(closed, within).ForEachPoint([&](LatticePoint p) { beyond.Add(p - moved); });
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());

@@ -15,7 +15,7 @@ namespace bccskel {
 absl::StatusOr<Volume> OutOfReach(const Volume& object, double radius, exec::MemoryBudget& memory,
                                   const exec::Context& context);
 
-// Whether the budget has what OutOfReach() needs.
+// OK if the budget has the memory that OutOfReach() needs.
 absl::Status CheckRoomForBall(const Volume& object, double radius, exec::MemoryBudget& memory);
 
 }  // namespace bccskel

@@ -12,12 +12,13 @@
 namespace bccskel {
 namespace {
 
-// Of the bricks with points beyond: bits and neighbors, and distances while they are measured.
+// Memory per brick with points beyond the border: bits and neighbors, and distances while they are
+// measured.
 constexpr uint64_t kBytesPerBrick = 5120;
-// Of the others bits and neighbors: their distances the object has anyway.
+// Memory per other brick: bits and neighbors. The object has distances for them anyway.
 constexpr uint64_t kBytesPerCopiedBrick = 256;
 
-// What is known: the image, and all beside it across the other axes.
+// The known box: the image, extended without limit across the other axes.
 LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes) {
   constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;
   const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
@@ -34,7 +35,7 @@ uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
   return (corners.PointCount() + voxels.PointCount()) / 2;
 }
 
-// Of the object's bricks and those beside them, those with points beyond the window.
+// The object's bricks and adjacent ones that have points beyond the window.
 std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& window) {
   std::vector<BrickKey> keys;
   const auto add = [&](BrickCoordinates brick) {

@@ -11,23 +11,23 @@
 
 namespace bccskel {
 
-// The border of an image: that of the lattice, or of the image that it was made from, whose last
-// corner points lie on its faces.
+// The border of an image: that of the lattice, or that of the image from which the lattice was
+// made, whose last corner points lie on its faces.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 
 // Whether the object continues beyond both faces across x, y and z.
 using AxesAcross = std::array<bool, 3>;
 inline constexpr AxesAcross kAllAxes = {true, true, true};
 
-// The object in the window of its image, with the points beyond in its own bricks and those beside
-// them. Across the other axes there is background beyond. If all continue, an image without
-// background would be infinitely deep, so the object ends at its border: then the result has no
-// window.
+// Returns the object in the window of its image, with the points beyond the border in its own
+// bricks and the adjacent ones. Across the other axes, background lies beyond the border. If the
+// object continues across all axes, an image without background would be infinitely deep, so the
+// object ends at its border: the result has no window.
 // Errors: of the budget.
 absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
                                             const AxesAcross& axes, exec::MemoryBudget& memory);
 
-// The distances of the object's points, a subset of `space`, there.
+// Measures the distances of the object's points, a subset of `space`, in `space`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& object,
                                         DistanceKind kind, const exec::Context& context);

@@ -15,8 +15,8 @@ BrickCoordinates Shifted(BrickCoordinates brick, BrickCoordinates by, int32_t ti
           brick.sublattice};
 }
 
-// Calls visit(key, a, b) for each brick that is stored in one of them, in order; what is not stored
-// is empty.
+// Calls visit(key, a, b) for each brick that is stored in either volume, in order; a brick that is
+// not stored is empty.
 template <typename Visit>
 void ForEachBrickOf(const Volume& a, const Volume& b, Visit visit) {
   const BrickBits none;
@@ -31,7 +31,7 @@ void ForEachBrickOf(const Volume& a, const Volume& b, Visit visit) {
   }
 }
 
-// `join` makes a word of a word of each.
+// `join` combines a word of each into one.
 template <typename Join>
 Volume Joined(const Volume& a, const Volume& b, Join join) {
   std::vector<BrickKey> keys;
@@ -44,8 +44,8 @@ Volume Joined(const Volume& a, const Volume& b, Join join) {
   return Volume::FromSortedBricks(a.extent(), a.placement(), std::move(keys), std::move(bricks));
 }
 
-// Sorted keys with those beside them, up to `reach` bricks away along one axis. `step` keeps their
-// order, so lists are merged, each time with one as wide.
+// Adds to sorted keys those up to `reach` bricks away along one axis. `step` preserves their order,
+// so the list is merged with shifted copies of itself, which double its reach.
 template <typename Step>
 std::vector<BrickKey> Widened(const std::vector<BrickKey>& keys, int32_t reach, Step step) {
   const auto moved = [&](const std::vector<BrickKey>& list, int32_t n) {

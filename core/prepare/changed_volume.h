@@ -7,10 +7,10 @@
 
 namespace bccskel {
 
-// What one operation made of an object.
+// The result of one operation on an object.
 struct ChangedVolume {
   Volume object;
-  uint64_t count = 0;  // of what it worked on: cavities or components
+  uint64_t count = 0;  // of the cavities or components that it changed
   uint64_t points_added = 0;
   uint64_t points_removed = 0;
 };

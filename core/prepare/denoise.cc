@@ -56,7 +56,7 @@ HWY_INLINE Plane AddUp(Plane& a, const Plane& b, const Plane& c) {
   return carries;
 }
 
-// Where at least 8 of the 15 bits are set.
+// The points at which at least 8 of the 15 bits are set.
 HWY_INLINE Plane AtLeastEight(const Plane& own, const Plane (&p)[kNeighborCount]) {
   Plane a = p[0], b = p[3], c = p[6], d = p[9], e = p[12];
   Plane twos_a = AddUp(a, p[1], p[2]), twos_b = AddUp(b, p[4], p[5]);
@@ -101,7 +101,7 @@ bool IsInside(const LatticeExtent& extent, BrickCoordinates brick) {
          brick.by * kBrickY < extent.ny && brick.bz * kBrickZ < extent.nz;
 }
 
-// The bricks that are not stored and of the other sublattice than a brick beside them, increasing.
+// The bricks that are not stored but lie beside a stored brick of the other sublattice, increasing.
 std::vector<BrickKey> MissingBricks(const Volume& object) {
   std::vector<BrickKey> missing;
   for (size_t n = 0; n < object.brick_count(); ++n) {

@@ -7,20 +7,21 @@
 
 namespace bccskel {
 
-// Does:  one pass for all points at once: an object point stays if 7 of its 14 neighbors are object
-//        points, a background point joins if 8 are; that is, every point is set to the
-//        majority of itself and its neighbors.
-// Why it is right: the sum of fifteen bits is at least eight when its bit of weight eight is set,
-//        so a tree of full adders counts for 512 points at once. A point that lies in a brick
-//        without points has at most three neighbors of its own sublattice that are not in that
-//        brick, so it can join only if a brick of the other sublattice around is stored; and a
-//        point outside the extent has at most five neighbors inside.
+// Does:  one pass for all points at once: an object point stays if at least 7 of its 14 neighbors
+//        are object points, a background point joins if at least 8 are; that is, every point is set
+//        to the majority of itself and its neighbors.
+// Why it is right: the sum of fifteen bits is at least eight if its bit of weight eight is set, so
+//   a tree of full adders counts for 512 points at once. A point in a brick without points has at
+//   most three neighbors of its own sublattice outside that brick, so it can join only if an
+//   adjacent brick of the other sublattice is stored; and a point outside the extent has at most
+//   five neighbors inside.
 // Cost:  about 70 logic operations per brick stored or missing beside a stored one.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> Denoise(const Volume& object, const exec::Context& context);
 
-// Only what Denoise() adds: pits, that is background points with eight object points around them. A
-// convex object has none: of two opposite neighbors of a background point one is background.
+// Adds only the points that Denoise() would add: pits, which are background points with at least
+// eight object neighbors. A convex object has none: of two opposite neighbors of a background
+// point, one is background.
 absl::StatusOr<ChangedVolume> FillPits(const Volume& object, const exec::Context& context);
 
 }  // namespace bccskel

@@ -61,7 +61,7 @@ uint64_t FillStored(ComponentSets& background, std::vector<BrickBits>& bricks,
   return static_cast<uint64_t>(filled);
 }
 
-// The stored bricks with whole ones between them.
+// The stored bricks and the full bricks between them.
 Volume WithWholeBricks(const Volume& object, std::vector<BrickBits> stored,
                        const std::vector<BrickKey>& whole) {
   BrickBits all;

@@ -9,17 +9,17 @@
 
 namespace bccskel {
 
-// Does:  makes object of every background component but the outside; counts them.
-// Why it is right: what is left of the background is the outside alone, so no cavity remains, and
-//        objects inside a cavity become part of what encloses them. A cavity that is a ball takes
-//        nothing else with it; one with handles takes as many loops.
-// Cost:  labels the background; bricks that are not stored are made where a cavity has some.
-// Errors: RESOURCE_EXHAUSTED when the object would have more than max_bricks bricks; CANCELLED,
+// Does:  turns every background component except the outside into object; counts them.
+// Why it is right: the rest of the background is only the outside, so no cavity remains, and
+//   objects inside a cavity become part of what encloses them. Filling a cavity that is a ball
+//   changes nothing else; one with handles also removes as many loops.
+// Cost:  labels the background; creates bricks where a cavity needs them.
+// Errors: RESOURCE_EXHAUSTED if the object would have more than max_bricks bricks; CANCELLED,
 //         DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> FillCavities(const Volume& object, uint64_t max_bricks,
                                            const exec::Context& context);
 
-// The bricks that the object will have when its cavities are filled.
+// The number of bricks of the object after its cavities are filled.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<uint64_t> BricksWithCavitiesFilled(const Volume& object,
                                                   const exec::Context& context);

@@ -19,15 +19,15 @@
 namespace bccskel {
 namespace {
 
-// Of the object with its cavities filled: bits, three times.
+// Memory per brick of the object with its cavities filled: bits, three times.
 constexpr uint64_t kBytesPerCavityBrick = 256;
-// As much as the pipeline needs for a brick of an object.
+// The memory that the pipeline needs per brick of an object.
 constexpr uint64_t kBytesPerNewBrick = 5120;
 
-// In lattice units: that of a voxel missing in a wall.
+// In lattice units: the width of a missing voxel in a wall.
 constexpr double kNarrowest = 2;
 
-// How the Euler characteristic changes when a point with these object neighbors joins them.
+// The change of the Euler characteristic when a point with these object neighbors joins them.
 // Source: 1 - chi(link), where chi = b0 - b1, and on a sphere b1 of the object's part is one less
 //         than b0 of the rest.
 int EulerOfJoining(NeighborMask mask) {
@@ -41,7 +41,7 @@ double RadiusOf(double width) { return width / 2 + 1; }
 
 class TunnelFiller {
  public:
-  // Distances go from center to center of points that are half a cell's edge, one unit, thick.
+  // Distances are measured between the centers of points, each half a cell's edge, one unit, thick.
   TunnelFiller(const Volume& object, double width, exec::MemoryBudget& memory,
                const exec::Context& context)
       : object_(object),
@@ -61,7 +61,7 @@ class TunnelFiller {
  private:
   struct Piece {
     static constexpr size_t kNone = std::numeric_limits<size_t>::max();
-    int64_t euler = 0;       // what filling it adds
+    int64_t euler = 0;       // change of the Euler characteristic by filling it
     size_t touches = kNone;  // a component of the object
     bool refused = false;
 
@@ -126,7 +126,7 @@ class TunnelFiller {
     return Union(object_, *std::move(filled).Build());
   }
 
-  // What is enclosed, and the object.
+  // The object and everything that it encloses.
   absl::StatusOr<Volume> CavitiesFilled(const Volume& object) const {
     BCCSKEL_ASSIGN_OR_RETURN(
         ChangedVolume filled,
@@ -134,15 +134,16 @@ class TunnelFiller {
     return std::move(filled.object);
   }
 
-  // What a piece that would be filled leads to: background that would be enclosed, or the outside.
+  // A connection from a piece that would be filled to background that would be enclosed, or to the
+  // outside.
   struct Way {
     size_t piece = 0;
     std::vector<size_t> regions;
   };
 
-  // Pieces may close all mouths of what then is a cavity. As many stay open as connect each such
-  // region with the outside, those first that cost the fewest loops (Kruskal's algorithm). More are
-  // not needed: a piece is connected, and so was the background before.
+  // Pieces may close all openings of a region, which would become a cavity. As many pieces stay
+  // open as connect each such region with the outside, those that cost the fewest loops first
+  // (Kruskal's algorithm). More are not needed: a piece is connected, and so was the background.
   absl::Status RefuseNewCavities() {
     filled_ = Filled();
     BCCSKEL_ASSIGN_OR_RETURN(const Volume closed, CavitiesFilled(filled_));
@@ -219,7 +220,8 @@ absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           const exec::Context& context) {
   ChangedVolume all{object};
   if (object.empty()) return all;
-  if (width > kNarrowest) {  // the widest ball needs most, and no less once others have filled some
+  if (width >
+      kNarrowest) {  // the widest ball needs most memory, also after the others have filled some
     BCCSKEL_RETURN_IF_ERROR(CheckRoomForBall(object, RadiusOf(width), memory));
   }
   for (double now = std::min(width, kNarrowest);; now = std::min(2 * now, width)) {

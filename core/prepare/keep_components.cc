@@ -8,7 +8,7 @@
 namespace bccskel {
 namespace {
 
-// By name of a component; 0 for names that no component has.
+// The size of each component by name; 0 for unused names.
 std::vector<uint64_t> SizesOf(const Volume& object, ComponentSets& sets) {
   std::vector<uint64_t> sizes(sets.name_limit());
   const PhaseComponents& pieces = sets.pieces();
@@ -27,7 +27,7 @@ int FirstBit(const BrickBits& points) {
   return bit;
 }
 
-// Of the components of `size` points the one with the first point. Needs: there is one.
+// The component of `size` points with the first point. Needs: there is one.
 size_t FirstOfSize(ComponentSets& sets, const std::vector<uint64_t>& sizes, uint64_t size) {
   const auto fits = [&](size_t set) { return sizes[set] == size; };
   for (BrickIndex n = 0;; ++n) {
@@ -36,7 +36,7 @@ size_t FirstOfSize(ComponentSets& sets, const std::vector<uint64_t>& sizes, uint
   }
 }
 
-// What is left when only components that pass stay.
+// The object with only the components that pass.
 template <typename Stays>
 ChangedVolume Keep(const Volume& object, ComponentSets& sets, Stays stays) {
   ChangedVolume kept;

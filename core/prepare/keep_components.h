@@ -9,13 +9,13 @@
 
 namespace bccskel {
 
-// Drops the components of fewer than `least` points; counts them.
+// Drops the components with fewer than `least` points; counts them.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> DropSmallComponents(const Volume& object, uint64_t least,
                                                   const exec::Context& context);
 
-// Drops all components but the one of the most points, on ties the one with the first point in
-// the order of Volume::ForEachPoint(); counts them.
+// Drops all components except the one with the most points; on ties the one with the first point in
+// the order of Volume::ForEachPoint() stays. Counts the dropped ones.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> KeepLargestComponent(const Volume& object,
                                                    const exec::Context& context);

@@ -17,28 +17,28 @@ namespace bccskel {
 enum class CavityFilling : uint8_t { kOff, kOn };
 enum class KeptComponents : uint8_t { kAll, kLargest };
 
-// What is done to an object before it is thinned, in this order. Each step may change its topology.
+// The steps that prepare an object for thinning, in this order. Each may change its topology.
 struct PreparingOptions {
   // How often every point is set to the majority of itself and its 14 neighbors, up to
-  // kMaxDenoisePasses. Destroys what is one or two lattice units thick.
+  // kMaxDenoisePasses. Destroys parts that are one or two lattice units thick.
   int32_t denoise_passes = 0;
-  // Makes object of all background that does not reach the outside.
+  // Turns all background that does not reach the outside into object.
   CavityFilling cavities = CavityFilling::kOff;
-  // Components of fewer points are dropped.
+  // Drops components with fewer points.
   uint64_t min_component_points = 0;
   // The same by volume, in cubic world units; 0 drops none.
   double min_component_volume = 0;
-  // Of two largest components the one stays that has the first point in brick order.
+  // Of several largest components, the one with the first point in brick order stays.
   KeptComponents components = KeptComponents::kAll;
-  // Fills tunnels that are narrower, in world units, up to 256 half edges of the cubic cell; 0
-  // fills none. Components and cavities stay as they are, so a tunnel in which another component
-  // lies stays, too.
+  // Fills tunnels narrower than this, in world units, up to 256 half edges of the cubic cell; 0
+  // fills none. Components and cavities stay, so a tunnel that contains another component stays,
+  // too.
   double tunnel_width = 0;
   // The same in shortest edges of a voxel, or of the cubic cell where the object has no voxels; see
-  // TunnelWidthOf() for those that are longer one way.
+  // TunnelWidthOf() for elongated cells.
   double tunnel_cells = 0;
 
-  // A larger object is not made: cavities may hold far more bricks than the object.
+  // The limit of the prepared object: cavities may hold far more bricks than the object.
   uint64_t max_bricks = std::numeric_limits<uint32_t>::max() - 1;
 
   // Whether anything is to be done.
@@ -51,9 +51,9 @@ struct PreparingOptions {
 };
 inline constexpr int32_t kMaxDenoisePasses = 16;
 
-// The width of tunnels in lattice units that PreparingOptions::tunnel_cells stands for, where a
-// voxel is one cell: noise leaves gaps as high as the longest edge of a cell, so at least a quarter
-// more than that. Fewer cells than this count as longest edges.
+// The width of tunnels in lattice units for PreparingOptions::tunnel_cells, where a voxel is one
+// cell. Noise leaves gaps as high as the longest edge of a cell, so the width is at least 1.25
+// longest edges, or `cells` longest edges if that is less.
 double TunnelWidthOf(double cells, const Placement& placement);
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.
@@ -81,11 +81,11 @@ struct PreparingStep {
 struct PreparedObject {
   Volume object;
   BettiNumbers before;               // of the object as given
-  std::vector<PreparingStep> steps;  // those that were wanted, in their order
+  std::vector<PreparingStep> steps;  // the requested steps, in order
 };
 
-// The memory for filling tunnels is taken from the budget.
-// `cells_per_voxel`: how many edges of the cubic cell make a voxel's edge, for tunnel_cells.
+// Runs the requested steps. Filling tunnels takes memory from the budget.
+// `cells_per_voxel`: how many edges of the cubic cell make an edge of a voxel, for tunnel_cells.
 // Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), those of the
 //         budget, CANCELLED, DEADLINE_EXCEEDED.
 // Threads: uses all of the context's; the result is the same for any number.

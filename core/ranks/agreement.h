@@ -16,7 +16,7 @@ inline absl::Status AgreeToGoOn(Exchange& exchange, const exec::Context& context
   return absl::CancelledError("the job was stopped on another rank");
 }
 
-// OK on all ranks or on none. Rank 0 gets the first error and the number of its rank.
+// OK on all ranks or on none. Rank 0 receives the first error and the number of its rank.
 absl::Status AgreeOn(Exchange& exchange, const absl::Status& own);
 
 }  // namespace bccskel::ranks

@@ -25,13 +25,13 @@ class BorderPartners : public SweepPartners {
  private:
   struct Listener {
     uint32_t peer = 0;
-    uint32_t place = 0;  // among what the peer is told of
+    uint32_t place = 0;  // index in the list of bricks that the peer is told about
   };
 
   Exchange& exchange_;
   const RankBricks& bricks_;
   std::vector<int> peers_;
-  // Those of brick n are listeners_[first_listener_[n]..first_listener_[n + 1]).
+  // The listeners of brick n are listeners_[first_listener_[n]..first_listener_[n + 1]).
   std::vector<uint32_t> first_listener_;
   std::vector<Listener> listeners_;
   std::vector<Bytes> out_;

@@ -24,7 +24,7 @@ uint64_t Mixed(uint64_t a, uint64_t b) {
   return hash ^ hash >> 31;
 }
 
-// The same however the bricks are spread: a sum.
+// A sum, so that it does not depend on how the bricks are distributed.
 uint64_t HashOf(const Volume& local, exec::Share own) {
   uint64_t sum = 0;
   for (size_t n = own.begin; n < own.end; ++n) {
@@ -47,7 +47,7 @@ uint64_t HashOf(DistanceKind distance, const ThinningOptions& thinning) {
   return Crc32c(bytes);
 }
 
-// With a check sum at the end.
+// Appends a checksum.
 Bytes Sealed(Bytes bytes) {
   Pack(Crc32c(bytes), bytes);
   return bytes;
@@ -89,7 +89,7 @@ absl::StatusOr<Checkpoints::Mark> Checkpoints::ReadMark() {
       "folder, or omit --resume to replace it");
 }
 
-// A share of the parts for each rank.
+// Each rank reads a share of the parts.
 absl::StatusOr<std::vector<Bytes>> Checkpoints::ReadParts(const Mark& mark) {
   std::vector<Bytes> parts;
   for (int part = exchange_.rank(); part < mark.ranks; part += exchange_.size()) {

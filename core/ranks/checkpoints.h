@@ -51,17 +51,17 @@ struct ShellsDone {
 // all ranks have written their parts; then the previous checkpoint is deleted.
 class Checkpoints {
  public:
-  // All ranks together. `bricks` and `exchange` outlive this.
+  // Called by all ranks together. `bricks` and `exchange` outlive this.
   Checkpoints(Exchange& exchange, const RankBricks& bricks, const CheckpointOptions& options,
               DistanceKind distance, const ThinningOptions& thinning);
 
-  // Stores what the last checkpoint left of the object in `object`, in the order of bricks.local;
-  // returns 0 shells and leaves `object` empty if there is none or none is wanted.
-  // Errors: FAILED_PRECONDITION (checkpoint of another object or of other options, or damaged);
-  //         on all ranks.
+  // Stores the bricks of the last checkpoint in `object`, in the order of bricks.local; returns 0
+  // shells and leaves `object` empty if there is no checkpoint or none is wanted.
+  // Errors: FAILED_PRECONDITION (checkpoint of another object or of other options, or damaged); on
+  //         all ranks.
   absl::StatusOr<ShellsDone> Resume(std::vector<BrickBits>& object);
 
-  // Writes one if the interval has passed. All ranks together, after a shell.
+  // Writes a checkpoint if the interval has passed. Called by all ranks together, after a shell.
   // Errors: of the folder; on all ranks.
   absl::Status AfterShell(int32_t shell, const ThinningState& state,
                           const std::vector<IsthmusBirth>& isthmuses);
@@ -83,7 +83,7 @@ class Checkpoints {
   Exchange& exchange_;
   const RankBricks& bricks_;
   const CheckpointOptions options_;
-  uint64_t job_ = 0;  // of the object and the options
+  uint64_t job_ = 0;  // hash of the object and the options
   std::optional<Mark> last_;
   Clock::time_point written_ = Clock::now();
 };

@@ -10,7 +10,7 @@
 
 namespace bccskel::ranks {
 
-// Messages of some MiB are exchanged round by round; large ones reuse their memory.
+// Messages of some MiB are exchanged in rounds; large ones reuse their memory.
 using Bytes = exec::UninitializedVector<std::byte>;
 
 // The stages of a job, for communication counts.
@@ -44,7 +44,7 @@ class Exchange {
 // Sends `out[r]` to each rank r, itself included. Returns the messages received, by rank.
 std::vector<Bytes> TradeWithAll(Exchange& exchange, std::vector<Bytes> out);
 
-// Each rank's number, by rank.
+// Returns the number of each rank, by rank.
 std::vector<uint64_t> ShareNumber(Exchange& exchange, uint64_t number);
 
 // Returns the messages of all ranks on rank 0, by rank; nothing elsewhere.

@@ -12,11 +12,12 @@
 
 namespace bccskel::ranks {
 
-// A brick in 72 bytes.
+// Packs a brick into 72 bytes.
 void PackBrick(BrickKey key, const BrickBits& bits, Bytes& to);
 void TakeBrick(Unpacker& from, std::vector<BrickKey>& keys, std::vector<BrickBits>& bits);
 
-// Which rank measures which layer of bricks: runs of layers with about equally many bricks.
+// Assigns layers of bricks to the ranks that measure them: runs of layers with roughly equal
+// numbers of bricks.
 class LayerOwners {
  public:
   // `own` of the bricks of `local`.
@@ -24,7 +25,7 @@ class LayerOwners {
 
   // Layers of the box.
   int32_t count() const { return static_cast<int32_t>(ranks_.size()); }
-  // Outside the box: the rank of the nearest layer.
+  // The rank of a layer; outside the box, that of the nearest layer.
   size_t RankOf(int32_t layer) const;
   // The layers of a rank.
   int32_t FirstOf(int rank) const;
@@ -34,10 +35,10 @@ class LayerOwners {
   std::vector<uint64_t> ranks_;
 };
 
-// Those in layers [first, end).
+// The bricks in layers [first, end).
 exec::Share BricksOfLayers(const Volume& volume, int32_t first, int32_t end);
 
-// The bricks of this rank's layers and those of the layers below and above.
+// Returns the bricks of this rank's layers and those of the layers below and above.
 Volume MoveToLayers(Exchange& exchange, const LayerOwners& layers, const Volume& local,
                     exec::Share own);
 

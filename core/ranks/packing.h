@@ -11,7 +11,7 @@
 
 namespace bccskel::ranks {
 
-// Copies values as they are in memory: all ranks run the same program on machines of one kind.
+// Copies values byte by byte: all ranks run the same program on machines of one kind.
 template <typename T>
 void Pack(std::span<const T> values, Bytes& to) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -48,7 +48,7 @@ class Unpacker {
     Take(std::span<T>(&value, 1));
     return value;
   }
-  // All that is left.
+  // All remaining values.
   template <typename T>
   std::vector<T> TakeRest() {
     std::vector<T> values(rest_.size() / sizeof(T));

@@ -18,7 +18,8 @@ struct PackedBrick {
   BrickBits bits;
 };
 
-// Calls visit(key) for the place of a brick and all that touch it, of both sublattices.
+// Calls visit(key) for the position of a brick and all positions that touch it, of both
+// sublattices.
 template <typename Visit>
 void ForEachAround(BrickKey key, Visit visit) {
   const BrickCoordinates at = key.coordinates();
@@ -38,7 +39,7 @@ std::optional<BrickKey> FirstOf(const Volume& volume) {
   return volume.keys().front();
 }
 
-// Tells for each other rank which own bricks are at its places, or beside them.
+// Finds for each other rank the own bricks that are at its positions, or beside them.
 std::vector<std::vector<BrickIndex>> FindTold(const Volume& own, const Owners& owners, int rank,
                                               int ranks) {
   std::vector<std::vector<BrickIndex>> told(static_cast<size_t>(ranks));
@@ -79,8 +80,9 @@ Volume Joined(const Volume& own, const std::vector<PackedBrick>& ghosts) {
   return Volume::FromSortedBricks(own.extent(), own.placement(), std::move(keys), std::move(bits));
 }
 
-// Where the share of each rank begins among these keys, and where the last one ends: the first keys
-// of shares are searched for bit by bit, all at a time, by counting what lies below.
+// Finds where the share of each rank begins among these keys, and where the last one ends. The
+// first keys of all shares are found by simultaneous binary search, bit by bit, counting the keys
+// below.
 // Shapes: `keys` increase.
 std::vector<size_t> FindStarts(Exchange& exchange, std::span<const BrickKey> keys) {
   const int ranks = exchange.size();
@@ -88,7 +90,7 @@ std::vector<size_t> FindStarts(Exchange& exchange, std::span<const BrickKey> key
   exchange.Sum({&total, 1});
   uint64_t last = keys.empty() ? 0 : keys.back().value();
   exchange.Max({&last, 1});
-  const auto below = [&](uint64_t key) {  // how many of these keys
+  const auto below = [&](uint64_t key) {  // the number of keys below
     return static_cast<size_t>(std::ranges::lower_bound(keys, key, {}, &BrickKey::value) -
                                keys.begin());
   };
@@ -189,7 +191,7 @@ RankBricks AddGhosts(Exchange& exchange, Volume own) {
   }
   std::vector<Bytes> in = TradeWithAll(exchange, std::move(out));
 
-  // Places of a rank need not have bricks: it answers which of the offered ones it takes.
+  // Positions of a rank may be empty, so it answers which of the offered bricks it takes.
   std::vector<PackedBrick> ghosts;
   std::vector<size_t> taken(in.size());
   std::vector<Bytes> answers(in.size());
@@ -211,7 +213,7 @@ RankBricks AddGhosts(Exchange& exchange, Volume own) {
   bricks.local = own.empty() ? std::move(own) : Joined(own, ghosts);
   own = {};
   bricks.own = {low, low + own_count};
-  size_t next = 0;  // ghosts come by rank, and so in the order of their keys
+  size_t next = 0;  // ghosts arrive by rank and so in the order of their keys
   for (size_t rank = 0; rank < answers.size(); ++rank) {
     RankBricks::Peer peer = {static_cast<int>(rank), {}, {}};
     for (size_t n = 0; n < answers[rank].size(); ++n) {

@@ -15,11 +15,11 @@
 
 namespace bccskel::ranks {
 
-// Which rank owns which bricks: the bricks of the object in their order are divided into as many
-// runs as there are ranks.
+// Which rank owns which bricks: the bricks of the object, in order, are divided into as many runs
+// as there are ranks.
 class Owners {
  public:
-  // `first` is the least key of this rank's bricks, if it has any.
+  // `first` is the smallest key of this rank's bricks, if it has any.
   Owners(Exchange& exchange, std::optional<BrickKey> first);
 
   // The owner of a key, stored or not. Needs: some rank has bricks.
@@ -46,16 +46,16 @@ struct RankBricks {
 
 // Moves bricks so that ranks own equal numbers of them, and the bricks of each rank come before
 // those of the next. Initially any rank may have any of them.
-// Cost:   besides moving the bricks, about 60 sums over all ranks of a number for each.
+// Cost:   besides moving the bricks, about 60 sums over all ranks of one number per rank.
 // Errors: INVALID_ARGUMENT if two ranks have the same brick, on all ranks.
 absl::StatusOr<Volume> ShareEvenly(Exchange& exchange, Volume part);
 
-// Adds ghosts: all bricks of other ranks that share a face, an edge or a corner with an own one, of
-// either sublattice. Needs: the bricks of each rank come before those of the next.
+// Adds ghosts: all bricks of other ranks that share a face, an edge or a corner with one of this
+// rank, of either sublattice. Needs: the bricks of each rank come before those of the next.
 RankBricks AddGhosts(Exchange& exchange, Volume own);
 
-// The bricks `own` of all ranks, on rank 0; none on other ranks, which send one at a time.
-// Needs: as AddGhosts().
+// Returns the own bricks of all ranks on rank 0; none on other ranks, which send one after the
+// other. Needs: as AddGhosts().
 Volume GatherBricks(Exchange& exchange, const Volume& local, exec::Share own);
 
 // Sends the value of each own brick to the ranks that have it as a ghost.

@@ -25,7 +25,7 @@
 namespace bccskel::ranks {
 namespace {
 
-// What is left of the object when the shells are done, of all ranks.
+// The remaining object of all ranks after the shells.
 struct Remains {
   std::vector<BrickKey> keys;
   std::vector<BrickBits> object;
@@ -73,7 +73,7 @@ class Peeling {
     return Volume::FromSortedBricks(volume.extent(), volume.placement(), {}, {});
   }
 
-  // What is left of the object, on rank 0.
+  // Returns the remaining object on rank 0.
   absl::StatusOr<Remains> PeelOwn(const RankBricks& bricks) {
     exchange_.Enter(Stage::kDistances);
     BCCSKEL_ASSIGN_OR_RETURN(const RankShells shells,
@@ -97,14 +97,14 @@ class Peeling {
 
   bool IsSymmetric() const { return options_.method == ThinningMethod::kSymmetric; }
 
-  // What has become an isthmus stays for good.
+  // A point that became an isthmus stays for good.
   std::vector<LatticePoint> KeptPoints(const ShellsDone& done) const {
     std::vector<LatticePoint> kept = options_.keep;
     for (const IsthmusBirth& birth : done.isthmuses) kept.push_back(birth.point);
     return kept;
   }
 
-  // Isthmuses of ghosts are their owners'.
+  // Isthmuses of ghosts belong to their owners.
   static std::vector<IsthmusBirth> OwnOnly(const RankBricks& bricks,
                                            std::vector<IsthmusBirth> isthmuses) {
     std::erase_if(isthmuses, [&](const IsthmusBirth& birth) {
@@ -143,7 +143,7 @@ class Peeling {
     const auto write = [&](int32_t shell) {
       if (!written.ok() || shell == last) return;
       written = checkpoints.AfterShell(shell, state, isthmuses());
-      if (!written.ok()) give_up_.request_stop();  // all ranks do
+      if (!written.ok()) give_up_.request_stop();  // on all ranks
     };
     uint64_t removed =
         PointsIn(bricks.local.bricks(), bricks.own) - PointsIn(state.object, bricks.own);
@@ -194,7 +194,7 @@ class Peeling {
     return remains;
   }
 
-  // Little is left, so rank 0 cleans up alone.
+  // Few points remain, so rank 0 cleans up alone.
   absl::Status Finish(const Volume& part, Remains remains) {
     result_.isthmuses = std::move(remains.isthmuses);
     std::ranges::sort(result_.isthmuses, {}, &IsthmusBirth::point);

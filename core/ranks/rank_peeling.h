@@ -11,13 +11,13 @@
 
 namespace bccskel::ranks {
 
-// Does:  ThinObject() by all ranks together, and CountBettiNumbers() of the object; the same bits
-//        for any number of ranks, and of threads on each.
+// Does:  runs ThinObject() and, for the object, CountBettiNumbers() on all ranks together; the same
+//        bits for any number of ranks, and of threads on each.
 // Needs: each brick of the object is in the part of one rank, in any order; all have the same
 //        options, extent and placement.
 // Returns: on rank 0 the result, and `part` becomes the whole object; on other ranks both are
-// empty. Cost:  a rank owns its share of the bricks (rank_bricks.h). Per pass one Trade() with the
-// ranks
+//          empty.
+// Cost:  a rank owns its share of the bricks (rank_bricks.h). Per pass one Trade() with the ranks
 //        that have adjacent bricks, 68 bytes for each border brick that loses points; per shell one
 //        Sum().
 // Errors: INVALID_ARGUMENT, also if two ranks have the same brick; those of Checkpoints; CANCELLED

@@ -19,18 +19,18 @@
 namespace bccskel::ranks {
 namespace {
 
-// Squares that a rank has within layers of a round's columns, or more where the object is large
-// across x; and about as many of those it sends and measures across layers in a turn.
+// The squares within layers that a rank holds for the columns of a round, or more if the object is
+// large across x; and about as many that it sends and measures across layers in a turn.
 constexpr size_t kBytesPerRound = size_t{2} << 20, kBytesPerTurn = size_t{1} << 20;
 
-// Who measures a column, and when.
+// The rank and the turn in which a column is measured.
 struct Measurer {
   size_t rank;
   size_t turn;
 };
 
-// As many columns along y go to as many ranks as there are, in the same turn, and who begins is by
-// chance, so that neither solids nor patterns leave some ranks with more.
+// Consecutive columns along y go to different ranks in the same turn, starting with a pseudorandom
+// one, so that neither solids nor patterns give some ranks more work.
 Measurer MeasurerOf(BrickKey key, size_t ranks, size_t turns) {
   const BrickCoordinates at = key.coordinates();
   const auto by = static_cast<uint64_t>(at.by);
@@ -40,8 +40,8 @@ Measurer MeasurerOf(BrickKey key, size_t ranks, size_t turns) {
   return {(by + (hash ^ hash >> 32)) % ranks, by / ranks % turns};
 }
 
-// Measures columns a round after the other, so that few squares are there at a time: those of a
-// round go, in turns, from who has their layers to who has their columns.
+// Measures columns round by round, so that few squares exist at a time: in turns, those of a round
+// go from the ranks with their layers to the ranks with their columns.
 class EuclideanRounds {
  public:
   EuclideanRounds(Exchange& exchange, const RankBricks& bricks, const LayerOwners& layers,
@@ -61,7 +61,7 @@ class EuclideanRounds {
     for (const auto& group : ColumnsOf(volume, counts, kBytesPerRound / kBytes<uint16_t>)) {
       BCCSKEL_RETURN_IF_ERROR(AgreeToGoOn(exchange_, context_));
       const ObjectPart part = PartOf(volume, group, context_);
-      // Columns beside deep ones are deep, too.
+      // Columns beside deep ones are usually deep, too.
       if (may_be_whole_ && largest_ < kFirstUnsureSquare && MeasureAs<uint16_t>(part)) continue;
       MeasureAs<float>(part);
     }
@@ -94,7 +94,7 @@ class EuclideanRounds {
     return true;
   }
 
-  // The squares of this rank's layers for those who measure columns in this turn.
+  // The squares of this rank's layers for the ranks that measure columns in this turn.
   template <typename T>
   std::vector<Bytes> PackColumns(const Volume& volume, exec::Share own,
                                  const EuclideanParts<T>& parts, size_t turn, size_t turns) const {
@@ -153,10 +153,10 @@ class EuclideanRounds {
   const size_t ranks_;
   const bool may_be_whole_;
   Volume columns_;        // of this turn
-  uint64_t largest_ = 0;  // square of the last round
+  uint64_t largest_ = 0;  // largest square of the last round
 };
 
-// Ranks are holders in their order.
+// The ranks are the holders, in order.
 class RankRelay : public LayerRelay {
  public:
   explicit RankRelay(Exchange& exchange) : exchange_(exchange) {}
@@ -207,7 +207,7 @@ absl::StatusOr<RankShells> MeasureShells(Exchange& exchange, const RankBricks& b
             ? EuclideanRounds(exchange, bricks, layers, context, store).Run()
             : MeasureChamfer(exchange, bricks, layers, kind, shell_width, context, store));
   }
-  // A rank thins for long and measures once, so blocks of squares are not kept for another time.
+  // A rank measures once and then thins for long, so blocks of squares are not kept for reuse.
   exec::ProcessLargeBlocks().ReleaseUnused();
   exec::ProcessLargeBlocks().ReleaseUnused();
   return std::move(store).Finish();

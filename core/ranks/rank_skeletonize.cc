@@ -16,7 +16,8 @@ namespace {
 
 enum class Task : uint8_t { kBringParts, kPeel, kLeave };
 
-// What all must know of the object and the options to peel; to bring parts, of the object.
+// What all ranks must know of the object and the options for peeling; for sending parts, only of
+// the object.
 struct Order {
   Task task = Task::kLeave;
   LatticeExtent extent;
@@ -75,7 +76,7 @@ Order Receive(Exchange& exchange) {
   return Unpacked(in);
 }
 
-// The part of an object with that extent and placement.
+// The part, if it has the extent and placement of the object.
 absl::StatusOr<Volume> FitPart(absl::StatusOr<Volume> part, const Volume& object) {
   if (!part.ok() || part->empty()) return part.ok() ? object : std::move(part);
   if (part->extent() == object.extent() && part->placement() == object.placement()) return part;
@@ -83,7 +84,7 @@ absl::StatusOr<Volume> FitPart(absl::StatusOr<Volume> part, const Volume& object
       "differs from the object that rank 0 has read; all ranks must read the same file");
 }
 
-// All ranks together: the whole object on rank 0, nothing elsewhere.
+// Called by all ranks together; returns the whole object on rank 0, nothing elsewhere.
 absl::StatusOr<Volume> BringParts(Exchange& exchange, absl::StatusOr<Volume> part) {
   BCCSKEL_RETURN_IF_ERROR(AgreeOn(exchange, part.status()));
   BCCSKEL_ASSIGN_OR_RETURN(Volume own, ShareEvenly(exchange, *std::move(part)));
@@ -101,8 +102,9 @@ absl::Status CheckRankOptions(const SkeletonizeOptions& options) {
   return absl::OkStatus();
 }
 
-// After an exception the others wait in some other call, where this message would never arrive:
-// whoever catches it ends the job. Not even memory for the message ends the process, and the job.
+// After an exception the others wait in another call, where this message would never arrive: the
+// code that catches the exception ends the job. If there is no memory even for the message, the
+// process and so the job end.
 Lead::~Lead() {  // NOLINT(bugprone-exception-escape)
   if (std::uncaught_exceptions() == exceptions_) Send(exchange_, {});
 }

@@ -13,7 +13,8 @@
 
 namespace bccskel::ranks {
 
-// Errors: INVALID_ARGUMENT for options that ranks do not support, with an alternative.
+// Checks that ranks support the options.
+// Errors: INVALID_ARGUMENT, with an alternative.
 absl::Status CheckRankOptions(const SkeletonizeOptions& options);
 
 // Rank 0's side of a job, while the others run FollowLead().
@@ -22,15 +23,15 @@ class Lead {
   // Needs: `exchange` outlives this; all ranks have equal checkpoint options.
   explicit Lead(Exchange& exchange, const CheckpointOptions& checkpoints = {})
       : exchange_(exchange), checkpoints_(checkpoints) {}
-  // Ends FollowLead() on the others, unless an exception is on its way.
+  // Ends FollowLead() on the others, unless an exception is propagating.
   ~Lead();  // NOLINT(bugprone-exception-escape)
   Lead(const Lead&) = delete;
   Lead& operator=(const Lead&) = delete;
 
   // Skeletonize(), where all ranks measure distances, thin and count the object's topology; the
-  // same result for any number of them. `object` is this rank's part on entry and the whole object
-  // on return: this rank alone measures radii, prunes and traces the graph. To prepare, and
-  // for a mask of one slice, it gathers the whole object at the start; the latter it does alone.
+  // same result for any number of ranks. `object` is this rank's part on entry and the whole object
+  // on return: this rank alone measures radii, prunes and traces the graph. For preparing, and for
+  // a mask of one slice, it gathers the whole object at the start; the latter it processes alone.
   // Errors: as Skeletonize() and CheckRankOptions(); those of other ranks' parts; CANCELLED and
   //         DEADLINE_EXCEEDED if any rank has to stop.
   absl::StatusOr<SkeletonizeResult> Skeletonize(Volume& object, const SkeletonizeOptions& options,

@@ -31,7 +31,7 @@ struct Named {
 
   friend auto operator<=>(const Named&, const Named&) = default;
 };
-// A component of the rank below and what it is on this one.
+// A component of the rank below and the same component on this rank.
 struct Glued {
   Named below;
   Named here;
@@ -39,7 +39,7 @@ struct Glued {
   friend auto operator<=>(const Glued&, const Glued&) = default;
 };
 
-// How many components the pairs join.
+// The number of joins that the pairs make.
 uint64_t CountJoined(const std::vector<Glued>& pairs) {
   std::vector<Named> names;
   for (const auto& [a, b] : pairs) names.insert(names.end(), {a, b});
@@ -54,7 +54,7 @@ uint64_t CountJoined(const std::vector<Glued>& pairs) {
   return joined;
 }
 
-// A rank's layers, and the one above them that is the next rank's lowest.
+// The layers of a rank, and the layer above them, the lowest of the next rank.
 class LabeledLayers {
  public:
   LabeledLayers(Exchange& exchange, const RankBricks& bricks)
@@ -69,14 +69,14 @@ class LabeledLayers {
     volume_ = has_layers_ ? OnlyLayers(beside, first_, end_) : OnlyLayers(beside, 0, -1);
   }
 
-  // Of the object's part, less what the next rank counts, too.
+  // The Euler characteristic of this part, without the layer that the next rank also counts.
   uint64_t Euler(const exec::Context& context) const {
     const int64_t all = CountEulerCharacteristic(volume_, context);
     const Volume shared = OnlyLayers(volume_, end_, end_);
     return static_cast<uint64_t>(all - CountEulerCharacteristic(shared, context));
   }
 
-  // Of all ranks, on rank 0.
+  // The number of components of all ranks, on rank 0.
   int64_t CountComponents(Phase phase, const exec::Context& context) {
     std::optional<ComponentSets> sets;
     if (has_layers_) {
@@ -97,7 +97,7 @@ class LabeledLayers {
   }
 
  private:
-  // The components of a layer's pieces, in an order that all ranks find.
+  // The components of a layer's pieces, in an order that is the same on all ranks.
   static std::vector<uint64_t> SetsOfLayer(const Volume& volume, int32_t layer, Phase phase,
                                            ComponentSets& sets) {
     std::vector<uint64_t> found;
@@ -120,7 +120,7 @@ class LabeledLayers {
     return found;
   }
 
-  // Which components of the rank below go on in this rank's.
+  // The components of the rank below that continue in this rank's.
   std::vector<Glued> Glue(Phase phase, std::optional<ComponentSets>& sets) {
     std::vector<int> peers;
     std::vector<Bytes> out;
@@ -138,7 +138,7 @@ class LabeledLayers {
     if (below_ < 0) return pairs;
     const std::vector<uint64_t> theirs = Unpacker(in.front()).TakeRest<uint64_t>();
     const std::vector<uint64_t> own = SetsOfLayer(volume_, first_, phase, *sets);
-    // Equally many, unless one of the two was stopped.
+    // The same number on both, unless one of the two was stopped.
     for (size_t n = 0; n < std::min(own.size(), theirs.size()); ++n) {
       pairs.push_back({{static_cast<uint64_t>(below_), theirs[n]},
                        {static_cast<uint64_t>(exchange_.rank()), own[n]}});

@@ -9,15 +9,15 @@
 
 namespace bccskel::ranks {
 
-// Does:  CountBettiNumbers() of a distributed object. Only the numbers on rank 0 are valid.
-// Why it is right: a rank labels whole layers and the one above, which is the lowest of the next
-//        rank, and nothing beyond. So any two pieces that touch are joined on some rank, and the
-//        object's components are those of the ranks, united where two ranks have labeled the same
-//        piece. The points of a clique lie in one layer or two adjacent ones, so Euler numbers
-//        add up after those of the shared layers are subtracted.
+// Does:  CountBettiNumbers() for a distributed object. Only the numbers on rank 0 are valid.
+// Why it is right: a rank labels whole layers and the layer above, which is the lowest of the next
+//   rank, and nothing beyond. So any two pieces that touch are joined on some rank, and the
+//   object's components are those of the ranks, united where two ranks have labeled the same piece.
+//   The points of a clique lie in one layer or two adjacent ones, so Euler characteristics add up
+//   after those of the shared layers are subtracted.
 // Cost:  as on one machine for the bricks of a rank's layers and one more; sends 72 to 144 bytes
-//        per brick, 8 per piece of a shared layer, and to rank 0 32 per pair of components that
-//        are united.
+//        per brick, 8 per piece of a shared layer, and to rank 0 32 per pair of components that are
+//        united.
 // Errors: CANCELLED, DEADLINE_EXCEEDED, on all ranks.
 absl::StatusOr<BettiNumbers> CountBettiNumbersOverRanks(Exchange& exchange,
                                                         const RankBricks& bricks,

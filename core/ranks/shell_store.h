@@ -18,14 +18,14 @@ class ShellStore {
   // Needs: `bricks` and `exchange` outlive this.
   ShellStore(Exchange& exchange, const RankBricks& bricks, double shell_width, Depths depths);
 
-  // Announces what is measured next: shells of own bricks are stored, those of other ranks' bricks
-  // are kept until SendAway().
+  // Announces the bricks that are measured next: shells of own bricks are stored, those of other
+  // ranks' bricks are kept until SendAway().
   void Expect(const Volume& volume, exec::Share measured);
-  // Where to write the shells of these bricks. Needs: this outlives it.
+  // The destinations of the shells of these bricks. Needs: this outlives them.
   ShellPlaces Places();
-  // Slices squared distances into shells there.
+  // Slices squared distances into these shells.
   SquareSlicer Slicer();
-  // All ranks together.
+  // Sends the shells of other ranks' bricks. Called by all ranks together.
   void SendAway(const Volume& volume);
 
   // Needs: the shells of all own bricks have arrived.

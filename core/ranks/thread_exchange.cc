@@ -10,7 +10,7 @@
 namespace bccskel::ranks {
 namespace {
 
-// Letters from each rank to each, in the order in which they were sent.
+// Messages between all pairs of ranks, in the order in which they were sent.
 class MailRoom {
  public:
   explicit MailRoom(int size) : size_(size), boxes_(static_cast<size_t>(size * size)) {}

@@ -19,7 +19,7 @@ struct Branch {
 };
 
 struct Branches {
-  std::vector<Branch> between;    // clusters that are no bends
+  std::vector<Branch> between;    // between clusters that are not bends
   std::vector<PointPath> closed;  // curves without junction; first and last point are the same
 };
 

@@ -14,7 +14,7 @@
 namespace bccskel {
 
 // An edge between two points of a cluster, a < b, that closes a loop of `steps` steps with their
-// paths to the middle. Sorted by that.
+// paths to the middle. Sorted in this order.
 struct Chord {
   uint32_t steps;
   PointIndex a;
@@ -22,27 +22,27 @@ struct Chord {
   friend auto operator<=>(const Chord&, const Chord&) = default;
 };
 
-// The loops that a cluster encloses: one chord for each loop of its topology. With the tree of
-// shortest paths to the middle they make up all of them (a basis of its first homology group).
+// The loops that a cluster encloses: one chord per loop of its topology. Together with the tree of
+// shortest paths to the middle, the chords give a basis of its first homology group.
 struct ClusterLoops {
   PointIndex at = 0;  // the middle: the root of the tree
   std::vector<Chord> chords;
 };
 
-// Finds the loops of one cluster after the other.
+// Finds the loops of clusters, one cluster at a time.
 class ClusterLoopFinder {
  public:
   ClusterLoopFinder(const ThinPoints& points, const Clusters& clusters, StopPoll& poll);
 
-  // Chords in order of length, then of points.
-  // Needs: one of the clusters, with loops and without cavities, not asked for before.
+  // Returns chords ordered by length, then points.
+  // Needs: one of the clusters, with loops and without cavities, not passed before.
   ClusterLoops Find(const Cluster& cluster);
 
-  // Of a cluster that was asked for: whether the tree reaches p, and p's next point towards the
-  // root.
+  // For a cluster passed to Find(): whether the tree reaches p, and the next point from p towards
+  // the root.
   bool IsInTree(PointIndex p) const { return masks_[p] != 0; }
   PointIndex Parent(PointIndex p) const { return trees_.Parent(p); }
-  // From the root along both paths and the chord.
+  // The loop from the root along both paths and the chord.
   PointPath CloseLoop(const Chord& chord) const;
 
  private:
@@ -53,7 +53,7 @@ class ClusterLoopFinder {
 
   const ThinPoints& points_;
   StopPoll& poll_;
-  // By point, the neighbors left in its cluster's kernel; at first all those in its cluster.
+  // By point, the remaining neighbors in its cluster's kernel; initially all those in its cluster.
   std::vector<NeighborMask> masks_;
   SpanningTrees trees_;
 };

@@ -16,10 +16,10 @@ struct ClusterTopology {
   friend bool operator==(const ClusterTopology&, const ClusterTopology&) = default;
 };
 
-// Loops and cavities of a connected set of points, taken separately.
-// Shapes: `cluster` holds the set; masks[p] says, for each of its points, which neighbors belong to
-//         the set; `seen` is scratch of the same size, zero where unvisited.
-// Cost:   follows the points of the set.
+// Counts loops and cavities of a connected set of points in isolation.
+// Shapes: `cluster` holds the set; masks[p] has the neighbors of each of its points that belong to
+//         the set; `seen` is scratch memory of the same size, zero for unvisited points.
+// Cost:   proportional to the number of points.
 ClusterTopology MeasureCluster(const ThinPoints& points, std::span<const PointIndex> cluster,
                                std::span<const NeighborMask> masks, std::span<NeighborMask> seen,
                                StopPoll& poll);

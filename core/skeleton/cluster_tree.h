@@ -12,33 +12,33 @@
 
 namespace bccskel {
 
-// The inside of a large cluster as nodes and the paths between them. With one node in the middle of
-// a plate or a sponge, every edge would have a path of its own to there: as many points as the
-// cluster has, times its width. Paths of a tree share them.
+// The interior of a large cluster as nodes and the paths between them. With one node in the middle
+// of a plate or a sponge, every edge would have a path of its own to the middle: the number of
+// points of the cluster times its width. The paths of a tree share points.
 class ClusterTree {
  public:
   // Shapes: parent(p) is a neighbor of p, nearer to the root; `terminals` are the points where
-  // edges
-  //         start, each as often as edges do.
+  //         edges start, each as often as edges start there.
   // Needs:  five terminals. Unless the root `stays`, it moves to where three paths or edges meet.
   ClusterTree(PointIndex root, const std::function<PointIndex(PointIndex)>& parent,
               std::span<const PointIndex> terminals, bool stays);
 
   PointIndex root() const { return root_; }
-  // The root, and where three or more paths and edges meet, increasing.
+  // The nodes: the root, and the points where three or more paths and edges meet; increasing.
   std::vector<PointIndex> Nodes() const;
-  // From the node next to a terminal, or to a node that is not the root, to that point.
+  // The path to a terminal from its nearest node, and to a node other than the root from the next
+  // node toward the root.
   PointPath StemOf(PointIndex terminal) const;
   PointPath LimbOf(PointIndex node) const;
 
  private:
   struct Spot {
     PointIndex parent = 0;
-    uint32_t fan = 0;  // paths that go on from here, and edges that start here
+    uint32_t fan = 0;  // number of paths that continue from here and edges that start here
   };
 
   bool IsNode(PointIndex p, const Spot& spot) const { return p == root_ || spot.fan > 1; }
-  // From above `p` on, at most to the root.
+  // Extends the path up to the next node, at most the root.
   PointPath UpToNode(PointPath path) const;
   void MoveRoot(std::span<const PointIndex> terminals);
 

@@ -14,11 +14,11 @@ namespace bccskel {
 // Position of a cluster in Clusters.
 using ClusterIndex = uint32_t;
 
-// End points and isolated points count as clusters of one point.
+// A cluster of points; end points and isolated points are clusters of one point.
 struct Cluster {
   std::vector<PointIndex> points;  // increasing
   ClusterTopology topology;
-  uint32_t branches = 0;  // pairs of neighbors, one in the cluster and one outside
+  uint32_t branches = 0;  // pairs of neighbors, one inside the cluster and one outside
 
   bool IsContractible() const { return topology == ClusterTopology{}; }
   // A thick spot inside one branch. It is not a node of the graph.
@@ -27,14 +27,14 @@ struct Cluster {
 
 // Splits the points into plain curve points and clusters.
 //
-// A plain curve point has two neighbors that are not adjacent to each other, an end point one: no
-// three mutually adjacent points contain either. So the clique complex of the volume is that of the
-// clusters plus chains of edges, each edge glued at single points, and its components and loops are
-// those of the graph that has a node for each cluster, plus the clusters' own loops and cavities.
-// This holds for any volume, thin or not.
+// A plain curve point has two neighbors, which are not adjacent to each other; an end point has
+// one. So three mutually adjacent points contain neither. The clique complex of the volume
+// therefore consists of those of the clusters and of chains of edges, each attached at single
+// points. Its components and loops are those of the graph that has a node for each cluster, plus
+// the loops and cavities of the clusters themselves. This holds for any volume, thin or not.
 class Clusters {
  public:
-  // Left unfinished when `poll` says stop.
+  // Incomplete if `poll` requests a stop.
   Clusters(const ThinPoints& points, StopPoll& poll);
 
   size_t size() const { return clusters_.size(); }

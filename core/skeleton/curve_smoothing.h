@@ -15,8 +15,8 @@ namespace bccskel {
 enum class CurveShape : uint8_t { kOpen, kClosed };
 CurveShape ShapeOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
-// The values whose mean replaces value n of `size`: [first, first + count), counted again from the
-// start of a closed curve after its `period` values.
+// The values whose mean replaces value n of `size`: [first, first + count), modulo `period` on a
+// closed curve.
 struct MeanRange {
   size_t first;
   size_t count;
@@ -24,8 +24,8 @@ struct MeanRange {
 };
 MeanRange RangeOfMean(size_t size, size_t n, CurveShape shape);
 
-// The mean of the values at place n of a curve and at up to four places on either side. The first
-// and last value of an open curve stay. `value_at(n)` gives a value.
+// The mean of value n of a curve and up to four values on either side. The first and last value of
+// an open curve do not change. `value_at(n)` returns a value.
 template <typename ValueAt>
 Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
   const MeanRange range = RangeOfMean(size, n, shape);
@@ -38,7 +38,7 @@ Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
   return mean;
 }
 
-// MeanAt() for each place along a curve.
+// MeanAt() for each value along a curve.
 std::vector<Coordinates> MeansAlong(std::span<const Coordinates> values, CurveShape shape);
 
 }  // namespace bccskel

@@ -20,7 +20,7 @@ struct EdgeFigures {
   std::optional<double> tortuosity;
 };
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge);
-// The same where SmoothCurve() of the edge is known.
+// The same with the result of SmoothCurve() for the edge.
 EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
                       std::span<const WorldPoint> curve);
 
@@ -30,7 +30,7 @@ struct ComponentFigures {
   uint64_t edges = 0;
   uint64_t ends = 0;
   uint64_t junctions = 0;
-  uint64_t loops = 0;  // those of closed surfaces included
+  uint64_t loops = 0;  // including those of closed surfaces
   uint64_t cavities = 0;
   double length = 0;      // of all edges, world units
   double max_radius = 0;  // world units
@@ -45,16 +45,17 @@ GraphComponents ComponentsOf(const SkeletonGraph& graph);
 // The sum of all components.
 ComponentFigures TotalOf(const GraphComponents& components);
 
-// How many loops lead around tunnels narrower than `width`, world units: the circumference over pi,
-// less two mean radii of the curve, is what a round tunnel is wide, and more than any other is.
-// Counts loops of one edge, and of two between the same nodes; those of more edges are left out.
+// The number of loops around tunnels narrower than `width`, in world units. The circumference over
+// pi minus two mean radii of the curve is the width of a round tunnel and an upper bound for any
+// other. Counts loops of one edge, and of two edges between the same nodes; loops of more edges are
+// not counted.
 uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width);
 
-// The curve through the points of an edge, one place for each, in world units: the mean of the
-// point and up to four on either side, each moved to the middle by its shift. A path on a lattice
-// is a staircase, up to 24 % too long; this is not. No place is farther from its point than half
-// the radius there, so the curve stays inside the object. First and last point stay; a closed curve
-// without junction is smooth all around.
+// The smooth curve through the points of an edge, one position for each, in world units: the mean
+// of the point and up to four on either side, each moved to the middle by its shift. A path on a
+// lattice is a staircase, up to 24 % too long; this curve is not. No position is farther from its
+// point than half the radius there, so the curve stays inside the object. The first and last point
+// do not move; a closed curve without junction is smooth all around.
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
 }  // namespace bccskel

@@ -17,33 +17,33 @@
 namespace bccskel {
 
 // A cluster is a connected set of points that are not on a plain curve: three or more neighbors, or
-// two that are adjacent to each other. A cluster without loops and cavities counts as one point: it
-// is an isolated point, an end, a bend of its branch (no node) or a junction when it has no, one,
-// two or more branches. A large cluster becomes several junctions, so that the points on edges stay
-// as many as the skeleton's, times a constant.
+// two that are adjacent to each other. A cluster without loops and cavities counts as one point: an
+// isolated point, an end, a bend of its branch (no node) or a junction if it has no, one, two or
+// more branches. A large cluster becomes several junctions, so that the number of points on edges
+// is at most a constant times that of the skeleton.
 enum class NodeKind : uint8_t {
   kEnd,            // one branch
   kJunction,       // three or more branches, or a cluster that encloses loops; see MergeJunctions()
   kLoop,           // stands for a closed curve without junction; one edge leads from it to itself
   kIsolated,       // no branch
-  kClosedSurface,  // what a cavity leaves: a cluster with cavities
+  kClosedSurface,  // a cluster with cavities
 };
 
-// Parts of a lattice unit in which SkeletonPoint::shift counts.
+// The unit of SkeletonPoint::shift is a lattice unit divided by this.
 inline constexpr int kShiftUnits = 64;
 
-// A skeleton point: where it is and the radius of the largest ball around it inside the object.
+// A skeleton point and the radius of the largest ball around it inside the object.
 struct SkeletonPoint {
   LatticePoint point;
   // Exact Euclidean distance to the nearest background point in lattice units, half the shortest
   // edge of the cubic cell.
   float radius = 0;
-  // The pass of thinning in which the point became an isthmus, from 1; 0 if it never did, or the
-  // kind of skeleton keeps no isthmuses. Passes go with shells: one a shell, and more at the last.
+  // The pass of thinning in which the point became an isthmus, from 1; 0 if it never did, or if the
+  // kind of skeleton keeps no isthmuses. Each shell takes one pass, the last one several.
   int32_t birth = 0;
-  // How far the middle of the object across the curve lies from the smooth curve, along each axis
-  // of the lattice in parts of a lattice unit: see CenterCurves(). 0 for nodes, and where distances
-  // are not Euclidean.
+  // The offset from the smooth curve to the middle of the object across the curve, along each axis
+  // of the lattice, in lattice units / kShiftUnits: see CenterCurves(). 0 for nodes, and if
+  // distances are not Euclidean.
   std::array<int16_t, 3> shift = {0, 0, 0};
 
   friend constexpr auto operator<=>(const SkeletonPoint&, const SkeletonPoint&) = default;
@@ -51,10 +51,10 @@ struct SkeletonPoint {
 
 struct SkeletonNode {
   NodeKind kind = NodeKind::kEnd;
-  // The point that stands for the node: for a cluster or a closed curve its deepest point, on ties
+  // The point that represents the node: for a cluster or a closed curve its deepest point, on ties
   // the smallest; for a cluster that encloses loops the deepest point on those loops.
   SkeletonPoint at;
-  // Loops and cavities that no edge of the graph shows. Only closed surfaces have any.
+  // Loops and cavities not represented by edges of the graph. Only closed surfaces have any.
   uint32_t loops = 0;
   uint32_t cavities = 0;
 
@@ -63,13 +63,13 @@ struct SkeletonNode {
 
 // A branch, or a loop inside a cluster. Its points run from the source node's point to the target
 // node's point, both included; consecutive points are neighbors in N14. Inside a cluster it takes a
-// path of the fewest steps; through junctions that were merged it takes the edges between them,
-// which it shares with others.
+// path with the fewest steps; through merged junctions it takes the edges between them, which it
+// shares with others.
 struct SkeletonEdge {
   uint32_t source = 0;  // index into nodes
   uint32_t target = 0;
-  uint64_t first_point =
-      0;  // range [first_point, first_point + point_count) of SkeletonGraph::points
+  // Its points are [first_point, first_point + point_count) of SkeletonGraph::points.
+  uint64_t first_point = 0;
   uint64_t point_count = 0;
   // The threshold above which pruning removes the edge, by significance or persistence: see
   // ThinSkeleton. Edges on loops, and one path of each tree, are never removed.
@@ -89,7 +89,7 @@ struct SkeletonGraph {
   Placement placement;
   std::vector<SkeletonNode> nodes;
   std::vector<SkeletonEdge> edges;
-  std::vector<SkeletonPoint> points;  // of all edges, one after the other
+  std::vector<SkeletonPoint> points;  // of all edges, concatenated
   // Points on neither nodes nor edges: the sheets of a surface skeleton, all but one point of a
   // closed surface, and the thick spots of curves. Nodes, edges and these are all points of the
   // skeleton. In lattice order.
@@ -99,7 +99,7 @@ struct SkeletonGraph {
     return std::span(points).subspan(edge.first_point, edge.point_count);
   }
   WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
-  // The place and its shift.
+  // The position moved by its shift.
   WorldPoint ShiftedPositionOf(const SkeletonPoint& p) const;
   // World units.
   double RadiusOf(const SkeletonPoint& p) const;
@@ -111,16 +111,16 @@ struct SkeletonGraph {
 };
 
 // SHA-256, in lower-case hex, over the numbers of the graph (lattice points, radii, kinds,
-// topology) in canonical order. Placement, births, shifts and pruning levels are not part of it.
-// The byte layout is stated at the definition; it is a public contract.
+// topology) in canonical order. Placement, births, shifts and pruning levels are not included. The
+// definition states the byte layout, which is a public contract.
 // Errors: those of the context.
 absl::StatusOr<std::string> SkeletonDigest(const SkeletonGraph& graph,
                                            const exec::Context& context = {});
 
 // Extracts the graph of a skeleton. The invariants hold for any points; a volume that is not thin
 // gives few nodes for large clusters, and many points of sheets. The level of an edge is the
-// largest of its points, since an edge stays as long as a part of it.
-// Cost:   follows the points.
+// largest of its points, since an edge stays as long as a part of it stays.
+// Cost:   proportional to the number of points.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             const exec::Context& context);

@@ -10,7 +10,7 @@
 
 namespace bccskel {
 
-// A point's path, one neighbor after the other.
+// A path of points, each a neighbor of the one before.
 using PointPath = std::vector<PointIndex>;
 
 // Trees of shortest paths, counted in steps, inside connected sets of points. Of two paths of the
@@ -34,7 +34,7 @@ class SpanningTrees {
   const ThinPoints& points_;
   const std::span<const NeighborMask> masks_;
   std::vector<PointIndex> parents_;
-  std::vector<uint32_t> depths_;  // one more than the depth; 0: reached by no tree
+  std::vector<uint32_t> depths_;  // depth + 1; 0: not reached by any tree
 };
 
 }  // namespace bccskel

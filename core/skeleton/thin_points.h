@@ -17,19 +17,19 @@ namespace bccskel {
 // Position of a point in ThinPoints.
 using PointIndex = uint32_t;
 
-// The points of a skeleton as a list in lattice order, with what is known of them and their
-// neighbors. Translating the volume translates the list: nothing that follows depends on bricks.
+// The points of a skeleton as a list in lattice order, with their attributes and neighbors.
+// Translating the volume translates the list: results do not depend on bricks.
 class ThinPoints {
  public:
-  // Left unfinished when `poll` says stop.
+  // Incomplete if `poll` requests a stop.
   ThinPoints(const ThinSkeleton& skeleton, StopPoll& poll);
-  // Those of `all` at `some`, which increases.
+  // The points of `all` with the indices `some`, which increase.
   ThinPoints(const ThinPoints& all, std::span<const PointIndex> some, StopPoll& poll);
 
   size_t size() const { return points_.size(); }
   const SkeletonPoint& operator[](PointIndex p) const { return points_[p].at; }
-  double level(PointIndex p) const { return points_[p].level; }  // kNoLevel where it has none
-  // The point with the largest radius, on ties the smallest. Needs: some points.
+  double level(PointIndex p) const { return points_[p].level; }  // kNoLevel if it has none
+  // The point with the largest radius, on ties the smallest. Needs: at least one point.
   PointIndex DeepestOf(std::span<const PointIndex> some) const;
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
   // Needs: mask(p) has d.
@@ -68,7 +68,8 @@ void ForEachDirection(NeighborMask mask, Visit visit) {
   }
 }
 
-// Takes p from the masks of its neighbors and these from its own, by point.
+// Removes p from the masks of its neighbors and these from the mask of p. Shapes: one mask per
+// point.
 inline void TakeOut(PointIndex p, const ThinPoints& points, std::span<NeighborMask> masks) {
   ForEachDirection(masks[p], [&](Direction d) {
     NeighborMask& mask = masks[points.Neighbor(p, d)];

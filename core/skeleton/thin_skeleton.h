@@ -8,21 +8,21 @@
 
 namespace bccskel {
 
-// Level of points that no branch with a level runs through.
+// Level of points that are on no branch with a level.
 inline constexpr double kNoLevel = -1;
 
-// The points that thinning leaves and what is known of each: what the stages after it hand on.
+// The points that thinning leaves and their attributes, which the later stages pass on.
 // Shapes: one value per point, in the order of Volume::ForEachPoint().
 struct ThinSkeleton {
   Volume points;
   std::vector<float> radii;  // lattice units
   // The pass of thinning in which the point became an isthmus, from 1; 0 for points that never did.
-  // Empty where the kind of skeleton keeps no isthmuses.
+  // Empty if the kind of skeleton keeps no isthmuses.
   std::vector<int32_t> births = {};
-  // The threshold above which pruning removes the point's branch, by persistence where that was the
-  // rule, or none was and births are known, else by significance; infinity where it never does,
-  // kNoLevel for points at junctions and those by which tips have grown. Empty if nothing was
-  // pruned by branches.
+  // The threshold above which pruning removes the point's branch: by persistence if that was the
+  // rule, or if there was no rule and births are known; otherwise by significance. Infinity if it
+  // is never removed; kNoLevel for points at junctions and those added by growing tips. Empty if
+  // branches were not pruned.
   std::vector<double> levels = {};
 };
 

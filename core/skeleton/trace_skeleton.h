@@ -12,17 +12,17 @@
 
 namespace bccskel {
 
-// Memory that TraceSkeleton() takes for each point of a skeleton, its graph included as long as
-// that has no more than kEdgePointsPerPoint points on edges for each. What was seen: 330 bytes for
-// isolated points, 400 for nets.
+// Memory that TraceSkeleton() needs for each point of a skeleton, including its graph as long as
+// that has at most kEdgePointsPerPoint points on edges for each. Measured: 330 bytes for isolated
+// points, 400 for nets.
 inline constexpr uint64_t kTraceBytesPerPoint = 512;
 inline constexpr size_t kEdgePointsPerPoint = 4;
-// For each point on edges beyond that, with the copies that merging junctions makes. Paths to the
-// middle of large clusters have many.
+// Memory for each further point on edges, including the copies that merging junctions makes. Paths
+// to the middle of large clusters have many.
 inline constexpr uint64_t kTraceBytesPerEdgePoint = 256;
 
-// TraceSkeleton() within a budget. Reserves what points on edges need beyond kTraceBytesPerPoint,
-// which the caller has reserved.
+// TraceSkeleton() within a budget. Reserves the memory of points on edges beyond
+// kTraceBytesPerPoint, which the caller has reserved.
 // Errors: as TraceSkeleton(); the budget's.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             exec::MemoryBudget& memory,

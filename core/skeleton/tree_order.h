@@ -23,7 +23,7 @@ struct RootChoice {
     kNode,
     // The deepest node of each component.
     kDeepestNode,
-    // Those of `nodes`, the thickest end in components without one.
+    // The nodes in `nodes`; the thickest end in components without one.
     kNodes,
   };
   Rule rule = Rule::kThickestEnd;
@@ -44,12 +44,13 @@ std::string RootWarning(const RootChoice& choice, const SkeletonGraph& graph);
 inline constexpr uint32_t kNoRow = std::numeric_limits<uint32_t>::max();
 
 struct NodeOrder {
-  uint32_t root = 0;         // of its component
+  uint32_t root = 0;         // root of its component
   uint32_t parent = kNoRow;  // the next node on the way to the root; none for a root
   double root_distance = 0;  // along the edges, world units
 };
 
-// An edge that closes a loop has no place in a tree: no proximal node, generation and order.
+// The order of an edge. An edge that closes a loop is not part of a tree: it has no proximal node,
+// generation and order.
 struct EdgeOrder {
   uint32_t proximal = kNoRow;  // which of its nodes is nearer to the root
   uint32_t generation = 0;     // forks between the root and the edge; 0 for the root's own edges
@@ -60,7 +61,7 @@ struct EdgeOrder {
 
 // The graph as trees that grow from their roots.
 struct TreeOrder {
-  RootChoice::Rule rule = RootChoice::Rule::kThickestEnd;  // that chose the roots
+  RootChoice::Rule rule = RootChoice::Rule::kThickestEnd;  // the rule that chose the roots
   std::vector<uint32_t> roots;   // by component, in the order of ComponentsOf()
   std::vector<NodeOrder> nodes;  // by node
   std::vector<EdgeOrder> edges;  // by edge
@@ -70,7 +71,7 @@ struct TreeOrder {
   uint32_t HighestStrahler() const;
 };
 
-// Does:  follows the shortest paths from the roots; edges on none of them close loops and are left
+// Does:  follows the shortest paths from the roots. Edges on none of them close loops and are left
 //        out, so every component is a tree. Among paths of equal length, the one with the smaller
 //        edge is taken.
 // Needs: CheckRootChoice() is OK.

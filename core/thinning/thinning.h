@@ -86,9 +86,9 @@ struct ThinningTimes {
 };
 
 // A point that is kept as an isthmus, and the pass in which it first was one, counted from 1 over
-// all shells. Each shell takes one pass and the last one several, so the pass is roughly the depth to
-// which the object around the point had been peeled. Early births belong to thin parts and to noise
-// on the surface.
+// all shells. Each shell takes one pass and the last one several, so the pass is roughly the depth
+// to which the object around the point had been peeled. Early births belong to thin parts and to
+// noise on the surface.
 struct IsthmusBirth {
   LatticePoint point;
   int32_t pass = 0;

@@ -12,8 +12,8 @@ constexpr LatticePoint Cross(LatticePoint a, LatticePoint b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// R(p, axial, diagonal). The plane through p that the two span holds every neighbor normal to
-// their cross product, and N14 has no point on it that is not an integer combination of the two.
+// R(p, axial, diagonal). The plane through p spanned by the two directions contains every neighbor
+// normal to their cross product; in N14 these are integer combinations of the two.
 constexpr NeighborMask RingSpannedBy(Direction axial, DiagonalDirection diagonal) {
   const LatticePoint normal = Cross(axial.offset(), diagonal.offset());
   unsigned ring = 0;
@@ -23,7 +23,7 @@ constexpr NeighborMask RingSpannedBy(Direction axial, DiagonalDirection diagonal
   return static_cast<NeighborMask>(ring);
 }
 
-// +x, +y and +z stand for their opposites too: both span the same ring.
+// +x, +y and +z also represent their opposites: both span the same ring.
 constexpr std::array<Direction, 3> kAxes = {Direction(8), Direction(10), Direction(12)};
 
 constexpr std::array<NeighborMask, 3> RingsThrough(DiagonalDirection d) {

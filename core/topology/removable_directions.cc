@@ -14,7 +14,7 @@ static_assert(ImplicationsOf(DiagonalDirection(7)) ==
                    {*FindDirection({0, -2, 0}), *FindDirection({1, -1, 1})},
                    {*FindDirection({0, 0, -2}), *FindDirection({1, 1, -1})}}});
 
-// Section 3, word for word.
+// The conditions exactly as in section 3.
 bool MeetsConditions1To4(NeighborMask mask, DiagonalDirection d) {
   return IsDirectedBorderPoint(mask, d) && IsSimpleNonEnd(mask) &&
          SatisfiesCheckingRings(mask, d) && HasSequelPoint(mask, d);

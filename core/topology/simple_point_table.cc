@@ -10,10 +10,10 @@
 namespace bccskel {
 namespace {
 
-// Of 64 neighborhoods, which neighbors are there: by neighbor, a bit for each neighborhood.
+// The neighbors of 64 neighborhoods: for each neighbor one bit per neighborhood.
 using Neighborhoods = std::array<uint64_t, kNeighborCount>;
 
-// Those from 64 * word on: the lowest six neighbors differ.
+// The neighborhoods from 64 * word on: the lowest six neighbors differ.
 Neighborhoods NeighborhoodsOf(size_t word) {
   Neighborhoods present = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0,
                            0xff00ff00ff00ff00, 0xffff0000ffff0000, 0xffffffff00000000};
@@ -21,7 +21,7 @@ Neighborhoods NeighborhoodsOf(size_t word) {
   return present;
 }
 
-// Adds the neighborhoods in which the neighbor is there and one beside it is reached.
+// Adds the neighborhoods in which the neighbor is set and one adjacent to it is reached.
 template <size_t kNeighbor, size_t... kOther>
 uint64_t Reach(const Neighborhoods& present, Neighborhoods& reached,
                std::index_sequence<kOther...> /*all*/) {
@@ -32,8 +32,7 @@ uint64_t Reach(const Neighborhoods& present, Neighborhoods& reached,
   return fresh;
 }
 
-// Which of the neighborhoods are one component: all that is there is reached from its first
-// neighbor.
+// The neighborhoods that form one component: all their neighbors are reached from the first.
 template <size_t... kAll>
 uint64_t AreConnected(const Neighborhoods& present, std::index_sequence<kAll...> all) {
   Neighborhoods reached;

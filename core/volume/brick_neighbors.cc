@@ -20,18 +20,18 @@ BrickCoordinates NeighborBrick(BrickCoordinates brick, int position) {
 
 namespace {
 
-// What the key of a brick's neighbor differs by; fields do not carry into each other because each
-// has room for one step below the first brick.
+// The difference of the keys of a brick's neighbor and the brick. Fields do not carry into each
+// other because each has room for one step below the first brick.
 uint64_t KeyStep(Sublattice sublattice, int position) {
   const BrickCoordinates home = {1, 1, 1, sublattice};
   return BrickKey(NeighborBrick(home, position)).value() - BrickKey(home).value();
 }
 
-// Which of the bricks look for their neighbor.
+// The bricks whose neighbors are searched.
 enum class Seekers : uint8_t { kEven, kAll };
 
-// Finds all neighbors at `position`, and so those at `opposite` that see them: adding a constant
-// keeps keys in order, so both lists are walked once.
+// Finds all neighbors at `position`, and so the reverse ones at `opposite`: adding a constant
+// preserves the order of keys, so both lists are walked once.
 void LinkPairs(std::span<const BrickKey> keys, Seekers seekers, int position, int opposite,
                std::vector<BrickNeighborhood>& neighbors) {
   const uint64_t step = KeyStep(Sublattice::kEven, position);
@@ -55,7 +55,8 @@ std::vector<BrickNeighborhood> FindBrickNeighbors(std::span<const BrickKey> keys
   std::vector<BrickNeighborhood> neighbors;
   exec::ReserveLarge(keys.size(), neighbors);
   neighbors.assign(keys.size(), nothing);
-  // The odd brick at a position of an even one has the even one at the same position.
+  // If an odd brick is at a position of an even one, the even one is at the same position of the
+  // odd one.
   for (int position = 0; position < 8; ++position) {
     LinkPairs(keys, Seekers::kEven, position, position, neighbors);
   }

@@ -49,7 +49,7 @@ absl::Status CheckBrick(const LatticeExtent& extent, BrickKey key, const BrickBi
   return absl::OkStatus();
 }
 
-// Distances are those of the lattice only where the axes have length 1 and are perpendicular.
+// Lattice distances are those in the world only if the axes have length 1 and are perpendicular.
 // Numbers in headers are rounded, hence the margin.
 absl::Status CheckDirection(const std::array<double, 9>& direction) {
   constexpr double kMargin = 1e-3;
@@ -149,7 +149,7 @@ Volume Volume::FromSortedBricks(LatticeExtent extent, const Placement& placement
 
 std::optional<BrickIndex> Volume::Find(BrickKey key) const {
   if (keys_.empty()) return std::nullopt;
-  // A search whose steps do not depend on guesses about the last one.
+  // A branchless binary search.
   const BrickKey* first = keys_.data();
   for (size_t count = keys_.size(); count > 1;) {
     const size_t half = count / 2;
