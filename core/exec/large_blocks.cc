@@ -102,8 +102,8 @@ size_t LargeBlocks::idle_bytes() const {
 }
 
 LargeBlocks& ProcessLargeBlocks() {
-  static LargeBlocks& blocks =
-      *new LargeBlocks(kMostIdle);  // never destroyed: blocks are given back until the end
+  // Never destroyed: blocks are given back until the process ends.
+  static LargeBlocks& blocks = *new LargeBlocks(kMostIdle);
   return blocks;
 }
 

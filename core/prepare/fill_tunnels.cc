@@ -220,8 +220,7 @@ absl::StatusOr<ChangedVolume> FillTunnels(const Volume& object, double width,
                                           const exec::Context& context) {
   ChangedVolume all{object};
   if (object.empty()) return all;
-  if (width >
-      kNarrowest) {  // the widest ball needs most memory, also after the others have filled some
+  if (width > kNarrowest) {  // the widest ball needs the most memory
     BCCSKEL_RETURN_IF_ERROR(CheckRoomForBall(object, RadiusOf(width), memory));
   }
   for (double now = std::min(width, kNarrowest);; now = std::min(2 * now, width)) {

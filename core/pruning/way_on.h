@@ -26,9 +26,8 @@ struct BranchPath {
 // Threads: one thread per instance.
 class WayOn {
  public:
-  static constexpr double kLongest = 3;  // lattice units
-  static constexpr double kLargestRise =
-      0.5;  // of the radius, lattice units: beyond it another limb begins
+  static constexpr double kLongest = 3;        // lattice units
+  static constexpr double kLargestRise = 0.5;  // of the radius: beyond, another limb begins
 
   // Needs: `radius` belongs to `object`, which outlives this.
   WayOn(const Volume& object, const ExactRadius& radius);

@@ -30,9 +30,8 @@ namespace bccskel {
 
 // What the kernels read. The arrays do not change during a pass.
 struct ObjectView {
-  const BrickBits* object = nullptr;  // padded with an empty brick at keys.size()
-  const BrickBits* candidates =
-      nullptr;  // points that may be removed: reached by the shells, not kept
+  const BrickBits* object = nullptr;      // padded with an empty brick at keys.size()
+  const BrickBits* candidates = nullptr;  // may be removed: reached by the shells, not kept
   const BrickNeighborhood* neighbors = nullptr;
   bool is_far = false;  // the object exceeds the near caches
 };

@@ -95,8 +95,7 @@ struct BrickAddress {
   int bit = 0;
 };
 constexpr BrickAddress AddressOf(LatticePoint p) {
-  const int32_t i = p.x >> 1, j = p.y >> 1,
-                k = p.z >> 1;  // floor: drops the half cell of odd points
+  const int32_t i = p.x >> 1, j = p.y >> 1, k = p.z >> 1;  // floor: drops an odd point's half cell
   return {{i >> 4, j >> 2, k >> 3, SublatticeOf(p)}, 64 * (k & 7) + 16 * (j & 3) + (i & 15)};
 }
 constexpr LatticePoint PointOf(BrickCoordinates brick, int bit) {
