@@ -69,7 +69,7 @@ absl::Status MachineMemory::Take(uint64_t bytes, const std::string& what_for) {
       return absl::ResourceExhaustedError(
           absl::StrFormat("%s: they need up to %d bytes of memory, and %d are reserved already; "
                           "this machine has %d; "
-                          "take an object with fewer parts, such as a denoised or coarser one",
+                          "use an object with fewer parts, such as a denoised or coarser one",
                           what_for, bytes, taken, limit_));
     }
   } while (!taken_.compare_exchange_weak(taken, taken + bytes));

@@ -48,9 +48,9 @@ const char* WordsFor(ObjectSource source) {
     case ObjectSource::kPoints:
       return "";
     case ObjectSource::kVoxels:
-      return ", of a mask converted exactly at 2 points a voxel";
+      return ", of a mask converted exactly at 2 points per voxel";
     case ObjectSource::kRefinedVoxels:
-      return ", of a mask converted exactly at 16 points a voxel";
+      return ", of a mask converted exactly at 16 points per voxel";
     case ObjectSource::kSampledVoxels:
       return ", of a sampled mask, whose topology may have changed";
   }

@@ -28,7 +28,7 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
-      " among the curves, and lengths of branches that meet there include ways over it; "
+      " among the curves, and lengths of branches that meet there include paths over it; "
       "--fill-cavities fills cavities before thinning");
 }
 
@@ -57,7 +57,7 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
                     "200 drops specks before");
     return;
   }
-  notes.push_back(what + absl::StrFormat(", as noise makes them; --cut-loops %g closes such "
+  notes.push_back(what + absl::StrFormat(", as noise produces them; --cut-loops %g closes such "
                                          "tunnels before thinning",
                                          width));
 }
@@ -114,7 +114,7 @@ void AddSpecks(const SkeletonizeResult& result, Notes& notes) {
     return;
   }
   notes.push_back(absl::StrFormat(
-      "the object has %d components, as specks of noise make them; --min-component 200 drops small "
+      "the object has %d components, as noise produces specks; --min-component 200 drops small "
       "ones, --keep-largest all but one",
       components));
 }

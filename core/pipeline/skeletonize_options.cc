@@ -54,14 +54,14 @@ absl::Status CheckSkeletonizeOptions(const SkeletonizeOptions& options) {
   }
   if (options.thinning.kind == SkeletonKind::kSurface && !IsForSheets(options.pruning.rule)) {
     return absl::InvalidArgumentError(
-        "pruning by length, relative length or persistence: is for curves; the kind surface is "
-        "pruned by the default rule, the thickness of its sheets, or by none");
+        "pruning by length, relative length or persistence: applies to curves; the kind surface is "
+        "pruned by the default rule, the thickness of its sheets, or not at all");
   }
   if (options.pruning.rule == PruningRule::kPersistence &&
       options.thinning.kind != SkeletonKind::kIsthmusCurve) {
     return absl::InvalidArgumentError(
-        "pruning by persistence: needs the kind isthmus-curve, which knows when each point became "
-        "an isthmus");
+        "pruning by persistence: needs the kind isthmus-curve, which records when each point "
+        "became an isthmus");
   }
   return absl::OkStatus();
 }

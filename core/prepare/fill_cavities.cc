@@ -95,7 +95,7 @@ absl::StatusOr<ChangedVolume> FillCavities(const Volume& object, uint64_t max_br
   const uint64_t more = BrickCount(gaps);
   if (object.brick_count() + more > max_bricks) {
     return absl::ResourceExhaustedError(absl::StrFormat(
-        "filling the cavities gives an object of %d bricks (512 points), must be at most %d",
+        "filling the cavities gives an object of %d bricks of 512 points: must be at most %d",
         object.brick_count() + more, max_bricks));
   }
   std::vector<BrickBits> stored(object.bricks().begin(), object.bricks().end());

@@ -25,7 +25,7 @@ absl::Status AgreeOn(Exchange& exchange, const absl::Status& own) {
     return absl::Status(
         code, absl::StrFormat("rank %d: %s", rank, std::string(text.begin(), text.end())));
   }
-  return own.ok() ? absl::CancelledError("another rank cannot go on") : own;
+  return own.ok() ? absl::CancelledError("another rank cannot continue") : own;
 }
 
 }  // namespace bccskel::ranks

@@ -41,7 +41,7 @@ REFUSED = [
     ("real_suzanne_open.obj", 3, "not closed (42 boundary edges"),
 ]
 CAVITY = ("1 cavity leaves a closed surface among the curves, and lengths of branches that meet there "
-          "include ways over it; --fill-cavities fills cavities before thinning\n")
+          "include paths over it; --fill-cavities fills cavities before thinning\n")
 ACCEPTED = [
     ("huge_1e30.off", (1, 0, 0), None),
     ("tiny_1e-30.off", (1, 0, 0), None),

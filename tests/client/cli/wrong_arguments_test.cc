@@ -157,7 +157,7 @@ const Wrong kWrong[] = {
      "--root node -3: must be a whole number"},
     {"pruning_of_a_surface",
      "skeletonize a.off -o a.swc --kind surface --pruning length --pruning-threshold 3",
-     "pruning by length, relative length or persistence: is for curves"},
+     "pruning by length, relative length or persistence: applies to curves"},
     {"pruning_of_shells", "skeletonize a.off -o a.swc --last-shell 5 --pruning-threshold 3",
      "and --last-shell stops before there are curves"},
     {"threshold_of_nothing", "labels a.tif -o a.vtp --pruning none --pruning-threshold 3",

@@ -123,7 +123,7 @@ TEST(NotesOn, NameTheOptionsAgainstSpecks) {
     return *std::move(points).Build();
   };
   EXPECT_THAT(NotesOn(SkeletonOf(specks(1000), {})),
-              ElementsAre("the object has 1000 components, as specks of noise make them; "
+              ElementsAre("the object has 1000 components, as noise produces specks; "
                           "--min-component 200 drops small ones, --keep-largest all but one"));
   EXPECT_THAT(NotesOn(SkeletonOf(specks(999), {})), IsEmpty());
 }
