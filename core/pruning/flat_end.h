@@ -17,20 +17,12 @@ namespace bccskel {
 
 // Finds where the curve of a flat limb should end. In a flat part the radius hardly changes up to
 // the rim, so thinning leads the curve into one of the limb's corners. W, the distance to the rim
-// within the sheet, plays the role of the radius there: it is constant along the limb and falls
-// toward a corner.
-// Does:  walks along the middle of the sheet, where the rim is equally far on either side. The walk
-//        begins one W before the last place that is as wide as any. The end is the place with the
-//        largest sum of W and 0.85 of the distance walked, as for tips of round limbs (tips.h).
-//        Where the rim ahead is nearer than W, the walk goes straight on, since the middle leads
-//        into a corner there, too.
-// Where the limb cannot grow along this walk, its end is the place of its path with the largest W
-// plus 0.75 of the distance along the limb minus 0.4 of the distance aside: the point of a leaf
-// lies ahead, a corner of a strip aside. The limb's direction leads to the last place that is as
-// wide as any.
-// The removed part lies within 1.75 W + 6 units of the end, and the limb before it is at least 0.4
-// W long: corners of plates, which do not end limbs, stay. The normal at a place points to the
-// nearest background.
+// within the sheet, plays the role of the radius there. README.md of this folder gives the reasons.
+// Does:  walks along the middle of the sheet from one W before the last place that is as wide as
+//        any. The end is the place with the largest sum of W and 0.85 of the distance walked. Where
+//        the limb cannot grow along this walk, its end is the place of its path with the largest W
+//        plus 0.75 of the distance along the limb minus 0.4 of the distance aside. The removed part
+//        lies within 1.75 W + 6 units of the end, and the limb before it is at least 0.4 W long.
 // Threads: one thread per instance.
 class FlatEnd {
  public:

@@ -12,20 +12,15 @@
 
 namespace bccskel {
 
-// Rates each point of a surface skeleton by the erosion thickness of its sheet.
+// Rates each point of a surface skeleton by the erosion thickness of its sheet. README.md of this
+// folder gives the reasons.
 // Does:  burns the skeleton from its rims and ends inward, one point at a time as points become
 //        simple. A fire that starts at q reaches p at the time D(q) + 0.8 |p - q|, D the radius.
-//        The erosion thickness of p is that time minus D(p): the length of the sheet relative to
-//        the width of its balls. Where the fire arrives at D(p) or earlier, the sheet behind it was
-//        a bump of the ball at p, and p starts a fire of its own. A point where sheets meet burns
+//        The erosion thickness of p is that time minus D(p), in lattice units. Where the fire
+//        arrives at D(p) or earlier, p starts a fire of its own. A point where sheets meet burns
 //        when all but one of them have burned, with the fire that came last. The value of a point
 //        is the largest erosion thickness among the points that its fire reached through it, along
 //        paths without detours.
-// Why:   noise makes sheets from the rim to bumps of the surface, in which D falls by one per unit,
-//        or between two pits at distance d, in which D falls by less than 0.8 only near the pits:
-//        those have the value 0.2 d. Such a fin has burned before the fire of the sheet on which it
-//        stands arrives, so it does not share the value of that sheet. The bevels of a box burn
-//        last before its middle and do.
 // Source: Yan, Sykes, Chambers, Letscher, Ju, "Erosion thickness on medial axes of 3D shapes"
 //         (2016), with straight distances instead of those along the sheet, which the lattice
 //         overstates.

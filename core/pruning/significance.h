@@ -22,23 +22,18 @@
 namespace bccskel {
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
-// README.md of this folder gives the steps and the reason for each.
-// Does:  follows the branch beyond its end where that may matter (WayOn, or GoOnBeyond() where the
-//        border of an image cuts it off) and finds its run, the part with the largest (elongation -
-//        noise) / D. The elongation from q to p is |p - q| - 2 (D(q) - D(p)); D is the radius, on
-//        rough surfaces of voxels without pits (FirmDepth). Then
-//          S = sqrt(elongation^2 - (noise + 2)^2) / (D(q) + 2.2 (H - D(q))) * uncovered.
-// q is one of the first seven of 11 positions of the run, the one that maximizes S. H is the
-// half-width of the object across the branch: the median, from q on, of the widest of eight lines.
-// Up to ten more lines refine it where S is at least 0.35 and H > 1.5 D + 1. Where the branch ends
-// 1.2 times as thick as it begins, only positions outside 0.9 of the ball at its start count. Where
-// H > 2.5 D + 3, lines follow the wall where it bends, and 16 lines in the wall give W, the radius
-// of its inscribed circle, as their third shortest; 0.4 (W(q) - W(p)) then replaces 2 (D(q) - D(p))
-// where it is larger. `uncovered` is the share of the run outside 0.9 of the balls of other
-// branches. The best run of the later half of a run is evaluated in the same way, and so on; the
-// largest S counts.
-// S is a ratio of lengths of the shape. Only the noise depends on the sampling, so S is the same at
-// any resolution and in any pose.
+// README.md of this folder gives the steps, the constants and the reasons.
+// Does:  extends the branch beyond its end where that may matter (WayOn, GoOnBeyond()) and finds
+//        its run, the part from q to p with the largest (elongation - noise) / D(q). The elongation
+//        is |p - q| - 2 (D(q) - D(p)), D the radius, on rough surfaces of voxels without pits
+//        (FirmDepth). The significance is sqrt(elongation^2 - (noise + 2)^2) / (D(q) + 2.2 (H -
+//        D(q))) times the share of the run outside 0.9 of the balls of other branches. H is the
+//        half-width of the object across the branch. In walls, lines across the branch follow the
+//        wall, and the fall of the inscribed circle's radius may replace that of D. The best run of
+//        the later half of a run is evaluated in the same way, and so on; the largest result
+//        counts.
+// The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
+// it is the same at any resolution and in any pose.
 // Cost:  48 points of the branch for each of one to five runs. For a run that may be the best, 176
 //        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
 //        wall up to 198 more that follow it.

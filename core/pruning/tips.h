@@ -10,14 +10,12 @@
 
 namespace bccskel {
 
-// Cuts every branch back, or extends it, to where the ridge of the distances ends. Along a limb the
-// distance hardly changes on a ridge, falls ever faster toward a point, and falls by 1 per unit
-// into a round cap or the corner of a box. So the tip is the place with the largest sum of the
-// distance and 0.75 of the distance along the limb. Distances are to the background without pits,
-// and no tip lies on a bump (FillPits(), Denoise()), since a single point says nothing about the
-// limb. A tip is never cut back beyond where its limb begins (LargestRun(), LastLimb). It grows by
-// at most the radius there plus 6 units, and not into the ball of another branch. Points of `keep`
-// are not cut off.
+// Cuts every branch back, or extends it, to the end of its limb: the place with the largest sum of
+// the distance to the background and 0.75 of the distance along the limb (README.md of this
+// folder); for flat limbs, see flat_end.h. Distances are measured without pits, and no tip lies on
+// a bump (FillPits(), Denoise()). A tip is never cut back beyond where its limb begins
+// (LargestRun(), LastLimb). It grows by at most the radius there plus 6 units, and not into the
+// ball of another branch. Points of `keep` are not cut off.
 // Needs:  `radius` belongs to `object`. `space` is the object, or the object with points beyond its
 //         border, into which no tip grows. `noise` is that of its surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
