@@ -1,9 +1,10 @@
-// Euler characteristic. For (26, 6) it is that of the voxels as closed cubes, for (6, 26) that of
-// their interiors with the faces, edges and corners between them. Let D be a row of voxels, C the
-// row before it in y, B the one before it in z, A the one before it in both, "+" the "or" of rows
-// for (26, 6) and the "and" for (6, 26). Of the cells that lie at row D, faces between C and D are
-// voxels of C + D, edges along x voxels of A + B + C + D, and so on; each comes with those between
-// neighbors in x. In x alone, cells less the cells between them leave one for each run of a row. So
+// Euler characteristic: for (26, 6) of the voxels as closed cubes, for (6, 26) of their interiors
+// with the faces, edges and corners between them. Let D be a row of voxels, C the previous row in
+// y, B the previous one in z, A the previous one in both, and "+" the "or" of rows for (26, 6), the
+// "and" for (6, 26). Each cell of the complex is counted at one row D: faces between C and D are
+// voxels of C + D, edges along x are voxels of A + B + C + D, and so on, together with the cells
+// between neighbors in x. Along x, the cells minus the cells between them are the number of runs of
+// the row. So
 //
 //   chi = sum over rows D of  runs(D) - runs(C + D) - runs(B + D) + runs(A + B + C + D).
 #include "core/mask/mask_topology.h"

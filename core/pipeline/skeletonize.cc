@@ -176,7 +176,7 @@ class Pipeline {
     return FinishIn(object, std::move(distance));
   }
 
-  // A peeler keeps the distances elsewhere, so radii are searched for.
+  // A peeler does not return distances, so radii are searched for.
   absl::Status PeelAndRun(Volume& object) {
     BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, options_.thinning));
     TakeOver(std::move(peeled.thinned));

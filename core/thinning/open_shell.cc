@@ -29,7 +29,7 @@ HWY_INLINE Plane AllPoints() {
   return all;
 }
 
-// Those of `points` whose bit in a plane is the lowest of `number`.
+// The points whose bit in a plane equals the lowest bit of `number`.
 HWY_INLINE Plane WithBit(const Plane& points, const BrickBits& plane, int32_t number) {
   const Plane set = LoadPlane(plane);
   return (number & 1) != 0 ? And(set, points) : AndNot(set, points);
