@@ -18,30 +18,31 @@
 namespace bccskel::server {
 
 struct ServerConfig {
-  // Each HOST:PORT, port 0 for any free one, or unix:PATH.
+  // Each is HOST:PORT, with port 0 for any free one, or unix:PATH.
   std::vector<std::string> listen = {"127.0.0.1:50051"};
-  // For reflection, admin calls and health; empty: where `listen` says, if that is this machine.
+  // For reflection, admin calls and health; empty: the addresses in `listen`, if they are of this
+  // machine.
   std::string admin_listen;
-  std::string metrics_listen;  // HTTP; empty: nowhere
-  TlsFiles tls;                // for every HOST:PORT but the metrics'; Unix sockets have none
-  std::string tokens;          // file of tokens (identity/token_table.h); empty: none are wanted
-  std::string plaintext_tokens = "refuse";  // over networks without TLS; or allow
+  std::string metrics_listen;  // HTTP; empty: no metrics
+  TlsFiles tls;                // for every HOST:PORT except the metrics'; Unix sockets have no TLS
+  std::string tokens;          // file of tokens (identity/token_table.h); empty: none needed
+  std::string plaintext_tokens = "refuse";  // or "allow": over networks without TLS
   JobPool::Limits limits;
   DurableOptions durable;
   CallerTimeouts caller_timeouts;
-  std::chrono::milliseconds lame_duck{0};   // "not serving", and serving all the same
-  std::chrono::milliseconds drain{25'000};  // for running calls after that
+  std::chrono::milliseconds lame_duck{0};   // health says "not serving", but new calls are served
+  std::chrono::milliseconds drain{25'000};  // time for running calls after that
   std::string log_level = "info";           // trace, debug, info, warning, error, off
 };
 
-// Everything from what this machine has: its threads, three quarters of the memory that this
-// process may use.
+// Defaults for this machine: all of its threads, three quarters of the memory that this process may
+// use.
 ServerConfig DefaultServerConfig();
 
 using Variable = std::function<const char*(const char*)>;  // getenv()
 
-// From the command line, the environment and a file. Bad settings are an exit request with code 2
-// that names each of them; so are files that the server could not work with.
+// Reads settings from the command line, the environment and a file. If any are bad, or name files
+// that the server could not use, yields an exit request with code 2 that lists them all.
 std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* const* argv,
                                                           const Variable& variable = std::getenv);
 

@@ -12,14 +12,15 @@
 
 namespace bccskel::server {
 
-// One server's right to the path of a Unix socket. gRPC unlinks a socket that it finds there, which
-// is right after a crash and wrong while another server listens. The right is a lock on the file
-// PATH.lock beside the socket; the kernel gives it back however the process ends, and a clean end
-// removes the file.
+// Reserves the path of a Unix socket for one server. gRPC unlinks a socket that it finds there,
+// which is right after a crash and wrong while another server listens. The reservation is a lock on
+// the file PATH.lock beside the socket; the kernel releases it however the process ends, and a
+// clean exit removes the file.
 class SocketLock {
  public:
-  // Errors: ALREADY_EXISTS when another server has it; INVALID_ARGUMENT when the file cannot be
-  //         made. Nothing waits.
+  // Does not wait.
+  // Errors: ALREADY_EXISTS when another server has the path; INVALID_ARGUMENT when the file cannot
+  //         be created.
   static absl::StatusOr<SocketLock> Take(const std::string& socket_path);
 
   ~SocketLock();
@@ -33,27 +34,28 @@ class SocketLock {
   Descriptor file_;
 };
 
-// Listens at one address and hands on what comes in. gRPC 1.51 could do that itself, but stops for
-// good when it meets the limit of open files once; here connections wait until there is room.
+// Listens at one address and passes on its connections. gRPC 1.51 could do that itself, but it
+// stops accepting for good once it reaches the limit of open files; here connections wait until
+// others close.
 class ConnectionAcceptor {
  public:
-  // Receives a connection accepted from `listener`, and owns it from then on. Called on a thread of
-  // the acceptor; must not block.
+  // Receives a connection accepted from `listener` and takes ownership of it. Called on the
+  // acceptor's thread; must not block.
   using Take = std::function<void(int listener, int connection)>;
 
-  // Listens when it returns: HOST:PORT, at every address of the host, or unix:PATH, where it
-  // replaces an existing socket.
+  // Returns once it listens, for HOST:PORT at every address of the host. For unix:PATH it replaces
+  // an existing socket.
   // Errors: INVALID_ARGUMENT with the system's reason, or if PATH exists and is not a socket.
   static absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> Listen(const std::string& address);
 
   ~ConnectionAcceptor();  // as Stop()
 
-  // With the port that port 0 became.
+  // With the assigned port in place of port 0.
   const std::string& address() const { return address_; }
 
   // Called once.
   void Start(Take take);
-  // Nobody listens any more, and nothing is handed on. What was is not touched.
+  // Stops listening and passing on connections. Those already passed on stay open.
   void Stop();
 
  private:
@@ -61,7 +63,7 @@ class ConnectionAcceptor {
   absl::Status ListenToHost(const std::string& address);
   absl::Status ListenToPath(const std::string& path);
   void Serve();
-  // Errors: those of the system that concern more than one connection.
+  // Errors: system errors that affect more than one connection.
   absl::Status AcceptAll(int listener);
 
   std::string address_;

@@ -15,33 +15,33 @@
 
 namespace bccskel::server {
 
-// What is reached at a set of addresses.
+// What a set of addresses serves.
 struct ListenerPlan {
   std::vector<std::string> addresses;    // each HOST:PORT or unix:PATH
   TlsFiles tls;                          // for each HOST:PORT
   std::vector<grpc::Service*> services;  // not owned
-  std::vector<std::string> healthy;      // full names of services that health answers for
+  std::vector<std::string> healthy;      // full names of the services in health checks
   enum class Reflection { kOff, kOn } reflection = Reflection::kOff;
-  ServerMetrics* metrics = nullptr;  // that count the calls; null: nobody does
+  ServerMetrics* metrics = nullptr;  // counts the calls; null: no counts
 };
 
-// Addresses that are listened on, and the calls that come in there. Each listener answers health
-// checks; they need no token.
+// Listens on addresses and serves the calls that arrive there. Also answers health checks, which
+// need no token.
 class Listener {
  public:
-  // Listens when it returns.
-  // Errors: INVALID_ARGUMENT for an address that cannot be listened on; ALREADY_EXISTS for a Unix
-  //         socket that another server listens on.
+  // Returns once it listens.
+  // Errors: INVALID_ARGUMENT for an address that cannot be used; ALREADY_EXISTS for a Unix socket
+  //         that another server listens on.
   static absl::StatusOr<std::unique_ptr<Listener>> Start(ListenerPlan plan);
 
-  // In the order of the plan, with the ports that port 0 became.
+  // In the order of the plan, with assigned ports in place of port 0.
   const std::vector<std::string>& addresses() const { return addresses_; }
 
   enum class Serving { kYes, kNo };
   void SetServing(Serving serving);
   void SetServing(const std::string& service, Serving serving);
 
-  // New calls are refused at once; running ones have so long to end, and are cut off then.
+  // Refuses new calls immediately; aborts running ones that have not ended within `grace`.
   void Shutdown(std::chrono::milliseconds grace);
 
  private:

@@ -21,19 +21,18 @@ class Listener;
 // The running server: listeners, services, health, reflection, metrics and the jobs behind them.
 class Server {
  public:
-  // Listens when it returns.
-  // Errors: INVALID_ARGUMENT for an address that cannot be listened on, and for files of tokens and
-  //         certificates that cannot be worked with; ALREADY_EXISTS for a Unix socket that another
-  //         server listens on.
+  // Returns once it listens.
+  // Errors: INVALID_ARGUMENT for an address that cannot be used, and for unusable files of tokens
+  //         or certificates; ALREADY_EXISTS for a Unix socket that another server listens on.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config);
   ~Server();
 
-  // Where clients find it: "127.0.0.1:50051" (never with port 0) or "unix:/path".
+  // The addresses for clients: "127.0.0.1:50051" (never with port 0) or "unix:/path".
   const std::vector<std::string>& addresses() const;
   const std::string& address() const { return addresses().front(); }
-  // Where reflection and admin calls are; empty: nowhere, or beside the other services.
+  // The address of reflection and admin calls; empty: none, or that of the other services.
   std::string admin_address() const;
-  // Where Prometheus finds the metrics, HOST:PORT; empty: nowhere.
+  // The HOST:PORT of the metrics for Prometheus; empty: none.
   const std::string& metrics_address() const { return metrics_.shown_at(); }
 
   // Reloads the tokens file and logs the outcome. Certificates reload by themselves.
@@ -54,7 +53,7 @@ class Server {
   const JobPool& jobs() const { return jobs_; }
 
  private:
-  // These keep gRPC and messages out of this header.
+  // Keeps gRPC and messages out of this header.
   class Services;
 
   Server(const ServerConfig& config, std::unique_ptr<Callers> callers);
@@ -70,15 +69,15 @@ class Server {
   const ServerConfig config_;
   const std::unique_ptr<Callers> callers_;
   std::atomic<bool> draining_ = false;
-  bool data_is_well_ = true;  // as LookAfterData() saw it
+  bool data_is_well_ = true;  // at the last LookAfterData()
   ServerMetrics metrics_;
   JobPool jobs_;
   // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.
   std::unique_ptr<const JobCodec> codec_;
-  std::unique_ptr<DurableJobs> durable_jobs_;  // null where nothing is durable
+  std::unique_ptr<DurableJobs> durable_jobs_;  // null without a data directory
   std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
-  std::unique_ptr<Listener> admin_listener_;  // none where the public one does its work
+  std::unique_ptr<Listener> admin_listener_;  // null if the public one also serves admins
 };
 
 }  // namespace bccskel::server

@@ -18,8 +18,8 @@ namespace bccskel::server {
 
 class Admission;
 
-// A job's right to memory and to a place among the jobs. Gives both back when destroyed. An empty
-// ticket holds nothing.
+// A job's reservation of memory and of a place among the jobs. The destructor releases both. An
+// empty ticket holds nothing.
 // Threads: one at a time per ticket.
 class Ticket {
  public:
@@ -29,12 +29,12 @@ class Ticket {
   Ticket& operator=(Ticket&& other) noexcept;
 
   uint64_t bytes() const { return bytes_; }
-  // Gives back what is over `bytes`.
+  // Releases the memory above `bytes`.
   void ShrinkTo(uint64_t bytes);
-  // The same, or takes what is missing.
-  // Errors: a CallError: kTooMuchMemory or kMemoryBusy; then the ticket stays as it was.
+  // Shrinks or grows the reservation to `bytes`.
+  // Errors: a CallError: kTooMuchMemory or kMemoryBusy; the ticket is then unchanged.
   absl::Status ResizeTo(uint64_t bytes);
-  // Gives back the place among the jobs; the memory stays.
+  // Releases the place among the jobs and keeps the memory.
   void LeavePlace();
 
  private:
@@ -49,16 +49,16 @@ class Ticket {
   int places_ = 0;
 };
 
-// Lets jobs in while the sum of what they need stays within the limits, of all tenants together and
-// of each. It decides at once, from what a volume's declaration says, and nothing ever waits for
-// it. Needs: outlives its tickets.
+// Admits jobs while the sum of their needs stays within the limits, of all tenants together and of
+// each. It decides immediately, from a volume's declaration; nothing ever waits for it. Needs:
+// outlives its tickets.
 class Admission {
  public:
-  // Where there are several named tenants, one that has no max_jobs may have half of the places
-  // that the others leave: so none of them takes all.
+  // With several named tenants, one without max_jobs may hold half of the places that the others
+  // leave, so that none of them takes all.
   struct Limits {
-    uint64_t bytes = 0;  // of all jobs together
-    int places = 0;      // jobs that receive, wait or run
+    uint64_t bytes = 0;  // for all jobs together
+    int places = 0;      // jobs that are receiving, waiting or running
     TenantTable tenants = {};
   };
   struct Usage {
@@ -68,34 +68,34 @@ class Admission {
     friend bool operator==(const Usage&, const Usage&) = default;
   };
 
-  // The allocator keeps what jobs have freed, each thread's for itself, so that the next job need
-  // not fault in every page. `reclaim` gives it back to the system; it is called where a job might
-  // otherwise lead above the limit of bytes.
+  // The allocator keeps memory that jobs have freed, separately for each thread, so that the next
+  // job need not fault in every page. `reclaim` returns it to the system; it is called where a job
+  // might otherwise exceed the limit of bytes.
   explicit Admission(
       const Limits& limits, std::function<void()> reclaim = [] {})
       : limits_(limits), reclaim_(std::move(reclaim)) {}
 
-  // Errors: a CallError: kTooMuchMemory when it could never be let in, else kQueueFull, kMemoryBusy
-  //         or kDraining.
+  // Errors: a CallError: kTooMuchMemory if the job could never be admitted, else kQueueFull,
+  //         kMemoryBusy or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }
 
-  // From now on; what was let in stays.
+  // Applies to later jobs; admitted ones keep what they hold.
   void SetTenants(const TenantTable& tenants);
-  // From now on every job is refused as kDraining.
+  // Refuses every further job as kDraining.
   void StopAdmitting();
 
-  // Returns when no ticket holds anything, or when the time is over.
+  // Returns when no ticket holds anything, or after `timeout`.
   void WaitUntilEmpty(std::chrono::milliseconds timeout) const;
 
   Usage usage() const;
   Usage usage(const std::string& tenant) const;
-  // Those that have a place, or whose results are not let go of.
+  // Jobs that hold a place or whose results still hold memory.
   int jobs() const;
 
  private:
   friend class Ticket;
-  // What a tenant may have and has.
+  // Limit and usage of one tenant, or of all together.
   struct Part {
     const char* whose;  // for messages
     Usage limit, usage;
@@ -114,7 +114,7 @@ class Admission {
   const std::function<void()> reclaim_;
   Usage usage_;                           // guarded by mutex_
   uint64_t freed_ = 0;                    // guarded by mutex_; bytes, since the last reclaim_()
-  std::map<std::string, Usage> tenants_;  // guarded by mutex_; those that have something
+  std::map<std::string, Usage> tenants_;  // guarded by mutex_; tenants that hold something
   int jobs_ = 0;                          // guarded by mutex_
   bool admitting_ = true;                 // guarded by mutex_
 };

@@ -13,7 +13,7 @@
 
 namespace bccskel::server {
 
-// Needs of hostile declarations stay at the largest number instead of wrapping around.
+// These saturate, so that hostile declarations cannot make a sum wrap around.
 inline uint64_t SaturatingAdd(uint64_t a, uint64_t b) {
   uint64_t sum = 0;
   return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<uint64_t>::max() : sum;
@@ -24,8 +24,8 @@ inline uint64_t SaturatingMultiply(uint64_t a, uint64_t b) {
   return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<uint64_t>::max() : product;
 }
 
-// Volumes of up to so many occupied bricks (1 M points) get one thread: more would not make them
-// faster, and eight of them side by side are better served.
+// Volumes of at most this many occupied bricks (1 M points) get one thread: more would not make
+// them faster, and eight of them are served better side by side.
 inline constexpr uint64_t kSmallJobBricks = 2048;
 
 // Memory of the pipeline per occupied brick. Peak resident memory of the server grew by 2.1 KiB a
@@ -33,22 +33,22 @@ inline constexpr uint64_t kSmallJobBricks = 2048;
 // wider than about 600 lattice units have, add 1 KiB; Euclidean ones take 3.3 KiB with the shells
 // that are made of them, and 2 KiB more in objects of up to 4096 bricks with different spacings.
 inline constexpr uint64_t kPipelineBytesPerBrick = 5120;
-// Of a job: stacks, tables, chunks in flight and the allocator's slack.
+// Per job: stacks, tables, chunks in flight and the allocator's slack.
 inline constexpr uint64_t kFixedJobBytes = uint64_t{4} << 20;
 
-// Whether the points that go with each shell are to be kept for the caller.
+// Whether to keep the points of each thinned shell for the caller.
 enum class ShellPointsWanted : uint8_t { kNone, kAll };
 
-// Per brick, of the points of all shells as they are sent: 3 bytes for each of 512 points, whose
-// neighbors in a brick are near, and 12 more for the first of a brick, in 64 shells.
+// Bytes per brick for the points of all shells as they are sent: 3 for each of 512 points, whose
+// neighbors in a brick are near, and 12 more for the first point of a brick in each of 64 shells.
 inline constexpr uint64_t kShellPointsBytesPerBrick = 3 * 512 + 12 * 64;
 constexpr uint64_t ShellPointsBytes(ShellPointsWanted wanted, uint64_t bricks) {
   if (wanted == ShellPointsWanted::kNone) return 0;
   return SaturatingMultiply(bricks, kShellPointsBytesPerBrick);
 }
 
-// Peak memory for receiving and decoding a volume that was declared like this, and for thinning it
-// when every brick that it may have is occupied.
+// Peak memory for receiving, decoding and thinning a volume of this declaration if every brick that
+// it may have is occupied.
 uint64_t BytesToSkeletonize(const VolumeHeader& declared, uint64_t size_bytes,
                             ShellPointsWanted shell_points = ShellPointsWanted::kNone);
 
@@ -56,10 +56,11 @@ uint64_t BytesToSkeletonize(const VolumeHeader& declared, uint64_t size_bytes,
 uint64_t BytesToSkeletonize(const Volume& volume,
                             ShellPointsWanted shell_points = ShellPointsWanted::kNone);
 
-// `wanted` 0 leaves it to the server.
+// `wanted`, but at most `threads`; all of them if `wanted` is 0.
 int ThreadsWithin(int threads, int wanted);
 
-// Threads that a job of this size should get of `threads`. `wanted` 0 leaves it to the server.
+// The number of threads, at most `threads`, for a job of this size. `wanted` 0 leaves the choice to
+// the server.
 int ThreadsFor(uint64_t bricks, int wanted, int threads);
 
 // What is known about a volume of labels before its first byte.
@@ -70,33 +71,33 @@ struct LabelVolumeHeader {
   int label_bytes = 1;  // of one voxel: 1, 2, 4 or 8
   VolumeCompression compression = VolumeCompression::kNone;
 
-  // Promises about the labels that are wanted, enforced while decoding.
-  uint64_t max_voxels = 0;        // of all together
-  uint64_t max_label_voxels = 0;  // of any one
+  // Promises about the requested labels, enforced while decoding.
+  uint64_t max_voxels = 0;        // of all labels together
+  uint64_t max_label_voxels = 0;  // of any one label
   uint64_t max_runs = 0;          // longest stretches of one label along x
   uint64_t max_labels = 0;
 
   uint64_t DecodedBytes() const;  // saturates
 };
 
-// Replaces a promise that was not made, 0, by the worst that grid and type allow. `labels_wanted` 0
+// Replaces each missing promise (0) with the worst case that grid and type allow. `labels_wanted` 0
 // means all.
 LabelVolumeHeader WithWorstCase(LabelVolumeHeader header, uint64_t labels_wanted);
 
-// Memory for computing `threads` labels of the largest size at the same time, when they are no
-// thinner than most: where they are, the job asks for more once it knows them.
+// Memory for computing `threads` labels of the largest declared size at the same time, if they are
+// no thinner than most. For thinner ones the job asks for more once it knows them.
 uint64_t BytesToComputeLabels(const LabelVolumeHeader& declared, int threads);
-// Peak memory for receiving the volume, and for computing beside its runs.
+// Peak memory for receiving the volume and for computing while its runs are in memory.
 uint64_t BytesToSkeletonizeLabels(const LabelVolumeHeader& declared, int threads);
 
-// No exact conversion of the object with these parts of voxels has more bricks; most have as many.
-// Where cavities are to be filled, all bricks between others of a row count. Cost: a few operations
-// for each run.
+// An upper bound of the number of bricks in any exact conversion of the object with these parts of
+// voxels; most conversions reach it. With cavity filling it counts all bricks between others of a
+// row. Cost: a few operations per run.
 uint64_t MostBricksOf(const LabeledObject& object, const VoxelParts& parts,
                       CavityFilling cavities = CavityFilling::kOff);
-// Peak memory for converting and thinning an object of so many bricks, its graph included.
+// Peak memory for converting and thinning an object of this many bricks, including its graph.
 uint64_t BytesToComputeLabel(uint64_t bricks);
-// Memory that the runs of an object keep.
+// Memory that the object's runs occupy.
 uint64_t BytesOf(const LabeledObject& object);
 
 }  // namespace bccskel::server

@@ -7,16 +7,16 @@
 
 namespace bccskel::server {
 
-// What one tenant may have of what all share. 0 means as much as all together.
+// Limits of one tenant. 0 means no limit beyond that of all tenants together.
 struct TenantLimits {
-  int weight = 1;          // turns at computing and decoding in each round; at least 1
-  int max_jobs = 0;        // that receive, wait or run
+  int weight = 1;          // turns at computing and decoding per round; at least 1
+  int max_jobs = 0;        // receiving, waiting or running
   int max_running = 0;     // at the same time
   uint64_t max_bytes = 0;  // working memory
 };
 
 struct TenantTable {
-  TenantLimits each;                          // tenant that is not named
+  TenantLimits each;                          // for each tenant that is not named
   std::map<std::string, TenantLimits> named;  // by tenant
 
   const TenantLimits& Of(const std::string& tenant) const {

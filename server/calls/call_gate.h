@@ -25,28 +25,29 @@ namespace bccskel::server {
 
 struct CallFacts;
 
-// A streaming call that is under way.
+// A streaming call in progress.
 // Threads: safe.
 class OpenStream {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
   virtual ~OpenStream() = default;
-  // Ends the call with this error, unless it has ended.
+  // Ends the call with this error unless it has ended already.
   virtual void EndEarly(const absl::Status& why) = 0;
-  // Errors: ABORTED when the caller has not sent, or read, what it should within the limits.
+  // Errors: ABORTED when the caller has exceeded its time to send or to read.
   virtual absl::Status CheckCaller(TimePoint, const CallerTimeouts&) { return absl::OkStatus(); }
 };
 
-// Looks after all of them: ends those whose token is accepted no longer, and those of callers who
-// do not send or do not read. Threads: safe.
+// The streaming calls in progress. Ends those whose token is no longer accepted and those whose
+// callers do not send or read in time.
+// Threads: safe.
 class OpenStreams {
  public:
   // Needs: `callers` outlives this.
   OpenStreams(const Callers& callers, const CallerTimeouts& timeouts)
       : callers_(callers), timeouts_(timeouts) {}
 
-  // Until Remove().
+  // Watches the call until Remove().
   void Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts);
   void Remove(const OpenStream& call);
 
@@ -59,7 +60,8 @@ class OpenStreams {
     std::string authorization, tenant;
     uint64_t tokens = 0;  // Callers::generation() that accepted it
   };
-  // Whether its token is accepted, as far as that is not known. Needs: mutex_ held.
+  // Checks the call's token again if the tokens have changed since it was accepted. Needs: mutex_
+  // held.
   absl::Status CheckToken(Entry& entry, uint64_t generation) const;
 
   const Callers& callers_;
@@ -71,7 +73,8 @@ class OpenStreams {
 // A method of the interface.
 struct Method {
   const char* name = "";  // "JobService/CreateJob"
-  // Questions change nothing and come often: while all is well they are left to the debug log.
+  // Queries (kQuestion) change nothing and are frequent: unless they fail they are logged at level
+  // debug only.
   enum class Kind { kWork, kQuestion } kind = Kind::kWork;
 };
 
@@ -82,30 +85,30 @@ struct CallFacts {
   Method method = {};
   Clock::time_point started = Clock::now();
   Clock::time_point deadline = Clock::time_point::max();
-  std::string trace;                    // the caller's traceparent, if it is one; for the log
-  std::string tenant = kDefaultTenant;  // whose call it is
+  std::string trace;                    // the caller's traceparent, if valid; for the log
+  std::string tenant = kDefaultTenant;  // of the caller
   Role role = Role::kTenant;
-  // Whether the server cuts calls off now; null: it never does. Outlives the call.
+  // Set while the server aborts calls; null: it never does. Outlives the call.
   const std::atomic<bool>* cut_off = nullptr;
-  std::string authorization = {};  // the header, empty where there was none; never shown to anybody
+  std::string authorization = {};  // the header, empty if absent; never shown to anybody
   uint64_t tokens = 0;             // Callers::generation() that accepted it
-  // Who looks after streaming calls; null: nobody does. Outlives the call.
+  // Watches streaming calls; null: nobody does. Outlives the call.
   OpenStreams* lasting = nullptr;
-  const grpc::CallbackServerContext* context = nullptr;  // there until gRPC is done with the call
+  const grpc::CallbackServerContext* context = nullptr;  // valid until gRPC is done with the call
 
   bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
 
-  // Why gRPC says that the call is over.
+  // The status of a call that gRPC reports as cancelled.
   absl::Status CancelStatus() const;
   void LogAccepted(const std::string& job, uint64_t volume_bytes) const;
-  // `subject` is the name of the job, upload or volume that the call was about, if there is one.
+  // `subject` is the name of the job, upload or volume of the call, if any.
   void LogEnded(const std::string& subject, const absl::Status& status) const;
 };
 
-// The digest that the sender states, if it states one.
+// The digest that the sender states, if any.
 std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish);
 
-// A call to something that outlives the process.
+// A call about durable data.
 struct DurableCall {
   CallFacts facts;
   DurableJobs& durable_jobs;
@@ -113,12 +116,13 @@ struct DurableCall {
   const std::string& tenant() const { return facts.tenant; }
 };
 
-// Where every call of every service comes in: whose is it? A handler learns the tenant here and
-// nowhere else. Calls that are refused are logged here.
+// The entry of every call of every service: identifies the caller. Handlers learn the tenant here
+// and nowhere else. Logs refused calls.
 // Threads: safe.
 class CallGate {
  public:
-  // Needs: both outlive the gate. `durable_jobs` is null where nothing is durable.
+  // Needs: `callers` and `durable_jobs` outlive the gate. `durable_jobs` is null without a data
+  // directory.
   explicit CallGate(const Callers& callers, const CallerTimeouts& timeouts = {},
                     DurableJobs* durable_jobs = nullptr)
       : callers_(callers), durable_jobs_(durable_jobs), lasting_(callers, timeouts) {}
@@ -126,12 +130,12 @@ class CallGate {
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
                                   const Method& method) const;
-  // Errors besides: PERMISSION_DENIED for who is no admin.
+  // Errors: as Enter(); PERMISSION_DENIED if the caller is not an admin.
   absl::StatusOr<CallFacts> EnterAsAdmin(const grpc::CallbackServerContext& context,
                                          const Method& method) const;
-  // For calls about what is durable, be it something that has a name, as `field` of the request
-  // says. Errors besides: FAILED_PRECONDITION where nothing is; INVALID_ARGUMENT for what can be
-  // nobody's name.
+  // For calls about durable data. If the request names something, `name` holds its field and value.
+  // Errors: as Enter(); FAILED_PRECONDITION without durable data; INVALID_ARGUMENT for a malformed
+  //         name.
   struct Name {
     const char* field;
     const std::string& name;
@@ -140,9 +144,9 @@ class CallGate {
                                            const Method& method,
                                            const std::optional<Name>& name = std::nullopt) const;
 
-  DurableJobs* durable_jobs() const { return durable_jobs_; }  // null where nothing is durable
+  DurableJobs* durable_jobs() const { return durable_jobs_; }  // null without a data directory
 
-  // From now on calls that gRPC cancels are the server's doing.
+  // From now on cancelled calls count as aborted by the server.
   void CutOff() { cut_off_ = true; }
   // Called once a second.
   void LookAfterCalls() { lasting_.LookAfter(); }
@@ -154,10 +158,10 @@ class CallGate {
   std::atomic<bool> cut_off_ = false;
 };
 
-// The error of a call that goes no further, which is logged.
+// Logs the end of a refused call and returns its error.
 absl::Status Refused(const CallFacts& facts, const absl::Status& status);
 
-// Ends a unary call: with OK, or with the error and its details.
+// Ends a unary call with OK or with the error and its details.
 grpc::ServerUnaryReactor* EndUnary(grpc::CallbackServerContext& context,
                                    const absl::Status& status);
 

@@ -14,14 +14,14 @@
 
 namespace bccskel::server {
 
-// DurableJobs' records as callers see them.
+// Convert records of DurableJobs to messages.
 google::protobuf::Timestamp ToMessage(Time time);
 v1::Upload ToMessage(const UploadInfo& upload);
 v1::Job ToMessage(const JobInfo& job);
 v1::WatchJobResponse ToMessage(const JobEvent& event);
 v1::JobState ToMessage(JobState state);
 
-// A volume as DurableJobs stores it.
+// What identifies a volume in DurableJobs.
 struct StoredKey {
   std::string declaration;
   std::string digest;
@@ -31,7 +31,7 @@ struct StoredKey {
   }
 };
 
-// What callers send, as DurableJobs takes it. Errors: INVALID_ARGUMENT with the field.
+// Convert requests to the input of DurableJobs. Errors: INVALID_ARGUMENT with the field.
 absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request);
 absl::StatusOr<JobQuery> QueryOf(const v1::ListJobsRequest& request);
 absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesRequest& request);

@@ -12,12 +12,12 @@ namespace bccskel::server {
 
 using SkeletonizeSession = Session<v1::SkeletonizeRequest, v1::SkeletonizeResponse>;
 
-// Whether a call with this config is durable where anything is: volumes that may take more than
-// 1 MiB decoded are.
+// Whether a call with this config is durable on a server with a data directory: if the volume may
+// take more than 1 MiB decoded.
 bool IsDurable(const v1::SkeletonizeConfig& config, const VolumeLimits& limits);
 
-// Of a Skeletonize call whose upload and job are kept: uploads, watches the job, reads the stored
-// result, of which one piece is in memory at a time.
+// The session of a durable Skeletonize call: stores the upload, watches the job and reads the
+// stored result, one piece in memory at a time.
 // Needs: `durable_jobs` and `writers` outlive the session.
 std::shared_ptr<SkeletonizeSession> MakeDurableSession(
     std::shared_ptr<SkeletonizeSession::Call> call, DurableJobs& durable_jobs,

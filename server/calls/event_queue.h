@@ -9,8 +9,8 @@
 
 namespace bccskel::server {
 
-// Events that a caller has not read yet, in order. Of the progress between two state changes only
-// the newest is kept, so a slow reader costs bounded memory: a job has a handful of states.
+// Events that a caller has not read yet, in order. Between two state changes it keeps only the
+// newest progress, so a slow reader costs bounded memory: a job has a handful of states.
 class EventQueue {
  public:
   void Add(v1::WatchJobResponse event) {
@@ -28,7 +28,7 @@ class EventQueue {
     return event;
   }
 
-  // Of the newest event; what the caller knew already before there is one.
+  // The number of the newest event, or the start set by StartAfter().
   uint64_t sequence() const { return sequence_; }
   void StartAfter(uint64_t sequence) { sequence_ = sequence; }
 

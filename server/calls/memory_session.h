@@ -20,8 +20,8 @@
 
 namespace bccskel::server {
 
-// A job that lives in memory and ends with its call. `Listener` and `Result` are what a job of this
-// kind tells, `Responses` what is still to be sent.
+// A job that lives in memory and ends with its call. The job reports to `Listener` and yields
+// `Result`; `Responses` holds what is still to be sent.
 template <typename Request, typename Response, typename Listener, typename Result,
           typename Responses>
 class MemorySession : public Session<Request, Response>,
@@ -54,7 +54,7 @@ class MemorySession : public Session<Request, Response>,
   void Append(v1::VolumeChunk& chunk) override { job_->Append(std::move(*chunk.mutable_data())); }
   void Finish(const v1::VolumeFinish& finish) override {
     job_->FinishVolume(DigestOf(finish));
-    call_->ReadNext();  // sees requests that must not come
+    call_->ReadNext();  // to detect requests after the finish
   }
 
   std::optional<Response> Next() override { return responses_.Next(); }
@@ -70,7 +70,7 @@ class MemorySession : public Session<Request, Response>,
     lock.unlock();
     if (job != nullptr) job->EndWith(why);
   }
-  // The job holds this session and may go on for a while; what is not sent holds memory.
+  // Releases the unsent responses: the job holds this session and may continue for a while.
   void Close() override {
     responses_ = Responses();
     std::shared_ptr<Job> job;
@@ -85,7 +85,7 @@ class MemorySession : public Session<Request, Response>,
   }
 
  protected:
-  // `fill` puts something into the responses, which goes out.
+  // Adds responses by `fill` and sends them.
   template <typename Fill>
   void Send(Fill fill) {
     call_->Change([&fill] {
@@ -93,8 +93,8 @@ class MemorySession : public Session<Request, Response>,
       return Sending::kNow;
     });
   }
-  // The newest progress goes out, or, within kProgressInterval of the one before or the beginning,
-  // with what comes next. `elapsed` since the computation began.
+  // Sends the newest progress immediately if kProgressInterval has passed since the last one or the
+  // beginning, else with the next response. `elapsed` since the computation began.
   template <typename Progress>
   void Report(Progress progress, std::chrono::nanoseconds elapsed) {
     call_->Change([&] {

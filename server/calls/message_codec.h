@@ -9,8 +9,8 @@
 
 namespace bccskel::server {
 
-// The bytes that DurableJobs stores are serialized messages: a VolumeDeclaration, and a
-// SkeletonizeConfig with nothing but options and thin_volume_return. Part of the library `service`.
+// Encodes what DurableJobs stores as serialized messages: a VolumeDeclaration, and a
+// SkeletonizeConfig with only options and thin_volume_return. Part of the library `service`.
 class MessageCodec final : public JobCodec {
  public:
   explicit MessageCodec(const VolumeLimits& limits) : limits_(limits) {}
@@ -24,7 +24,7 @@ class MessageCodec final : public JobCodec {
   const VolumeLimits limits_;
 };
 
-// Canonical: options that mean the same give the same bytes.
+// Canonical: options with the same meaning give the same bytes.
 // Errors: INVALID_ARGUMENT with the field.
 absl::StatusOr<std::string> OptionsBytes(const v1::SkeletonizeOptions& options,
                                          v1::ThinVolumeReturn thin_volume_return);

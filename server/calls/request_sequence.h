@@ -11,11 +11,11 @@ namespace bccskel::server {
 
 inline constexpr size_t kMaxChunkBytes = size_t{1} << 20;
 
-// Holds the requests of a stream to their order: config, chunks without gaps, finish, half-close.
+// Checks the order of a stream's requests: config, chunks without gaps, finish, half-close.
 class RequestSequence {
  public:
-  // Checks one more request, whose kind is config, chunk or finish, against what came before and
-  // the declared size.
+  // Checks the next request (config, chunk or finish) against the previous ones and the declared
+  // size.
   // Errors: INVALID_ARGUMENT for a request out of order, a chunk or a volume of a wrong size;
   //         OUT_OF_RANGE, with the committed size, for a chunk with a wrong offset.
   template <typename Request>
@@ -37,7 +37,8 @@ class RequestSequence {
   // Errors: INVALID_ARGUMENT before finish.
   absl::Status HalfClose() const;
 
-  // So many bytes came before this stream. Needs: comes after config and before the first chunk.
+  // `committed_bytes` arrived before this stream. Needs: called after the config and before the
+  // first chunk.
   void ResumeAt(uint64_t committed_bytes) { committed_bytes_ = committed_bytes; }
 
   bool finished() const { return expected_ == Expected::kNothing; }

@@ -17,22 +17,22 @@
 
 namespace bccskel::server {
 
-// Reads the first request of a stream. The deadline is left to the caller.
+// Reads the first request of a stream. The caller sets the deadline.
 // Errors: INVALID_ARGUMENT with the field; RESOURCE_EXHAUSTED with the limit, for a volume declared
 //         over `limits`.
 absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
                                         const VolumeLimits& limits);
 
-// Reads the first request of a stream of labels. The deadline is left to the caller.
+// Reads the first request of a stream of labels. The caller sets the deadline.
 // Errors: as JobRequestOf().
 absl::StatusOr<LabelsRequest> JobRequestOf(const v1::SkeletonizeLabelsConfig& config,
                                            const VolumeLimits& limits);
 
-// Threads that a caller wants, in this field of its request. Errors: INVALID_ARGUMENT.
+// Checks the number of threads in this field of a request. Errors: INVALID_ARGUMENT.
 absl::Status CheckThreads(int32_t threads, const std::string& field);
 
-// What an enumerator of the interface means here. `what` it is, for the error of an
-// unknown one. Errors: INVALID_ARGUMENT with the field.
+// The meaning of an enumerator of the interface. `what` names its kind in the error for an unknown
+// one. Errors: INVALID_ARGUMENT with the field.
 template <typename Meaning, typename Enumerator, size_t kCount>
 absl::StatusOr<Meaning> MeaningOf(Enumerator wanted, const std::string& field, const char* what,
                                   const std::pair<Enumerator, Meaning> (&known)[kCount]) {

@@ -12,25 +12,25 @@
 
 namespace bccskel::server {
 
-// Time for callers to do their part; 0: no limit.
+// How long callers may take; 0: no limit.
 struct CallerTimeouts {
   std::chrono::milliseconds sender{60'000};   // for the next 1 MiB of a volume
   std::chrono::milliseconds reader{600'000};  // for the next response
 };
 
 // Counts the time that the server waits for the next request of a caller who sends a volume. Within
-// the limit the caller must send kBytesInTime, or the rest. While the server itself is busy with
-// what came, no time counts.
+// the limit the caller must send kBytesInTime or the rest. Time in which the server processes a
+// request does not count.
 // Threads: one at a time.
 class SenderClock {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
   static constexpr uint64_t kBytesInTime = uint64_t{1} << 20;
 
-  // The server waits from now on.
+  // The server begins to wait.
   void Await(TimePoint now) { waiting_since_ = now; }
 
-  // A request has come, with so many bytes of the volume.
+  // A request with this many bytes of the volume has arrived.
   void Take(TimePoint now, uint64_t bytes) {
     waited_ = Waited(now);
     waiting_since_.reset();
@@ -60,7 +60,7 @@ class SenderClock {
 
   std::optional<TimePoint> waiting_since_;
   std::chrono::nanoseconds waited_{0};
-  uint64_t bytes_ = 0;  // since waited_ was 0
+  uint64_t bytes_ = 0;  // since waited_ was last reset
 };
 
 }  // namespace bccskel::server

@@ -20,8 +20,7 @@ namespace bccskel::server {
 
 inline constexpr int kMaxMessageBytes = 4 << 20;
 
-// The services of the interface. Needs of all: what they are given by reference outlives their
-// calls.
+// The services of the interface. Needs: every argument passed by reference outlives their calls.
 std::unique_ptr<grpc::Service> MakeSkeletonizationService(const CallGate& gate, JobRunner& runner,
                                                           const VolumeLimits& limits,
                                                           UploadWriters& writers);
@@ -31,12 +30,12 @@ std::unique_ptr<grpc::Service> MakeJobService(const CallGate& gate);
 std::unique_ptr<grpc::Service> MakeServerService(const CallGate& gate,
                                                  const JobPool::Limits& limits,
                                                  const DurableOptions& durable);
-// `status` makes the answer at once. Threads: it must be safe.
+// `status` computes the response without blocking. Threads: it must be safe.
 using StatusSource = std::function<v1::GetServerStatusResponse()>;
 std::unique_ptr<grpc::Service> MakeAdminService(const CallGate& gate, StatusSource status);
 
-// Handlers of their streams about what outlives the process. Each of them starts one. Needs: the
-// call's DurableJobs, and `writers`, outlive the call; gRPC keeps `response` for its length.
+// Start the handlers of streaming calls about durable data. Needs: the call's DurableJobs and
+// `writers` outlive the call; gRPC keeps `response` until its end.
 grpc::ServerReadReactor<v1::UploadVolumeRequest>* StartUpload(absl::StatusOr<DurableCall> call,
                                                               UploadWriters& writers,
                                                               const JobPool::Limits& limits,

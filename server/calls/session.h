@@ -16,30 +16,32 @@ namespace bccskel::server {
 template <typename Request, typename Response>
 class SessionCall;
 
-// What goes out after a change: what Next() yields at once, or that is left to whatever comes next.
+// What to send after a change: the result of Next() immediately, or together with the next
+// response.
 enum class Sending { kNow, kWithWhatFollows };
 
-// What a call that sends a volume gets done: a job in memory, a durable one, labels. It begins with
-// the config, then hears of requests one at a time.
+// The work of a call that sends a volume: a job in memory, a durable job, or labels. It receives
+// the config first, then one request at a time.
 template <typename Request, typename Response>
 class Session {
  public:
   using Config = std::decay_t<decltype(std::declval<Request>().config())>;
-  using Call = SessionCall<Request, Response>;  // for which it works
+  using Call = SessionCall<Request, Response>;  // the call that it serves
 
   virtual ~Session() = default;
-  // Errors: end the call.
+  // An error ends the call.
   virtual absl::Status Begin(const Config& config) = 0;
-  // The next chunk, which may be taken apart, and the finish; each followed by ReadNext().
+  // The next chunk, which Append() may move from, and the finish. The session calls ReadNext()
+  // after each.
   virtual void Append(v1::VolumeChunk& chunk) = 0;
   virtual void Finish(const v1::VolumeFinish& finish) = 0;
 
-  // As of WritingCall.
+  // As in WritingCall.
   virtual std::optional<Response> Next() = 0;
   virtual Following Follows(const Response& response) const = 0;
   virtual void Fetch() {}
 
-  // The call has failed. May come at any time.
+  // The call has failed. May be called at any time.
   virtual void Leave(const absl::Status& why) = 0;
   // The call is over.
   virtual void Close() = 0;
@@ -53,7 +55,7 @@ class SessionCall final
  public:
   using Work = Session<Request, Response>;
   using Config = typename Work::Config;
-  // Chooses by the config.
+  // Selects the session by the config.
   using MakeSession =
       std::function<std::shared_ptr<Work>(const Config& config, std::shared_ptr<SessionCall> call)>;
 
@@ -66,13 +68,13 @@ class SessionCall final
   }
   // ---- For the session. Threads: safe.
   const CallFacts& facts() const { return this->facts_; }
-  // The job was let in.
+  // The job was admitted.
   void Accepted(const std::string& job, uint64_t volume_bytes) {
     this->facts_.LogAccepted(job, volume_bytes);
     std::lock_guard lock(this->mutex_);
     this->subject_ = job;
   }
-  // There is room for the next request.
+  // Reads the next request.
   void ReadNext() { this->Read(); }
   // Runs `change` with the call's lock held, unless the call has ended.
   void Change(const std::function<Sending()>& change) {

@@ -19,12 +19,11 @@
 
 namespace bccskel::server {
 
-// What goes out on a stream before anything else: that the job was let in, and of its progress only
-// the latest.
+// The first responses of a stream: the acceptance of the job, then its latest progress.
 template <typename Response, typename Progress, Progress* (Response::*kProgress)()>
 class FirstResponses {
  public:
-  // `upload`: of a durable job.
+  // `upload` names the upload of a durable job; empty for a job in memory.
   void Accept(const std::string& job, const std::string& upload = {}) {
     v1::SkeletonizeAccepted& accepted = accepted_.emplace();
     accepted.set_job(job);
@@ -54,14 +53,14 @@ using FirstOfSkeleton = FirstResponses<v1::SkeletonizeResponse, v1::ShellProgres
 using FirstOfLabels = FirstResponses<v1::SkeletonizeLabelsResponse, v1::LabelProgress,
                                      &v1::SkeletonizeLabelsResponse::mutable_label_progress>;
 
-// Cuts a result into pieces of at most 256 KiB, one at a time: chunks of the skeleton, then of the
-// thinned volume, then the summary.
+// Splits a result into pieces of at most 256 KiB, one at a time: chunks of the skeleton, then of
+// the thinned volume, then the summary.
 class ResultPieces {
  public:
   // Needs: `result` outlives the pieces.
   explicit ResultPieces(const JobResult& result) : result_(result), pager_(result.skeleton.graph) {}
 
-  // Nothing after the summary.
+  // The next piece; nullopt after the summary.
   std::optional<v1::SkeletonizeResponse> Next();
   bool AtEnd() const { return at_end_; }
 
@@ -73,9 +72,8 @@ class ResultPieces {
   bool at_end_ = false;
 };
 
-// What is still to be sent on a stream. Memory is bounded however slowly the caller reads: points
-// of shells wait in the memory that their job has reserved for them, and a result is cut into
-// responses one at a time.
+// The unsent responses of a stream. Memory is bounded however slowly the caller reads: the job has
+// reserved the memory of waiting shell points, and a result is split into responses one at a time.
 class SkeletonResponses : public FirstOfSkeleton {
  public:
   // A serialized v1.ShellPoints.
@@ -87,9 +85,9 @@ class SkeletonResponses : public FirstOfSkeleton {
 
   // The next response, if there is one now.
   std::optional<v1::SkeletonizeResponse> Next();
-  // The summary has been handed out: nothing will come any more.
+  // Next() has returned the summary, the last response.
   bool AtEnd() const { return pieces_ != nullptr && pieces_->AtEnd(); }
-  // Next() has another one at once.
+  // Next() has another response ready.
   bool HasMore() const {
     return HasFirst() || !shell_points_.empty() || (pieces_ != nullptr && !pieces_->AtEnd());
   }
@@ -100,20 +98,20 @@ class SkeletonResponses : public FirstOfSkeleton {
   std::unique_ptr<ResultPieces> pieces_;  // of result_
 };
 
-// What is still to be sent on a stream of labels. A label is cut into responses one at a time and
-// let go of with the last one. How many labels wait here is bounded by their job.
+// The unsent responses of a stream of labels. A label is split into responses one at a time and
+// released with the last one. Its job bounds the number of labels that wait here.
 class LabelResponses : public FirstOfLabels {
  public:
   void Add(LabelResult label) { labels_.push_back(std::move(label)); }
-  // Needs: comes after the last Add().
+  // Needs: called after the last Add().
   void Complete(LabelsResult result) { result_ = std::move(result); }
 
   // The next response, if there is one now.
   std::optional<v1::SkeletonizeLabelsResponse> Next();
 
-  // The labels' summary has been handed out: nothing will come any more.
+  // Next() has returned the labels' summary, the last response.
   bool AtEnd() const { return at_end_; }
-  // Next() has another one at once.
+  // Next() has another response ready.
   bool HasMore() const {
     return HasFirst() || !labels_.empty() || (result_.has_value() && !at_end_);
   }
@@ -128,12 +126,12 @@ class LabelResponses : public FirstOfLabels {
   bool at_end_ = false;
 };
 
-// A piece as it is stored.
+// Converts a piece to its stored form.
 ResultRecord RecordOf(const v1::SkeletonizeResponse& piece);
 
-// The opposite, into any response that has these fields. Chunks go in as the bytes that they are on
-// the wire, without being parsed: the response says that it has none, but serializes with it.
-// Error: INTERNAL where a summary is none, which the checksum rules out.
+// The inverse, into any response that has these fields. Chunks are added as their wire bytes
+// without being parsed: accessors of the response do not show them, but it serializes with them.
+// Errors: INTERNAL for an unreadable summary, which the checksum rules out.
 template <typename Response>
 absl::Status SetPiece(ResultRecord record, Response& response) {
   using Kind = ResultRecord::Kind;

@@ -10,16 +10,16 @@
 
 namespace bccskel::server {
 
-// The only place where a grpc::Status is made. ErrorInfo is always there; the error's other details
-// (errors/call_error.h) become BadRequest, QuotaFailure and RetryInfo.
+// The only place that creates a grpc::Status. It always carries an ErrorInfo; the error's other
+// details (errors/call_error.h) become BadRequest, QuotaFailure and RetryInfo.
 grpc::Status ToGrpcStatus(const absl::Status& status);
-// The same for an error that is told in a message. Needs: !status.ok().
+// The same for an error that travels in a message. Needs: !status.ok().
 v1::Status ToStatusMessage(const absl::Status& status);
-// The reason that its ErrorInfo states; empty for OK.
+// The reason in the error's ErrorInfo; empty for OK.
 std::string ReasonNameOf(const absl::Status& status);
 
-// An error of what is stored as callers may see it: a full disk names the limit; what cannot be
-// read or written, with its paths and statements, is for the log.
+// A storage error as callers may see it: a full disk names the limit; paths and statements of other
+// errors go to the log only.
 absl::Status StorageError(const absl::Status& status);
 
 }  // namespace bccskel::server

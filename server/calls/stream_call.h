@@ -19,11 +19,12 @@
 
 namespace bccskel::server {
 
-// What all streaming calls have in common: how they begin, fail and end. A call owns itself from
-// Open() until gRPC is done with it. `Reactor` is one of grpc::Server*Reactor.
+// The base of all streaming calls: how they begin, fail and end. A call owns itself from Open()
+// until gRPC is done with it. `Reactor` is one of grpc::Server*Reactor.
 //
-// Reactions come on gRPC's threads, news of jobs on theirs; the mutex orders them. Start*() and
-// Finish() are called with the mutex held: gRPC never reacts from inside such a call.
+// Reactions run on gRPC's threads, news of jobs on those of the jobs; the mutex orders them.
+// Start*() and Finish() are called with the mutex held, because gRPC never reacts from inside such
+// a call.
 template <typename Reactor>
 class StreamCall : public Reactor,
                    public OpenStream,
@@ -38,7 +39,7 @@ class StreamCall : public Reactor,
     const absl::Status status = facts_.CancelStatus();
     {
       std::lock_guard lock(mutex_);
-      // A connection that breaks looks like a half-close at first.
+      // A broken connection looks like a half-close at first.
       if (half_closed_ && end_.has_value()) end_ = status;
     }
     End(status);
@@ -61,33 +62,33 @@ class StreamCall : public Reactor,
     self_ = this->shared_from_this();
     if (facts_.lasting != nullptr) facts_.lasting->Add(self_, facts_);
   }
-  // Ends the call with this status, unless it ends already.
+  // Ends the call with this status unless it is ending already.
   void End(const absl::Status& status) {
     {
       std::lock_guard lock(mutex_);
       if (finished_ || end_.has_value()) return;
       end_ = status;
       Advance();
-      if (half_closed_) return;  // OnDone() knows whether it was one
+      if (half_closed_) return;  // OnDone() knows whether it was a half-close
     }
     if (!status.ok()) Failed(status);
   }
-  // Finishes the call, if it is time. Needs: mutex_ held.
+  // Takes the next step that is possible, such as finishing the call. Needs: mutex_ held.
   virtual void Advance() {
     if (finished_ || !end_.has_value()) return;
     finished_ = true;
     this->Finish(ToGrpcStatus(*end_));
   }
-  // What is done for the call is not wanted any more.
+  // The call has failed: its work is no longer needed.
   virtual void Failed(const absl::Status&) {}
   // gRPC is done with the call.
   virtual void Closed() {}
 
   const CallFacts facts_;
   std::mutex mutex_;
-  std::string subject_;              // guarded by mutex_: as of CallFacts::LogEnded()
+  std::string subject_;              // guarded by mutex_: as in CallFacts::LogEnded()
   std::optional<absl::Status> end_;  // guarded by mutex_
-  bool half_closed_ = false;         // guarded by mutex_: before the finish
+  bool half_closed_ = false;         // guarded by mutex_: reads ended before the finish
   bool finished_ = false;            // guarded by mutex_: nothing more may be started
   bool done_ = false;                // guarded by mutex_: by gRPC
 
@@ -95,18 +96,18 @@ class StreamCall : public Reactor,
   std::shared_ptr<StreamCall> self_;
 };
 
-// What comes after a response: the end of the call; another one that is there already; one that
-// Fetch() brings, at once or sometime; who knows.
+// What follows a response: nothing, the call ends; a response that is ready; one that Fetch()
+// brings, soon or later; or it is not known yet.
 enum class Following { kNothing, kAtOnce, kFetchedAtOnce, kFetched, kLater };
 
-// A call that writes: what Next() yields, one response at a time.
+// A call that writes the responses that Next() yields, one at a time.
 template <typename Base, typename Response>
 class WritingCall : public Base {
  public:
   using Base::Base;
 
-  // Who reads hears why. A write that nobody reads is cancelled when this comes again, as
-  // CheckCaller() sees to, or when it is the last one: until then it keeps its memory.
+  // A caller who reads receives `why`. A write that nobody reads is cancelled when this is called
+  // again, as CheckCaller() ensures, or if it is the last one; until then it keeps its memory.
   void EndEarly(const absl::Status& why) override {
     {
       std::lock_guard lock(this->mutex_);
@@ -138,7 +139,7 @@ class WritingCall : public Base {
       const Following following = Follows(response_);
       fetch = ok && !this->end_.has_value() &&
               (following == Following::kFetched || following == Following::kFetchedAtOnce);
-      // A call that has failed while it wrote waits for this moment to finish.
+      // A call that failed during a write finishes only now.
       if (ok || this->end_.has_value()) Advance();
     }
     if (!ok) return this->End(absl::CancelledError("the caller is gone"));
@@ -146,10 +147,10 @@ class WritingCall : public Base {
   }
 
  protected:
-  // Needs of these: mutex_ held. The next response, if there is one now.
+  // The next response, if there is one now. Needs of both: mutex_ held.
   virtual std::optional<Response> Next() = 0;
   virtual Following Follows(const Response&) const { return Following::kLater; }
-  // Called after a response of which Follows() says so was written.
+  // Called after the write of a response for which Follows() said kFetched or kFetchedAtOnce.
   virtual void Fetch() {}
 
   void Advance() override {
@@ -165,7 +166,7 @@ class WritingCall : public Base {
       this->finished_ = true;
       return this->StartWriteAndFinish(&response_, options, grpc::Status::OK);
     }
-    // What follows at once goes with it in one write to the socket.
+    // Combines this response with the next in one write to the socket.
     if (following == Following::kAtOnce || following == Following::kFetchedAtOnce) {
       options.set_buffer_hint();
     }
@@ -179,8 +180,8 @@ class WritingCall : public Base {
   bool ended_early_ = false;                            // guarded by mutex_
 };
 
-// A call that reads a config, the chunks of a volume and a finish. Read() begins the next read,
-// when there is room for what it brings.
+// A call that reads a config, the chunks of a volume and a finish. Read() begins the next read;
+// call it when the server can take more.
 template <typename Base, typename Request>
 class ReceivingCall : public Base {
  public:
@@ -205,11 +206,11 @@ class ReceivingCall : public Base {
   }
 
  protected:
-  // A request that is in its order. Errors: end the call.
+  // Handles a request that came in order. An error ends the call.
   virtual absl::Status Take(Request& request) = 0;
-  // Errors of a request that go before those of its order.
+  // A check that takes precedence over the order of requests.
   virtual absl::Status CheckWanted(const Request&) { return absl::OkStatus(); }
-  // The caller has sent no finish. `status`: what is wrong with that.
+  // The caller half-closed before the finish. `status` is the error for that.
   virtual void TakeHalfClose(const absl::Status& status) { this->End(status); }
 
   void Read() {
@@ -219,7 +220,7 @@ class ReceivingCall : public Base {
     this->StartRead(&request_);
   }
 
-  RequestSequence sequence_;  // used by read reactions only, and there is one at a time
+  RequestSequence sequence_;  // used only by read reactions, of which one runs at a time
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -227,7 +228,7 @@ class ReceivingCall : public Base {
   void HalfClose() {
     absl::Status status = sequence_.HalfClose();
     if (status.ok()) return;
-    // A server that stops ends reads before it cancels calls.
+    // A stopping server ends reads before it cancels calls.
     if (this->facts_.IsCutOff()) status = this->facts_.CancelStatus();
     {
       std::lock_guard lock(this->mutex_);
@@ -240,7 +241,7 @@ class ReceivingCall : public Base {
   SenderClock sender_;  // guarded by mutex_
 };
 
-// A streaming call that ends before it begins.
+// A streaming call that is refused.
 template <typename Reactor>
 class RefusedCall final : public Reactor {
  public:
@@ -248,7 +249,7 @@ class RefusedCall final : public Reactor {
   void OnDone() override { delete this; }
 };
 
-// Starts a call's handler. `facts`: of a call that was let in, or why it was not. Needs: what
+// Starts a call's handler. `facts` is of an admitted call, or why it was refused. Needs: what
 // `more` refers to outlives the call.
 template <typename Call, typename Facts, typename... More>
 typename Call::ReactorType* StartCall(absl::StatusOr<Facts> facts, More&&... more) {

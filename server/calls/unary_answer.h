@@ -13,12 +13,12 @@
 
 namespace bccskel::server {
 
-using Context = grpc::CallbackServerContext;  // as gRPC hands it to a method
+using Context = grpc::CallbackServerContext;  // as gRPC passes it to a method
 
-// How a unary call that was let in ends: a status for the caller, a line for the log.
+// Ends an admitted unary call: sends the status to the caller and logs it.
 class UnaryEnd {
  public:
-  // `subject` as in CallFacts::LogEnded(). Needs: made once in a call.
+  // `subject` as in CallFacts::LogEnded(). Needs: created once per call.
   UnaryEnd(grpc::CallbackServerContext& context, CallFacts facts, std::string subject)
       : reactor_(context.DefaultReactor()),
         facts_(std::move(facts)),
@@ -29,7 +29,7 @@ class UnaryEnd {
 
   // Needs: called once.
   grpc::ServerUnaryReactor* operator()(const absl::Status& status) const {
-    facts_.LogEnded(subject_, status);  // first: who has the answer may look at the log
+    facts_.LogEnded(subject_, status);  // first: a caller with the answer may look at the log
     reactor_->Finish(ToGrpcStatus(status));
     return reactor_;
   }
@@ -40,8 +40,8 @@ class UnaryEnd {
   std::string subject_;
 };
 
-// What DurableJobs calls when a unary call can be answered, made of the call's end: `fill` puts the
-// value into the response.
+// Makes the callback that answers a unary call, given the call's end. `fill` puts the value into
+// the response.
 template <typename Fill>
 auto Answer(Fill fill) {
   return [fill = std::move(fill)](const UnaryEnd& end) {
@@ -52,13 +52,14 @@ auto Answer(Fill fill) {
   };
 }
 
-// The same for calls whose response says nothing.
+// The same for calls with an empty response.
 inline auto AnswerNothing(const UnaryEnd& end) {
   return [end](const absl::Status& status) { end(StorageError(status)); };
 }
 
-// A unary call that was let in, or why it was not: `ask`, a function of DurableJobs, is given what
-// `read` finds in the request, unless that is an error, and what `answer` makes of the call's end.
+// Runs a unary call about durable data. `call` is the admitted call, or why it was refused. `read`
+// makes the argument of `ask`, a member function of DurableJobs, from the request; `answer` makes
+// its callback from the call's end.
 template <typename Read, typename Ask, typename Answer>
 grpc::ServerUnaryReactor* AskDurable(grpc::CallbackServerContext& context,
                                      const absl::StatusOr<DurableCall>& call,
@@ -71,7 +72,7 @@ grpc::ServerUnaryReactor* AskDurable(grpc::CallbackServerContext& context,
   (call->durable_jobs.*ask)(call->tenant(), *std::move(request), answer(end));
   return end.reactor();
 }
-// The same for requests that are nothing but a name.
+// The same for requests that consist of a name.
 template <typename Ask, typename Answer>
 grpc::ServerUnaryReactor* AskDurable(const CallGate& gate, grpc::CallbackServerContext& context,
                                      const Method& method, const CallGate::Name& name, Ask ask,

@@ -9,25 +9,26 @@
 
 namespace bccskel::server {
 
-// Sees that at most one stream writes an upload. A newer stream takes it over from an older one: a
-// caller who comes again after a break must not wait until the server has noticed the break.
+// Ensures that at most one stream writes an upload. A newer stream takes over from an older one: a
+// caller who returns after a broken connection must not wait until the server has noticed the
+// break.
 // Needs: outlives its turns.
 // Threads: safe.
 class UploadWriters {
  public:
   using Key = std::pair<std::string, std::string>;  // tenant, upload
-  using Turn = std::shared_ptr<void>;               // the right to write, until it is let go of
+  using Turn = std::shared_ptr<void>;  // the right to write, until the last copy is gone
 
-  // Both are called at most once, from any thread, and must not block.
+  // Each member is called at most once, from any thread, and must not block.
   class Writer {
    public:
     virtual ~Writer() = default;
     virtual void OnTurn(Turn turn) = 0;
-    // Another writer waits: the turn is to be given back as soon as nothing is under way.
+    // Another writer waits: release the turn as soon as no operation is in progress.
     virtual void OnTakenOver() = 0;
   };
 
-  // OnTurn() comes now, or when the writer before has given its turn back.
+  // Calls OnTurn() now, or when the writer before has released its turn.
   void Claim(const Key& key, const std::shared_ptr<Writer>& writer) {
     std::unique_lock lock(mutex_);
     const auto [place, free] = places_.try_emplace(key);
@@ -37,7 +38,7 @@ class UploadWriters {
       return writer->OnTurn(TurnAt(key));
     }
     const std::shared_ptr<Writer> waited = std::exchange(place->second.next, writer);
-    // A holder that has been told already, by the one that waited, is on its way out.
+    // If a writer waited already, the holder has been told to release its turn.
     const std::shared_ptr<Writer> holder =
         waited == nullptr ? place->second.holder.lock() : nullptr;
     lock.unlock();

@@ -13,24 +13,25 @@
 
 namespace bccskel::server {
 
-// Children at hand. A child decodes one volume at a time and only volumes of one tenant; it is kept
-// while all of them decode well. A fresh one, which has seen no byte of anyone, is started ahead.
+// The idle child processes. A child decodes one volume at a time, of one tenant only, and is kept
+// while all of its volumes decode well. One fresh child, which has seen no tenant's bytes, is
+// started ahead.
 // Threads: safe.
 class ChildPool {
  public:
-  // `command` as of ChildProcess::Start().
+  // `command` as for ChildProcess::Start().
   explicit ChildPool(std::vector<std::string> command);
   ChildPool(const ChildPool&) = delete;
   ChildPool& operator=(const ChildPool&) = delete;
 
   // Errors: as ChildProcess::Start().
   absl::StatusOr<std::unique_ptr<ChildProcess>> Take(const std::string& tenant);
-  // After a volume that decoded well. Other children are simply dropped.
+  // Takes back a child whose volume decoded well. Callers destroy other children.
   void Keep(const std::string& tenant, std::unique_ptr<ChildProcess> child);
   // Starts a fresh child unless there is one.
   void StartAhead();
 
-  // Process ids of those that wait for a volume.
+  // Process ids of the idle children.
   std::vector<pid_t> idle() const;
 
  private:
@@ -43,14 +44,14 @@ class ChildPool {
 
   const std::vector<std::string> command_;
   mutable std::mutex mutex_;
-  std::deque<Idle> used_;                // guarded by mutex_; the longest idle first
+  std::deque<Idle> used_;                // guarded by mutex_; longest idle first
   std::unique_ptr<ChildProcess> fresh_;  // guarded by mutex_
 };
 
-// Decodes an OpenEXR volume in a child. Bytes are put, as they come, where the child will find
-// them; a child is taken only once all are there, so that slow senders keep none busy.
+// Decodes an OpenEXR volume in a child. Arriving bytes go to memory that the child will map; a
+// child is taken only once all are there, so that slow senders occupy none.
 // Needs: a completed header of OpenEXR; the pool outlives the decoder.
-// Errors, its own too: as VolumeDecoder, or a CallError.
+// Errors: a CallError; the decoder's are those of VolumeDecoder, or a CallError.
 absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeChildDecoder(const VolumeHeader& header,
                                                                 const VolumeLimits& limits,
                                                                 const std::string& tenant,

@@ -20,28 +20,30 @@ namespace bccskel::server {
 
 struct DecodingBudget;
 
-// A child that decodes, seen from the server. Killed and waited for when destroyed.
+// The server's handle of a decoding child. The destructor kills the child and waits for it.
 // Threads: one at a time.
 class ChildProcess {
  public:
-  // Returns before the child is ready. It inherits nothing but its end of the channel, ignores the
-  // signals that end the server and gets none from the terminal.
-  // Shapes: the program's path, then its arguments. Errors: a CallError.
+  // Returns before the child is ready. The child inherits nothing but its end of the channel,
+  // ignores the signals that end the server and receives none from the terminal. `command` holds
+  // the program's path, then its arguments.
+  // Errors: a CallError.
   static absl::StatusOr<std::unique_ptr<ChildProcess>> Start(
       const std::vector<std::string>& command);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Decodes sealed bytes whose header is `announced`. After an error the child is of no more use.
+  // Decodes sealed bytes whose header is `announced`. After an error the child is of no further
+  // use.
   // Errors: a CallError when the child was lost before it took the volume; INVALID_ARGUMENT for
-  //         malformed bytes, and for whatever happens to the child while it has them: a crash, a
-  //         limit, nonsense; RESOURCE_EXHAUSTED for a volume over the limits; CANCELLED,
-  //         DEADLINE_EXCEEDED.
+  //         malformed bytes, and for any failure of the child while it has them: a crash, an
+  //         exceeded limit, an invalid answer; RESOURCE_EXHAUSTED for a volume over the limits;
+  //         CANCELLED, DEADLINE_EXCEEDED.
   absl::StatusOr<Volume> Decode(const SharedBytes& bytes, const VolumeHeader& announced,
                                 const VolumeLimits& limits, const exec::Context& context);
 
-  // False once the child has ended; then it is waited for, too.
+  // False once the child has ended; it has then been waited for.
   bool Lives();
   pid_t pid() const { return pid_; }
 
@@ -57,14 +59,14 @@ class ChildProcess {
   absl::Status ReceiveFault(const DecodeReply& reply,
                             const ChildChannel::KeepWaiting& keep_waiting);
   void Restrict(const DecodingBudget& budget) const;
-  // What the caller is told about the end of a child that had its volume.
+  // The caller's error for a child that ended while it had the caller's volume.
   absl::Status Blame(const DecodingBudget& budget);
 
   pid_t pid_;
   ChildChannel channel_;
   bool ready_ = false;
   bool ended_ = false;
-  int exit_status_ = 0;  // as of waitpid(), once ended_
+  int exit_status_ = 0;  // from waitpid(), once ended_
   uint64_t address_space_bytes_ = 0;
 };
 

@@ -10,20 +10,20 @@ namespace bccskel::server {
 // The channel's descriptor in a child.
 inline constexpr int kChildChannel = 3;
 inline constexpr const char* kChildArgument = "--decoding-child";
-// A child ends so when it cannot get memory.
+// Exit code of a child that runs out of memory.
 inline constexpr int kChildOutOfMemory = 3;
 
-// How the running program is started as a child.
+// The command that starts the running program as a child.
 std::vector<std::string> ThisProgramAsChild();
 
-// Takes from this process for good what decoding does not need: new privileges, files, core dumps,
-// executable memory and every system call but a dozen. It ends with its parent. Where the kernel
-// has no seccomp, limits and privileges are all that is taken.
+// Irrevocably gives up what decoding does not need: new privileges, files, core dumps, executable
+// memory and all but a dozen system calls. The process ends with its parent. If the kernel lacks
+// seccomp, only limits and privileges are given up.
 // Needs: one thread, no untrusted byte read yet.
 void EnterChildSandbox();
 
-// The first thing that main() does: where the program was started as a child, decodes volumes until
-// the server closes the channel; then main() must return the exit code.
+// Called first in main(). If the program was started as a child, decodes volumes until the server
+// closes the channel, and yields the exit code that main() must return.
 std::optional<int> RunIfDecodingChild(int argc, const char* const* argv);
 
 }  // namespace bccskel::server

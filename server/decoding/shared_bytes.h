@@ -12,7 +12,7 @@
 
 namespace bccskel::server {
 
-// A file descriptor that is closed with its owner.
+// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -35,18 +35,19 @@ class Descriptor {
   int number_ = -1;
 };
 
-// The server lacks something that decoding takes: a CallError, so that the caller tries again.
+// The error for a resource that the server lacks for decoding: a CallError that tells the caller to
+// retry.
 absl::Status NoDecoder(const std::string& what, int error);
 
-// Bytes in memory that a child can be given without copying them: an upload on its way.
+// An upload's bytes in memory that a child can map without a copy.
 class SharedBytes {
  public:
-  // Errors: a CallError, when there is no descriptor left.
+  // Errors: a CallError when no descriptor is left.
   static absl::StatusOr<SharedBytes> Create();
 
-  // Errors: a CallError, when there is no memory.
+  // Errors: a CallError when no memory is left.
   absl::Status Append(std::span<const std::byte> bytes);
-  // From now on nobody can change them, the server neither.
+  // From now on nobody can change the bytes, not even the server.
   absl::Status Seal();
 
   uint64_t size() const { return size_; }
@@ -59,7 +60,7 @@ class SharedBytes {
   uint64_t size_ = 0;
 };
 
-// Sealed bytes as a child sees them. Unmapped with its owner.
+// Sealed bytes as mapped by a child. The destructor unmaps them.
 class MappedBytes {
  public:
   // Errors: INTERNAL.

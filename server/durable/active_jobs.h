@@ -23,41 +23,41 @@ inline JobPriority PriorityOf(const JobRow& job) {
   return static_cast<JobPriority>(std::clamp(job.priority, -1, 1));
 }
 
-// A job that waits. One that ran while the server crashed may be the reason: it is a suspect.
+// A waiting job. A job that was running when the server crashed may have caused the crash: it is a
+// suspect.
 struct WaitingJob {
   int64_t job = 0;
   bool suspect = false;
 };
 using JobQueue = FairQueue<WaitingJob, std::chrono::system_clock>;
-// An unfinished job. Its row is what the store has.
+// An unfinished job. Its row equals the stored one.
 struct ActiveJob {
   JobRow row;
-  Run* run = nullptr;                    // that computes it, or decodes its volume while it comes
+  Run* run = nullptr;  // that computes it, or decodes its volume during the upload
   std::optional<JobQueue::Entry> place;  // in the queue
 };
-// A computation. Jobs that want the same share it.
+// A computation. Equal jobs share it.
 struct ActiveRun {
   enum class Source { kUpload, kFile };
   std::shared_ptr<Run> run;
   Source source = Source::kFile;
   std::string tenant;
   std::string options;
-  std::string volume;         // its name; empty while it is received
+  std::string volume;         // its name; empty during the upload
   std::string volume_digest;  // empty until it is decoded
   std::set<int64_t> jobs;
-  int crashes = 0;                 // of the server, of the job that it was begun for
-  bool ending = false;             // nobody joins any more
-  RunPace::Clock::time_point fed;  // when it was given its volume
+  int crashes = 0;                 // of the server, of the job for which the run began
+  bool ending = false;             // no further job may join
+  RunPace::Clock::time_point fed;  // when it received its volume
   bool computed = false;           // its result is being written
 };
 
-// What is remembered of unfinished jobs, as of a moment ago: their rows, the runs that compute them
-// here, and who is next. Nothing here looks into the store.
-// Threads: one at a time, but for Count().
+// The unfinished jobs in memory, as of a moment ago: their rows, the runs that compute them here,
+// and the queue. Nothing here reads the store.
+// Threads: one at a time, except for Count().
 class ActiveJobs {
  public:
-  // `shared`: other servers run jobs, too.
-  // `soon`: as of RunPace.
+  // `shared`: other servers run jobs, too. `soon` as in RunPace.
   ActiveJobs(bool shared, std::chrono::milliseconds soon) : shared_(shared), pace_(soon) {}
 
   // ---- Jobs
@@ -65,40 +65,40 @@ class ActiveJobs {
   int Count(JobState state) const { return in_state_[static_cast<size_t>(state)]; }
   const std::map<int64_t, ActiveJob>& jobs() const { return jobs_; }
   ActiveJob* Find(int64_t job);  // null: none
-  // As it is stored now; out of the queue.
+  // Adds or replaces the job with its stored row, and takes it out of the queue.
   ActiveJob& Put(const JobRow& row);
   void Forget(int64_t job);
 
   // ---- Runs
   ActiveRun& AddRun(std::shared_ptr<Run> run, const JobRow& job, ActiveRun::Source source);
-  ActiveRun* FindRun(const Run* run);   // null: nobody wants it any more
-  ActiveRun* FindOpen(const Run* run);  // the same, and where it is ending
-  // One that others may join, of the same options and volume.
+  ActiveRun* FindRun(const Run* run);   // null: no job needs it any more
+  ActiveRun* FindOpen(const Run* run);  // the same; null also for an ending run
+  // A run of the same options and volume that the job may join.
   ActiveRun* FindEqual(const JobRow& job, const VolumeRow& volume);
   ActiveRun* FindEqual(const ActiveRun& run);
   void Attach(ActiveRun& run, int64_t job);
-  // Who is the last to leave a run cancels it.
+  // The last job to leave a run cancels it.
   void Detach(int64_t job);
   void ForgetRun(const Run* run);
   void CancelRuns();
-  void ForgetRuns();  // cancels them, too
-  // The run's place is free while its result is written and stored.
+  void ForgetRuns();  // also cancels them
+  // The run is computed: its place is free while its result is written and stored.
   void Computed(ActiveRun& run);
 
   // ---- Whose turn it is
   void Enqueue(ActiveJob& job);
-  // Not before QueueWaiting(): an equal one runs elsewhere.
+  // Keeps the job out of the queue until QueueWaiting(), because another server runs an equal one.
   void WaitForEqual(ActiveJob& job);
   void QueueWaiting();
   struct Turn {
     JobRow job;
-    bool ahead = false;  // of a place: see RunPace
+    bool ahead = false;  // begun before a place is free: see RunPace
   };
-  // Whether TakeNext() would give something.
+  // Whether TakeNext() would yield a job.
   bool HasNext(const TenantTable& tenants, int max_runs);
-  // Nothing where nobody waits, or there is no place now.
+  // nullopt if no job waits or there is no place now.
   std::optional<Turn> TakeNext(const TenantTable& tenants, int max_runs);
-  // The job whose turn it was is not to be begun ahead: it is the next.
+  // Puts a job that must not begin ahead back at the front.
   void WaitForPlace(int64_t job) { next_ = job; }
 
  private:
@@ -108,7 +108,7 @@ class ActiveJobs {
   std::map<std::string, int> RunsOfTenants() const;
   enum class Room { kNone, kAhead, kPlace };
   Room RoomFor(int max_runs) const;
-  // Tells the queue how things are; what it may give now.
+  // Updates the queue's limits; yields the condition for a job to begin now.
   auto MayBegin(const TenantTable& tenants);
   template <typename Volume>
   ActiveRun* FindJoinable(const std::string& tenant, const std::string& options, Volume is_equal);

@@ -8,18 +8,19 @@
 
 namespace bccskel::server {
 
-// A computer that wakes with a wrong clock has it corrected within minutes as a rule; what would
-// expire by it waits so long.
+// Suspends expiry after the clock has leapt ahead: a computer that wakes with a wrong clock usually
+// has it corrected within minutes.
 // Threads: one at a time.
 class ClockGuard {
  public:
   using Steady = std::chrono::steady_clock::time_point;
 
-  // `last`: when the clock was seen before, as far as that is known.
+  // `last`: the clock's last known time before, if any.
   ClockGuard(std::chrono::seconds believable_leap, std::optional<Time> last, Steady now)
       : believable_leap_(believable_leap), last_(last), last_steady_(now) {}
 
-  // Whether `now` may be what it says: it went on as the other clock did, or leapt long ago.
+  // Whether to believe `now`: it has advanced as the steady clock has, or its last leap is long
+  // past.
   bool Believes(Time now, Steady steady) {
     if (last_.has_value() && now - *last_ > (steady - last_steady_) + believable_leap_) {
       doubted_until_ = steady + kTimeToCorrect;

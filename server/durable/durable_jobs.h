@@ -39,68 +39,68 @@
 namespace bccskel::server {
 
 // Uploads, volumes, jobs and results that survive the process: what a callback has confirmed with
-// OK is on disk. Every function returns at once; `done` is called exactly once, on a thread of the
-// DurableJobs, and must not block. Every name is looked up within the tenant: those of others are
+// OK is on disk. Every function returns at once; `done` is called exactly once, on a thread of
+// DurableJobs, and must not block. Names are looked up within the tenant: those of others are
 // NOT_FOUND.
 // Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE when
 // the server is draining; INTERNAL. Threads: safe.
 //
-// What is remembered here, but for uploads, belongs to the loop: the thread of the job store. An
-// operation is a flow, which waits for changes, which alone write the store, and goes on on the
-// loop once they are on disk; there alone what is remembered is changed. Bytes of files are read
-// and written on other threads, to which flows go over.
+// State in memory, except for uploads, belongs to the loop: the thread of the job store. An
+// operation is a flow. It waits for changes, the only code that writes the store, and resumes on
+// the loop once they are on disk; only there it updates the state in memory. Flows move to other
+// threads to read and write files.
 //
-// Its parts: UploadTable and ActiveJobs remember what is unfinished, JobJournal changes states,
-// WatchBoard tells events, FolderFiles keeps files and tables together, FleetMembers tells who is
-// gone. durable_jobs.cc opens and closes; uploads.cc, volumes.cc and jobs.cc answer callers;
-// runs.cc and results.cc compute; expiry.cc cleans up.
+// Its parts: UploadTable and ActiveJobs hold what is unfinished, JobJournal changes states,
+// WatchBoard distributes events, FolderFiles keeps files and tables consistent, FleetMembers
+// detects lost servers. durable_jobs.cc opens and closes; uploads.cc, volumes.cc and jobs.cc answer
+// callers; runs.cc and results.cc compute; expiry.cc cleans up.
 //
-// Several processes may share the store and the folder. Each then remembers the unfinished jobs of
-// all, as of a moment ago; changes find out in the store how things are. fleet.cc follows
-// what others do, and takes over from those that are gone.
+// Several processes may share the store and the folder. Each then holds the unfinished jobs of all,
+// as of a moment ago; changes read the current state from the store. fleet.cc follows the others'
+// changes and takes over from lost servers.
 class DurableJobs final : public RunObserver {
  public:
   template <typename Value>
   using Done = std::function<void(absl::StatusOr<Value>)>;
   using DoneStatus = std::function<void(absl::Status)>;
 
-  // Opens the data directory, finishes what a crash has left, and goes on with unfinished jobs.
+  // Opens the data directory, completes what a crash interrupted and continues unfinished jobs.
   // Needs: `runner` and `codec` outlive DurableJobs. Blocks; may take as long as reading all
-  //        unfinished uploads.
+  // unfinished uploads.
   // Errors: ALREADY_EXISTS when another process owns the directory; FAILED_PRECONDITION for a
-  //         directory of a newer version, and for files that are not those of its job store;
-  //         RESOURCE_EXHAUSTED; DATA_LOSS for a damaged job store.
+  //         directory of a newer version, and for files of another job store; RESOURCE_EXHAUSTED;
+  //         DATA_LOSS for a damaged job store.
   static absl::StatusOr<std::unique_ptr<DurableJobs>> Open(const DurableOptions& options,
                                                            JobRunner& runner,
                                                            const JobCodec& codec);
-  // Stops: running jobs go back to the queue, without an attempt lost; watches end. Waits for what
-  // is under way. Needs: no call any more, readers included.
+  // Stops: running jobs return to the queue without losing an attempt; watches end. Waits for
+  // operations in progress. Needs: no further calls, and no readers.
   ~DurableJobs() override;
 
-  // New uploads and jobs are refused as kDraining; no further job begins to run.
+  // Refuses new uploads and jobs as kDraining, and starts no further job.
   void StopAdmitting() { admitting_ = false; }
 
   // ---- Uploads. Chunks have at most 1 MiB.
 
-  // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name that was used with something else;
-  //         RESOURCE_EXHAUSTED for a quota; with a job the runner's.
+  // Errors: INVALID_ARGUMENT; ALREADY_EXISTS for a name in use by a different upload;
+  //         RESOURCE_EXHAUSTED for a quota; with a job, the runner's.
   Flow CreateUpload(std::string tenant, NewUpload upload, Done<UploadInfo> done);
-  // Yields the committed size. `done` comes when there is room for more. Without `crc32c` (of
-  // `bytes`) no check is made.
-  // Errors: OUT_OF_RANGE with the payload CommittedSizeOf() for a wrong offset and for more than
-  //         was declared; ABORTED while another Append() or FinishUpload() is under way;
-  //         INVALID_ARGUMENT for a wrong checksum or, decoded along, a malformed volume;
+  // Yields the committed size, when there is room for more. Checks `bytes` against `crc32c` if
+  // given.
+  // Errors: OUT_OF_RANGE with the payload CommittedSizeOf() for a wrong offset and for more bytes
+  //         than declared; ABORTED during another Append() or FinishUpload(); INVALID_ARGUMENT for
+  //         a wrong checksum, or for a volume found malformed during the upload;
   //         FAILED_PRECONDITION after the upload was finished.
   Flow Append(std::string tenant, std::string upload, uint64_t offset, std::string bytes,
               std::optional<uint32_t> crc32c, Done<uint64_t> done);
-  // Nobody sends just now: what was decoded along is dropped and its memory given back. The upload
-  // stays and can be gone on with.
+  // The sender is gone for now: drops what was decoded so far and releases its memory. The upload
+  // stays and can be resumed.
   void SenderGone(const std::string& tenant, const std::string& upload);
   Flow GetUpload(std::string tenant, std::string upload, Done<UploadInfo> done);
-  // Makes the upload a volume, and queues the job that waits for it. Finishing again yields the
+  // Turns the upload into a volume and queues the job that waits for it. Finishing again yields the
   // same volume.
-  // Errors: OUT_OF_RANGE with the committed size while bytes are missing; INVALID_ARGUMENT for
-  //         another size or digest than that of the bytes (then the upload is gone); ABORTED.
+  // Errors: OUT_OF_RANGE with the committed size while bytes are missing; INVALID_ARGUMENT if size
+  //         or digest do not match the bytes (the upload is then deleted); ABORTED.
   Flow FinishUpload(std::string tenant, std::string upload, uint64_t size_bytes,
                     std::optional<Sha256Digest> sha256, Done<VolumeInfo> done);
   // Also cancels the job that waits for it.
@@ -108,44 +108,45 @@ class DurableJobs final : public RunObserver {
 
   // ---- Volumes
 
-  // Those that the tenant has, of blob or volume digests (64 hexadecimal digits). The same bytes
-  // may be several volumes, declared differently.
+  // The tenant's volumes with these blob or volume digests (64 hexadecimal digits). The same bytes
+  // may be several volumes with different declarations.
   Flow FindVolumes(std::string tenant, std::vector<std::string> digests,
                    Done<std::vector<VolumeInfo>> done);
-  // Erases the bytes. Errors: FAILED_PRECONDITION while an unfinished job needs it.
+  // Erases the bytes. Errors: FAILED_PRECONDITION while an unfinished job needs the volume.
   void DeleteVolume(const std::string& tenant, const std::string& volume, DoneStatus done);
 
   // ---- Jobs
 
-  // With kValidateOnly the job that would be made, without a name.
-  // Errors: FAILED_PRECONDITION when there is no such volume; ALREADY_EXISTS for a request_id that
-  //         was used with something else; INVALID_ARGUMENT; RESOURCE_EXHAUSTED for a volume that
-  //         can never be admitted; kQueueFull.
+  // With kValidateOnly yields the job that would be created, without a name.
+  // Errors: FAILED_PRECONDITION when there is no such volume; ALREADY_EXISTS for a request_id of a
+  //         different request; INVALID_ARGUMENT; RESOURCE_EXHAUSTED for a volume that can never be
+  //         admitted; kQueueFull.
   Flow CreateJob(std::string tenant, NewJob job, Done<JobInfo> done);
   Flow GetJob(std::string tenant, std::string job, Done<JobInfo> done);
-  // Errors: INVALID_ARGUMENT for a token that did not come with these states.
+  // Errors: INVALID_ARGUMENT for a page token of a query with other states.
   Flow ListJobs(std::string tenant, JobQuery query, Done<JobPage> done);
-  // Yields the job as it is then: cancelled, unless it had ended before.
+  // Yields the job as it is afterwards: cancelled, unless it had ended before.
   Flow CancelJob(std::string tenant, std::string job, Done<JobInfo> done);
-  // Erases the job, its upload if unfinished, and its result unless another job has the same. A job
-  // that has not ended is cancelled first.
+  // Erases the job, its unfinished upload, and its result unless another job shares it. Cancels the
+  // job first if it has not ended.
   void DeleteJob(const std::string& tenant, const std::string& job, DoneStatus done);
-  // Events after `after_sequence`, and the end in any case; 0 for all. Until the watch is stopped.
+  // Watches events after `after_sequence` (0: all), and always the last one, until the watch is
+  // stopped.
   std::shared_ptr<Watch> WatchJob(const std::string& tenant, const std::string& job,
                                   uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher);
-  // Errors: FAILED_PRECONDITION for a job that has not succeeded; OUT_OF_RANGE for a record beyond
-  //         the end (the number of records itself is fine); DATA_LOSS for a damaged file.
+  // Errors: FAILED_PRECONDITION for a job that has not succeeded; OUT_OF_RANGE for a first record
+  //         above the number of records (equal is allowed); DATA_LOSS for a damaged file.
   Flow OpenResult(std::string tenant, std::string job, uint64_t first_record,
                   Done<std::shared_ptr<ResultReader>> done);
 
   // ---- Metrics
 
   DurableUsage usage() const;
-  // Why what is confirmed now could be lost, or what is read be wrong: the tables are damaged or
-  // gone. OK else, and on a full disk.
+  // Not OK when confirmed data may be lost or read wrongly because the tables are damaged or
+  // missing. OK on a full disk.
   absl::Status Health() const { return loop_.Health(); }
 
-  // Use Open(). Recover() comes next, once.
+  // For Open(), which calls Recover() next, once.
   DurableJobs(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,
               FolderLock lock, std::unique_ptr<JobStore> store,
               std::unique_ptr<DiskReserve> reserve);
@@ -159,12 +160,12 @@ class DurableJobs final : public RunObserver {
   struct Creating;
   struct Claiming;
   struct Claims;
-  // What a change has deleted, for its end.
+  // What a change has deleted, for the steps after it.
   struct Erased {
     std::vector<Step> steps;
     std::vector<UploadRow> uploads;  // unfinished ones
     std::vector<ResultRow> results;
-    std::vector<VolumeRow> blobs;  // whose bytes no volume may have any more
+    std::vector<VolumeRow> blobs;  // whose bytes may be unused now
     enum class Traces { kMayStay, kErase } traces = Traces::kMayStay;  // in the store's files
   };
 
@@ -178,7 +179,7 @@ class DurableJobs final : public RunObserver {
   // ---- What flows wait for
   friend Flow::promise_type;
   Operations::Token BeginOperation() { return operations_.Begin(); }
-  // A change, which may run several times. They go on at its end, with its error.
+  // Runs a change, possibly several times. The flow resumes after it, with its error.
   template <typename Change>
   auto Commit(Change change, GroupCommit::Room room = GroupCommit::Room::kFree) {
     return Await<absl::Status>(
@@ -204,7 +205,7 @@ class DurableJobs final : public RunObserver {
     return Await<std::monostate>(
         [this, &tenant](auto resume) { files_.Post({.tenant = tenant}, resume); });
   }
-  // Another try, soon; false: there is none any more.
+  // Resumes soon to try again; yields false when stopping.
   auto Later() {
     return Await<bool>([this](auto resume) {
       if (stopping_) return resume(false);
@@ -217,7 +218,8 @@ class DurableJobs final : public RunObserver {
     return Await<absl::StatusOr<Session>>(
         [this, &tenant, &upload](auto resume) { OpenSession(tenant, upload, resume); });
   }
-  // The stored result, read to its end: a damaged one is dropped, and there is none. On the loop.
+  // Finds the stored result and reads it to its end; drops a damaged one and yields nullopt. On the
+  // loop.
   auto WholeResult(const std::string& tenant, const std::string& key) {
     return Await<std::optional<ResultRow>>(
         [this, &tenant, &key](auto resume) { ReadResult(tenant, key, resume); });
@@ -226,22 +228,22 @@ class DurableJobs final : public RunObserver {
     return Await<std::monostate>([this, &row](auto resume) { DropResult(row, resume); });
   }
 
-  // As the runner is to be asked.
+  // The request as the runner takes it.
   static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
   absl::Status CheckAdmitting() const;
   absl::Status CheckFits(const JobRequest& request) const;
   absl::Status CheckRoomForJob() const;
-  // As precise as the store: what callers are told does not change when it is read back.
+  // With the precision of the store, so that times do not change when read back.
   Time Now() const { return std::chrono::floor<std::chrono::microseconds>(options_.now()); }
 
   // ---- Uploads
-  // The session of an unfinished upload; another server's is taken over. Errors: NOT_FOUND;
-  // FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
+  // The session of an unfinished upload; takes over another server's.
+  // Errors: NOT_FOUND; FAILED_PRECONDITION for a finished upload; ABORTED while it is being opened.
   Flow OpenSession(std::string tenant, std::string upload, Done<Session> done);
   static absl::Status StoreMove(JobStore& store, const UploadRow& old, const std::string& to);
   // Another server has taken the upload over.
   absl::Status Superseded(const Session& session);
-  // Removes the files, too; the bytes stay counted.
+  // Also removes the files; the bytes still count toward the quota.
   void DropSession(const UploadRow& row);
   static RemovalRow RemovalOf(const UploadRow& row);
   absl::Status PrepareUpload(const NewUpload& upload, Opening& opening);
@@ -250,7 +252,7 @@ class DurableJobs final : public RunObserver {
   absl::Status StoreReceivingJob(JobStore& store, Opening& opening);
   void GiveUp(const Opening& opening);
   UploadInfo InfoOf(const UploadRow& row) const;
-  // Takes an unfinished upload away, and ends the job that waits for it.
+  // Deletes an unfinished upload and ends the job that waits for it.
   void EndUpload(const std::string& tenant, const std::string& upload, JobState state,
                  const absl::Status& error, DoneStatus done = nullptr);
   absl::Status EraseUpload(JobStore& store, const UploadRow& row, JobState state,
@@ -278,17 +280,16 @@ class DurableJobs final : public RunObserver {
   // ---- What follows a change; on the loop
   void Apply(const Step& step);
   void Apply(const Erased& erased);
-  // A change that erases, and what follows.
+  // Runs a change that erases, and what follows it.
   Flow Erase(std::function<absl::Status(JobStore& store, Erased& erased)> change,
              DoneStatus done = nullptr);
 
   // ---- Runs; on the loop
   std::string ResultKey(const std::string& volume_digest, const std::string& options) const;
-  // Brings the stored job into a state.
+  // Stores the job's new state.
   absl::Status StoreState(JobStore& store, int64_t job, JobState state, const absl::Status& error,
                           int64_t result, std::vector<Step>& steps);
-  // The same for jobs that are remembered, as a change of its own; repeated until the disk takes
-  // it.
+  // The same for jobs in memory, as a change of its own; repeated until the disk has room.
   Flow EnterState(std::set<int64_t> jobs, JobState state, absl::Status error = absl::OkStatus(),
                   int64_t result = 0);
   void Schedule();
@@ -299,15 +300,15 @@ class DurableJobs final : public RunObserver {
   Begun StartRun(const ActiveJobs::Turn& turn, const VolumeRow& volume, Claims& claims);
   Flow GiveWholeResult(JobRow job, std::string key);
   void WaitAgain(int64_t job);
-  // Brings a waiting job to run here.
+  // Claims a waiting job for this server.
   absl::Status Claim(JobStore& store, Claiming& claiming);
   Flow ClaimAgain(Claiming claiming);
   void Claimed(const Claiming& claiming);
   Flow Feed(std::shared_ptr<Run> run, VolumeRow volume);
-  // The bytes of its volume, where they came from a file. On the loop.
+  // Checks the bytes of the run's volume if they came from a file. On the loop.
   Flow CheckBlobOf(std::shared_ptr<Run> run, DoneStatus done);
   Flow StoreResult(std::shared_ptr<Run> run, ResultRow row);
-  // Yields whether the file is needless: nobody wants it, or an equal one was there.
+  // Yields whether the file is superfluous: no job needs it, or an equal result is stored.
   absl::StatusOr<bool> StoreResultOf(JobStore& store, const Run* run, ResultRow row,
                                      std::vector<Step>& steps);
   void RunFailed(Run* run, const absl::Status& error);
@@ -324,15 +325,15 @@ class DurableJobs final : public RunObserver {
   Flow OnRunProgress(std::shared_ptr<Run> run) override;
   Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
-  // ---- The fleet; on the loop. Where nobody shares the store, nothing happens.
+  // ---- The fleet; on the loop. Without other servers these do nothing.
   void LookAfterFleet();
-  // Follows what others have changed.
+  // Applies the changes of other servers.
   void Sync();
   void Follow(const JobRow& job);
   void FollowDeleted(int64_t job);
-  // All events of the job to who watches it here.
+  // Sends all events of the job to its watchers here.
   void TellStored(int64_t job);
-  // The newest progress of jobs that run elsewhere to who watches them here.
+  // Sends the newest progress of jobs that run elsewhere to their watchers here.
   void TellProgress();
   std::optional<JobEvent> ProgressElsewhere(JobStore& store, const JobRow& job) const;
   Flow Beat();
@@ -340,7 +341,7 @@ class DurableJobs final : public RunObserver {
   Flow SweepShared();
   void LookAtMembers();
   Flow TakeOverFrom(Member member);
-  // After this server was fenced off: what it ran is others' now.
+  // Called after this server was fenced off: its runs now belong to others.
   void Rejoin();
   void QueueWaiting();
 
@@ -375,8 +376,8 @@ class DurableJobs final : public RunObserver {
   int64_t last_change_ = -1;
   int beats_ = 0, clean_ups_ = 0;
   bool stopping_ = false;
-  bool scheduling_ = false;            // a change that claims jobs is on its way
-  std::atomic<Time> next_clean_up_{};  // the ticker looks at it, too
+  bool scheduling_ = false;            // a change that claims jobs is in progress
+  std::atomic<Time> next_clean_up_{};  // also read by the ticker
   ClockGuard clock_;
 
   Operations operations_;
@@ -385,7 +386,7 @@ class DurableJobs final : public RunObserver {
   std::atomic<bool> retry_wanted_ = false;
   std::mutex tick_mutex_;
   std::condition_variable_any tick_;
-  std::jthread ticker_;  // last: it uses all of these
+  std::jthread ticker_;  // last: uses all of the above
 };
 
 }  // namespace bccskel::server

@@ -12,15 +12,15 @@
 
 namespace bccskel::server {
 
-// Tells which other servers of the fleet are gone, by this process's clock alone: what counts is
-// that it looked all the time and saw no sign of life.
+// Detects which other servers of the fleet are gone, by this process's clock alone: those from
+// which it saw no heartbeat although it looked all the time.
 // Threads: one at a time.
 class FleetMembers {
  public:
   using Clock = std::chrono::steady_clock;
   explicit FleetMembers(std::chrono::milliseconds lease) : lease_(lease) {}
 
-  // Those who gave no sign for a lease.
+  // The members without a heartbeat for the length of the lease.
   std::vector<Member> Look(const std::vector<Member>& members, const std::string& self,
                            Clock::time_point now) {
     if (now - last_look_ > kLongestGap) seen_.clear();
@@ -38,16 +38,16 @@ class FleetMembers {
     seen_ = std::move(seen);
     return gone;
   }
-  // At the last look.
+  // Whether the last look saw this server.
   bool Has(const std::string& server) const { return seen_.contains(server); }
   void Forget() { seen_.clear(); }
 
  private:
-  // Who was away for longer, or could not ask, does not know who gave signs of life meanwhile.
+  // After a longer gap between looks, heartbeats may have been missed: start over.
   static constexpr std::chrono::milliseconds kLongestGap{2500};
   struct Sign {
-    int64_t beats = 0;        // that it has given
-    Clock::time_point since;  // and no other
+    int64_t beats = 0;        // the last count seen
+    Clock::time_point since;  // when it was first seen
   };
 
   const std::chrono::milliseconds lease_;

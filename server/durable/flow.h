@@ -11,13 +11,13 @@
 
 namespace bccskel::server {
 
-// Counts what is under way, so that its owner can wait for it.
+// Counts operations in progress, so that their owner can wait for them.
 // Threads: safe.
 class Operations {
  public:
   using Token = std::shared_ptr<void>;
 
-  // Under way until the last copy is gone.
+  // In progress until the last copy of the token is gone.
   Token Begin() {
     std::lock_guard lock(mutex_);
     ++count_;
@@ -39,9 +39,9 @@ class Operations {
   int count_ = 0;  // guarded by mutex_
 };
 
-// What a coroutine returns that is written from front to end and waits in between. It begins on its
-// caller's thread and goes on on the thread that brings what it waits for. Nobody waits for its
-// end, but it is counted among the operations of its object. Needs: parameters that are values.
+// The return type of a coroutine that reads as sequential code and suspends in between. It begins
+// on its caller's thread and resumes on the thread that delivers what it waits for. Nobody waits
+// for its end, but it counts among the operations of its object. Needs: parameters passed by value.
 struct Flow {
   class promise_type {
    public:
@@ -78,8 +78,8 @@ class Awaited {
   std::optional<Value> value_;
 };
 
-// A flow waits for the value with which `start` has a function called, which it is given: once, on
-// any thread, also before it returns.
+// Suspends a flow until a value arrives. `start` is called with a callback that takes the value;
+// the callback must be called once, on any thread, possibly before `start` returns.
 template <typename Value, typename Start>
 auto Await(Start start) {
   return Awaited<Value, Start>(std::move(start));

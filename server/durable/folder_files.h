@@ -15,33 +15,34 @@
 
 namespace bccskel::server {
 
-// Which files of the data folder the tables name, and what becomes of the others: what is merely
-// unknown stays for a day, and where something is missed it stays for good.
-// Threads: one at a time, the store's, but for OldFiles().
+// Compares the files of the data folder with the tables. Files that no table names stay for a day;
+// if a named file is missing, they stay for good.
+// Threads: one at a time, the store's, except for OldFiles().
 class FolderFiles {
  public:
   FolderFiles(const DurableOptions& options, FolderLock lock)
       : options_(options), blobs_(options.data_directory), lock_(std::move(lock)) {}
 
-  // Before a job store of its own is opened, which would make an empty one.
+  // Called before opening a job store in the folder, which would create an empty one.
   static absl::Status CheckTables(const std::string& tables, const DurableOptions& options);
 
-  // Who has the folder alone: takes over and sweeps what a process before this one has left.
-  // Errors: FAILED_PRECONDITION for files that belong to another job store.
+  // For the sole owner of the folder: takes over and sweeps the files that an earlier process left.
+  // Errors: FAILED_PRECONDITION for files of another job store.
   absl::Status TakeOver(JobStore& store);
-  // Who shares it: files that are not named may be others', made just now. Errors: as above.
+  // For servers that share the folder: unnamed files may be new ones of others. Errors: as
+  // TakeOver().
   absl::Status Join(JobStore& store);
-  // Files that were written before the last `keep_unknown`. Reads the folder.
+  // Files last written more than `keep_unknown` ago. Reads the folder.
   std::set<std::string> OldFiles() const;
-  // Removes those of them that are not named.
+  // Removes the files in `old` that no table names.
   absl::Status Sweep(JobStore& store, const std::set<std::string>& old);
-  // What a crash, or the file system, has left of deleted files.
+  // Removes deleted files that a crash or the file system has left.
   absl::Status RemoveDeleted(JobStore& store);
-  // A sign of life for the next process.
+  // Records for the next process that this one was alive.
   void Touch(Time now) { lock_.Touch(now); }
 
  private:
-  // The paths of all files that the tables name, results that are not confirmed yet among them.
+  // The paths of all files that the tables name, including unconfirmed results.
   absl::StatusOr<std::set<std::string>> Known(JobStore& store) const;
   void SweepAtStart(JobStore& store, const std::set<std::string>& files,
                     const std::set<std::string>& known) const;

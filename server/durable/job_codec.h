@@ -11,25 +11,25 @@
 
 namespace bccskel::server {
 
-// Reads what DurableJobs stores as bytes. It keeps messages out of DurableJobs, so that the thread
-// sanitizer can judge it.
+// Converts between requests, results and the bytes that DurableJobs stores. Keeps messages out of
+// DurableJobs, so that the thread sanitizer can check it.
 // Threads: safe.
 class JobCodec {
  public:
   virtual ~JobCodec() = default;
 
-  // What the runner is asked to do, without a deadline. Empty options mean the defaults.
+  // The request for the runner, without a deadline. Empty options mean the defaults.
   // Errors: INVALID_ARGUMENT with the field; RESOURCE_EXHAUSTED for a volume over a limit.
   virtual absl::StatusOr<JobRequest> RequestOf(const std::string& declaration,
                                                const std::string& options) const = 0;
 
-  // The options as bytes that are the same where they have the same effect on the request's volume.
-  // Needs: the request was made of them.
+  // The options in a form that is equal where their effect on the request's volume is. Needs:
+  // `request` was made from them.
   virtual std::string OptionsFor(const JobRequest&, const std::string& options) const {
     return options;
   }
 
-  // Cuts a result into records, one at a time. Errors: those of `sink`.
+  // Splits a result into records, one at a time. Errors: those of `sink`.
   using RecordSink = std::function<absl::Status(const ResultRecord& record)>;
   virtual absl::Status WriteResult(const JobResult& result, const RecordSink& sink) const = 0;
 };

@@ -14,45 +14,45 @@
 
 namespace bccskel::server {
 
-// Crashes of the server that one job may survive; with the next one it has FAILED.
+// A job during which the server has crashed this often has FAILED.
 inline constexpr int kCrashesToPoison = 3;
 
-// A job's new state, and the event that tells it; none where nothing has happened to the job.
+// A job's new state and the event that reports it; no event if nothing has changed.
 struct Step {
   JobRow job;
   std::optional<EventRow> event = std::nullopt;
 };
 
-// The only place where jobs change their states: the row, and an event that tells it.
+// The only place that changes the state of a job: its row, and an event that reports it.
 // Threads: one at a time, the store's.
 class JobJournal {
  public:
-  // `owner`: this process, among all that ever owned the store.
+  // `owner` identifies this process among all that ever owned the store.
   JobJournal(std::string owner, std::function<Time()> now)
       : owner_(std::move(owner)), now_(std::move(now)) {}
 
   // Stores a new job in its state.
   absl::StatusOr<Step> Insert(JobStore& store, JobRow job);
 
-  // Brings the job into the state and stores it with all else that `job` says. Entering kRunning
-  // counts an attempt. Nothing happens when the stored job has ended already.
-  // Needs: `job` as it was found in the same transaction.
+  // Enters the state and stores it with the other fields of `job`. Entering kRunning counts an
+  // attempt. Does nothing if the stored job has ended already.
+  // Needs: `job` as read in the same transaction.
   absl::StatusOr<Step> Enter(JobStore& store, JobRow job, JobState state,
                              absl::Status error = absl::OkStatus()) {
     return Enter(store, std::move(job), state, std::move(error), std::nullopt);
   }
-  // The same for a job as it was stored some time ago; what is stored now is looked at where it has
-  // changed since. Nothing happens, and nothing is yielded, unless the stored job `may` enter.
+  // The same for a job read some time ago; reads it again if it has changed since. Does nothing and
+  // yields nullopt unless the stored job `may` enter.
   using May = std::function<bool(const JobRow& job)>;
   absl::StatusOr<std::optional<Step>> EnterRemembered(JobStore& store, const JobRow& remembered,
                                                       JobState state, const absl::Status& error,
                                                       int64_t result, const May& may);
 
-  // After a crash: a job that ran waits again, or has failed when it was there too often. Its
-  // sequence leaps over what was told and not stored.
+  // After a crash: a job that was running waits again, or fails after too many crashes. Its
+  // sequence skips numbers that may have been sent but not stored.
   absl::StatusOr<Step> RecoverRunning(JobStore& store, JobRow job);
 
-  // The next number of an event, stored or not.
+  // The number of the next event, stored or not.
   uint64_t NextSequence(int64_t job, uint64_t stored);
   void Forget(int64_t job) { sequences_.erase(job); }
 
@@ -60,7 +60,7 @@ class JobJournal {
   void SetOwner(std::string owner) { owner_ = std::move(owner); }
 
  private:
-  // Only where the stored job has the sequence `from`, if any.
+  // Only if the stored job has the sequence `from`, if given.
   absl::StatusOr<Step> Enter(JobStore& store, JobRow job, JobState state, absl::Status error,
                              std::optional<uint64_t> from);
   static absl::StatusOr<Step> AddEvent(JobStore& store, JobRow job, Time time);

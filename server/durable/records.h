@@ -14,14 +14,14 @@
 
 namespace bccskel::server {
 
-// What callers see of uploads, volumes and jobs that outlive the server's process: their rows, and
-// what follows from those. Every name belongs to one tenant; for any other it does not exist.
+// Uploads, volumes and jobs as callers see them: their rows and derived values. Every name belongs
+// to one tenant; for any other it does not exist.
 //
-// `declaration` and `options` are bytes that DurableJobs keeps and compares but does not read: see
+// `declaration` and `options` are bytes that DurableJobs stores and compares but does not read: see
 // JobCodec. Equal bytes mean the same thing.
 struct UploadInfo : UploadRow {
-  uint64_t committed_bytes = 0;  // go on from here
-  Time expires;                  // unless bytes come
+  uint64_t committed_bytes = 0;  // resume from here
+  Time expires;                  // unless bytes arrive
 };
 
 struct VolumeInfo : VolumeRow {
@@ -46,8 +46,7 @@ struct JobPage {
   std::string next_token;     // empty after the last page
 };
 
-// One thing that happened to a job. Sequence numbers of a job grow, also over restarts; numbers may
-// be left out.
+// One event of a job. Sequence numbers of a job increase, also across restarts, with gaps.
 struct JobEvent {
   struct StateChange {
     JobState state = JobState::kQueued;
@@ -58,7 +57,7 @@ struct JobEvent {
   Time time;
   std::variant<StateChange, JobProgress> what;
 
-  // The last event of a job.
+  // Whether this is the last event of the job.
   bool IsCompleted() const {
     const auto* change = std::get_if<StateChange>(&what);
     return change != nullptr && IsTerminal(change->state);
@@ -76,13 +75,12 @@ struct ResultRecord {
 // ---- What callers ask for.
 
 struct NewUpload {
-  // "uploads/" and 1 to 64 of a-z, A-Z, 0-9, '-', '_'; empty: DurableJobs makes one up. The same
-  // again, with the same declaration and job, yields the upload as it is.
+  // "uploads/" and 1 to 64 of a-z, A-Z, 0-9, '-', '_'; empty: DurableJobs chooses one. Repeating a
+  // name with the same declaration and job yields the existing upload.
   std::string name;
   std::string declaration;
-  // A job that is to run as soon as the volume is complete: the one-call path. It is in state
-  // kReceiving from the moment of `done`; its volume is decoded while it comes, when the runner
-  // has a place.
+  // A job that runs as soon as the volume is complete: the one-call path. It is in state kReceiving
+  // from the call of `done` on; its volume is decoded during the upload if the runner has a place.
   struct ThenJob {
     std::string options;
     int priority = 0;
@@ -94,12 +92,12 @@ struct NewUpload {
 
 struct NewJob {
   enum class Mode { kCreate, kValidateOnly };
-  std::string request_id;  // the same again yields the same job; empty: never the same
+  std::string request_id;  // a repeat yields the same job; empty: each request is new
   std::string volume;
   std::string options;
-  int priority = 0;        // a level is worth half a minute of waiting, within the tenant
+  int priority = 0;        // a level equals half a minute of waiting, within the tenant
   int threads = 0;         // wanted; 0 leaves it to the server
-  std::string trace = {};  // for the log; a repeat may have another
+  std::string trace = {};  // for the log; may differ in a repeat
   Mode mode = Mode::kCreate;
 };
 
@@ -116,7 +114,7 @@ struct DurableUsage {
   int uploads = 0;                    // unfinished
   int queued = 0;                     // jobs
   int running = 0;                    // jobs
-  uint64_t cached = 0;                // jobs since the start that were given a stored result
+  uint64_t cached = 0;  // jobs since the start that were answered from a stored result
 };
 
 }  // namespace bccskel::server

@@ -22,36 +22,36 @@ namespace bccskel::server {
 
 class Run;
 
-// Hears of runs. Called on the runner's threads; must not block.
+// Receives news of runs. Called on the runner's threads; must not block.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual Flow OnRunVolume(std::shared_ptr<Run> run, std::string volume_digest) = 0;
-  // There is progress to take.
+  // New progress is ready for TakeProgress().
   virtual Flow OnRunProgress(std::shared_ptr<Run> run) = 0;
-  // Once, last.
+  // Called once, last.
   virtual Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) = 0;
 };
 
-// One computation at the runner, for one or more equal jobs. Its bytes come from an upload that is
-// under way, or from a file.
+// One computation at the runner, for one or more equal jobs. Its bytes come from an upload in
+// progress or from a file.
 // Threads: safe.
 class Run : public JobListener, public std::enable_shared_from_this<Run> {
  public:
-  // Needs: the observer lives while the operation is under way.
+  // Needs: the observer outlives `operation`.
   Run(RunObserver& observer, std::string tenant, Operations::Token operation)
       : observer_(observer), tenant_(std::move(tenant)), operation_(std::move(operation)) {}
 
   const std::string& tenant() const { return tenant_; }
 
-  // Asks the runner for a place. Errors: the runner's; then the run is of no further use.
+  // Asks the runner for a place. Errors: the runner's; the run is then of no further use.
   absl::Status Start(JobRunner& runner, JobRequest request) {
     BCCSKEL_ASSIGN_OR_RETURN(job_, runner.Start(std::move(request), shared_from_this()));
     return absl::OkStatus();
   }
 
-  // The next bytes. `room` is called when they are decoded, or with the error with which the run
-  // ended. Needs: `room` of the bytes before was called.
+  // The next bytes. `room` is called once they are decoded, or with the error that ended the run.
+  // Needs: the last `room` has been called.
   void Append(std::string bytes, std::function<void(absl::Status)> room) {
     {
       std::unique_lock lock(mutex_);
@@ -65,14 +65,14 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   }
   void FinishVolume() { job_->FinishVolume(std::nullopt); }
 
-  // Ends the run soon; OnRunEnd() comes all the same.
+  // Ends the run soon; OnRunEnd() is still called.
   void Cancel() {
     cancelled_ = true;
     job_->Cancel();
   }
-  // Whether anybody did that: a result that has come in the meantime is not wanted any more.
+  // Whether Cancel() was called: a result that arrives later is not wanted.
   bool cancelled() const { return cancelled_; }
-  // The same, because its bytes cannot be had.
+  // Ends the run because its bytes are unavailable.
   void Fail(absl::Status status) { job_->EndWith(std::move(status)); }
 
   std::optional<JobProgress> TakeProgress() {
@@ -111,10 +111,10 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
       room = std::exchange(room_, nullptr);
       unannounced = progress_.has_value() && !announced_;
     }
-    // A copy of its own: the result goes to another thread.
+    // Copied, because the result moves to another thread.
     const absl::Status status(result.status().code(), result.status().message());
     if (unannounced) observer_.OnRunProgress(shared_from_this());
-    // The run's end is known before the sender hears of it.
+    // The observer learns of the end before the sender does.
     observer_.OnRunEnd(shared_from_this(), std::move(result));
     if (room) room(status);
   }
@@ -131,7 +131,7 @@ class Run : public JobListener, public std::enable_shared_from_this<Run> {
   std::function<void(absl::Status)> room_;         // guarded by mutex_
   std::optional<JobProgress> progress_;            // guarded by mutex_
   std::chrono::nanoseconds next_announcement_{0};  // guarded by mutex_
-  bool announced_ = false;                         // guarded by mutex_: nobody took it yet
+  bool announced_ = false;                         // guarded by mutex_: progress not taken yet
 };
 
 }  // namespace bccskel::server

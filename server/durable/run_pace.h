@@ -6,10 +6,10 @@
 
 namespace bccskel::server {
 
-// Says how many runs to begin before there is a place for them. Claiming a job and reading its
-// volume wait for the disk, and so does storing its result: meanwhile others compute. What is
-// claimed cannot be begun elsewhere, so it is no more than what is likely to have its turn soon.
-// Threads: one at a time; time is what its callers say.
+// Decides how many runs to begin before a place for them is free. Claiming a job, reading its
+// volume and storing its result wait for the disk; meanwhile others compute. No other server can
+// begin a claimed job, so only those likely to start soon are claimed.
+// Threads: one at a time; callers pass the time.
 class RunPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -17,11 +17,11 @@ class RunPace {
 
   explicit RunPace(std::chrono::milliseconds soon = std::chrono::milliseconds(50)) : soon_(soon) {}
 
-  // A run that was given its volume then has been computed now.
+  // A run that received its volume at `fed` has been computed at `now`.
   void Computed(Clock::time_point fed, Clock::time_point now) {
     const Clock::duration took = now - std::max(fed, last_);
     last_ = now;
-    // Slower at once, faster little by little.
+    // Adopt a slower pace at once and a faster one gradually.
     const bool first_or_slower = between_ == Clock::duration::max() || took >= between_;
     between_ = first_or_slower ? took : (3 * between_ + took) / 4;
   }
@@ -35,7 +35,7 @@ class RunPace {
  private:
   const Clock::duration soon_;
   Clock::time_point last_;
-  Clock::duration between_ = Clock::duration::max();  // two that were computed
+  Clock::duration between_ = Clock::duration::max();  // between two computed runs
 };
 
 }  // namespace bccskel::server

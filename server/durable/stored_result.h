@@ -17,18 +17,18 @@
 
 namespace bccskel::server {
 
-// Reads a stored result record by record. The file stays readable while the reader lives, whatever
-// is deleted or expires meanwhile.
+// Reads a stored result record by record. The file stays readable while the reader lives, even if
+// the result is deleted or expires.
 // Threads: one call of Next() at a time.
 class ResultReader : public std::enable_shared_from_this<ResultReader> {
  public:
-  // Reads on `threads`, which outlive the reader's last call to be answered.
+  // Reads on `threads`, which must outlive the last pending Next().
   // Errors: OUT_OF_RANGE for a first record beyond the end; DATA_LOSS.
   static absl::StatusOr<std::shared_ptr<ResultReader>> Open(const ResultRow& row,
                                                             uint64_t first_record,
                                                             const BlobStore& blobs,
                                                             TaskThreads& threads);
-  // Nothing after the last record. Errors: DATA_LOSS; INTERNAL.
+  // Yields nullopt after the last record. Errors: DATA_LOSS; INTERNAL.
   void Next(std::function<void(absl::StatusOr<std::optional<ResultRecord>>)> done);
 
  private:
@@ -42,13 +42,13 @@ class ResultReader : public std::enable_shared_from_this<ResultReader> {
   TaskThreads& threads_;
 };
 
-// Writes the run's result into a file and counts its bytes. What the row says of the key is left to
-// the caller. After an error there is no file.
+// Writes the run's result to a file and counts its bytes. The caller sets the row's key. After an
+// error there is no file.
 // Errors: RESOURCE_EXHAUSTED for quota and disk; CANCELLED once the run is; the codec's.
 absl::StatusOr<ResultRow> WriteResult(const JobResult& result, const Run& run,
                                       const JobCodec& codec, const BlobStore& blobs,
                                       DiskQuota& quota);
-// The opposite.
+// Removes the file and its bytes from the count.
 void RemoveResult(const ResultRow& row, const BlobStore& blobs, DiskQuota& quota);
 
 }  // namespace bccskel::server

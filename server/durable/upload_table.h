@@ -15,8 +15,8 @@
 
 namespace bccskel::server {
 
-// An unfinished upload: who may write it now, and what decodes it along.
-// Threads: safe, but for file().
+// An unfinished upload: the right to write it, and the run that decodes it as it arrives.
+// Threads: safe, except for file().
 class UploadSession {
  public:
   UploadSession(UploadRow row, std::unique_ptr<UploadFile> file, Time used)
@@ -32,9 +32,9 @@ class UploadSession {
     return used_;
   }
 
-  // Give the right to write until EndWriting().
-  // Errors: ABORTED while somebody has it; OUT_OF_RANGE for a wrong offset, and for more or fewer
-  //         bytes than declared; INVALID_ARGUMENT for another size than declared.
+  // Acquire the right to write until EndWriting().
+  // Errors: ABORTED while another call has it; OUT_OF_RANGE for a wrong offset, and for more or
+  //         fewer bytes than declared; INVALID_ARGUMENT for a size other than declared.
   absl::Status BeginAppend(uint64_t offset, uint64_t size);
   absl::Status BeginFinish(uint64_t size);
   void EndWriting(Time now) {
@@ -54,7 +54,7 @@ class UploadSession {
     std::lock_guard lock(mutex_);
     return along_;
   }
-  // It decodes no longer.
+  // Detaches the run that decodes the upload.
   std::shared_ptr<Run> TakeAlong() {
     std::lock_guard lock(mutex_);
     return std::exchange(along_, nullptr);
@@ -72,13 +72,13 @@ class UploadSession {
   std::unique_ptr<UploadFile> file_;
 };
 
-// Unfinished uploads that go on here, or soon will.
+// The unfinished uploads that this server continues or is about to.
 // Threads: safe.
 class UploadTable {
  public:
   using Session = std::shared_ptr<UploadSession>;
 
-  // Null: none, or it is being opened.
+  // Null if there is none or it is being opened.
   Session Find(const std::string& tenant, const std::string& upload) const {
     std::lock_guard lock(mutex_);
     const auto found = sessions_.find({tenant, upload});
@@ -88,12 +88,12 @@ class UploadTable {
     std::lock_guard lock(mutex_);
     return sessions_.size();
   }
-  // Until it is added or removed nobody else opens it. False where it is there, or being opened.
+  // Reserves the opening until Add() or EndOpening(). False if the upload is open or being opened.
   bool BeginOpening(const UploadRow& row) {
     std::lock_guard lock(mutex_);
     return sessions_.try_emplace(KeyOf(row)).second;
   }
-  // It could not be opened.
+  // Cancels the reservation after a failure to open.
   void EndOpening(const UploadRow& row) {
     std::lock_guard lock(mutex_);
     const auto found = sessions_.find(KeyOf(row));
@@ -107,13 +107,13 @@ class UploadTable {
     std::lock_guard lock(mutex_);
     sessions_.erase(KeyOf(row));
   }
-  // Another server goes on with it in another file.
+  // Removes exactly this session: another server continues the upload in another file.
   void Remove(const Session& session) {
     std::lock_guard lock(mutex_);
     const auto found = sessions_.find(KeyOf(session->row()));
     if (found != sessions_.end() && found->second == session) sessions_.erase(found);
   }
-  // None is decoded along any more.
+  // Detaches the runs of all uploads.
   void TakeAllAlong() {
     std::lock_guard lock(mutex_);
     for (const auto& [key, session] : sessions_) {

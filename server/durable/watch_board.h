@@ -15,13 +15,13 @@
 
 namespace bccskel::server {
 
-// Hears of a job. Called on DurableJobs' thread; must not block.
+// Receives the events of a job. Called on DurableJobs' thread; must not block.
 class JobWatcher {
  public:
   virtual ~JobWatcher() = default;
-  // In order of sequence. State changes are lossless; of shells only the newest is told.
+  // In order of sequence. No state change is skipped; of progress only the newest is reported.
   virtual void OnEvent(const JobEvent& event) = 0;
-  // Once, last: OK after the completed event; NOT_FOUND; UNAVAILABLE when the server stops.
+  // Called once, last: OK after the completed event; NOT_FOUND; UNAVAILABLE when the server stops.
   virtual void OnWatchEnd(const absl::Status& status) = 0;
 };
 
@@ -31,7 +31,7 @@ class Watch {
   Watch(uint64_t after_sequence, std::shared_ptr<JobWatcher> watcher)
       : told_(after_sequence), watcher_(std::move(watcher)) {}
 
-  // Leaves out what was told already, but for the end: no watch ends without it.
+  // Skips events already delivered, except for the completed event, without which no watch ends.
   void Tell(const JobEvent& event) {
     if (over() || (event.sequence <= told_ && !event.IsCompleted())) return;
     told_ = event.sequence;
@@ -43,25 +43,25 @@ class Watch {
     const std::shared_ptr<JobWatcher> watcher = std::move(watcher_);
     watcher->OnWatchEnd(status);
   }
-  // No call of the watcher begins after that.
+  // No call to the watcher begins after this.
   void Stop() { stopped_ = true; }
   bool over() const { return stopped_ || watcher_ == nullptr; }
 
  private:
-  uint64_t told_;                        // the last sequence
-  std::shared_ptr<JobWatcher> watcher_;  // null once it was told the end
+  uint64_t told_;                        // the last sequence delivered
+  std::shared_ptr<JobWatcher> watcher_;  // null after OnWatchEnd()
   std::atomic<bool> stopped_ = false;
 };
 
-// Who watches which unfinished job, and the newest progress of each.
+// The watches of unfinished jobs, and the newest progress of each.
 // Threads: one at a time, DurableJobs'.
 class WatchBoard {
  public:
   void Add(int64_t job, std::shared_ptr<Watch> watch);
-  // After a completed event the job's watches are over.
+  // A completed event ends the job's watches.
   void Tell(int64_t job, const JobEvent& event);
   bool Has(int64_t job) const { return watches_.contains(job); }
-  // Newest progress of a running job.
+  // The newest progress of a running job.
   std::optional<JobProgress> ProgressOf(int64_t job) const;
   void End(int64_t job, const absl::Status& status);
   void EndAll(const absl::Status& status);
@@ -73,7 +73,7 @@ class WatchBoard {
 
 JobEvent EventOf(const EventRow& row);
 
-// Progress as servers of a fleet tell it each other, and back; nothing for what is none.
+// Progress in the form that servers of a fleet exchange, and back; nullopt for malformed bytes.
 std::string BytesOf(const JobProgress& progress);
 std::optional<JobProgress> ProgressOfBytes(const std::string& bytes);
 

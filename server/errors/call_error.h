@@ -9,8 +9,8 @@
 
 namespace bccskel::server {
 
-// Why calls and jobs fail, as callers see it: here, as ERRORS.md describes it, its code, and
-// whether another try is worth while.
+// The reasons why calls and jobs fail: name, text (see ERRORS.md), status code, and whether a retry
+// is worthwhile.
 #define BCCSKEL_REASONS(X)                                                   \
   X(kFieldInvalid, "FIELD_INVALID", kInvalidArgument, kNo)                   \
   X(kVolumeInvalid, "VOLUME_INVALID", kInvalidArgument, kNo)                 \
@@ -55,50 +55,50 @@ enum class Reason : uint8_t {
 #undef BCCSKEL_REASON
 };
 
-// What an error says besides reason and message; empty where it says nothing.
+// Further details of an error; empty if unused.
 struct ErrorDetails {
-  std::string field = {};  // that is wrong: its path in the request
-  std::string quota = {};  // that is used up: the limit as ServerLimits or Durability name it
+  std::string field = {};  // path of the wrong field in the request
+  std::string quota = {};  // the exhausted limit, named as in ServerLimits or Durability
   std::string key = {};    // of one piece of metadata
   std::string value = {};
 };
 
-// An error that states its reason. It has the reason's code. The reason travels as a payload, also
-// through the job store; calls/status_mapping.h turns it into the messages that callers get.
+// An error that states its reason, with the reason's code. The reason travels as a payload, also
+// through the job store; calls/status_mapping.h converts it to the messages that callers get.
 absl::Status CallError(Reason reason, const std::string& message, const ErrorDetails& details = {});
 
 // INVALID_ARGUMENT: "<field>: <description>".
 absl::Status InvalidField(const std::string& field, const std::string& description);
-// INVALID_ARGUMENT: the bytes of a volume are not what they should be.
+// INVALID_ARGUMENT: the bytes of a volume are malformed.
 absl::Status InvalidVolume(const std::string& message);
-// OUT_OF_RANGE: the caller should go on from `committed_bytes`.
+// OUT_OF_RANGE: the caller should resume at `committed_bytes`.
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
-// RESOURCE_EXHAUSTED: `quota` is a limit of disk space that is used up.
+// RESOURCE_EXHAUSTED: the disk space limit `quota` is used up.
 absl::Status DiskFull(const std::string& message, const std::string& quota);
 
-// Whether the status says why, be it that proto/wire found the error.
+// Whether the status states a reason, from CallError() or from proto/wire.
 bool StatesReason(const absl::Status& status);
-// Empty where it was not CallError() that made the status.
+// nullopt unless CallError() made the status.
 std::optional<Reason> ReasonOf(const absl::Status& status);
 ErrorDetails DetailsOf(const absl::Status& status);
-// What a caller whose offset was wrong should go on from.
+// The size at which a caller with a wrong offset should resume.
 std::optional<uint64_t> CommittedSizeOf(const absl::Status& status);
 
 // "FIELD_INVALID", ...
 const char* NameOf(Reason reason);
 bool IsWorthARetry(Reason reason);
 
-// The reason of an error that states none. Wrong arguments all state one: who finds them knows
-// which they are.
+// The reason for an error that states none. Invalid arguments always state one, because only the
+// code that finds them knows which.
 Reason DefaultReason(absl::StatusCode code);
 
-// An error with which a job has ended. Where it states no reason, a wrong argument is one in the
-// volume's bytes, and too much of something is a volume over a limit that only decoding has shown.
+// Adds a reason to an error that ended a job, if it states none: an invalid argument means invalid
+// volume bytes, and an exhausted resource a volume over a limit that only decoding has revealed.
 absl::Status WithJobReason(const absl::Status& status);
-// An error of the disk: where it states no reason, a full one is DISK_FULL; its message names
+// Adds a reason to a disk error, if it states none: a full disk is DISK_FULL. The message names
 // files.
 absl::Status WithDiskReason(const absl::Status& status);
-// The same error; its message begins with `what`.
+// The same error with `what` before its message.
 absl::Status Prefixed(const std::string& what, const absl::Status& status);
 
 }  // namespace bccskel::server

@@ -17,30 +17,30 @@
 
 namespace bccskel::server {
 
-// The tenant of all calls where no tokens are configured.
+// The tenant of all calls on a server without tokens.
 inline constexpr char kDefaultTenant[] = "default";
 
-// Tells whose call it is, from a file of tokens that may change while the server runs.
+// Identifies callers by a file of tokens that may change while the server runs.
 // Threads: safe.
 class Callers {
  public:
-  // Without a path everybody is the default tenant, and an admin.
+  // Without a path every caller is the default tenant and an admin.
   // Errors: as TokenTable::ReadFile().
   static absl::StatusOr<std::unique_ptr<Callers>> Create(const std::string& path);
 
-  // `authorization` is the header of that name, as it came, if it came.
+  // `authorization` is the header of that name, if the call has one.
   // Errors: UNAUTHENTICATED; the message holds nothing of the header.
   absl::StatusOr<Caller> Identify(std::optional<std::string_view> authorization) const;
 
-  // What the tenants are granted; empty where no tokens are configured.
+  // What the tenants are granted; empty without tokens.
   std::map<std::string, TenantLimits> tenants() const;
 
-  // Grows with every file that is taken in.
+  // Increases each time a file is loaded.
   uint64_t generation() const { return generation_; }
 
   enum class Reload { kNotNeeded, kDone };
-  // Reads the file again, where it has changed since it was read last. A file with a mistake
-  // changes nothing: the tokens that were accepted before still are.
+  // Reads the file again if it has changed since the last read. A file with an error changes
+  // nothing: the old tokens stay valid.
   // Errors: as TokenTable::ReadFile(), once for each change of the file.
   absl::StatusOr<Reload> ReloadIfChanged();
   absl::Status ReloadNow();
@@ -54,7 +54,7 @@ class Callers {
   std::shared_ptr<const TokenTable> table_;  // guarded by mutex_
   std::atomic<uint64_t> generation_ = 0;
   std::mutex reload_mutex_;
-  struct stat seen_ = {};  // guarded by reload_mutex_: the file when it was read last
+  struct stat seen_ = {};  // guarded by reload_mutex_: the file at the last read
 };
 
 }  // namespace bccskel::server

@@ -9,22 +9,22 @@
 
 namespace bccskel::server {
 
-// PEM files; read again while the server runs.
+// PEM files; reloaded while the server runs.
 struct TlsFiles {
   std::string certificate;  // the server's chain, its own certificate first
   std::string key;
-  std::string client_ca;  // empty: clients show no certificate
+  std::string client_ca;  // empty: clients need no certificate
 
   bool enabled() const { return !certificate.empty() || !key.empty() || !client_ca.empty(); }
 };
 
-// Whether a server can work with these files now.
-// Errors: INVALID_ARGUMENT: a file is missing, cannot be read, or is not PEM; the key is not the
-//         certificate's; the certificate has expired or is not valid yet.
+// Whether a server can use these files now.
+// Errors: INVALID_ARGUMENT: a file is missing, unreadable or not PEM; the key does not match the
+//         certificate; the certificate has expired or is not valid yet.
 absl::Status CheckTlsFiles(const TlsFiles& files);
 
-// When the server's own certificate ends.
-// Errors: INVALID_ARGUMENT where the file cannot be read or is not PEM.
+// When the server's own certificate expires.
+// Errors: INVALID_ARGUMENT if the file cannot be read or is not PEM.
 absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files);
 
 }  // namespace bccskel::server

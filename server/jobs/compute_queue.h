@@ -22,18 +22,19 @@
 
 namespace bccskel::server {
 
-// Hands out a fixed number of threads to jobs, in the order of a FairQueue. A job alone gets as
-// many as it can use. Where several came lately, large or small, they share those that are free:
-// one thread each does more for all than all threads for one after the other. A job that comes
-// while one has all threads starts beside it on one thread, which the other leaves to it (share()).
-// Results do not depend on the number of threads.
+// Assigns a fixed number of threads to jobs, in the order of a FairQueue. A job alone gets as many
+// as it can use. Several that arrived lately, large or small, share the free threads: one thread
+// each is faster overall than all threads for one after the other. A job that arrives while another
+// has all threads starts on one thread, which the other leaves to it (share()). Results do not
+// depend on the number of threads.
 //
-// A job at work gives way to small ones that wait: to those that take one thread and have at most
-// half of its bricks. They run on its thread while it rests; afterwards it gives way to their
-// tenant only when it has had as much time as they took. So beside one other tenant it goes on at
-// half speed or more, and nobody waits for what it owes to others.
+// A running job yields to small waiting ones: those that take one thread and have at most half of
+// its bricks. They run on its thread while it pauses; it yields to their tenant again only after it
+// has run for as long as they took. So beside one other tenant it runs at half speed or more, and
+// no tenant waits because of what others took.
 //
-// Its threads, and those that jobs start on them, have a lower priority than others of the process.
+// The queue's threads, and those that jobs start on them, have a lower priority than the other
+// threads of the process.
 class ComputeQueue {
  public:
   using Clock = std::chrono::steady_clock;
@@ -48,7 +49,7 @@ class ComputeQueue {
   using Entry = FairQueue<Waiting>::Entry;
   struct Usage {
     int waiting = 0;
-    int running = 0;  // those that gave way, not those that they gave way to
+    int running = 0;  // counts a job that yielded, not the one it yielded to
     int busy_threads = 0;
 
     friend bool operator==(const Usage&, const Usage&) = default;
@@ -60,19 +61,19 @@ class ComputeQueue {
     uint64_t bricks = 0;  // the job's size
   };
 
-  // `max_running` jobs at the same time. Needs: both >= 1. Tests bring a clock of their own.
+  // At most `max_running` jobs run at the same time. Needs: both >= 1. Tests pass their own clock.
   ComputeQueue(int threads, int max_running, TenantTable tenants = {},
                std::function<Clock::time_point()> now = &Clock::now);
-  ~ComputeQueue();  // waits for running work; what still waits is dropped
+  ~ComputeQueue();  // waits for running work and drops waiting work
   ComputeQueue(const ComputeQueue&) = delete;
   ComputeQueue& operator=(const ComputeQueue&) = delete;
 
-  // `work` runs on a thread of the queue, which is one of those that it may keep busy. It must not
+  // Runs `work` on a thread of the queue, which counts among the threads of its turn. It must not
   // throw.
   Entry Post(const Claim& claim, Work work);
-  bool Remove(const Entry& entry);  // false when it does not wait (any more)
+  bool Remove(const Entry& entry);  // false when it is not waiting
 
-  void SetTenants(const TenantTable& tenants);  // from now on
+  void SetTenants(const TenantTable& tenants);  // applies to later turns
 
   int threads() const { return threads_; }
   Usage usage() const;
@@ -81,7 +82,7 @@ class ComputeQueue {
   using Taken = FairQueue<Waiting>::Taken;
 
   static constexpr uint64_t kNoBricks = UINT64_MAX;
-  // Callers that call again and again are between two calls for less.
+  // Callers in a loop take less than this between two calls.
   static constexpr std::chrono::milliseconds kLately{100};
 
   void Serve(std::stop_token stop);
@@ -99,32 +100,33 @@ class ComputeQueue {
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
   FairQueue<Waiting> queue_;  // guarded by mutex_
-  // No job in queue_ that takes one thread has fewer bricks. Changed with mutex_ held.
+  // Lower bound of the bricks of queued jobs that take one thread. Changed with mutex_ held.
   std::atomic<uint64_t> least_waiting_ = kNoBricks;
-  int running_ = 0;  // guarded by mutex_, as are those below
-  // To running jobs; may be more than there are. Changed with mutex_ held.
+  int running_ = 0;  // guarded by mutex_, as are the members below
+  // Threads of running jobs; may exceed threads_. Changed with mutex_ held.
   std::atomic<int> given_threads_ = 0;
-  int crowd_ = 0;  // most jobs that waited or ran together lately
+  int crowd_ = 0;  // most jobs that recently waited or ran at the same time
   Clock::time_point crowd_until_;
-  // Of the last job that had several threads. The next one of that size need not start threads, and
-  // knows whether lockstep has paid on this machine lately.
+  // The team of the last job with several threads. The next job of that size need not start
+  // threads, and knows whether lockstep has paid off on this machine lately.
   std::unique_ptr<exec::WorkerTeam> idle_team_;
   std::vector<std::jthread> runners_;  // last: joined before the rest is destroyed
 };
 
-// A job's time at work.
+// A running job's hold on its threads.
 class ComputeQueue::Turn {
  public:
   int threads() const { return team_->size(); }
   exec::WorkerTeam& team() { return *team_; }
-  // Those of them that others have not been given since; at least 1. Threads: safe.
+  // The number of threads to use now: threads() less those that have since been assigned to other
+  // jobs; at least 1. Threads: safe.
   int share() const {
     const int others = queue_.given_threads_ - threads();
     return std::clamp(queue_.threads_ - others, 1, threads());
   }
 
-  // To be called now and then, on any thread: on the one that the job runs on, small jobs that wait
-  // may be run in between. Costs next to nothing where none wait that are small enough.
+  // Call from time to time, on any thread. On the thread that the job runs on, it may run small
+  // waiting jobs. Costs next to nothing if no waiting job is small enough.
   void Yield();
 
  private:
@@ -132,7 +134,7 @@ class ComputeQueue::Turn {
   Turn(ComputeQueue& queue, int threads, uint64_t bricks)
       : queue_(queue), team_(queue.TakeTeam(threads)), bricks_(bricks) {}
   ~Turn() { queue_.KeepTeam(std::move(team_)); }
-  // What its clock would show had it stood still at rest.
+  // The time on a clock that stops while the job pauses.
   Clock::time_point WorkedUntil() const { return queue_.now_() - rested_; }
 
   ComputeQueue& queue_;
@@ -140,7 +142,8 @@ class ComputeQueue::Turn {
   const uint64_t bricks_;
   const std::thread::id thread_ = std::this_thread::get_id();
   Clock::duration rested_{};
-  std::map<std::string, Clock::time_point> not_before_;  // on that clock, again to this tenant
+  // When it may yield to a tenant again, on the clock of WorkedUntil().
+  std::map<std::string, Clock::time_point> not_before_;
 };
 
 }  // namespace bccskel::server

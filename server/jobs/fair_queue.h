@@ -14,29 +14,30 @@
 
 namespace bccskel::server {
 
-// Among the jobs of one tenant.
+// The priority among the jobs of one tenant.
 enum class JobPriority { kLow = -1, kNormal = 0, kHigh = 1 };
 
-// Who asks, and how urgently: decides on turns and caps, never on results.
+// A job's tenant and priority. They affect turns and caps, never results.
 struct JobOrigin {
-  std::string tenant;  // "": the one that all callers without a name share
+  std::string tenant;  // "": the tenant of all callers without a name
   JobPriority priority = JobPriority::kNormal;
 };
 
-// Says who is next, among jobs in memory and durable ones alike.
-// - Tenants take turns, as many in a round as their weight is; one that comes back after a while
-//   has saved nothing up and owes nothing.
-// - A tenant with as many items at work as it may have is passed over.
-// - Of one tenant the first come is first, where a level of priority is worth half a minute of
-//   waiting: an item of low priority goes before one of high priority that came a minute later.
-// Threads: one at a time; time is what its callers say.
+// Decides which item is next, among jobs in memory and durable ones alike.
+// - Tenants take turns, as many per round as their weight. One that returns after a pause has
+//   neither credit nor debt.
+// - A tenant that has reached its cap of running items is skipped.
+// - Within a tenant the oldest item is first, where a level of priority equals half a minute of
+//   waiting: an item of low priority precedes one of high priority that arrived more than a minute
+//   later.
+// Threads: one at a time; callers pass the time.
 template <typename Item, typename Clock = std::chrono::steady_clock>
 class FairQueue {
  public:
   using TimePoint = typename Clock::time_point;
   static constexpr std::chrono::seconds kWorthOfPriority{30};
 
-  // Where an item waits.
+  // The place of a waiting item.
   struct Entry {
     std::string tenant;
     std::pair<TimePoint, uint64_t> rank;
@@ -46,16 +47,16 @@ class FairQueue {
     Item item;
   };
 
-  // `max_at_work` of each tenant, besides what its limits say; 0 means any number.
+  // `max_at_work`: a cap for each tenant in addition to its limits; 0: no cap.
   explicit FairQueue(TenantTable limits = {}, int max_at_work = 0)
       : limits_(std::move(limits)), max_at_work_(max_at_work) {}
 
   // From now on.
   void SetLimits(TenantTable limits) { limits_ = std::move(limits); }
-  // Items of tenants that are at work, but were not taken from here.
+  // Tenants' running items that were not taken from this queue.
   void SetAtWorkElsewhere(std::map<std::string, int> at_work) { elsewhere_ = std::move(at_work); }
 
-  // `came`: when it began to wait.
+  // `came`: when the item began to wait.
   Entry Push(const JobOrigin& origin, TimePoint came, Item item) {
     Tenant& tenant = tenants_[origin.tenant];
     if (tenant.waiting.empty()) tenant.next_turn = std::max(tenant.next_turn, time_);
@@ -66,7 +67,7 @@ class FairQueue {
     return {origin.tenant, rank};
   }
 
-  // False when it does not wait (any more).
+  // False if it is not waiting.
   bool Remove(const Entry& entry) {
     const auto tenant = tenants_.find(entry.tenant);
     if (tenant == tenants_.end() || tenant->second.waiting.erase(entry.rank) == 0) return false;
@@ -78,7 +79,7 @@ class FairQueue {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
 
-  // Of all that wait, whoever is at work.
+  // Visits all waiting items, whatever the caps.
   template <typename Visit>
   void ForEach(Visit visit) const {
     for (const auto& [name, tenant] : tenants_) {
@@ -86,7 +87,7 @@ class FairQueue {
     }
   }
 
-  // Whether Take() would give something.
+  // Whether Take() would yield an item.
   template <typename Fits>
   bool Has(Fits fits) const {
     return std::ranges::any_of(tenants_, [&](const auto& entry) {
@@ -95,7 +96,7 @@ class FairQueue {
   }
   bool Has() const { return Has(&Anything); }
 
-  // The next item among those that fit. It is at work until Done().
+  // The next item that fits. It counts as running until Done().
   template <typename Fits>
   std::optional<Taken> Take(Fits fits) {
     Place best = {tenants_.end(), {}};
@@ -160,8 +161,8 @@ class FairQueue {
 
   TenantTable limits_;
   const int max_at_work_;
-  std::map<std::string, Tenant> tenants_;  // those that wait or are at work
-  uint64_t time_ = 0;                      // a round is as long for every tenant
+  std::map<std::string, Tenant> tenants_;  // tenants with waiting or running items
+  uint64_t time_ = 0;                      // virtual: a round is equally long for every tenant
   std::map<std::string, int> elsewhere_;
   uint64_t next_number_ = 1;
   size_t size_ = 0;

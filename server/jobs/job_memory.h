@@ -15,14 +15,14 @@
 
 namespace bccskel::server {
 
-// The memory of a running job: what was admitted for it from what it declared and received, and
-// what its stages ask for when they know more. The admission decides about each part.
+// The memory of a running job: the amount admitted from its declaration and its received volume,
+// and what its stages request once they know more. The admission decides about each request.
 // Threads: safe.
 class JobMemory final : public exec::MemoryBudget {
  public:
   explicit JobMemory(Ticket ticket) : ticket_(std::move(ticket)), base_(ticket_.bytes()) {}
 
-  // What the job needs besides what its stages took. Errors: a CallError.
+  // Sets the job's need apart from what its stages take. Errors: a CallError.
   absl::Status SetBase(uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     absl::Status status = ticket_.ResizeTo(bytes + taken_);
@@ -30,7 +30,7 @@ class JobMemory final : public exec::MemoryBudget {
     return status;
   }
 
-  // Errors: a CallError, which says what for.
+  // Errors: a CallError that names `what_for`.
   absl::Status Take(uint64_t bytes, const std::string& what_for) override {
     const std::lock_guard lock(mutex_);
     absl::Status status = ticket_.ResizeTo(SaturatingAdd(base_ + taken_, bytes));
@@ -48,7 +48,7 @@ class JobMemory final : public exec::MemoryBudget {
     ticket_.ShrinkTo(base_ + taken_);
   }
 
-  // Ends the budget: what is reserved is the ticket's from now on.
+  // Ends the budget: the returned ticket holds the reservation.
   Ticket Close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -57,8 +57,8 @@ class JobMemory final : public exec::MemoryBudget {
 
  private:
   mutable std::mutex mutex_;
-  Ticket ticket_;       // guarded by mutex_, as are all below
-  uint64_t base_;       // without what stages took
+  Ticket ticket_;       // guarded by mutex_, as are the members below
+  uint64_t base_;       // without what stages take
   uint64_t taken_ = 0;  // by stages
   bool closed_ = false;
 };

@@ -17,18 +17,18 @@
 
 namespace bccskel::server {
 
-// What is decoded in processes of its own (decoding/child_pool.h). Needs a program that begins with
+// What to decode in child processes (decoding/child_pool.h). Needs a program that begins with
 // RunIfDecodingChild().
 enum class DecodeInChildren { kNothing, kOpenExr };
 
-// Runs jobs in this process: admits them, decodes on threads of their own, computes on the threads
-// of a ComputeQueue. Jobs end with the process.
+// Runs jobs in this process: admits them, decodes on its own threads and computes on those of a
+// ComputeQueue. Jobs end with the process.
 class JobPool : public JobRunner {
  public:
   struct Limits {
     int threads = 1;                // for computing, all jobs together
-    int max_jobs = 1;               // that run at the same time
-    int max_queue = 0;              // that receive or wait beside them
+    int max_jobs = 1;               // running at the same time
+    int max_queue = 0;              // further jobs receiving or waiting
     uint64_t max_bytes = 0;         // working memory of all jobs together
     uint64_t max_volume_bytes = 0;  // encoded, of one job
     VolumeLimits volume;
@@ -47,18 +47,18 @@ class JobPool : public JobRunner {
   absl::StatusOr<std::shared_ptr<Job>> Start(LabelsRequest request,
                                              std::shared_ptr<LabelsListener> listener) override;
 
-  // Weights and caps from now on, instead of those that the limits say.
+  // Replaces the weights and caps in the limits.
   void SetTenants(const TenantTable& tenants);
-  // New jobs are refused; those that were let in go on.
+  // Refuses new jobs; admitted ones continue.
   void StopAdmitting() { admission_.StopAdmitting(); }
-  // Returns when no job is left and every result is let go of, or when the time is over.
+  // Returns when no job and no result is left, or after `timeout`.
   void WaitUntilEmpty(std::chrono::milliseconds timeout) const {
     admission_.WaitUntilEmpty(timeout);
   }
 
   ComputeQueue::Usage compute_usage() const { return compute_.usage(); }
   Admission::Usage admission_usage() const { return admission_.usage(); }
-  // That have not ended or are not read yet.
+  // Jobs that have not ended or whose results still hold memory.
   int admitted_jobs() const { return admission_.jobs(); }
 
  private:
@@ -74,10 +74,10 @@ class JobPool : public JobRunner {
   const JobObserver observer_;
   Admission admission_;
   ComputeQueue compute_;
-  std::unique_ptr<ChildPool> children_;  // null where nothing is decoded in children
-  // Destroyed first: what they run may still post to compute_.
+  std::unique_ptr<ChildPool> children_;  // null if nothing is decoded in children
+  // Destroyed first: their tasks may still post to compute_.
   TaskThreads decoders_;
-  TaskThreads finishers_;  // which wait for children; each job has one task at a time
+  TaskThreads finishers_;  // may wait for children; each job has at most one task
 };
 
 }  // namespace bccskel::server

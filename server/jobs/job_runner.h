@@ -22,20 +22,20 @@
 
 namespace bccskel::server {
 
-// Between two reports of a job's progress to callers; the newest is always sent. Every reply costs
-// about 30 us on either side. The threads of gRPC that send it, and a caller on the same machine,
-// interrupt workers in lockstep for ten times as long: with a reply each millisecond two threads
+// Interval between two progress reports to callers; the newest is always sent. Each reply costs
+// about 30 us on either side. gRPC's threads that send it, and a caller on the same machine,
+// interrupt workers in lockstep for ten times as long: with one reply per millisecond two threads
 // were slower than one.
 inline constexpr std::chrono::milliseconds kProgressInterval{10};
 
-// Where the time of a job went.
+// Time that a job spent in each phase.
 struct JobTimes {
   std::chrono::nanoseconds queued{0};    // waiting for threads
   std::chrono::nanoseconds decoded{0};   // in the decoder
-  std::chrono::nanoseconds computed{0};  // from first to last of each turn
+  std::chrono::nanoseconds computed{0};  // from begin to end of each turn
 };
 
-// How a job ended, for who counts that.
+// How a job ended, for metrics.
 struct JobEnd {
   std::string tenant;
   absl::Status status;
@@ -43,29 +43,29 @@ struct JobEnd {
   uint64_t object_points = 0;
 };
 
-// Hears of all jobs of a runner, from any thread, of an end before the job's listener does.
+// Observes all jobs of a runner, on any thread. Learns of an end before the job's listener does.
 struct JobObserver {
   std::function<void(uint64_t volume_bytes)> on_admitted = [](uint64_t) {};
   std::function<void(const JobEnd& end)> on_end = [](const JobEnd&) {};
 };
 
-// What callers want of any volume that they promise to send.
+// The options common to all requests.
 struct JobWish {
   JobOrigin origin;
-  uint64_t size_bytes = 0;  // of the volume as sent
+  uint64_t size_bytes = 0;  // of the encoded volume
   SkeletonizeOptions options;
   int threads_wanted = 0;  // 0 leaves it to the server
   exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
 };
 
-// What a caller wants of a volume of one object.
+// A request for a volume of one object.
 struct JobRequest : JobWish {
   VolumeHeader header;  // as declared and completed; not yet compared with the bytes
-  std::optional<VolumeEncoding> thin_volume;  // how to encode the thinned volume, if it is wanted
+  std::optional<VolumeEncoding> thin_volume;  // encoding of the thinned volume, if requested
   ShellPointsWanted shell_points = ShellPointsWanted::kNone;
 };
 
-// Memory that a graph keeps.
+// Memory of a graph.
 inline uint64_t GraphBytes(const SkeletonGraph& graph) {
   return graph.nodes.size() * sizeof(SkeletonNode) + graph.edges.size() * sizeof(SkeletonEdge) +
          (graph.points.size() + graph.sheets.size()) * sizeof(SkeletonPoint);
@@ -73,18 +73,19 @@ inline uint64_t GraphBytes(const SkeletonGraph& graph) {
 
 struct JobResult {
   SkeletonizeResult skeleton;
-  std::string thin_volume;  // encoded; empty unless asked for
+  std::string thin_volume;  // encoded; empty unless requested
   JobTimes times;
   int threads = 1;
-  Ticket ticket;  // keeps the result's memory admitted for as long as the result lives
+  Ticket ticket;  // keeps the result's memory reserved while the result lives
 };
 
-// Hears what becomes of a job. Called on the job's threads, never from inside a call to the job;
-// the listener must not block.
+// Receives the news of a job. Called on the job's threads, never from inside a call to the job;
+// must not block.
 class UploadListener {
  public:
   virtual ~UploadListener() = default;
-  // The bytes of the last Append() are decoded: there is room for more. May come after OnEnd().
+  // The bytes of the last Append() are decoded: there is room for more. May be called after
+  // OnEnd().
   virtual void OnBytesConsumed() = 0;
 };
 
@@ -94,73 +95,72 @@ class JobListener : public UploadListener {
   virtual void OnVolume(const Volume&) {}
   // `elapsed` since the computation began.
   virtual void OnShell(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed) = 0;
-  // The points that went with a shell, where they are wanted. Yields the bytes that the listener
-  // keeps of them: the job has reserved memory for that, until the result is let go of.
+  // The points of a thinned shell, if requested. Yields the bytes that the listener keeps of them,
+  // for which the job has reserved memory until the result is released.
   virtual uint64_t OnShellPoints(int32_t, const Volume&) { return 0; }
   // Exactly once, whatever happens.
   virtual void OnEnd(absl::StatusOr<JobResult> result) = 0;
 };
 
-// What a caller wants of a volume of labels.
+// A request for a volume of labels.
 struct LabelsRequest : JobWish {
-  LabelVolumeHeader header;      // as declared, with the worst case for what was not
-  std::vector<uint64_t> labels;  // none means all
+  LabelVolumeHeader header;      // as declared, with the worst case for missing promises
+  std::vector<uint64_t> labels;  // empty means all
   uint64_t min_voxels = 0;
 };
 
 struct LabelResult {
   LabelSkeleton skeleton;  // without its thin volume
   int threads = 1;
-  std::shared_ptr<void> memory;  // let go of with the result; the job may wait for it
+  std::shared_ptr<void> memory;  // released with the result; the job may wait for that
 };
 
 struct LabelsResult {
   uint64_t labels = 0;   // computed
   uint64_t skipped = 0;  // too small
-  uint64_t absent = 0;   // wanted, but without a voxel
+  uint64_t absent = 0;   // requested, but without a voxel
   uint64_t voxels = 0;
   uint64_t object_points = 0;
   uint64_t skeleton_points = 0;
   int threads = 1;
   JobTimes times;
-  Ticket ticket;  // for results that are not let go of yet
+  Ticket ticket;  // for results that are not released yet
 };
 
 class LabelsListener : public UploadListener {
  public:
   // `elapsed` since the computation began.
   virtual void OnProgress(uint64_t done, uint64_t total, std::chrono::nanoseconds elapsed) = 0;
-  // By ascending label, each before OnEnd().
+  // Called in ascending order of labels, before OnEnd().
   virtual void OnLabel(LabelResult result) = 0;
   // Exactly once, whatever happens.
   virtual void OnEnd(absl::StatusOr<LabelsResult> result) = 0;
 };
 
-// A job that has been let in. No call blocks. A job whose handle is dropped goes on; Cancel() ends
-// it.
+// An admitted job. No call blocks. A job continues after its handle is dropped; Cancel() ends it.
 // Threads: safe.
 class Job {
  public:
   virtual ~Job() = default;
   virtual const std::string& name() const = 0;
-  // The volume's next bytes. Needs: OnBytesConsumed() has come for the bytes before.
+  // The volume's next bytes. Needs: OnBytesConsumed() was called for the bytes before.
   virtual void Append(std::string bytes) = 0;
-  // No more bytes come. `expected` is the digest that the sender found, if it found one.
+  // No more bytes follow. `expected` is the digest that the sender states, if any.
   // Needs: as Append(); called once, after the last Append().
   virtual void FinishVolume(std::optional<Sha256Digest> expected) = 0;
-  // Whatever the job is doing, it soon ends, with `why` unless it has failed already, and gives
-  // back its memory, threads and place. Changes nothing once the job has ended; when both happen at
-  // the same moment, one of them comes first and OnEnd() says which. The first of several counts.
-  // Needs: an error.
+  // Ends the job soon, whatever it is doing, with `why` unless it has failed already; it then
+  // releases its memory, threads and place. Does nothing once the job has ended; if both happen at
+  // the same moment, OnEnd() tells which came first. The first of several calls counts.
+  // Needs: `why` is an error.
   virtual void EndWith(absl::Status why) = 0;
   void Cancel() { EndWith(absl::CancelledError("the job was cancelled")); }
 };
 
-// Where handlers get their jobs done: a JobPool, or what a test puts in its place.
+// Runs jobs for the handlers of calls: a JobPool, or a fake in tests.
 class JobRunner {
  public:
   virtual ~JobRunner() = default;
-  // Decides at once from the declaration; nothing is decoded yet.
+  // Admits or refuses immediately, from the declaration; nothing is decoded yet.
   // Errors: a CallError (errors/call_error.h).
   virtual absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest request,
                                                      std::shared_ptr<JobListener> listener) = 0;

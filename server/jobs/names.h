@@ -10,17 +10,17 @@ namespace bccskel::server {
 
 // 32 hexadecimal digits.
 std::string RandomId();
-// `kind`/ and such digits: jobs/9f86d081.... Nobody can guess it, or tell from it how many others
-// there are.
+// `kind`/ and a RandomId(): jobs/9f86d081.... Names cannot be guessed and do not reveal how many
+// others exist.
 std::string RandomName(const std::string& kind);
 
-// Bytes and declaration make the volume, so the same give the same name.
+// Derived from the declaration and the bytes: equal volumes have equal names.
 std::string VolumeName(const std::string& declaration, const std::string& blob_digest);
 
-// Errors: INVALID_ARGUMENT unless it is uploads/ and 1 to 64 of a-z, A-Z, 0-9, '-', '_'.
+// Errors: INVALID_ARGUMENT unless the name is uploads/ and 1 to 64 of a-z, A-Z, 0-9, '-', '_'.
 absl::Status CheckUploadName(const std::string& name);
 
-// SHA-256 of several texts, none of which can be taken for part of another, in hexadecimal digits.
+// Hexadecimal SHA-256 of a list of texts; different lists give different keys.
 std::string KeyOf(std::initializer_list<std::string> parts);
 
 }  // namespace bccskel::server

@@ -11,10 +11,10 @@
 
 namespace bccskel::server {
 
-// Where jobs get their threads from.
+// The threads that jobs run on.
 struct PoolJobThreads {
   TaskThreads& decoders;
-  TaskThreads& finishers;  // for the last of decoding, which may wait for a child
+  TaskThreads& finishers;  // for the end of decoding, which may wait for a child
   ComputeQueue& compute;
 };
 struct PoolJobFacts {
@@ -24,8 +24,8 @@ struct PoolJobFacts {
   const JobObserver& observer;
 };
 
-// A job of a JobPool: receives its volume piece by piece, each decoded on a decoder thread, then
-// waits for its turn and is computed, in as many turns as its work wants.
+// A job of a JobPool: receives its volume in pieces, decodes each on a decoder thread, then waits
+// for its turn and computes, in as many turns as its work needs.
 // Needs: the threads and the observer outlive the job.
 std::shared_ptr<Job> MakePoolJob(PoolJobFacts facts, std::unique_ptr<JobWork> work, Ticket ticket,
                                  std::shared_ptr<UploadListener> listener,

@@ -12,16 +12,16 @@
 
 namespace bccskel::server {
 
-// A few threads that run short tasks in the order of a FairQueue. No tenant keeps all of them busy,
-// where there are several.
+// A few threads that run short tasks in the order of a FairQueue. If there are several threads, no
+// tenant occupies all of them.
 class TaskThreads {
  public:
   explicit TaskThreads(int threads, const TenantTable& tenants = {});  // Needs: threads >= 1.
-  ~TaskThreads();  // runs what was posted, then joins
+  ~TaskThreads();  // runs all posted tasks, then joins
   TaskThreads(const TaskThreads&) = delete;
   TaskThreads& operator=(const TaskThreads&) = delete;
 
-  void SetTenants(const TenantTable& tenants);  // from now on
+  void SetTenants(const TenantTable& tenants);  // applies to later tasks
 
   // `task` must not throw.
   void Post(const JobOrigin& origin, std::function<void()> task);

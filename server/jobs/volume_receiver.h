@@ -22,29 +22,29 @@
 
 namespace bccskel::server {
 
-// Takes in the bytes of a declared volume: digests them, holds the volume's own header against the
-// declaration, decodes.
+// Receives the bytes of a declared volume: computes their digest, compares the volume's own header
+// with the declaration, and decodes.
 // Threads: one at a time.
 class VolumeReceiver {
  public:
   using MakeDecoder = std::function<absl::StatusOr<std::unique_ptr<VolumeDecoder>>(
       const VolumeHeader& header, const VolumeLimits& limits)>;
 
-  // Needs: `declared` completed under `limits`.
+  // Needs: `declared` was completed under `limits`.
   VolumeReceiver(const VolumeHeader& declared, uint64_t size_bytes, const VolumeLimits& limits,
                  MakeDecoder make_decoder = &MakeVolumeDecoder);
 
-  // Needs: no more than `size_bytes` in all.
-  // Errors: INVALID_ARGUMENT for bytes that are malformed or not what was declared;
+  // Needs: at most `size_bytes` in all.
+  // Errors: INVALID_ARGUMENT for bytes that are malformed or differ from the declaration;
   //         RESOURCE_EXHAUSTED for a volume over the limits.
   absl::Status Append(std::string_view bytes);
 
-  // Errors: as Append(); INVALID_ARGUMENT for another digest than `expected`; CANCELLED,
+  // Errors: as Append(); INVALID_ARGUMENT for a digest other than `expected`; CANCELLED,
   //         DEADLINE_EXCEEDED.
   absl::StatusOr<Volume> Finish(const std::optional<Sha256Digest>& expected,
                                 const exec::Context& context);
 
-  // Of a cubic mask, what was counted on its own grid; known after Finish().
+  // The topology of a cubic mask, counted on its own grid; known after Finish().
   std::optional<BettiNumbers> mask_topology() const { return decoder_->mask_topology(); }
 
  private:
@@ -64,21 +64,22 @@ class VolumeReceiver {
 struct CollectedLabels {
   LabeledObjects objects;
   uint64_t skipped = 0;  // too small
-  uint64_t absent = 0;   // wanted, but without a voxel
+  uint64_t absent = 0;   // requested, but without a voxel
 };
 
-// Takes in the bytes of a declared volume of labels, a slice at a time; keeps the runs of the
-// labels that are wanted. Threads: one at a time.
+// Receives the bytes of a declared volume of labels, one slice at a time, and keeps the runs of the
+// requested labels.
+// Threads: one at a time.
 class LabelReceiver {
  public:
   // Needs: `request` outlives the receiver.
   explicit LabelReceiver(const LabelsRequest& request);
 
-  // Errors: INVALID_ARGUMENT for bytes that are malformed, too many or not what was declared;
-  //         CANCELLED, DEADLINE_EXCEEDED.
+  // Errors: INVALID_ARGUMENT for bytes that are malformed, too many or different from the
+  //         declaration; CANCELLED, DEADLINE_EXCEEDED.
   absl::Status Append(std::string_view bytes, const exec::Context& context);
-  // Called once. Errors: as Append(); INVALID_ARGUMENT when bytes are missing and for another
-  // digest than `expected`.
+  // Called once. Errors: as Append(); INVALID_ARGUMENT for missing bytes and for a digest other
+  // than `expected`.
   absl::StatusOr<CollectedLabels> Finish(const std::optional<Sha256Digest>& expected,
                                          const exec::Context& context);
 
@@ -91,9 +92,9 @@ class LabelReceiver {
   const LabelsRequest& request_;
   const LabelVolumeHeader& header_;
   Sha256 digest_;
-  std::optional<BodyReader> body_;  // what takes memory is made with the first bytes
+  std::optional<BodyReader> body_;  // allocated with the first bytes
   std::optional<LabelCollector> collector_;
-  std::vector<std::byte> slice_;  // the next one, as far as it is here
+  std::vector<std::byte> slice_;  // the part of the next slice that has arrived
   size_t filled_bytes_ = 0;
   std::vector<uint64_t> labels_;
   uint64_t received_bytes_ = 0;  // after decompression

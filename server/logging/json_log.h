@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-// Structured logs: one JSON object a line on standard error, with time, level, event and the
+// Structured logs: one JSON object per line on standard error, with time, level, event and the
 // event's own fields.
 
 namespace bccskel::server {
@@ -20,10 +20,10 @@ struct LogField {
   std::variant<int64_t, double, std::string> value;
 };
 
-// While it lives, lines are written, by a thread of its own: nobody who logs ever waits for a slow
-// reader of standard error. Of lines that come faster than they are read, the oldest are dropped;
-// an event "log lines dropped" says how many. There is one at a time; without it nothing is logged.
-// Its end writes what is left, for a second where nobody reads it.
+// Writes log lines while it lives, on its own thread, so that logging never waits for a slow reader
+// of standard error. If lines arrive faster than they are read, it drops the oldest; an event "log
+// lines dropped" reports how many. At most one exists at a time; without one nothing is logged. The
+// destructor writes the remaining lines, or gives up after a second if nobody reads them.
 class Logging {
  public:
   // `level` as on the command line: trace, debug, info, warning, error, off.
@@ -39,12 +39,12 @@ class Logging {
 
 void Log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
-// From here on what gRPC and protobuf themselves have to say, such as a handshake that failed or a
-// text that is not UTF-8, goes into the log as an event "grpc" or "protobuf". Left alone they write
-// to standard error, and a call waits until somebody reads that. Called once.
+// From now on messages of gRPC and protobuf, such as a failed handshake or a text that is not
+// UTF-8, go to the log as events "grpc" and "protobuf". Otherwise these libraries write to standard
+// error, and a call waits until somebody reads that. Called once.
 void LogWhatLibrariesSay();
 
-// Since the process began.
+// Number of lines dropped since the process began.
 uint64_t DroppedLogLines();
 
 // A JSON string with its quotes. Bytes that are not UTF-8 are replaced.

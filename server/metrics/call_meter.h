@@ -12,16 +12,16 @@
 
 namespace bccskel::server {
 
-// Sees the status of every call to every service of a listener, whatever its handler does.
+// Observes the status of every call to every service of a listener, whatever its handler does.
 // - Counts the calls.
-// - A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED, without
-//   a message. The meter changes that to INVALID_ARGUMENT, with details as every other error.
-// `services` of ours by their full names. `metrics` may be null: nothing is counted.
+// - A request that gRPC cannot parse never reaches its handler: gRPC answers UNIMPLEMENTED without
+//   a message. The meter changes that to INVALID_ARGUMENT, with details like every other error.
+// `services` holds the full names of our services. `metrics` may be null: nothing is counted.
 // Needs: `metrics` outlives the listener.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> MakeCallMeter(
     std::vector<std::string> services, ServerMetrics* metrics);
 
-// Counts begin at 0 for each method of the service.
+// Creates the counters of each method of the service, at 0.
 void ExpectCallsOf(const std::string& service, ServerMetrics& metrics);
 
 }  // namespace bccskel::server

@@ -16,7 +16,7 @@
 
 namespace bccskel::server {
 
-// This process as the system sees it; 0 for what the system does not tell.
+// Resource usage of this process; 0 for what the system does not report.
 struct ProcessFigures {
   std::chrono::duration<double> processor_time{0};  // user and system
   uint64_t resident_bytes = 0;
@@ -28,7 +28,7 @@ struct ProcessFigures {
 // Cost: about 100 us, more with thousands of open files.
 ProcessFigures ReadProcessFigures();
 
-// The server at this moment.
+// The current state of the server.
 struct ServerGauges {
   int admitted_jobs = 0;
   ComputeQueue::Usage computing;
@@ -37,10 +37,10 @@ struct ServerGauges {
   uint64_t max_admitted_bytes = 0;
   int draining = 0;  // 1 from the stop signal on
   uint64_t dropped_log_lines = 0;
-  // Of the certificate that is served, in seconds since 1970; 0 where it cannot be read; nothing
-  // without TLS.
+  // Expiry of the served certificate in seconds since 1970; 0 if it cannot be read; empty without
+  // TLS.
   std::optional<double> certificate_end;
-  std::optional<DurableUsage> stored;  // nothing without a data directory
+  std::optional<DurableUsage> stored;  // empty without a data directory
 };
 
 // A call that has ended.
@@ -51,7 +51,7 @@ struct EndedCall {
   std::chrono::duration<double> seconds{0};
 };
 
-// Sums since the start, of the same events.
+// Totals of the counted events since the start.
 struct ServerSums {
   std::atomic<uint64_t> calls = 0;
   std::atomic<uint64_t> failed_calls = 0;
@@ -60,18 +60,18 @@ struct ServerSums {
   std::atomic<uint64_t> object_points = 0;
 };
 
-// What the server counts. Labels take few values: methods of the interface, status codes, reasons,
-// configured tenants; never a job's name, a token or anything else that a caller makes up.
-// Threads: safe. Cost: about a microsecond an event.
+// The server's metrics. Labels take few values: methods of the interface, status codes, reasons,
+// configured tenants; never a job's name, a token or anything else that callers choose.
+// Threads: safe. Cost: about a microsecond per event.
 class ServerMetrics {
  public:
   using GaugeSource = std::function<ServerGauges()>;
 
-  // `gauges` is asked at every scrape; it must be safe to call from any thread.
+  // `gauges` is called at every scrape, from any thread.
   explicit ServerMetrics(GaugeSource gauges);
   ~ServerMetrics();
 
-  // From now on the page has the counters of what must not happen, at 0.
+  // Create the counters that alerts watch for a first event, at 0.
   void ExpectCalls(const std::string& method);
   void ExpectDurableJobs();
   void Count(const EndedCall& call);
@@ -82,10 +82,12 @@ class ServerMetrics {
   const ServerSums& sums() const { return sums_; }
   ServerGauges gauges() const { return gauges_(); }
 
-  // Shows them at `address`, HOST:PORT with port 0 for any free one, to Prometheus: HTTP, /metrics,
-  // without encryption. Errors: INVALID_ARGUMENT for an address that cannot be listened on.
+  // Serves the metrics to Prometheus at `address`, HOST:PORT with port 0 for any free one:
+  // unencrypted HTTP, /metrics.
+  // Errors: INVALID_ARGUMENT for an address that cannot be used.
   absl::Status Show(const std::string& address);
-  const std::string& shown_at() const { return shown_at_; }  // with the port; empty: nowhere
+  // With the assigned port; empty if not served.
+  const std::string& shown_at() const { return shown_at_; }
   void Hide();
 
  private:

@@ -11,14 +11,14 @@
 
 namespace bccskel::server {
 
-// One thing that can be set: --max-jobs N, BCCSKEL_MAX_JOBS=N, or max-jobs = N in a file.
+// One setting: --max-jobs N, BCCSKEL_MAX_JOBS=N, or max-jobs = N in a file.
 struct Setting {
   std::string name;
-  std::string value;  // what stands for it in the help: N, SIZE, ...
+  std::string value;  // its placeholder in the help: N, SIZE, ...
   std::string description;
-  // Takes the values that one source gives. Errors: INVALID_ARGUMENT; nothing is set then.
+  // Sets the values that one source gives. Errors: INVALID_ARGUMENT; nothing is set then.
   std::function<absl::Status(const std::vector<std::string>&)> set;
-  // As it stands in a file: 3 or "text" or ["a", "b"].
+  // The value as in a file: 3 or "text" or ["a", "b"].
   std::function<std::string()> show;
 };
 

@@ -11,14 +11,14 @@
 #include "absl/status/statusor.h"
 #include "server/settings/setting.h"
 
-// Where settings come from: the command line beats the environment, which beats the file.
+// The sources of settings: the command line overrides the environment, which overrides the file.
 
 namespace bccskel::server {
 
-// Values by the name of their setting; a name is absent where the source does not give it.
+// Values by the name of their setting; a name that the source does not give is absent.
 using GivenValues = std::map<std::string, std::vector<std::string>>;
 
-// What a program says where nothing is left to do, and its exit code.
+// The output and exit code of a program that ends here.
 struct ExitRequest {
   int code = 0;
   std::string out;  // for standard output
@@ -27,13 +27,13 @@ struct ExitRequest {
 
 struct CommandLine {
   GivenValues values;
-  std::map<std::string, std::string> actions;  // what else was asked for, with its argument
+  std::map<std::string, std::string> actions;  // by name, with their arguments
 };
 
-// A word of the command line that is no setting: --check-config, --new-token TENANT.
+// An option of the command line that is not a setting: --check-config, --new-token TENANT.
 struct Action {
   std::string name;
-  std::string argument;  // what stands for it in the help; empty: it takes none
+  std::string argument;  // its placeholder in the help; empty: no argument
   std::string description;
 };
 
@@ -50,14 +50,14 @@ std::variant<CommandLine, ExitRequest> ReadCommandLine(const Program& program,
                                                        const std::vector<Action>& actions, int argc,
                                                        const char* const* argv);
 
-// The variable of max-jobs is BCCSKEL_MAX_JOBS; several addresses are separated by commas. A
-// variable that is empty is not given.
+// The variable for max-jobs is BCCSKEL_MAX_JOBS; commas separate several addresses. An empty
+// variable counts as absent.
 std::string VariableOf(const std::string& setting);
 GivenValues ReadEnvironment(const std::vector<Setting>& settings,
                             const std::function<const char*(const char*)>& variable);
 
-// Lines like `max-jobs = 4` in TOML without sections.
-// Errors: NOT_FOUND where the file cannot be read; INVALID_ARGUMENT for what is no such line.
+// Reads lines such as `max-jobs = 4`: TOML without sections.
+// Errors: NOT_FOUND if the file cannot be read; INVALID_ARGUMENT for any other line.
 absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path);
 
 }  // namespace bccskel::server

@@ -12,23 +12,23 @@
 
 namespace bccskel::server {
 
-// The end of the names of files that nothing has been confirmed of: a crash may leave such.
+// Suffix of files of which nothing has been confirmed; a crash may leave some.
 inline constexpr char kUnconfirmed[] = ".new";
 
-// The files of all tenants, each in a folder of its own:
+// The files of all tenants, each tenant in its own folder:
 //
 //   tenants/<SHA-256 of the tenant's name>/uploads/<as its row says>.part, .chunks
 //                                          blobs/<SHA-256 of the bytes>
 //                                          results/<name>
 //
-// A file in blobs is whole: it gets its name when it is on the disk.
+// A file in blobs is complete: it gets its name once it is on disk.
 // Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.
-// Threads: safe, as long as each file is used by one at a time.
+// Threads: safe if each file is used by one thread at a time.
 class BlobStore {
  public:
   explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
 
-  // Where the upload's bytes are, as UploadFile takes it. `file`: of its row; empty for one named
+  // The path of the upload's bytes for UploadFile. `file` as in UploadRow; empty: the file named
   // after the upload.
   std::string PathOfUpload(const std::string& tenant, const std::string& upload,
                            const std::string& file = {}) const;
@@ -38,18 +38,19 @@ class BlobStore {
   std::string PathOfResult(const std::string& tenant, const std::string& name) const;
   absl::StatusOr<std::set<std::string>> Files() const;
 
-  // Gives the sealed bytes of the upload their lasting name, besides the one that they have.
+  // Links the sealed bytes of the upload to their permanent name, in addition to the present one.
   absl::Status PublishBlob(const UploadRow& upload, const std::string& digest) const;
-  // Whether it is there with this size. Cheap: the bytes are not looked at.
+  // Whether the blob exists with this size. Cheap: does not read the bytes.
   bool HasBlob(const std::string& tenant, const std::string& digest, uint64_t size_bytes) const;
 
-  // Its name ends in kUnconfirmed until ConfirmResult(), which comes when the tables have it.
+  // Creates a result whose name ends in kUnconfirmed until ConfirmResult(), which follows once the
+  // tables name it.
   absl::StatusOr<ResultWriter> NewResult(const std::string& tenant, const std::string& name) const;
-  // Confirms it, too: readers may learn of it from the tables before their writer comes to that.
+  // Also confirms the result: readers may find it in the tables before its writer has confirmed it.
   // Errors: DATA_LOSS for a file that is missing or has another digest.
   absl::StatusOr<ResultFile> OpenResult(const std::string& tenant, const std::string& name,
                                         const std::string& digest) const;
-  // OK also where it was done. Not flushed: the next start does it again.
+  // OK if already confirmed. Not flushed to disk: the next start repeats it.
   absl::Status ConfirmResult(const std::string& tenant, const std::string& name) const;
   absl::Status RemoveResult(const std::string& tenant, const std::string& name) const;
 

@@ -10,19 +10,19 @@
 
 namespace bccskel::server {
 
-// The right to a data folder: one process has it at a time, or several that share it, until they
-// end, however they end. Works on file systems where flock() does. Those who share need it only to
-// keep out who wants the folder alone: they do without it where there is no flock().
+// A lock on a data folder: held by one process, or by several that share it, until they end,
+// however they end. Works on file systems with flock(). Processes that share need the lock only to
+// keep out a sole owner: they do without it where there is no flock().
 class FolderLock {
  public:
   enum class With { kNobody, kOthers };
-  // Errors: ALREADY_EXISTS when another process has it, and does not share it as this one.
+  // Errors: ALREADY_EXISTS when another process has the folder, unless both share it.
   static absl::StatusOr<FolderLock> Take(const std::string& folder, With with = With::kNobody);
 
-  // The job store to which the folder's files belong; empty before it was told.
+  // The job store that the folder's files belong to; empty before SetStoreId().
   const std::string& store_id() const { return store_id_; }
   absl::Status SetStoreId(const std::string& id);
-  // The lock's file was last written then: a sign of life for the next server.
+  // Sets the modification time of the lock's file: a sign of life for the next server.
   void Touch(std::chrono::system_clock::time_point now);
 
  private:
@@ -32,17 +32,17 @@ class FolderLock {
   std::string store_id_;
 };
 
-// Space that is held back on a disk, so that what makes room there, or ends a job, can be written
-// when nothing else can.
+// Reserved disk space, so that operations that free space or end a job can be written when nothing
+// else can.
 // Threads: one at a time.
 class DiskReserve {
  public:
-  // Holds nothing yet, and gives free what a process before this one held.
+  // Holds nothing yet, and releases what an earlier process held.
   explicit DiskReserve(std::string path) : path_(std::move(path)) { Release(); }
 
-  // Takes the space; later, where there is too little now.
+  // Reserves the space, or retries later if there is too little now.
   void Hold();
-  // Gives it to whoever writes next.
+  // Releases the space for the next write.
   void Release();
   bool held() const { return held_; }
 

@@ -10,22 +10,22 @@
 
 namespace bccskel::server {
 
-// Counts the bytes that files have or will have, over all and per tenant. 0 means no limit.
+// Counts the actual or declared bytes of files, in total and per tenant. 0 means no limit.
 // Threads: safe.
 class DiskQuota {
  public:
   DiskQuota(uint64_t most, uint64_t most_of_tenant)
       : most_(most), most_of_tenant_(most_of_tenant) {}
 
-  // Errors: DISK_FULL with what is used and the limit; then nothing is taken.
+  // Errors: DISK_FULL with the usage and the limit; nothing is then taken.
   absl::Status Take(const std::string& tenant, uint64_t bytes);
-  // What is there already counts, whatever the limits are now.
+  // Counts existing bytes regardless of the limits.
   void Count(const std::string& tenant, uint64_t bytes);
   void GiveBack(const std::string& tenant, uint64_t bytes);
-  // What others have counted, instead of what was counted here.
+  // Replaces the counts, in a fleet with those of all servers.
   void Replace(std::map<std::string, uint64_t> used);
   uint64_t used() const;
-  uint64_t available() const;  // for all; the largest number where there is no limit
+  uint64_t available() const;  // for all tenants; the largest number without a limit
 
  private:
   void Add(const std::string& tenant, uint64_t bytes);  // Needs: mutex_ held.

@@ -14,9 +14,8 @@
 
 namespace bccskel::server {
 
-// The system's error `number` while doing `what`.
-// RESOURCE_EXHAUSTED when disk or quota are full; UNAVAILABLE when too many files are open;
-// NOT_FOUND; else INTERNAL.
+// Converts the system's error `number` while doing `what`: RESOURCE_EXHAUSTED when disk or quota
+// are full; UNAVAILABLE when too many files are open; NOT_FOUND; else INTERNAL.
 absl::Status SystemError(const std::string& what, int number);
 
 // An open file. Errors of all: see SystemError().
@@ -29,9 +28,9 @@ class File {
   File& operator=(File&& other) noexcept;
 
   static absl::StatusOr<File> OpenToRead(const std::string& path);
-  // Readable and writable by the owner only; made where it does not exist.
+  // Creates the file if missing, accessible by the owner only.
   static absl::StatusOr<File> OpenToWrite(const std::string& path);
-  // The same, of a file that is there.
+  // The same, for an existing file.
   static absl::StatusOr<File> OpenToGoOn(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -39,11 +38,11 @@ class File {
   bool is_open() const { return fd_ >= 0; }
 
   absl::StatusOr<uint64_t> Size() const;
-  // Fewer bytes at the end of the file only.
+  // Yields fewer bytes only at the end of the file.
   absl::StatusOr<std::string> ReadAt(uint64_t offset, size_t size) const;
   absl::Status WriteAt(uint64_t offset, std::string_view bytes);
   absl::Status Truncate(uint64_t size);
-  // Returns when everything is on the disk.
+  // Returns when all data is on disk.
   absl::Status Sync();
 
  private:
@@ -54,41 +53,41 @@ class File {
   int fd_ = -1;
 };
 
-// With what is above it; only the owner may enter.
+// Creates the folder and its parents, accessible by the owner only.
 absl::Status MakeFolder(const std::string& path);
 absl::Status MakeFolderOf(const std::string& file_path);
-// Entries of the folder are on the disk when it returns.
+// Returns when the folder's entries are on disk.
 absl::Status SyncFolder(const std::string& path);
 absl::Status SyncFolderOf(const std::string& file_path);
-// Replaces `to`. The name is on the disk when it returns. Needs: both in the same folder.
+// Replaces `to`. Returns when the name is on disk. Needs: both in the same folder.
 absl::Status RenameDurably(const std::string& from, const std::string& to);
-// OK also where there is none.
+// OK if there is no such file.
 absl::Status RemoveFile(const std::string& path);
-// Bytes that can still be written there; 0 where the system does not tell.
+// Free bytes of the file system; 0 if the system does not report them.
 uint64_t SpaceOf(const std::string& path);
 struct FileFacts {
-  std::pair<uint64_t, uint64_t> identity;  // which file it is, whatever its name
+  std::pair<uint64_t, uint64_t> identity;  // identifies the file regardless of its name
   uint64_t size_bytes = 0;
   std::chrono::system_clock::time_point written;  // last
 };
 absl::StatusOr<FileFacts> FactsOf(const std::string& path);
-// All files below, with their paths; none where there is no such folder.
+// The paths of all files below the folder; none if it does not exist.
 absl::StatusOr<std::vector<std::string>> FilesBelow(const std::string& path);
 
-// Reads a file whose digest is known from front to end.
+// Reads a file front to end and checks its digest.
 // Threads: one at a time.
 class CheckedFile {
  public:
   // Errors: DATA_LOSS when the file is missing.
   static absl::StatusOr<CheckedFile> Open(const std::string& path, const std::string& digest);
 
-  // The next bytes, at most 1 MiB; none at the end, when all bytes have the digest.
+  // The next bytes, at most 1 MiB; none at the end if the digest matches.
   // Errors: DATA_LOSS for another digest; INTERNAL.
   absl::StatusOr<std::string> Next();
 
-  // Reads on to the end. Errors: as Next().
+  // Reads to the end. Errors: as Next().
   absl::Status ReadRest();
-  // Rather than read on.
+  // Gives up the file instead of reading on.
   File TakeFile() && { return std::move(file_); }
 
  private:

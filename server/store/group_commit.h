@@ -19,41 +19,40 @@
 
 namespace bccskel::server {
 
-// The one thread that touches a job store. What waits while a transaction is written shares the
-// next one, so that the number of changes a second is not that of the disk's flushes.
+// The only thread that uses a job store. Changes that arrive while a transaction is written share
+// the next one, so that the rate of changes is not limited by that of disk flushes.
 // Threads: safe.
 class GroupCommit {
  public:
-  // Runs within the shared transaction. An error takes back what it did, and nothing else. Runs
-  // again, in a smaller transaction, where the shared one fails: what it told its end before is
-  // void.
+  // Runs within the shared transaction. An error rolls back this change only. If the transaction
+  // fails, the change runs again in a smaller one; it must then overwrite all results of the first
+  // run.
   using Change = std::function<absl::Status(JobStore& store)>;
-  // Runs after the transaction is on disk, with the change's error, or that of the transaction.
+  // Runs after the transaction is on disk, with the error of the change or of the transaction.
   using Done = std::function<void(absl::Status)>;
 
-  // What a change may write to when the disk is full.
+  // The space that a change may use when the disk is full.
   enum class Room { kFree, kReserve };
 
-  // The reserve, if any, is held from now on.
+  // Holds the reserve, if any, from now on.
   explicit GroupCommit(std::unique_ptr<JobStore> store,
                        std::unique_ptr<DiskReserve> reserve = nullptr);
-  ~GroupCommit();  // does what was posted, also by what it does, then joins
+  ~GroupCommit();  // runs what was posted, and what that posts, then joins
   GroupCommit(const GroupCommit&) = delete;
   GroupCommit& operator=(const GroupCommit&) = delete;
-  // Called from now on when a transaction has begun, before its changes: then the store is as all
-  // others have left it, and nobody changes it. Needs: nothing was posted yet.
+  // `task` runs at the beginning of each transaction, before its changes: the store is then as all
+  // other servers have left it, and none of them changes it. Needs: nothing was posted yet.
   void OnBegin(std::function<void()> task) { on_begin_ = std::move(task); }
 
-  // Changes and their ends come in the order of posting. Neither may throw or block for long.
-  // kReserve is for what makes room, or ends a job.
+  // Changes and their `done` run in the order of posting. Neither may throw or block for long.
+  // kReserve is for what frees space or ends a job.
   void Post(Change change, Done done, Room room = Room::kFree);
-  // Without a change.
+  // Runs `task` without a change.
   void Post(std::function<void()> task);
-  // Needs: called from within a change or its end.
+  // Needs: called within a change or its `done`.
   JobStore& store() { return *store_; }
 
-  // Why what is posted cannot be stored, or may have been read wrongly; OK else. A full disk is no
-  // illness.
+  // Not OK when changes cannot be stored or data may have been read wrongly. A full disk is OK.
   absl::Status Health() const;
 
   uint64_t commits() const { return commits_; }
@@ -73,7 +72,7 @@ class GroupCommit {
   absl::Status WriteWithReserve(std::span<Entry> batch);
   void NoteHealth(const absl::Status& written);
   absl::Status WriteAll(std::span<Entry> batch);
-  enum class Steps { kNone, kEach };  // that can be taken back alone
+  enum class Steps { kNone, kEach };  // that can be rolled back individually
   absl::Status WriteOnce(std::span<Entry> batch, Steps steps);
   absl::Status RunStep(Entry& entry);
   absl::Status RunWithoutStep(Entry& entry);

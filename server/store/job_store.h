@@ -17,79 +17,80 @@
 
 namespace bccskel::server {
 
-// Tables of uploads, volumes, jobs, their events and results. Changes are made within Begin() and
-// Commit(); what Commit() has confirmed survives the process and the machine. Nobody else changes
-// anything in between, be it another server of a fleet: so what a transaction has found holds until
-// its end.
+// Tables of uploads, volumes, jobs, their events and results. Changes are made between Begin() and
+// Commit(); what Commit() has confirmed survives a crash of the process and the machine. Nobody
+// else, not even another server of a fleet, changes anything in between, so what a transaction has
+// read holds until its end.
 // Errors of all: RESOURCE_EXHAUSTED when the disk is full; DATA_LOSS for a damaged file or row;
-// UNAVAILABLE when the database cannot be reached just now: then what Commit() was to confirm may
-// have happened, or not; INTERNAL. Looking for what is not there is no error.
-// Every row has a checksum. What yields a list of rows leaves damaged ones out and counts them, but
-// for ListJobs() and EventsAfter(), whose callers would take the rest for everything.
+// UNAVAILABLE when the database cannot be reached: the changes of a failed Commit() may then have
+// happened or not; INTERNAL. Finding nothing is not an error.
+// Every row has a checksum. Functions that list rows skip damaged ones and count them, except for
+// ListJobs() and EventsAfter(), whose callers would take the rest for everything.
 // Threads: one at a time.
 class JobStore {
  public:
   explicit JobStore(std::unique_ptr<SqlDatabase> database) : database_(std::move(database)) {}
 
-  // A store has one of its own from its first opening on.
+  // Identifies the store; chosen when it is first opened.
   absl::StatusOr<std::string> Id();
-  // DATA_LOSS when a row was found damaged since the store was opened, and when its file is gone or
-  // another one has its name: what is written then is lost. Threads: safe.
+  // DATA_LOSS when a damaged row was found since the store was opened, and when its file is gone or
+  // replaced: writes would then be lost. Threads: safe.
   absl::Status Health() const;
   int damaged_rows() const { return damaged_rows_; }  // found since it was opened. Threads: safe.
 
-  // Errors: a file that is gone, as Health() says; UNAVAILABLE when this server was fenced off.
+  // Errors: DATA_LOSS for a missing file, as in Health(); UNAVAILABLE when this server was fenced
+  //         off.
   absl::Status Begin();
-  // After an error nothing since Begin() has happened.
+  // An error means that nothing since Begin() has happened.
   absl::Status Commit();
   void Rollback();
-  // Steps within a transaction, each of which can be taken back alone.
+  // Steps within a transaction, which can be rolled back individually.
   absl::Status BeginStep();
-  // Grows with every statement that has changed something, or has failed: a step without one leaves
-  // nothing to take back.
+  // Increases with every statement that has changed something or failed: a step that leaves it
+  // unchanged needs no rollback.
   uint64_t traces() const { return traces_; }
   absl::Status KeepStep();
   absl::Status UndoStep();
 
   // ---- Rows of any kind
-  // Of uploads and events: others are inserted by what follows.
+  // For uploads and events; the functions below insert other rows.
   template <typename Row>
   absl::Status Insert(const Row& row) {
     return Put(row, "");
   }
-  // Of uploads, volumes and removals. Replaces a row of the same name.
+  // For uploads, volumes and removals. Replaces a row of the same name.
   template <typename Row>
   absl::Status Put(const Row& row);
-  // Of uploads, volumes and jobs, which have names.
+  // For uploads, volumes and jobs, which have names.
   template <typename Row>
   absl::StatusOr<std::optional<Row>> Find(const std::string& tenant, const std::string& name);
-  // The same. Errors besides: NOT_FOUND with the name, for callers.
+  // The same, but NOT_FOUND with the name if there is none.
   template <typename Row>
   absl::StatusOr<Row> Get(const std::string& tenant, const std::string& name);
-  // Of uploads and jobs; of a job with its events, also where it is damaged.
+  // For uploads and jobs. Deletes a job with its events, even if it is damaged.
   template <typename Row>
   absl::Status Delete(const std::string& tenant, const std::string& name);
-  // Of uploads, volumes, results and removals.
+  // For uploads, volumes, results and removals.
   template <typename Row>
   absl::StatusOr<std::vector<Row>> All();
 
-  // With the finished uploads that it came with.
+  // Also deletes the finished uploads that the volume came from.
   absl::Status DeleteVolume(const std::string& tenant, const std::string& name);
-  // By blob or volume digest.
+  // The volumes with this blob or volume digest.
   absl::StatusOr<std::vector<VolumeRow>> FindVolumesOf(const std::string& tenant,
                                                        const std::string& digest);
 
-  // Yields its number.
+  // Yields the job's number.
   absl::StatusOr<int64_t> InsertJob(JobRow row);
-  // False, and nothing happens, when the stored job has ended already or is gone, or has another
-  // sequence than `from`.
+  // Yields false and does nothing if the stored job has ended or is gone, or if its sequence is not
+  // `from`.
   absl::StatusOr<bool> UpdateJob(const JobRow& row, std::optional<uint64_t> from = std::nullopt);
-  // With its events.
+  // Also deletes its events.
   absl::Status DeleteJob(int64_t number);
   absl::StatusOr<std::optional<JobRow>> FindJobOfRequest(const std::string& tenant,
                                                          const std::string& request_id);
-  // Those that come after `after`, or all, in one of the states (a bit each, by number): newest
-  // first, and by name where they are of the same time.
+  // The jobs after `after`, or all, in any of `states` (one bit per state, by number): newest
+  // first, jobs of the same time by name.
   absl::StatusOr<std::vector<JobRow>> ListJobs(const std::string& tenant,
                                                const std::optional<JobPosition>& after,
                                                uint32_t states, int most);
@@ -101,48 +102,47 @@ class JobStore {
 
   absl::StatusOr<std::vector<EventRow>> EventsAfter(int64_t job, uint64_t sequence);
 
-  // Yields what is stored: the row with its number, or the result that already has this key.
-  // Takes the place and the number of a damaged one, so that it heals the jobs that have that.
+  // Yields the stored row: the new one with its number, or the existing one with this key. Takes
+  // the place and the number of a damaged one, which repairs the jobs that refer to it.
   absl::StatusOr<ResultRow> InsertResult(ResultRow row);
-  // Its file is damaged: it is not found by its key any more, but by its number.
+  // Marks the file of the result as damaged: it is found by its number only, no longer by its key.
   absl::Status DropResult(const ResultRow& row);
   absl::StatusOr<std::optional<ResultRow>> FindResult(int64_t number);
   absl::StatusOr<std::optional<ResultRow>> FindResultOf(const std::string& tenant,
                                                         const std::string& key);
-  // Deletes the result when no job has it any more, and then yields it.
+  // Deletes and yields the result if no job refers to it any more.
   absl::StatusOr<std::optional<ResultRow>> TakeResultIfUnused(int64_t number);
 
   absl::Status DeleteRemoval(const RemovalRow& row);
 
-  // Bytes of all files that the tables name, by tenant; of unfinished uploads as declared.
+  // Bytes of all files that the tables name, by tenant; unfinished uploads count as declared.
   absl::StatusOr<std::map<std::string, uint64_t>> DiskUse();
 
   // Whether other servers may use the same tables.
   bool shared() const { return database_->shared(); }
   // ---- The fleet. Needs of these: shared().
 
-  // From now on transactions are this server's, and fail once it was fenced off. Needs: a name that
-  // no server ever had, of hexadecimal digits.
+  // Registers the server: its transactions fail once it is fenced off. Needs: a unique name, never
+  // used before, of hexadecimal digits.
   absl::Status Join(const std::string& server);
   absl::Status Leave();
-  // Whether a transaction has failed since, because this server was fenced off: it has to join
-  // anew.
+  // Whether a transaction has failed because this server was fenced off: it must then join again.
   bool fenced() const { return fenced_; }
-  // One more sign of life of this server.
+  // Records a heartbeat of this server.
   absl::Status Beat();
   absl::StatusOr<std::vector<Member>> Members();
-  // Needs: a transaction. Takes the member away, unless it has given a sign of life since. Yields
-  // whether it was there: then it writes nothing any more.
+  // Removes the member unless it has had a heartbeat since. Yields whether it was removed: it can
+  // then write nothing any more. Needs: a transaction.
   absl::StatusOr<bool> Fence(const Member& member);
-  // What has become of jobs since a change; from -1 on the unfinished ones as they are.
+  // The jobs that have changed since change `number`; with -1, all unfinished ones.
   absl::StatusOr<JobChanges> ChangesAfter(int64_t number);
-  // A job with the same options, of the same volume, that another server runs.
+  // Whether another server runs a job with the same options and volume.
   absl::StatusOr<bool> RunsElsewhere(const JobRow& job, const std::string& volume_digest,
                                      const std::string& server);
   // The newest progress of a running job, for the other servers.
   absl::Status PutProgress(int64_t job, const ProgressRow& progress);
   absl::StatusOr<std::optional<ProgressRow>> FindProgress(int64_t job);
-  // What was deleted is then nowhere in the store's files any more.
+  // Erases deleted data from the store's files.
   absl::Status Forget();
 
  private:
@@ -154,11 +154,12 @@ class JobStore {
   absl::StatusOr<std::vector<SqlRow>> Query(const std::string& sql, const Values&... values);
   template <typename... Values>
   absl::Status Run(const std::string& sql, const Values&... values);
-  // Where there is a row with the same `key`, its other columns are replaced, but for its number.
+  // Inserts the row. If one with the same `key` exists, replaces its other columns except its
+  // number.
   template <typename Row>
   absl::Status Put(const Row& row, const std::string& key);
-  // `where` follows the table's name. For who looks after everything, and must not stop at a row
-  // that is damaged, those are left out.
+  // `where` follows the table's name. kLeftOut is for callers that process all rows and must not
+  // stop at a damaged one.
   template <typename Row, typename... Values>
   absl::StatusOr<std::vector<Row>> Select(Damaged damaged, const std::string& where,
                                           const Values&... values);
@@ -167,23 +168,23 @@ class JobStore {
                                          const Values&... values);
 
   const std::unique_ptr<SqlDatabase> database_;
-  std::string server_;  // empty before it has joined
+  std::string server_;  // empty before Join()
   bool fenced_ = false;
   uint64_t traces_ = 0;
   std::atomic<int> damaged_rows_ = 0;
 };
 
-// A job store in a file of SQLite, which is made where it does not exist.
+// A job store in an SQLite file, created if missing.
 // Errors: FAILED_PRECONDITION for a file of a newer version; DATA_LOSS for a damaged one.
 absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path);
 
-// A job store in a PostgreSQL database, named by a URL or libpq's words. Its tables are made where
-// they do not exist, by one server of those that come at the same time.
-// Errors: INVALID_ARGUMENT for a name that libpq does not understand, or that has a password in it;
+// A job store in a PostgreSQL database, given as a URL or a connection string of libpq. Missing
+// tables are created by one of the servers that start at the same time.
+// Errors: INVALID_ARGUMENT for a name that libpq cannot parse or that contains a password;
 //         FAILED_PRECONDITION for tables of a newer version; UNAVAILABLE; UNIMPLEMENTED in a
-//         program that was built without libpq.
+//         program built without libpq.
 absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& database);
-// Errors: INVALID_ARGUMENT for a URL that cannot be read or holds a password.
+// Errors: INVALID_ARGUMENT for a URL that cannot be parsed or contains a password.
 absl::Status CheckPostgresName(const std::string& database);
 
 }  // namespace bccskel::server

@@ -14,8 +14,9 @@
 namespace bccskel::server {
 
 // A file of records that can be read from any record on:
-//   8 bytes of mark; records (kind: 1 byte, length: 4, bytes); positions of the records: 8 each;
+//   8 bytes of magic; records (kind: 1 byte, length: 4, bytes); positions of the records: 8 each;
 //   position of those: 8; number of records: 8. Numbers are little-endian.
+// Threads: one at a time.
 
 // Threads: one at a time.
 class ResultWriter {
@@ -24,8 +25,8 @@ class ResultWriter {
   static absl::StatusOr<ResultWriter> Create(const std::string& path);
 
   absl::Status Add(uint8_t kind, std::string_view bytes);
-  // Everything, the file's name included, is on the disk. Yields the digest of the file. Nothing is
-  // added after it.
+  // Brings everything, including the file's name, to disk. Yields the digest of the file. Nothing
+  // may be added afterwards.
   absl::StatusOr<Sha256Digest> Finish();
 
   uint64_t bytes() const { return bytes_; }
@@ -44,7 +45,8 @@ class ResultWriter {
 // Threads: one at a time.
 class ResultFile {
  public:
-  // Reads all of it once. Errors: DATA_LOSS for a file that is missing or has another digest.
+  // Reads the file once to check it. Errors: DATA_LOSS for a file that is missing or has another
+  // digest.
   static absl::StatusOr<ResultFile> Open(const std::string& path, const std::string& digest);
 
   uint64_t records() const { return positions_.size(); }

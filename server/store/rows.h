@@ -11,17 +11,17 @@
 
 namespace bccskel::server {
 
-// What the job store keeps. Names are unique within their tenant; digests are 64 lower case
-// hexadecimal digits. Times have microseconds.
+// The rows of the job store. Names are unique within their tenant; digests are 64 lowercase
+// hexadecimal digits. Times have a resolution of microseconds.
 
 using Time = std::chrono::system_clock::time_point;
 
-// The numbers are stored: they never change.
+// The numbers are stored and must never change.
 enum class JobState {
   kReceiving = 0,  // its volume is still being uploaded
   kQueued = 1,
   kRunning = 2,
-  kSucceeded = 3,  // this and what follows never changes
+  kSucceeded = 3,  // final, as are the states below
   kFailed = 4,
   kCancelled = 5,
 };
@@ -32,10 +32,10 @@ struct UploadRow {
   std::string name;  // uploads/...
   std::string declaration;
   uint64_t size_bytes = 0;  // as declared
-  std::string job;          // that waits for it; empty without one
-  std::string volume;       // what it has become; empty before
+  std::string job;          // that waits for the upload; empty if none
+  std::string volume;       // made from the upload; empty before
   Time used;                // last
-  std::string file;         // where its bytes are; empty: a file named after the upload
+  std::string file;         // with its bytes; empty: the file named after the upload
 };
 
 struct VolumeRow {
@@ -43,7 +43,7 @@ struct VolumeRow {
   std::string name;  // volumes/...
   std::string declaration;
   std::string blob_digest;    // SHA-256 of the bytes as sent
-  std::string volume_digest;  // core/io/volume_digest.h; empty until a first job has decoded it
+  std::string volume_digest;  // core/io/volume_digest.h; empty until a job has decoded it
   uint64_t size_bytes = 0;
   Time created;
   Time used;  // last
@@ -52,8 +52,8 @@ struct VolumeRow {
 struct ResultRow {
   int64_t number = 0;  // given by the store
   std::string tenant;
-  std::string key;          // what it is the result of; unique within the tenant
-  std::string file;         // its name; empty once it was found damaged
+  std::string key;          // identifies the computation; unique within the tenant
+  std::string file;         // its name; empty once found damaged
   std::string file_digest;  // SHA-256 of the file's bytes
   uint64_t bytes = 0;
   uint64_t records = 0;
@@ -65,28 +65,28 @@ struct JobRow {
   std::string tenant;
   std::string name;        // jobs/...
   std::string request_id;  // empty: none
-  std::string body;        // what was asked for, to tell a repeat from a reuse
-  std::string upload;      // that it came with; empty for a job made from a volume
+  std::string body;        // the request, to tell a repeat from a reuse
+  std::string upload;      // that brought the volume; empty for a job of a stored volume
   std::string options;
   int priority = 0;
   int threads = 0;    // wanted; 0 leaves it to the server
-  std::string trace;  // the traceparent of the call that made it, for the log; may be empty
+  std::string trace;  // traceparent of the creating call, for the log; may be empty
   Time created;
 
-  // From here on what changes.
-  std::string volume;  // empty while it is received
+  // The fields below change.
+  std::string volume;  // empty during the upload
   JobState state = JobState::kQueued;
   int attempts = 0;       // begun
-  int crashes = 0;        // of the server while it ran
-  uint64_t sequence = 0;  // of the last event that was stored
-  std::string owner;      // the process that runs it; empty when none does
+  int crashes = 0;        // of the server while the job ran
+  uint64_t sequence = 0;  // of the last stored event
+  std::string owner;      // the process that runs the job; empty if none
   absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
   int64_t result = 0;     // a ResultRow's number
   std::optional<Time> started;  // the last attempt
   std::optional<Time> ended;
 };
 
-// A job's place among its tenant's, which tells nothing of others and outlasts the job.
+// A job's position among its tenant's jobs. It reveals nothing about others and outlasts the job.
 struct JobPosition {
   Time created;
   std::string name;
@@ -101,17 +101,17 @@ struct EventRow {
   absl::Status error;
 };
 
-// A file that nobody wants any more: it goes, and then the row. So a crash between the two leaves
-// nothing behind, and no file has to go because nobody knows it.
+// A file to be deleted: first the file goes, then this row. So a crash in between leaves nothing
+// behind, and no file is deleted merely because no row names it.
 struct RemovalRow {
-  // The numbers are stored.
+  // The numbers are stored and must never change.
   enum class Kind { kUpload = 0, kBlob = 1, kResult = 2, kUploadFile = 3 };
   Kind kind = Kind::kUpload;
   std::string tenant;
-  std::string name;  // of the upload; the blob's digest; of the result's or the upload's file
+  std::string name;  // of the upload; the blob's digest; of the result's or upload's file
 };
 
-// What a running job has told last, if nothing was lost. Bytes of the one who runs it.
+// The last progress of a running job, which may be lost. Only its server interprets the bytes.
 struct ProgressRow {
   uint64_t sequence = 0;
   std::string bytes;
@@ -120,14 +120,14 @@ struct ProgressRow {
 // A server of the fleet.
 struct Member {
   std::string server;
-  int64_t beats = 0;  // signs of life
+  int64_t beats = 0;  // heartbeats
 };
 
-// Jobs that are new or other than before, each as it is now.
+// New and changed jobs in their current state.
 struct JobChanges {
   std::vector<JobRow> jobs;
   std::vector<int64_t> deleted;  // their numbers
-  int64_t last = 0;              // go on from here
+  int64_t last = 0;              // where to continue
 };
 
 }  // namespace bccskel::server

@@ -12,7 +12,7 @@
 
 namespace bccskel::server {
 
-// A parameter of a statement, or a column of what it yields.
+// A parameter of a statement, or a column of its result.
 struct SqlValue {
   enum class Kind { kNumber, kText, kBlob };
 
@@ -38,59 +38,59 @@ class SqlRow {
   size_t next_ = 0;
 };
 
-// A connection to a database. Statements are written so that SQLite and PostgreSQL understand them:
-// $1, $2, ... are the parameters, first named in this order; all text is compared as bytes.
-// Errors of all: RESOURCE_EXHAUSTED (full disk); DATA_LOSS (damaged); UNAVAILABLE (locked or not
-//         reachable just now); INTERNAL.
-// Threads: one at a time, but for Health().
+// A connection to a database. Statements are written for both SQLite and PostgreSQL: $1, $2, ...
+// are the parameters, first used in this order; text is compared as bytes.
+// Errors of all: RESOURCE_EXHAUSTED (full disk); DATA_LOSS (damaged); UNAVAILABLE (locked or
+// unreachable); INTERNAL.
+// Threads: one at a time, except for Health().
 class SqlDatabase {
  public:
   virtual ~SqlDatabase() = default;
 
-  // Any number of statements without parameters and rows.
+  // Any number of statements without parameters or result rows.
   virtual absl::Status Execute(const std::string& sql) = 0;
-  // One statement, which is prepared once: there must not be many.
+  // One statement. Each distinct one is prepared once and kept, so there must not be many.
   virtual absl::StatusOr<std::vector<SqlRow>> Run(const std::string& sql,
                                                   const std::vector<SqlValue>& values) = 0;
 
-  // Nobody else writes until the end of the transaction. Errors: ABORTED when `server`, unless it
-  // is empty, is no (longer) a member of the fleet.
+  // Nobody else writes until the end of the transaction. Errors: ABORTED when `server`, if not
+  // empty, is not a member of the fleet.
   virtual absl::Status Begin(const std::string& server) = 0;
   virtual bool InTransaction() const = 0;
-  // An expression for the number of the next row of a table that numbers its rows.
+  // An SQL expression for the number of the table's next row.
   virtual std::string NextNumber(const std::string& table) const = 0;
 
   virtual absl::Status Health() const = 0;
-  // What was deleted is then nowhere in the files any more, as far as that is ours to say.
+  // Erases deleted data from the files, as far as this program controls them.
   virtual absl::Status Forget() = 0;
-  // Whether other servers may use it, too.
+  // Whether other servers may use the database.
   virtual bool shared() const = 0;
 };
 
-// A file of SQLite in WAL mode with full synchronization, which is made where it does not exist.
-// Health() is DATA_LOSS, and no transaction begins, when the file is no longer at its path. SQL has
-// a function checksum(...) more: CRC-32C of its arguments, their types included.
+// An SQLite file in WAL mode with full synchronization, created if missing. Health() is DATA_LOSS,
+// and no transaction begins, when the file is no longer at its path. SQL has an additional function
+// checksum(...): CRC-32C of its arguments and their types.
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path);
 
-// A PostgreSQL database that the servers of a fleet share, by a URL or libpq's words. One of them
-// writes at a time: a transaction begins when it has an advisory lock, which PostgreSQL takes from
-// who does nothing in it for four seconds. A connection that is lost is made anew by the next
-// transaction; Health() is UNAVAILABLE after an attempt has failed.
+// A PostgreSQL database that the servers of a fleet share, given as a URL or a connection string of
+// libpq. One server writes at a time: a transaction begins by taking an advisory lock; PostgreSQL
+// ends a transaction that is idle for four seconds. The next transaction restores a lost
+// connection; Health() is UNAVAILABLE after a failed attempt.
 // Errors: INVALID_ARGUMENT; UNAVAILABLE.
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name);
 
-// The version of the tables that this program writes. A file of SQLite states its own as
-// user_version, 0 when it is new.
+// The version of the tables that this program writes. An SQLite file states its version as
+// user_version; 0 if new.
 int SqliteSchemaVersion();
 
-// Bring the tables to the version that this program writes: a file one version after the other,
-// each in a transaction; a shared database in one, while no other server writes. Errors:
-// FAILED_PRECONDITION for a newer version; DATA_LOSS for a damaged file.
+// Upgrade the tables to the version that this program writes: an SQLite file version by version,
+// each in a transaction; a shared database in one transaction, while no other server writes.
+// Errors: FAILED_PRECONDITION for a newer version; DATA_LOSS for a damaged file.
 absl::Status MigrateSqlite(SqlDatabase& database);
 absl::Status MigratePostgres(SqlDatabase& database);
 
-// Errors: FAILED_PRECONDITION for tables of a version that this program, which knows those up to
-//         `known`, does not.
+// Errors: FAILED_PRECONDITION for tables of a version above `known`, the last that this program
+//         knows.
 absl::Status CheckSchemaVersion(int version, int known);
 
 }  // namespace bccskel::server

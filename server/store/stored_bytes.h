@@ -12,14 +12,14 @@
 
 namespace bccskel::server {
 
-// Numbers as files have them: little-endian.
+// Little-endian numbers, as in files.
 template <typename Unsigned>
 void AppendNumber(Unsigned value, std::string& bytes) {
   for (size_t n = 0; n < sizeof(Unsigned); ++n) {
     bytes.push_back(static_cast<char>(static_cast<uint8_t>(value >> (8 * n))));
   }
 }
-// Needs: the bytes are there.
+// Needs: offset + sizeof(Unsigned) <= bytes.size().
 template <typename Unsigned>
 Unsigned NumberAt(std::string_view bytes, size_t offset) {
   uint64_t value = 0;
@@ -31,10 +31,11 @@ Unsigned NumberAt(std::string_view bytes, size_t offset) {
 
 // A status with its payloads as bytes, and back. OK is the empty string.
 std::string BytesOf(const absl::Status& status);
-// Bytes that BytesOf() never gives yield DATA_LOSS.
+// DATA_LOSS for bytes that BytesOf() never yields.
 absl::Status StatusOfBytes(const std::string& bytes);
 
-// What rows are checksummed as. The numbers of the kinds are stored, in a way: they never change.
+// Appends the bytes of the value that enter its row's checksum. The numbers of the kinds are part
+// of it: they must never change.
 void AppendChecked(const SqlValue& value, std::string& bytes);
 // CRC-32C of the table's name and the row's columns.
 int64_t ChecksumOf(const char* table, const std::vector<SqlValue>& values);

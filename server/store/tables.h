@@ -18,7 +18,7 @@
 
 namespace bccskel::server {
 
-// Rows as tables have them, each column named once. Part of job_store.cc.
+// Maps rows to table columns, each named once. Part of job_store.cc.
 
 using Kind = SqlValue::Kind;
 
@@ -112,13 +112,13 @@ concept IsNumber = std::is_integral_v<Number> || std::is_enum_v<Number>;
 inline int64_t Micros(Time time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
-// Also of a number that damage has made.
+// Any number is valid input, since damage may have made it.
 inline Time TimeOf(int64_t micros) {
   constexpr uint64_t kPerMicro = std::chrono::nanoseconds(std::chrono::microseconds(1)).count();
   return Time(Time::duration(static_cast<int64_t>(static_cast<uint64_t>(micros) * kPerMicro)));
 }
 
-// What a field is stored as.
+// Convert a field to its stored value.
 template <IsNumber Number>
 SqlValue ToValue(Number number) {
   return SqlValue::Number(static_cast<int64_t>(number));
@@ -131,7 +131,7 @@ inline SqlValue ToValue(const std::optional<Time>& time) {
 inline SqlValue ToValue(const absl::Status& status) { return SqlValue::Blob(BytesOf(status)); }
 inline SqlValue ToValue(SqlValue value) { return value; }
 
-// The opposite.
+// The inverse.
 template <IsNumber Number>
 void Read(SqlRow& from, Number& number) {
   number = static_cast<Number>(from.Number());
@@ -172,7 +172,7 @@ inline std::string Parameters(size_t count) {
   return list;
 }
 
-// The end of an insertion that replaces the row with the same `key`, but not its number.
+// The end of an INSERT that replaces a row with the same `key` but keeps its number.
 inline std::string Replacing(const std::string& key, const std::vector<std::string>& columns) {
   const std::set<std::string> kept = absl::StrSplit(key + ", number", ", ");
   std::string clause = absl::StrCat(" ON CONFLICT(", key, ") DO UPDATE SET ");
@@ -184,13 +184,13 @@ inline std::string Replacing(const std::string& key, const std::vector<std::stri
   return clause;
 }
 
-// What the row should have in its column row_check.
+// The expected value of the row's column row_check.
 template <typename Row>
 int64_t CheckOf(const Row& row) {
   return ChecksumOf(TableOf(row), ValuesOf(row));
 }
 
-// The same of what was read: the bytes as they are, the kinds as they should be.
+// The same for a row as read: its bytes with the expected kinds.
 template <typename Row>
 int64_t CheckOf(const SqlRow& from, const Row& row) {
   std::vector<SqlValue> values = ValuesOf(Row());

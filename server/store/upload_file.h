@@ -15,29 +15,29 @@
 
 namespace bccskel::server {
 
-// The bytes of an unfinished upload, PATH.part, and beside them length and CRC-32C of every chunk,
-// PATH.chunks. What was appended survives the process; after a crash of the machine the chunks that
-// reached the disk whole are what is left.
-// The files are open only while they are used: unfinished uploads may be many and lie about for a
-// day. Who removes them meanwhile ends the upload.
+// The bytes of an unfinished upload, PATH.part, and the length and CRC-32C of every chunk,
+// PATH.chunks. Appended chunks survive the process; after a crash of the machine, those that
+// reached the disk whole remain.
+// The files are open only while in use, because there may be many unfinished uploads, each for a
+// day. Removing the files ends the upload.
 // Errors of all: those of SystemError().
 // Threads: one at a time.
 class UploadFile {
  public:
-  // Makes the files, and their folder, or goes on with those that are there: reads them and cuts
-  // off what is damaged.
+  // Creates the files and their folder, or opens existing ones: reads them and truncates what is
+  // damaged.
   static absl::StatusOr<std::unique_ptr<UploadFile>> Open(const std::string& path);
 
-  // A new upload with all that is whole in another one, be it that somebody writes that still.
+  // A new upload with the intact chunks of another one, which may still be written.
   static absl::StatusOr<std::unique_ptr<UploadFile>> Copy(const std::string& from,
                                                           const std::string& to);
-  // Of the chunks, as far as their entries are whole; 0 where there is none.
+  // Total size of the chunks with intact entries; 0 if there is no upload.
   static uint64_t SizeOf(const std::string& path);
 
   uint64_t size() const { return size_; }
-  // After an error the upload is as it was before.
+  // An error leaves the upload unchanged.
   absl::Status Append(std::string_view bytes);
-  // Brings all to the disk. Yields the digest of all bytes. Nothing is appended after it.
+  // Brings everything to disk. Yields the digest of all bytes. Nothing may be appended afterwards.
   absl::StatusOr<Sha256Digest> Seal();
 
   static absl::Status Remove(const std::string& path);
@@ -52,7 +52,7 @@ class UploadFile {
   explicit UploadFile(std::string path) : path_(std::move(path)) {}
   absl::StatusOr<Files> OpenFiles() const;
   absl::Status Recover(Files files);
-  // The next chunk's bytes; nothing for one that is not whole.
+  // The next chunk's bytes; nullopt if it is damaged.
   absl::StatusOr<std::optional<std::string>> NextChunk(const Files& files) const;
   void Count(std::string_view chunk);
 
