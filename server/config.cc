@@ -122,7 +122,7 @@ const std::vector<Action>& Actions() {
   return actions;
 }
 
-// Settles every setting, and keeps where it came from and what is wrong.
+// Determines every setting and records its origin and errors.
 struct Settling {
   std::vector<std::string> problems;
   std::map<std::string, std::string> origins;  // by setting
@@ -136,7 +136,7 @@ struct Settling {
   }
 };
 
-// The first source that gives a setting has it.
+// The first source that gives a setting wins.
 void Settle(const std::vector<Setting>& settings, const GivenValues& flags,
             const GivenValues& variables, const GivenValues& file, Settling& settling) {
   for (const Setting& setting : settings) {
@@ -162,7 +162,7 @@ void RefuseUnknown(const std::vector<Setting>& settings, const GivenValues& file
 
 bool IsOpen(const std::string& address) { return !IsOfThisMachine(address); }
 
-// What only shows when settings are seen together, and in the files that they name.
+// Checks that involve several settings, or the files that they name.
 absl::Status CheckTokens(const ServerConfig& config) {
   if (config.tokens.empty()) return absl::OkStatus();
   absl::Status file = TokenTable::ReadFile(config.tokens).status();

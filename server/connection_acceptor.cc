@@ -27,8 +27,8 @@ namespace {
 
 constexpr int kOwnerOnly = 0600;
 
-// The locked file is still the one that the path names: whoever had the lock before may have
-// removed it between our open and our lock.
+// Whether the path still names the locked file: the previous holder may have removed it between our
+// open and our lock.
 bool IsNamedBy(int file, const std::string& path) {
   struct stat opened = {}, named = {};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
@@ -41,12 +41,12 @@ absl::Status CannotListen(const std::string& address, const std::string& why) {
   return absl::InvalidArgumentError(absl::StrCat("cannot listen on ", address, ": ", why));
 }
 
-// Needs: errno tells why, where it fails.
+// Errors: INVALID_ARGUMENT with the system's reason.
 absl::StatusOr<Descriptor> ListenTo(const sockaddr* name, socklen_t size,
                                     const std::string& address) {
   constexpr int kOn = 1;
   Descriptor listener(socket(name->sa_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  // Connections of the server before, which linger for a minute, do not keep the port.
+  // Lets a restarted server bind while connections of the previous one linger for a minute.
   if (name->sa_family != AF_UNIX) {
     setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &kOn, sizeof(kOn));
   }
@@ -57,7 +57,7 @@ absl::StatusOr<Descriptor> ListenTo(const sockaddr* name, socklen_t size,
   return listener;
 }
 
-// A crash leaves its socket. Anything else of this name is not ours to remove.
+// Removes the socket that a crash has left. Any other file of this name is not ours to remove.
 absl::Status RemoveSocket(const std::string& path) {
   struct stat there = {};
   if (lstat(path.c_str(), &there) != 0) return absl::OkStatus();
@@ -119,7 +119,7 @@ absl::StatusOr<SocketLock> SocketLock::Take(const std::string& socket_path) {
 }
 
 SocketLock::~SocketLock() {
-  // Before the lock goes: afterwards the file may be another server's.
+  // Before releasing the lock: afterwards the file may belong to another server.
   if (file_.valid()) unlink(path_.c_str());
 }
 
@@ -136,7 +136,7 @@ absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> ConnectionAcceptor::Listen(
 
 ConnectionAcceptor::~ConnectionAcceptor() { Stop(); }
 
-// A host may have addresses of a kind that this machine has not; one that works is enough.
+// A host may have addresses of a kind that this machine lacks; one that works is enough.
 absl::Status ConnectionAcceptor::ListenToHost(const std::string& address) {
   BCCSKEL_ASSIGN_OR_RETURN(const Addresses found, Resolve(address));
   absl::Status failure = CannotListen(address, "it has no address");
@@ -198,7 +198,7 @@ void ConnectionAcceptor::Serve() {
           {{"address", address_}, {"message", std::string(now.message())}});
     }
     seen = now;
-    // While there is no room, only the stop is waited for.
+    // While no file descriptor is free, wait only for the stop.
     const bool full = !now.ok();
     poll(events.data(), full ? 1 : events.size(), full ? kPauseMs : -1);
     if ((events[0].revents & POLLIN) != 0) return;

@@ -20,15 +20,15 @@ namespace {
 using grpc::experimental::ExternalConnectionAcceptor;
 using ExternalConnectionType = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
 
-// Clients may ping every 10 s, also between calls; more often than that is abuse.
+// Clients may ping every 10 s, also between calls; more often is abuse.
 constexpr int kMinPingIntervalMs = 10'000;
-// A client that vanished without a word is found out by these.
+// These detect clients that have vanished.
 constexpr int kPingIntervalMs = 60'000, kPingTimeoutMs = 20'000;
-// For a connection to begin to speak HTTP/2.
+// Time for a new connection to start HTTP/2.
 constexpr int kHandshakeMs = 20'000;
 constexpr unsigned kCertificateCheckSeconds = 1;
 
-// gRPC adds reflection, its only plug-in here, to all servers of the process.
+// gRPC adds reflection, its only plug-in here, to all servers of the process; this removes it.
 class WithoutReflection : public grpc::ServerBuilderOption {
  public:
   void UpdateArguments(grpc::ChannelArguments*) override {}

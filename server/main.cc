@@ -25,7 +25,7 @@ namespace {
 constexpr int kCannotListen = 1;
 constexpr int kCannotPrint = 1;
 
-// Blocked in every thread, and taken by ServeUntilStopped() alone: nothing ever runs in a signal
+// Blocked in every thread and received only by ServeUntilStopped(): no code runs in a signal
 // handler.
 sigset_t Signals() {
   sigset_t signals;
@@ -34,7 +34,7 @@ sigset_t Signals() {
   return signals;
 }
 
-// Every connection is an open file; the usual limit of 1024 is for programs that use select().
+// Every connection is an open file; the usual limit of 1024 exists for programs that use select().
 void AllowManyConnections() {
   rlimit files = {};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
@@ -42,17 +42,17 @@ void AllowManyConnections() {
   setrlimit(RLIMIT_NOFILE, &files);
 }
 
-// A file at the limit of its size (ulimit -f) is an error of writing, not the end of the server.
+// Makes writes beyond the file size limit (ulimit -f) fail instead of ending the server.
 void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
 
-// Debian's build of gRPC's locks looks for deadlocks at every one of them.
+// Debian's build of Abseil looks for deadlocks at every lock.
 void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
 
-// Left alone, the allocator raises its thresholds up to 64 MiB with what it sees freed and makes
-// eight arenas a processor, each of which keeps what its largest job has left. With these limits
-// large blocks go back to the system at once, others when an admitted job might need the memory or
-// after half a minute. If blocks of some MiB went back at once, too, a job on a mask would take a
-// tenth longer, for faults.
+// By default the allocator raises its thresholds up to 64 MiB with the sizes that it sees freed,
+// and makes eight arenas per processor, each of which keeps the remains of its largest job. With
+// these limits, large blocks return to the system at once, others when an admitted job might need
+// the memory or after half a minute. If blocks of a few MiB returned at once, too, page faults
+// would make a job on a mask a tenth slower.
 void KeepLittleFreeMemory() {
   constexpr unsigned kFewestArenas = 4;
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -67,7 +67,7 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
   for (int looks = 1;; ++looks) {
     if (looks % kLooksBetweenTrims == 0) {
       exec::ProcessLargeBlocks().ReleaseUnused();
-      malloc_trim(0);  // what is free between blocks in use
+      malloc_trim(0);  // frees pages between blocks in use
     }
     server.LookAfterData();
     server.LookAfterCalls();
@@ -135,7 +135,7 @@ int Main(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return bccskel::server::Main(argc, argv);
-  } catch (const std::exception& error) {  // such as no memory or no thread at the start
+  } catch (const std::exception& error) {  // such as a lack of memory or threads at the start
     std::fprintf(stderr, "bccskel-server: %s\n", error.what());
     return EXIT_FAILURE;
   }

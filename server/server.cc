@@ -34,7 +34,7 @@
 namespace bccskel::server {
 namespace {
 
-// For calls that hold no job, such as a watched health status, to end by themselves.
+// Time for calls without a job, such as a watched health status, to end by themselves.
 constexpr std::chrono::milliseconds kLastReplies(100);
 
 // "QUEUED", "RUNNING", ...
@@ -47,7 +47,7 @@ LogLevel LevelOf(const JobRow& job) {
   return absl::IsInternal(job.error) ? LogLevel::kError : LogLevel::kWarning;
 }
 
-// A line for a state that a durable job has come into.
+// Logs a new state of a durable job.
 void LogJobState(const JobRow& job) {
   const absl::Status error = WithJobReason(job.error);
   const auto since_created = job.ended.value_or(job.started.value_or(job.created)) - job.created;
@@ -63,7 +63,7 @@ void LogJobState(const JobRow& job) {
        {"traceparent", job.trace}});
 }
 
-// A network sees neither reflection nor admin calls unless it is meant to.
+// A network reaches neither reflection nor admin calls unless configured so.
 bool AdminsShareThePublicListener(const ServerConfig& config) {
   return config.admin_listen.empty() && std::ranges::all_of(config.listen, IsOfThisMachine);
 }
@@ -107,7 +107,7 @@ void Set(v1::ServerTotals& message, const ServerSums& sums) {
   message.set_object_points(sums.object_points);
 }
 
-// What AdminService answers, for a server that runs since `started`.
+// The response of AdminService for a server started at `started`.
 v1::GetServerStatusResponse StatusOf(const ServerMetrics& metrics,
                                      std::chrono::steady_clock::time_point started) {
   v1::GetServerStatusResponse response;

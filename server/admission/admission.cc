@@ -11,7 +11,7 @@ namespace {
 
 constexpr char kWhereDeclared[] =
     "declare max_bricks (max_label_voxels and max_runs of labels) if it is sparse";
-// Of a job that knows what it has received.
+// Advice for a job whose volume has been received and counted.
 constexpr char kWhereCounted[] =
     "send an object with fewer parts, such as a denoised or coarser one, or raise the server's "
     "max-memory-bytes";

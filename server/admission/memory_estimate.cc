@@ -17,30 +17,30 @@ uint64_t PipelineBytes(uint64_t bricks) {
   return SaturatingMultiply(bricks, kPipelineBytesPerBrick);
 }
 
-// Memory of a run while its label grows: a vector that doubles holds three times its contents.
+// Memory per run while its label grows: a vector that doubles occupies up to three times its
+// contents.
 constexpr uint64_t kBytesPerRun = 3 * sizeof(VoxelRun);
 // A label's entry in tables and its part of the allocator's slack.
 constexpr uint64_t kBytesPerLabel = sizeof(LabeledObject) + 128;
-// Stacks, small tables and the allocator's slack of one label at work.
+// Per label being computed: stacks, small tables and the allocator's slack.
 constexpr uint64_t kFixedBytesPerLabel = 64 * 1024;
 
-// Tubes of four voxels across have a brick for every 25 voxels, or parts of them, solid blobs for
-// 200.
+// Parts of voxels per brick: 25 in tubes four voxels across, 200 in solid blobs.
 constexpr uint64_t kPartsPerBrick = 25;
-// For each thread: dozens of small labels, so that a turn is worth its beginning and its end.
+// Per thread: enough bricks for dozens of small labels, so that a turn is worth its overhead.
 constexpr uint64_t kLeastBricks = 4096;
 
 uint64_t ValueOr(uint64_t stated, uint64_t worst) {
   return stated > 0 ? std::min(stated, worst) : worst;
 }
 
-// Numbers that a voxel of so many bytes can hold, without 0.
+// The number of nonzero values of a voxel of this many bytes.
 uint64_t LabelsOfType(int bytes) {
   return bytes == 8 ? ~uint64_t{0} : (uint64_t{1} << (8 * bytes)) - 1;
 }
 
-// The columns of bricks, over one layer of them, that an object touches: a voxel has its parts and
-// touches the next one with its far corner.
+// The columns of bricks, within one layer, that an object touches: each voxel has its parts, and
+// its far corner touches the next voxel.
 class BrickLayer {
  public:
   BrickLayer(const VoxelBox& box, const VoxelParts& parts, CavityFilling cavities)

@@ -18,15 +18,15 @@ namespace {
 
 using Clock = CallFacts::Clock;
 
-// gRPC states deadlines in wall-clock time; jobs must not be moved by clock adjustments.
+// gRPC states deadlines in wall-clock time; adjustments of the clock must not affect jobs.
 Clock::time_point SteadyDeadline(std::chrono::system_clock::time_point deadline) {
   const auto left = deadline - std::chrono::system_clock::now();
   constexpr auto kFar = std::chrono::hours(24 * 365);
   return left > kFar ? Clock::time_point::max() : Clock::now() + left;
 }
 
-// W3C Trace Context: version, trace, parent and flags. What is none is left out of the log, which
-// is no place for whatever callers send.
+// W3C Trace Context: version, trace, parent and flags. Anything else stays out of the log, which
+// must not hold arbitrary text of callers.
 bool IsTraceparent(std::string_view text) {
   constexpr std::string_view kShape = "xx-xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx-xxxxxxxxxxxxxxxx-xx";
   const auto fits = [](char c, char shape) {
@@ -62,7 +62,7 @@ std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContex
   return std::string_view(header->second.data(), header->second.size());
 }
 
-// More than any name has.
+// Longer than any valid name.
 constexpr size_t kMaxNameBytes = 128;
 
 absl::Status CheckName(const CallGate::Name& name) {
@@ -155,7 +155,8 @@ absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& con
                      .context = &context};
   facts.cut_off = &cut_off_;
   facts.lasting = &lasting_;
-  facts.tokens = callers_.generation();  // first: a file that is read meanwhile is looked at again
+  // Before the check, so that a file that changes meanwhile leads to another one.
+  facts.tokens = callers_.generation();
   const auto authorization = AuthorizationOf(context);
   facts.authorization = authorization.value_or(std::string_view());
   absl::StatusOr<Caller> caller = callers_.Identify(authorization);

@@ -32,7 +32,7 @@ constexpr std::pair<v1::JobState, JobState> kStates[] = {
     {v1::JOB_STATE_FAILED, JobState::kFailed},
     {v1::JOB_STATE_CANCELLED, JobState::kCancelled}};
 
-// The opposite of MeaningOf(): the first that means it.
+// The inverse of MeaningOf(): the first enumerator with this meaning.
 template <typename Enumerator, typename Meaning, size_t kCount>
 Enumerator EnumeratorOf(Meaning meaning, const std::pair<Enumerator, Meaning> (&known)[kCount]) {
   const auto* const found =
@@ -55,7 +55,7 @@ void SetOutcome(const JobInfo& job, v1::Job& message) {
 }
 
 void SetTimes(const JobInfo& job, v1::Job& message) {
-  // A job that was only checked has not been made.
+  // A job that was only validated has no times.
   if (job.created != Time()) *message.mutable_create_time() = ToMessage(job.created);
   if (job.started.has_value()) *message.mutable_start_time() = ToMessage(*job.started);
   if (job.ended.has_value()) *message.mutable_end_time() = ToMessage(*job.ended);

@@ -17,14 +17,15 @@
 namespace bccskel::server {
 namespace {
 
-// Smaller volumes are sent and computed again sooner than they are made durable.
+// Sending and computing a smaller volume again is faster than storing it.
 constexpr uint64_t kSmallVolumeBytes = uint64_t{1} << 20;
 
 class DurableSession final : public SkeletonizeSession,
                              public JobWatcher,
                              public UploadWriters::Writer,
                              public std::enable_shared_from_this<DurableSession> {
-  // What DurableJobs calls: `next` with the value, or the end of the call.
+  // Makes a callback for DurableJobs that calls `next` with the value or ends the call with the
+  // error.
   template <typename Function>
   auto Then(Function next) {
     return [self = shared_from_this(), next = std::move(next)](auto value) {
@@ -36,7 +37,7 @@ class DurableSession final : public SkeletonizeSession,
  public:
   DurableSession(std::shared_ptr<Call> call, DurableJobs& durable_jobs, UploadWriters& writers)
       : call_(std::move(call)), durable_jobs_(durable_jobs), writers_(writers) {}
-  // No call of DurableJobs is under way any more, so that the next writer may begin.
+  // Runs when no call of DurableJobs is in progress, so that the next writer may begin.
   ~DurableSession() override {
     if (!upload_.empty() && !volume_sent_) durable_jobs_.SenderGone(tenant(), upload_);
   }
@@ -69,7 +70,7 @@ class DurableSession final : public SkeletonizeSession,
     durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
                                Then([](DurableSession& it, const VolumeInfo&) {
                                  it.WatchJob();
-                                 it.call_->ReadNext();  // sees requests that must not come
+                                 it.call_->ReadNext();  // to detect requests after the finish
                                }));
   }
   std::optional<v1::SkeletonizeResponse> Next() override {
@@ -141,7 +142,7 @@ class DurableSession final : public SkeletonizeSession,
       std::lock_guard lock(mutex_);
       upload_ = upload.name;
       job_ = upload.job;
-      if (left_) return LeaveJob();  // nobody knows its name
+      if (left_) return LeaveJob();  // the caller does not know its name
     }
     writers_.Claim({tenant(), upload.name}, shared_from_this());
   }
@@ -168,7 +169,7 @@ class DurableSession final : public SkeletonizeSession,
     return absl::OkStatus();
   }
   const std::string& tenant() const { return call_->facts().tenant; }
-  // Erases what came of the volume, or ends the job. Changes nothing once the job has ended.
+  // Erases what has arrived of the volume, or ends the job. Does nothing once the job has ended.
   // Needs: mutex_ held.
   void LeaveJob() {
     if (volume_sent_) {
@@ -181,7 +182,7 @@ class DurableSession final : public SkeletonizeSession,
   const std::shared_ptr<Call> call_;
   DurableJobs& durable_jobs_;
   UploadWriters& writers_;
-  // Used by one request, or answer to one, at a time.
+  // Used by one request or its answer at a time.
   uint64_t size_bytes_ = 0;
   bool cancel_with_call_ = false;
   UploadWriters::Turn turn_;
@@ -192,8 +193,8 @@ class DurableSession final : public SkeletonizeSession,
 
   std::mutex mutex_;
   std::string upload_, job_;  // set with mutex_ held, by Opened()
-  bool volume_sent_ = false;  // guarded by mutex_, as what follows
-  bool taken_over_ = false;   // by another stream, which goes on with the job
+  bool volume_sent_ = false;  // guarded by mutex_, as are the members below
+  bool taken_over_ = false;   // by another stream, which continues the job
   bool left_ = false;         // the call has failed
   bool closed_ = false;       // and gRPC is done with it
   std::shared_ptr<Watch> watch_;

@@ -19,7 +19,7 @@ constexpr Method kDeleteJob{"JobService/DeleteJob"};
 constexpr Method kWatchJob{"JobService/WatchJob"};
 constexpr Method kReadSkeleton{"JobService/ReadSkeleton"};
 
-// For every response that holds one job.
+// Answers with a response that holds one job.
 template <typename Response>
 auto AnswerJob(Response* response) {
   return [response](UnaryEnd end) {

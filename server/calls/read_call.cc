@@ -16,8 +16,8 @@ namespace {
 using ReadBase = WritingCall<StreamCall<grpc::ServerWriteReactor<v1::ReadSkeletonResponse>>,
                              v1::ReadSkeletonResponse>;
 
-// A ReadSkeleton call: reads a record, writes it, reads the next. So a slow reader costs one
-// record.
+// A ReadSkeleton call: reads a record, writes it, reads the next. So a slow reader costs the memory
+// of one record.
 class ReadCall final : public ReadBase {
  public:
   ReadCall(DurableCall call, const v1::ReadSkeletonRequest& request)
@@ -60,7 +60,7 @@ class ReadCall final : public ReadBase {
     Advance();
     return absl::OkStatus();
   }
-  // Who asks for the piece after the last one has miscounted.
+  // Errors: PIECE_INDEX for a first piece beyond the summary.
   absl::Status EndOfResult() const {
     if (complete_) return absl::OkStatus();
     return CallError(Reason::kPieceIndex, absl::StrCat(subject_, " has ", index_, " pieces"),
@@ -69,8 +69,8 @@ class ReadCall final : public ReadBase {
   std::optional<v1::ReadSkeletonResponse> Next() override {
     return std::exchange(piece_, std::nullopt);
   }
-  // The first message goes with the initial metadata, and gRPC 1.51 tells that those are written
-  // only when they are: with the hint they wait for what never comes.
+  // The first message is sent with the initial metadata, and gRPC 1.51 reports them as written only
+  // once they are sent: with the buffer hint it would wait forever.
   Following Follows(const v1::ReadSkeletonResponse& response) const override {
     return response.has_summary() || pieces_ == 1 ? Following::kFetched : Following::kFetchedAtOnce;
   }
@@ -82,8 +82,8 @@ class ReadCall final : public ReadBase {
   // Used by one reaction at a time.
   std::shared_ptr<ResultReader> reader_;
   uint32_t index_;
-  int pieces_ = 0;                                 // that came
-  bool complete_ = false;                          // the summary came
+  int pieces_ = 0;                                 // read so far
+  bool complete_ = false;                          // the summary was read
   std::optional<v1::ReadSkeletonResponse> piece_;  // guarded by mutex_
 };
 

@@ -84,14 +84,14 @@ absl::Status CheckDisconnectPolicy(v1::DisconnectPolicy policy) {
   return InvalidField("config.on_disconnect", absl::StrCat("unknown ", int{policy}));
 }
 
-// The compression whose decoder needs the most memory stands for those that a volume's own bytes
-// name later.
+// For formats whose bytes name the compression later: the compression whose decoder needs the most
+// memory.
 VolumeCompression ReservedCompression(VolumeEncoding encoding, VolumeCompression declared) {
   if (encoding == VolumeEncoding::kOpenExr) return VolumeCompression::kZip;
   return encoding == VolumeEncoding::kBricks ? VolumeCompression::kZstd : declared;
 }
 
-// What the core finds wrong with a declaration, with the details that a caller gets.
+// Adds the details for callers to the core's error about a declaration.
 absl::Status DeclarationError(const absl::Status& status) {
   if (!absl::IsResourceExhausted(status)) {
     return InvalidField("config.volume", std::string(status.message()));
@@ -99,7 +99,7 @@ absl::Status DeclarationError(const absl::Status& status) {
   return CallError(Reason::kVolumeTooLarge, std::string(status.message()), {.quota = "max_bricks"});
 }
 
-// A mask declares its voxels where other encodings declare their lattice.
+// A mask declares its voxels; other encodings declare their lattice.
 absl::Status DeclareMask(const v1::VolumeDeclaration& volume, VolumeHeader& header) {
   MaskDeclaration mask;
   BCCSKEL_ASSIGN_OR_RETURN(mask.grid, GridOf(volume.extent(), volume.placement()));
@@ -108,7 +108,7 @@ absl::Status DeclareMask(const v1::VolumeDeclaration& volume, VolumeHeader& head
   header.extent = ExactExtent(mask.grid, mask.points);
   header.placement = ExactPlacement(mask.grid, mask.points);
   header.mask = mask;
-  // The caller counts blocks of voxels; each has as many bricks as its voxels have slabs.
+  // The caller counts blocks of voxels; a block has as many bricks as its voxels have slabs.
   const auto [sx, sy, sz] = SlabsOf(mask.grid, mask.points);
   if (header.declared_bricks.has_value()) {
     header.declared_bricks =

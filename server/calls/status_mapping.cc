@@ -11,11 +11,11 @@
 namespace bccskel::server {
 namespace {
 
-// A job frees its place within seconds at most times; clients add jitter and back off.
+// Most jobs free their place within seconds; clients add jitter and back off.
 const absl::Duration kRetryDelay = absl::Seconds(1);
 
 absl::Status WithAllDetails(const absl::Status& status) {
-  // Payloads of our own, such as the reason, stay here.
+  // Drop internal payloads, such as the reason.
   absl::Status detailed = wire::FromRpcStatus(wire::ToRpcStatus(status));
   if (wire::ErrorInfoOf(detailed).has_value()) return detailed;  // proto/wire found the error
   const Reason reason = ReasonOf(status).value_or(DefaultReason(status.code()));

@@ -19,10 +19,11 @@ namespace {
 using UploadBase = ReceivingCall<StreamCall<grpc::ServerReadReactor<v1::UploadVolumeRequest>>,
                                  v1::UploadVolumeRequest>;
 
-// An UploadVolume call: hands one chunk after the other to DurableJobs and reads no further before
+// An UploadVolume call: passes one chunk at a time to DurableJobs and reads the next when
 // DurableJobs has room.
 class UploadCall final : public UploadBase, public UploadWriters::Writer {
-  // What DurableJobs calls: `next` with the value, or the end of the call.
+  // Makes a callback for DurableJobs that calls `next` with the value or ends the call with the
+  // error.
   template <typename Next>
   auto Then(Next next) {
     return [self = Self(), next = std::move(next)](auto value) {
@@ -42,7 +43,7 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
         writers_(writers),
         limits_(limits),
         response_(response) {}
-  // No call of DurableJobs is under way any more, so that the next writer may begin.
+  // Runs when no call of DurableJobs is in progress, so that the next writer may begin.
   ~UploadCall() override {
     if (open_ && !sequence_.finished()) durable_jobs_.SenderGone(facts_.tenant, upload_);
   }
@@ -128,7 +129,7 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
     Read();
   }
 
-  // Answers how far the upload is and ends the call.
+  // Answers with the state of the upload and ends the call.
   void AnswerStatus(const std::string& blob_digest) {
     durable_jobs_.GetUpload(facts_.tenant, upload_,
                             Then([blob_digest](UploadCall& it, const UploadInfo& upload) {
@@ -149,8 +150,8 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
   std::string upload_;
   std::string declaration_;
   bool open_ = false;
-  bool complete_ = false;               // it was, before this call
-  v1::UploadVolumeResponse& response_;  // guarded by mutex_; gone once there is an end_
+  bool complete_ = false;               // before this call
+  v1::UploadVolumeResponse& response_;  // guarded by mutex_; dangling once end_ is set
 };
 
 }  // namespace

@@ -14,13 +14,13 @@
 namespace bccskel::server {
 namespace {
 
-// Part of the interface: proxies that close idle streams wait longer.
+// Part of the interface: shorter than the idle timeouts of proxies.
 constexpr std::chrono::seconds kHeartbeat(10);
 
 using WatchBase =
     WritingCall<StreamCall<grpc::ServerWriteReactor<v1::WatchJobResponse>>, v1::WatchJobResponse>;
 
-// A WatchJob call: tells a job's events, and in silence a heartbeat.
+// A WatchJob call: sends a job's events, and heartbeats during silence.
 class WatchCall final : public WatchBase, public JobWatcher {
  public:
   WatchCall(DurableCall call, const v1::WatchJobRequest& request)
@@ -69,7 +69,7 @@ class WatchCall final : public WatchBase, public JobWatcher {
 
   void AwaitSilence() {
     if (finished_) return;
-    // A new one each time: an alarm must not be set from its own reaction.
+    // A new one each time: an alarm must not be set in its own callback.
     silence_ = std::make_unique<grpc::Alarm>();
     silence_->Set(written_ + kHeartbeat, [self = Self()](bool ok) {
       if (ok) self->OnAlarm();
@@ -87,7 +87,7 @@ class WatchCall final : public WatchBase, public JobWatcher {
   }
 
   DurableJobs& durable_jobs_;
-  std::shared_ptr<Watch> watch_;          // guarded by mutex_, as what follows
+  std::shared_ptr<Watch> watch_;          // guarded by mutex_, as are the members below
   std::unique_ptr<grpc::Alarm> silence_;  // null once the call has finished
   EventQueue events_;
   Clock::time_point written_ = Clock::now();

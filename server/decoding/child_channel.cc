@@ -69,7 +69,7 @@ absl::Status ChildChannel::SendRequest(const DecodeRequest& request, int descrip
   control->cmsg_type = SCM_RIGHTS;
   control->cmsg_len = CMSG_LEN(sizeof(descriptor));
   std::memcpy(CMSG_DATA(control), &descriptor, sizeof(descriptor));
-  // The socket is empty, so that the message goes out whole.
+  // The socket is empty, so the message is sent whole.
   const ssize_t sent = sendmsg(socket_.get(), &message.header, MSG_NOSIGNAL);
   return sent == static_cast<ssize_t>(sizeof(request)) ? absl::OkStatus() : Gone();
 }

@@ -10,7 +10,7 @@
 namespace bccskel::server {
 namespace {
 
-// A child takes some 5 MB that are its own.
+// Each idle child occupies about 5 MB.
 constexpr size_t kMostIdle = 4;
 
 class ChildDecoder final : public VolumeDecoder {
@@ -78,7 +78,7 @@ std::unique_ptr<ChildProcess> ChildPool::TakeUsed(const std::string& tenant) {
 }
 
 void ChildPool::Keep(const std::string& tenant, std::unique_ptr<ChildProcess> child) {
-  Idle surplus;  // ended without the lock
+  Idle surplus;  // destroyed without holding the lock
   std::lock_guard lock(mutex_);
   used_.push_back({tenant, std::move(child)});
   if (used_.size() <= kMostIdle) return;
@@ -92,7 +92,7 @@ void ChildPool::StartAhead() {
     if (fresh_ != nullptr && fresh_->Lives()) return;
   }
   auto child = ChildProcess::Start(command_);
-  if (!child.ok()) return;  // whoever needs one will see why
+  if (!child.ok()) return;  // the next Take() reports the error
   std::lock_guard lock(mutex_);
   fresh_ = *std::move(child);
 }

@@ -23,9 +23,9 @@
 
 namespace bccskel::server {
 
-// What decoding one volume may cost a child.
+// The limits of a child for one volume.
 struct DecodingBudget {
-  uint64_t memory_bytes = 0;               // beside what the child has before the volume
+  uint64_t memory_bytes = 0;               // in addition to its memory before the volume
   std::chrono::seconds processor_time{0};  // in the child
   std::chrono::seconds wall_time{0};       // until the last byte of its reply
 };
@@ -40,13 +40,13 @@ constexpr uint64_t kSlackBytes = uint64_t{64} << 20;
 using Clock = exec::Context::Clock;
 using KeepWaiting = ChildChannel::KeepWaiting;
 
-// What a child of ours says of a volume is much shorter.
+// Longest message of a child; real ones are much shorter.
 constexpr uint64_t kMaxWords = 1024;
 constexpr uint64_t kPieceBytes = 256 * 1024;
 constexpr std::chrono::seconds kTimeToStart(60);
 
-// How the child begins its life: nothing open but /dev/null and the channel; out of the terminal's
-// reach, deaf to the signals that end the server, which ends its children itself.
+// How a child starts: nothing open but /dev/null and the channel, detached from the terminal, and
+// ignoring the signals that end the server, which ends its children itself.
 class SpawnPlan {
  public:
   explicit SpawnPlan(int channel) {
@@ -71,7 +71,8 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  // Returns an error number. The environment may hold secrets: only what the loader needs goes on.
+  // Returns an error number. Passes on only what the loader needs of the environment, which may
+  // hold secrets.
   int Spawn(const std::vector<std::string>& command, pid_t& pid) const {
     std::vector<char*> arguments;
     for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
@@ -88,7 +89,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes_;
 };
 
-// Several times what a well-formed volume with this header takes: whoever needs more means harm.
+// Several times the need of a well-formed volume with this header: more indicates an attack.
 DecodingBudget BudgetFor(const VolumeHeader& header, uint64_t encoded_bytes) {
   const std::chrono::seconds processor(2 + header.decoded_bytes / kSlowestBytesPerSecond);
   return {.memory_bytes = kSlackBytes + 2 * header.DecodingBytes(encoded_bytes),
@@ -102,7 +103,7 @@ absl::Status Nonsense() {
       "the volume could not be decoded: the decoder's answer is no volume");
 }
 
-// Whether bricks with this header are what the announced volume may decode to.
+// Whether bricks with this header can be the decoded form of the announced volume.
 bool Answers(const VolumeHeader& bricks, const VolumeHeader& announced, uint64_t bytes) {
   return bricks.compression == VolumeCompression::kNone && bricks.extent == announced.extent &&
          bricks.placement == announced.placement &&
@@ -117,12 +118,12 @@ KeepWaiting Until(const exec::Context& context, Clock::time_point end) {
   };
 }
 
-// The context's own errors go to the caller as they are.
+// The context's own errors go to the caller unchanged.
 bool IsStop(const absl::Status& status) {
   return absl::IsCancelled(status) || absl::IsDeadlineExceeded(status);
 }
 
-// A child that was taken over may say anything.
+// A compromised child may send any bytes.
 std::string Printable(std::string words) {
   std::ranges::replace_if(
       words, [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -226,7 +227,7 @@ absl::Status ChildProcess::HandOver(const SharedBytes& bytes, const DecodingBudg
   return channel_.ReceiveMessage(reply, keep_waiting);
 }
 
-// From outside, so that the child need not be trusted with it, and anew for each volume.
+// Set from outside, because the child is not trusted to do it, and again for each volume.
 void ChildProcess::Restrict(const DecodingBudget& budget) const {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   LimitSoftly(pid_, RLIMIT_AS, address_space_bytes_ + budget.memory_bytes);
@@ -235,7 +236,7 @@ void ChildProcess::Restrict(const DecodingBudget& budget) const {
   LimitSoftly(pid_, RLIMIT_CPU, ProcessorSeconds(pid_) + seconds);
 }
 
-// The server's own decoder of bricks takes the child's answer, with all its checks.
+// Decodes the child's answer with the server's own decoder of bricks and all its checks.
 absl::StatusOr<Volume> ChildProcess::ReceiveVolume(const DecodeReply& reply,
                                                    const VolumeHeader& announced,
                                                    const exec::Context& context,
@@ -269,7 +270,7 @@ absl::Status ChildProcess::ReceiveFault(const DecodeReply& reply, const KeepWait
   return absl::Status(over_limit ? code : absl::StatusCode::kInvalidArgument, Printable(words));
 }
 
-// A child that is alive has talked nonsense or waits for something: that is no better.
+// A child that is still alive has sent nonsense or hangs, which is no better than a crash.
 absl::Status ChildProcess::Blame(const DecodingBudget& budget) {
   kill(pid_, SIGKILL);
   while (!ended_) {

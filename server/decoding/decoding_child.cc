@@ -37,7 +37,7 @@ void Limit(__rlimit_resource resource, rlim_t most) {
   setrlimit(resource, &limit);
 }
 
-// Memory, the channel, the end. Nothing opens, connects, forks, signals or changes a limit.
+// Memory, the channel and exit. None of them opens, connects, forks, signals or changes a limit.
 constexpr int kSystemCalls[] = {
     SCMP_SYS(read),   SCMP_SYS(write),      SCMP_SYS(recvfrom),     SCMP_SYS(sendto),
     SCMP_SYS(poll),   SCMP_SYS(recvmsg),    SCMP_SYS(close),        SCMP_SYS(munmap),
@@ -64,8 +64,8 @@ uint64_t AddressSpaceBytes() {
   return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-// Large blocks go back to the system with their volume: between volumes a child holds next to
-// nothing, and nobody has admitted it.
+// Returns large blocks to the system with their volume: an idle child holds almost no memory,
+// because none is reserved for it.
 void ConfigureAllocator() {
   constexpr int kLargeBlock = 256 * 1024;
   mallopt(M_ARENA_MAX, 1);
@@ -73,7 +73,7 @@ void ConfigureAllocator() {
   mallopt(M_TRIM_THRESHOLD, kLargeBlock);
 }
 
-// The bricks encoding, which the server's own decoder takes with all its checks.
+// Yields the bricks encoding, which the server decodes with all its checks.
 absl::StatusOr<std::string> Decode(const DecodeRequest& request, const Descriptor& file) {
   BCCSKEL_ASSIGN_OR_RETURN(const MappedBytes mapped,
                            MappedBytes::Map(file.get(), request.encoded_bytes));
@@ -112,7 +112,7 @@ int Serve() {
   } catch (const std::bad_alloc&) {
     _exit(kChildOutOfMemory);
   }
-  _exit(0);  // the destructors of a whole server have nothing to do here
+  _exit(0);  // skips the destructors of the server's globals
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace bccskel::server {
 namespace {
 
-// Results that are computed and not stored yet: they hold memory.
+// Limit of computed results that are not stored yet: they hold memory.
 constexpr int kMostUnstored = 16;
 
 }  // namespace
@@ -121,7 +121,7 @@ void ActiveJobs::Computed(ActiveRun& run) {
   if (run.source == ActiveRun::Source::kFile) pace_.Computed(run.fed, RunPace::Clock::now());
 }
 
-// A suspect stands back as if it had come ten minutes after it began to run.
+// A suspect queues as if it had arrived ten minutes after its last start.
 void ActiveJobs::Enqueue(ActiveJob& job) {
   constexpr std::chrono::minutes kCostOfCrash(10);
   if (job.place.has_value()) return;
@@ -153,7 +153,7 @@ void ActiveJobs::QueueWaiting() {
 std::map<std::string, int> ActiveJobs::RunsOfTenants() const {
   std::map<std::string, int> runs;
   for (const auto& [pointer, run] : runs_) {
-    if (!run.volume.empty()) ++runs[run.tenant];  // it has come
+    if (!run.volume.empty()) ++runs[run.tenant];  // uploads in progress do not count
   }
   if (!shared_) return runs;
   for (const auto& [number, job] : jobs_) {
@@ -179,8 +179,8 @@ ActiveJobs::Room ActiveJobs::RoomFor(int max_runs) const {
   return ahead ? Room::kAhead : Room::kNone;
 }
 
-// Suspects run one at a time: a crash makes one of them more suspect and no more, and those that
-// are innocent soon show it.
+// Suspects run one at a time: a crash then incriminates only one of them, and innocent ones are
+// soon cleared.
 auto ActiveJobs::MayBegin(const TenantTable& tenants) {
   queue_.SetLimits(tenants);
   queue_.SetAtWorkElsewhere(RunsOfTenants());

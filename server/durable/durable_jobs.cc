@@ -13,7 +13,7 @@
 namespace bccskel::server {
 namespace {
 
-// Most of their time they wait for the disk. One tenant may have all but one.
+// They mostly wait for the disk. One tenant may occupy all but one.
 constexpr int kFileThreads = 4;
 constexpr std::chrono::milliseconds kTick(100);
 
@@ -23,7 +23,7 @@ absl::StatusOr<std::unique_ptr<JobStore>> OpenOwn(const DurableOptions& options)
   return OpenSqliteJobStore(tables);
 }
 
-// When the server before this one was there last.
+// When the previous server was last alive.
 std::optional<Time> LastSeen(const std::string& folder) {
   const auto facts = FactsOf(folder + "/lock");
   if (!facts.ok()) return std::nullopt;
@@ -42,7 +42,7 @@ absl::StatusOr<std::unique_ptr<DurableJobs>> DurableJobs::Open(const DurableOpti
                                                                     : FolderLock::With::kNobody));
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<JobStore> store,
                            shared ? OpenPostgresJobStore(options.job_store) : OpenOwn(options));
-  // What a shared store needs is on another disk.
+  // A shared store is on another disk.
   auto reserve =
       shared ? nullptr : std::make_unique<DiskReserve>(options.data_directory + "/reserve");
   auto durable_jobs = std::make_unique<DurableJobs>(options, runner, codec, std::move(lock),
@@ -68,7 +68,7 @@ DurableJobs::DurableJobs(const DurableOptions& options, JobRunner& runner, const
              std::chrono::steady_clock::now()),
       loop_(std::move(store), std::move(reserve)),
       files_(kFileThreads) {
-  // What others have claimed is known before anything is claimed here.
+  // Learns of the claims of other servers before claiming jobs here.
   loop_.OnBegin([this] {
     if (scheduling_) Sync();
   });
@@ -131,7 +131,7 @@ absl::Status DurableJobs::RecoverUploads(JobStore& store) {
     if (!row.volume.empty()) continue;
     BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<UploadFile> file,
                              UploadFile::Open(blobs_.PathOf(row)));
-    // Nobody could send while there was no server.
+    // Now, because nobody could send while no server was running.
     uploads_.Add(std::make_shared<UploadSession>(row, std::move(file), Now()));
   }
   return absl::OkStatus();
@@ -154,7 +154,7 @@ absl::StatusOr<Step> DurableJobs::RecoverJob(JobStore& store, const JobRow& job)
   return journal_.Enter(store, job, JobState::kFailed, absl::DataLossError("its upload is gone"));
 }
 
-// Also where the clock was ahead at the last one and goes right again.
+// Also true after a clock that was ahead has been corrected.
 bool DurableJobs::CleanUpIsDue() const {
   const Time now = Now(), next = next_clean_up_;
   return now >= next || next - now > options_.clean_up_interval;
@@ -224,10 +224,10 @@ void DurableJobs::Apply(const Erased& erased) {
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
   for (const ResultRow& row : erased.results) RemoveResult(row, blobs_, quota_);
-  // Others may store the same bytes again at any time, but for the time of a transaction: then the
-  // files go with those that were to be removed.
+  // Other servers may store the same bytes at any time outside a transaction; in a fleet
+  // RemoveDeleted() therefore deletes these files.
   for (const VolumeRow& row : shared_ ? std::vector<VolumeRow>() : erased.blobs) {
-    // The same bytes may have come again in the meantime.
+    // The same bytes may have been stored again in the meantime.
     const auto others = loop_.store().FindVolumesOf(row.tenant, row.blob_digest);
     if (!others.ok() || std::ranges::any_of(*others, [&](const VolumeRow& other) {
           return other.blob_digest == row.blob_digest;
@@ -238,7 +238,7 @@ void DurableJobs::Apply(const Erased& erased) {
     quota_.GiveBack(row.tenant, row.size_bytes);
   }
   if (erased.traces == Erased::Traces::kMayStay) return;
-  // Also of what was to be removed: names tell something. Where it fails CleanUp() does it.
+  // Also erases the removals, because names may be sensitive. If this fails, CleanUp() repeats it.
   JobStore& store = loop_.store();
   if (store.Begin().ok() && (!folder_.RemoveDeleted(store).ok() || !store.Commit().ok()))
     store.Rollback();

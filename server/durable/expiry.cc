@@ -20,7 +20,7 @@ void DurableJobs::CleanUp() {
 
 bool DurableJobs::ClockIsBelieved() {
   const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
-  if (believed) folder_.Touch(Now());  // else the next start would believe it
+  if (believed) folder_.Touch(Now());  // else the next start would believe this clock
   if (!believed) {
     options_.on_warning(
         "the clock has leapt ahead by more than a day: nothing expires for an hour");
@@ -28,7 +28,7 @@ bool DurableJobs::ClockIsBelieved() {
   return believed;
 }
 
-// Others' are known by their files.
+// Uploads of other servers are judged by their files.
 std::vector<UploadRow> DurableJobs::UnusedUploads(Time oldest) {
   std::vector<UploadRow> unused;
   const auto uploads = loop_.store().All<UploadRow>();
@@ -58,7 +58,7 @@ void DurableJobs::ExpireUploads() {
       nullptr, GroupCommit::Room::kReserve);
 }
 
-// A few at a time: what a full disk keeps in reserve must be enough for that.
+// A few at a time, so that the reserve of a full disk suffices.
 void DurableJobs::ExpireJobs() {
   constexpr int kMostAtATime = 100;
   const Time oldest = Now() - options_.keep_results;

@@ -58,7 +58,7 @@ void DurableJobs::TellStored(int64_t job) {
 std::optional<JobEvent> DurableJobs::ProgressElsewhere(JobStore& store, const JobRow& job) const {
   if (!shared_ || job.state != JobState::kRunning || job.owner == journal_.owner()) return {};
   const auto found = store.FindProgress(job.number);
-  // What is older than the state is of an earlier attempt.
+  // Progress older than the state belongs to an earlier attempt.
   if (!found.ok() || !found->has_value() || (*found)->sequence <= job.sequence) return {};
   const std::optional<JobProgress> progress = ProgressOfBytes((*found)->bytes);
   if (!progress.has_value()) return {};
@@ -73,7 +73,7 @@ void DurableJobs::TellProgress() {
   }
 }
 
-// It was cancelled first, but that is not to be read any more.
+// The job was cancelled before its deletion, but that event can no longer be read.
 void DurableJobs::FollowDeleted(int64_t number) {
   const ActiveJob* const found = active_.Find(number);
   if (found == nullptr) return;
@@ -109,7 +109,7 @@ void DurableJobs::LookAtMembers() {
   for (const Member& member : members_.Look(*members, journal_.owner(), Clock::now())) {
     TakeOverFrom(member);
   }
-  // Who has left without its jobs, or was taken away in between, is gone for certain.
+  // A server that left without its jobs, or was removed in between, is certainly gone.
   std::set<std::string> gone;
   for (const auto& [number, job] : active_.jobs()) {
     const std::string& owner = job.row.owner;
@@ -153,7 +153,7 @@ void DurableJobs::Rejoin() {
   Retry(false);
   members_.Forget();
   journal_.SetOwner(RandomId());
-  if (!loop_.store().Join(journal_.owner()).ok()) return;  // the next look tries again
+  if (!loop_.store().Join(journal_.owner()).ok()) return;  // LookAfterFleet() tries again
   options_.on_warning("this server was silent for too long: others have taken over its jobs");
   Sync();
 }
@@ -164,7 +164,7 @@ absl::Status DurableJobs::CountFiles(JobStore& store) {
   return absl::OkStatus();
 }
 
-// Of files that nobody has named for so long; looked for without a transaction, which must be
+// Sweeps files that no table has named for long. Lists them outside a transaction, which must be
 // short.
 Flow DurableJobs::SweepShared() {
   if (!shared_ || clean_ups_++ % kCleanUpsBetweenSweeps != 0) co_return;
@@ -193,7 +193,7 @@ Flow DurableJobs::OpenSession(std::string tenant, std::string upload, Done<Sessi
   row.file = RandomId();
   co_await ToFiles(tenant);
   auto copy = UploadFile::Copy(blobs_.PathOf(old), blobs_.PathOf(row));
-  // Its server may not have come to making it.
+  // The other server may not have created the file yet.
   if (absl::IsNotFound(copy.status())) copy = UploadFile::Open(blobs_.PathOf(row));
   status = copy.status();
   if (status.ok()) {
@@ -206,7 +206,7 @@ Flow DurableJobs::OpenSession(std::string tenant, std::string upload, Done<Sessi
   }
   const auto session = std::make_shared<UploadSession>(row, *std::move(copy), Now());
   uploads_.Add(session);
-  UploadFile::Remove(blobs_.PathOf(old)).IgnoreError();  // else with the removals
+  UploadFile::Remove(blobs_.PathOf(old)).IgnoreError();  // if this fails, the removals do it
   done(session);
 }
 

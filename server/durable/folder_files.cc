@@ -44,14 +44,14 @@ absl::StatusOr<std::set<std::string>> FolderFiles::Known(JobStore& store) const 
     const std::string path = blobs_.PathOfResult(row.tenant, row.file);
     known.insert(path);
     if (store.shared()) known.insert(path + kUnconfirmed);
-    // A crash may have come in between; what is lost shows when it is missed.
+    // A crash may have prevented the confirmation. A lost file is reported when it is read.
     if (!store.shared()) blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();
   }
   return known;
 }
 
-// Files that another job store has named are not this one's to sweep. Folders of older servers do
-// not say whose they are: then one file that is known is enough.
+// Files of another job store must not be swept. Folders of older servers do not name their store;
+// for them one known file is enough.
 absl::Status FolderFiles::TakeOver(JobStore& store) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, Known(store));
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> files, blobs_.Files());
@@ -87,8 +87,8 @@ absl::Status FolderFiles::Join(JobStore& store) {
   return lock_.SetStoreId(id);
 }
 
-// Only what is old and certainly not missed by anybody: while a file that is named is not there, or
-// a row cannot be read, an unknown file may be that one.
+// Sweeps only old files that certainly belong to no row: while a named file is missing or a row is
+// unreadable, an unknown file may belong to it.
 void FolderFiles::SweepAtStart(JobStore& store, const std::set<std::string>& files,
                                const std::set<std::string>& known) const {
   const bool certain = store.damaged_rows() == 0 && std::ranges::includes(files, known);
@@ -135,7 +135,7 @@ absl::Status FolderFiles::RemoveDeleted(JobStore& store) {
   return absl::OkStatus();
 }
 
-// Unless somebody wants it again.
+// Deletes the file unless it is in use again.
 absl::Status FolderFiles::Remove(JobStore& store, const RemovalRow& row) const {
   switch (row.kind) {
     case RemovalRow::Kind::kUpload: {

@@ -10,7 +10,7 @@
 namespace bccskel::server {
 namespace {
 
-// More events than a job tells between two that are stored.
+// More than the number of unstored events between two stored ones.
 constexpr uint64_t kLeap = uint64_t{1} << 32;
 
 absl::Status Poisoned(int crashes) {

@@ -24,8 +24,8 @@ uint32_t BitsOf(const std::vector<JobState>& states) {
   return states.empty() ? kAllStates : bits;
 }
 
-// Of the last job of a page. Made of what its tenant knows of that job: a token tells nothing of
-// other tenants, and holds when the job is deleted meanwhile.
+// The page token after this job. It holds only what the tenant knows of that job: it reveals
+// nothing about other tenants, and stays valid when the job is deleted.
 std::string TokenOf(const JobPosition& last, uint32_t states) {
   return absl::WebSafeBase64Escape(
       absl::StrCat(last.created.time_since_epoch().count(), " ", last.name, " ", states));
@@ -44,12 +44,12 @@ absl::StatusOr<std::optional<JobPosition>> PositionOf(const std::string& token, 
   return InvalidField("page_token", "did not come with a page of these states");
 }
 
-// What makes two requests the same.
+// Identifies equal requests.
 std::string BodyOf(const NewJob& job) {
   return KeyOf({job.volume, job.options, absl::StrCat(job.priority), absl::StrCat(job.threads)});
 }
 
-// Also who repeats a job with the options that the server tells of it asks for the same.
+// Also accepts a repeat that states the options as the server returned them.
 bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
   if (found.body == BodyOf(wanted)) return true;
   return found.volume == wanted.volume && found.options == wanted.options &&
@@ -58,16 +58,16 @@ bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
 
 }  // namespace
 
-// A job on its way into the store.
+// The state of CreateJob().
 struct DurableJobs::Creating {
   std::string tenant;
   NewJob wanted;
   VolumeRow volume = {};
-  std::string options = {};                       // as they take effect on the volume
-  std::string unread_key = {};                    // of a result to be read before it is given
-  bool looked = false;                            // for that
-  std::optional<ResultRow> whole = std::nullopt;  // that was read
-  std::optional<Step> step = std::nullopt;        // of a job that is new
+  std::string options = {};     // canonical for the volume
+  std::string unread_key = {};  // key of a stored result that must be checked first
+  bool looked = false;          // that check was made
+  std::optional<ResultRow> whole = std::nullopt;  // the checked result
+  std::optional<Step> step = std::nullopt;        // of a new job
   JobInfo info = {};
 };
 
@@ -280,7 +280,7 @@ Flow DurableJobs::BeginWatch(std::string tenant, std::string job, uint64_t after
   std::vector<EventRow> events;
   const absl::Status status = co_await Commit([&](JobStore& store) -> absl::Status {
     BCCSKEL_ASSIGN_OR_RETURN(row, store.Get<JobRow>(tenant, job));
-    // The end is told also to a caller who knows it already.
+    // Send the final event even to a caller who knows it already.
     const bool ended = IsTerminal(row.state);
     const uint64_t after = ended ? std::min(after_sequence, row.sequence - 1) : after_sequence;
     BCCSKEL_ASSIGN_OR_RETURN(events, store.EventsAfter(row.number, after));
@@ -289,7 +289,7 @@ Flow DurableJobs::BeginWatch(std::string tenant, std::string job, uint64_t after
   for (const EventRow& event : events) watch->Tell(EventOf(event));
   if (!status.ok() || IsTerminal(row.state)) co_return watch->End(status);
   watches_.Add(row.number, watch);
-  TellStored(row.number);  // what others have added since, and was followed already
+  TellStored(row.number);  // events of other servers that Sync() has already applied
 }
 
 Flow DurableJobs::OpenResult(std::string tenant, std::string job, uint64_t first_record,
@@ -308,7 +308,7 @@ Flow DurableJobs::OpenResult(std::string tenant, std::string job, uint64_t first
   if (!found.ok()) co_return done(found.status());
   co_await ToFiles(tenant);
   auto reader = ResultReader::Open(*found, first_record, blobs_, files_);
-  // The next job that wants the same makes it anew, also for this one.
+  // The next equal job recomputes it, also for this one.
   if (absl::IsDataLoss(reader.status())) co_await Dropped(*found);
   done(std::move(reader));
 }

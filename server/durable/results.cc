@@ -9,7 +9,7 @@ namespace bccskel::server {
 Flow DurableJobs::OnRunVolume(std::shared_ptr<Run> run, std::string digest) {
   co_await ToLoop();
   ActiveRun* const found = active_.FindOpen(run.get());
-  // Otherwise it was looked for already.
+  // If the digest was known before, the search is done.
   if (found == nullptr || found->volume_digest == digest) co_return;
   found->volume_digest = digest;
   const std::string tenant = found->tenant, volume = found->volume;
@@ -33,7 +33,7 @@ Flow DurableJobs::ReadResult(std::string tenant, std::string key,
   const ResultRow row = **stored;
   co_await ToFiles(tenant);
   const absl::Status whole = blobs_.OpenResult(row.tenant, row.file, row.file_digest).status();
-  if (whole.ok() || absl::IsUnavailable(whole)) {  // it cannot be read just now
+  if (whole.ok() || absl::IsUnavailable(whole)) {  // it cannot be read at the moment
     co_await ToLoop();
   } else {
     co_await Dropped(row);
@@ -47,7 +47,7 @@ Flow DurableJobs::DropResult(ResultRow row, std::function<void()> then) {
       [&](JobStore& store) -> absl::Status {
         BCCSKEL_ASSIGN_OR_RETURN(const auto now, store.FindResult(row.number));
         dropped = now.has_value() && now->file == row.file;
-        if (!dropped) return absl::OkStatus();  // somebody else was here first
+        if (!dropped) return absl::OkStatus();  // dropped by another flow
         BCCSKEL_RETURN_IF_ERROR(store.DropResult(row));
         return store.Put(RemovalRow{RemovalRow::Kind::kResult, row.tenant, row.file});
       },
@@ -70,7 +70,7 @@ void DurableJobs::GiveStoredResult(Run* run, int64_t result) {
   EnterState(jobs, JobState::kSucceeded, absl::OkStatus(), result);
 }
 
-// The later of two runs of the same volume, encoded differently, gives way.
+// Of two runs of the same volume in different encodings, the later one ends.
 void DurableJobs::JoinEqual(Run* run) {
   const ActiveRun* const found = active_.FindOpen(run);
   ActiveRun* const other = found == nullptr ? nullptr : active_.FindEqual(*found);
@@ -82,7 +82,7 @@ void DurableJobs::JoinEqual(Run* run) {
   Schedule();
 }
 
-// Numbers are given within a change: what is stored and what is only told come in one order.
+// Assigns sequence numbers within a change, so that stored and unstored events come in one order.
 Flow DurableJobs::OnRunProgress(std::shared_ptr<Run> run) {
   std::map<int64_t, JobEvent> events;
   const absl::Status stored = co_await Commit([&](JobStore& store) {
@@ -95,7 +95,7 @@ Flow DurableJobs::OnRunProgress(std::shared_ptr<Run> run) {
   }
 }
 
-// For the fleet's other servers, a few times a second.
+// Publishes progress to the fleet's other servers, a few times per second.
 absl::Status DurableJobs::StoreProgress(JobStore& store,
                                         const std::map<int64_t, JobEvent>& events) {
   constexpr std::chrono::milliseconds kBetween(200);
@@ -137,9 +137,9 @@ Flow DurableJobs::OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> r
   } else {
     row = result.status();
   }
-  result = absl::CancelledError();  // its memory is admitted until here
+  result = absl::CancelledError();  // releases its memory
   co_await ToLoop();
-  if (absl::IsInvalidArgument(row.status())) {  // bytes that do not decode may be damaged
+  if (absl::IsInvalidArgument(row.status())) {  // the stored bytes may be damaged
     const absl::Status whole =
         co_await Await<absl::Status>([&](auto resume) { CheckBlobOf(run, resume); });
     if (!whole.ok()) row = whole;
@@ -179,7 +179,7 @@ Flow DurableJobs::StoreResult(std::shared_ptr<Run> run, ResultRow row) {
   if (needless) {
     RemoveResult(row, blobs_, quota_);
   } else {
-    blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();  // else at the next start
+    blobs_.ConfirmResult(row.tenant, row.file).IgnoreError();  // else the next start does
   }
   for (const Step& step : steps) Apply(step);
   active_.ForgetRun(run.get());
@@ -190,7 +190,7 @@ absl::StatusOr<bool> DurableJobs::StoreResultOf(JobStore& store, const Run* run,
                                                 std::vector<Step>& steps) {
   steps.clear();
   const ActiveRun* const active = active_.FindRun(run);
-  if (active == nullptr) return true;  // it was taken over by others
+  if (active == nullptr) return true;  // taken over by another server
   row.key = ResultKey(active->volume_digest, active->options);
   BCCSKEL_ASSIGN_OR_RETURN(const ResultRow kept, store.InsertResult(row));
   for (const int64_t job : active->jobs) {
@@ -211,7 +211,7 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
     for (const int64_t job : jobs) ReceivingFailed(job, error);
     return Schedule();
   }
-  // The runner stops, or has no room just now.
+  // The runner is stopping or has no room at the moment.
   const bool again = absl::IsUnavailable(error) || absl::IsCancelled(error);
   if (!jobs.empty()) {
     EnterState(jobs, again ? JobState::kQueued : JobState::kFailed,
@@ -221,7 +221,7 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
   retry_wanted_ = true;
 }
 
-// The upload can go on without being decoded, unless it is malformed.
+// The upload continues without decoding unless it is malformed.
 void DurableJobs::ReceivingFailed(int64_t job, const absl::Status& error) {
   const JobRow& row = active_.Find(job)->row;
   if (const Session session = uploads_.Find(row.tenant, row.upload); session != nullptr) {

@@ -8,7 +8,8 @@
 
 namespace bccskel::server {
 
-// A job that is to run here. With a run that has to be fed its volume, or none: it joins one.
+// A job claimed for this server. `fed` is its new run, which needs the volume; null: it joins a
+// run.
 struct DurableJobs::Claiming {
   enum class Outcome { kMine, kOthers, kEqualRunsElsewhere };
   int64_t job = 0;
@@ -20,7 +21,7 @@ struct DurableJobs::Claiming {
 
 struct DurableJobs::Claims {
   std::vector<Claiming> all;
-  bool blocked = false;  // the next one cannot begin now
+  bool blocked = false;  // the next job cannot begin now
 };
 
 std::string DurableJobs::ResultKey(const std::string& volume_digest,
@@ -28,9 +29,10 @@ std::string DurableJobs::ResultKey(const std::string& volume_digest,
   return KeyOf({volume_digest, options, options_.algorithm_version});
 }
 
-// Who is next is decided within the transaction that stores it: others of the fleet do the same.
+// Chooses the next jobs within the transaction that claims them, because other servers of the fleet
+// choose from the same queue.
 void DurableJobs::Schedule() {
-  // Others of the fleet begin what this one would not end.
+  // A draining server leaves the jobs to the rest of the fleet.
   if (scheduling_ || stopping_ || (!admitting_ && shared_)) return;
   if (active_.HasNext(options_.tenants(), options_.max_runs)) BeginJobs();
 }
@@ -49,12 +51,12 @@ Flow DurableJobs::BeginJobs() {
       ClaimAgain(claiming);
     }
   }
-  // Others may have come since it looked.
+  // More jobs may have arrived in the meantime.
   if (status.ok() && !claims.blocked) Schedule();
 }
 
 absl::Status DurableJobs::BeginNext(JobStore& store, Claims& claims) {
-  for (Claiming& claiming : claims.all) {  // of a transaction that has failed
+  for (Claiming& claiming : claims.all) {  // of a failed attempt of this transaction
     BCCSKEL_RETURN_IF_ERROR(Claim(store, claiming));
   }
   while (!stopping_) {
@@ -117,7 +119,7 @@ DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const Vol
                                          Claims& claims) {
   const JobRow& job = turn.job;
   absl::StatusOr<JobRequest> request = codec_.RequestOf(volume.declaration, job.options);
-  // A large one would wait here for long, which another server could begin at once.
+  // A large job would wait here for long, while another server could begin it at once.
   if (turn.ahead && request.ok() && request->header.max_bricks > kSmallJobBricks) {
     active_.WaitForPlace(job.number);
     return Begun::kNothingNow;
@@ -138,12 +140,12 @@ DurableJobs::Begun DurableJobs::StartRun(const ActiveJobs::Turn& turn, const Vol
   active.volume_digest = volume.volume_digest;
   active.crashes = job.crashes;
   active_.Attach(active, job.number);
-  // The attempt is counted before it begins.
+  // Stores the attempt before it begins.
   claims.all.push_back({.job = job.number, .volume = volume, .fed = run});
   return Begun::kClaim;
 }
 
-// The store did not take what was begun: again, until it does.
+// Repeats a claim that could not be stored until it succeeds.
 Flow DurableJobs::ClaimAgain(Claiming claiming) {
   absl::Status status;
   do {
@@ -173,7 +175,7 @@ absl::Status DurableJobs::Claim(JobStore& store, Claiming& claiming) {
                                                 return row.state == JobState::kQueued && !elsewhere;
                                               }));
   if (!claiming.step.has_value()) {
-    // A commit that seemed to have failed may have happened.
+    // A commit that appeared to fail may have succeeded.
     BCCSKEL_ASSIGN_OR_RETURN(const auto stored, store.Find<JobRow>(job.tenant, job.name));
     const bool is_mine = stored.has_value() && stored->state == JobState::kRunning &&
                          stored->owner == journal_.owner();
@@ -190,21 +192,21 @@ void DurableJobs::Claimed(const Claiming& claiming) {
     Schedule();
     return;
   }
-  // Others that joined the run would wait for its bytes for ever: they are queued again.
+  // Other jobs that joined the run would wait for its bytes forever: they are queued again.
   if (claiming.fed != nullptr) claiming.fed->Cancel();
   active_.Detach(claiming.job);
   Sync();
   ActiveJob* const active = active_.Find(claiming.job);
   const bool waits = active != nullptr && active->row.state == JobState::kQueued;
   const bool equal = claiming.outcome == Claiming::Outcome::kEqualRunsElsewhere;
-  // Without a place the store could not tell whose it is.
+  // Without a place in the queue Sync() could not read the job's owner from the store.
   if (waits && (equal || !active->place.has_value())) active_.WaitForEqual(*active);
   Schedule();
 }
 
 Flow DurableJobs::Feed(std::shared_ptr<Run> run, VolumeRow volume) {
   ActiveRun* const found = active_.FindRun(run.get());
-  if (found == nullptr) co_return;  // nobody wants it any more
+  if (found == nullptr) co_return;  // no job needs it any more
   found->fed = RunPace::Clock::now();
   co_await ToFiles(volume.tenant);
   auto file = CheckedFile::Open(blobs_.PathOf(volume), volume.blob_digest);

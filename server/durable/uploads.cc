@@ -21,20 +21,20 @@ absl::Status CheckChunk(const std::string& bytes, std::optional<uint32_t> crc32c
 
 }  // namespace
 
-// An upload on its way into the store.
+// The state of CreateUpload().
 struct DurableJobs::Opening {
   UploadRow row;
   std::optional<JobRow> job;
   std::optional<JobRequest> request;  // of that job
-  std::shared_ptr<Run> run;           // that decodes along
+  std::shared_ptr<Run> run;           // decodes the upload as it arrives
   std::optional<Step> step;           // of the job
   bool counted = false;               // by the quota
-  std::optional<UploadRow> existing;  // the same upload, which was there before
+  std::optional<UploadRow> existing;  // the existing equal upload
 };
 
 void DurableJobs::DropSession(const UploadRow& row) {
   uploads_.Remove(row);
-  // Else swept at the next start.
+  // If this fails, the next start sweeps it.
   UploadFile::Remove(blobs_.PathOf(row)).IgnoreError();
 }
 
@@ -160,7 +160,7 @@ Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset
   if (along != nullptr) {
     const absl::Status decoded =
         co_await Await<absl::Status>([&](auto resume) { along->Append(std::move(bytes), resume); });
-    // Whatever else has ended the decoding, the bytes are here.
+    // Any other end of the decoding does not matter: the bytes are stored.
     if (absl::IsInvalidArgument(decoded)) status = InvalidVolume(std::string(decoded.message()));
   }
   session->EndWriting(Now());
@@ -179,7 +179,7 @@ void DurableJobs::SenderGone(const std::string& tenant, const std::string& uploa
 Flow DurableJobs::GetUpload(std::string tenant, std::string upload, Done<UploadInfo> done) {
   const auto read = [&](JobStore& store) -> absl::StatusOr<UploadInfo> {
     BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
-    // Who asks may go on here with what another server has taken over meanwhile.
+    // Drop a session that another server has taken over, so that the caller can resume here.
     const Session session = uploads_.Find(tenant, upload);
     if (session != nullptr && session->row().file != row.file) uploads_.Remove(session);
     return InfoOf(row);

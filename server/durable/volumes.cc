@@ -9,12 +9,12 @@
 
 namespace bccskel::server {
 
-// An upload on its way to become a volume.
+// The state of FinishUpload().
 struct DurableJobs::Finishing {
   Session session;
   VolumeRow volume;
-  bool new_blob = true;                     // nothing had these bytes before
-  std::shared_ptr<Run> along;               // that has decoded all of it
+  bool new_blob = true;                     // no volume had these bytes before
+  std::shared_ptr<Run> along;               // the run that has decoded the upload
   std::optional<Step> step = std::nullopt;  // of the job that waits for it
 };
 
@@ -29,7 +29,7 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
         BCCSKEL_ASSIGN_OR_RETURN(const auto volume, store.Get<VolumeRow>(tenant, row.volume));
         return InfoOf(volume);
       };
-      co_return done(co_await Read<VolumeInfo>(read));  // it was finished before
+      co_return done(co_await Read<VolumeInfo>(read));  // finished before
     }
     if (!found.ok()) co_return done(found.status());
     session = *found;
@@ -130,7 +130,7 @@ void DurableJobs::VolumeStored(const Finishing& finishing) {
     run->volume = finishing.volume.name;
     finishing.along->FinishVolume();
   } else if (entered(JobState::kRunning)) {
-    // The run has ended while this was stored.
+    // The run has ended in the meantime.
     EnterState({finishing.step->job.number}, JobState::kQueued);
   }
 }
@@ -174,7 +174,7 @@ void DurableJobs::DeleteVolume(const std::string& tenant, const std::string& vol
 
 absl::Status DurableJobs::EraseVolume(JobStore& store, const VolumeRow& row, Erased& erased) {
   erased.traces = Erased::Traces::kErase;
-  erased.blobs.push_back(row);  // unless another volume has the same bytes: seen at the end
+  erased.blobs.push_back(row);  // kept if another volume has the same bytes; checked later
   BCCSKEL_RETURN_IF_ERROR(
       store.Put(RemovalRow{RemovalRow::Kind::kBlob, row.tenant, row.blob_digest}));
   return store.DeleteVolume(row.tenant, row.name);

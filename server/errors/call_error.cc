@@ -31,8 +31,9 @@ constexpr Meaning kMeanings[] = {
 
 const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(reason)]; }
 
-// Both are in stored jobs: the first as lines of reason, key, value, field and quota, of which
-// older servers have left out the last ones; the second, a number, they wrote for a few reasons.
+// Both occur in stored jobs. The first holds lines of reason, key, value, field and quota, of which
+// older servers omitted the last ones; the second is a number that older servers wrote for a few
+// reasons.
 constexpr char kPayloadUrl[] = "bccskel.server/fault";
 constexpr char kRefusalUrl[] = "bccskel.server/refusal";
 constexpr char kWireUrl[] = "type.googleapis.com/google.rpc.ErrorInfo";

@@ -20,7 +20,7 @@ bool SameFile(const struct stat& a, const struct stat& b) {
          a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
 }
 
-// The token of a header like "Bearer TOKEN"; the scheme's case does not matter (RFC 9110).
+// The token of a header such as "Bearer TOKEN"; the scheme is case-insensitive (RFC 9110).
 std::optional<std::string_view> BearerToken(std::string_view header) {
   constexpr std::string_view kScheme = "bearer ";
   if (header.size() <= kScheme.size()) return std::nullopt;
@@ -75,7 +75,7 @@ absl::StatusOr<Callers::Reload> Callers::ReloadIfChanged() {
 absl::Status Callers::ReloadNow() {
   if (path_.empty()) return absl::OkStatus();
   std::lock_guard reload_lock(reload_mutex_);
-  seen_ = FactsOfFile(path_);  // before it is read: a change meanwhile is seen the next time
+  seen_ = FactsOfFile(path_);  // before the read, so that the next check sees a change during it
   BCCSKEL_ASSIGN_OR_RETURN(TokenTable table, TokenTable::ReadFile(path_));
   std::lock_guard lock(mutex_);
   table_ = std::make_shared<const TokenTable>(std::move(table));

@@ -20,7 +20,7 @@ absl::Status Bad(const std::string& path, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(path, ": ", what));
 }
 
-// Errors: of a file that holds no certificates.
+// Errors: INVALID_ARGUMENT if the file holds no certificates.
 absl::StatusOr<SslContext> ContextOf(const std::string& certificate) {
   SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
   if (context == nullptr) return absl::InternalError("OpenSSL gives no context");

@@ -8,16 +8,18 @@
 namespace bccskel::server {
 namespace {
 
-// Who gives way waits for less than it takes itself.
+// A job yields only to jobs of at most half its bricks, so it waits for less time than it needs
+// itself.
 constexpr uint64_t kTimesSmaller = 2;
 
-// Other threads answer callers and health checks, a moment's work that should not wait until a job
-// has used up its time slice. Beside a tenant that keeps two processors busy, small jobs take 10.7
-// ms so, and 12.9 otherwise, health checks 1.4 and 3.0 (99th percentiles;
-// tests/promises/greedy_tenant).
+// The other threads answer callers and health checks, which takes a moment and should not wait for
+// the end of a job's time slice. Beside a tenant that keeps two processors busy, this reduces the
+// 99th percentile of small jobs from 12.9 to 10.7 ms and of health checks from 3.0 to 1.4 ms
+// (tests/promises/greedy_tenant).
 constexpr int kNiceness = 5;
 
-// The calling thread, and those that it starts: on Linux threads have priorities of their own.
+// Lowers the priority of the calling thread and of those it starts: Linux has a niceness per
+// thread.
 void YieldToOtherThreads() {
   const int niceness = getpriority(PRIO_PROCESS, 0);
   setpriority(PRIO_PROCESS, 0, niceness + kNiceness);
@@ -60,7 +62,7 @@ void ComputeQueue::SetTenants(const TenantTable& tenants) {
     std::lock_guard lock(mutex_);
     queue_.SetLimits(tenants);
   }
-  wake_.notify_all();  // some may do more now
+  wake_.notify_all();  // limits may have been raised
 }
 
 ComputeQueue::Usage ComputeQueue::usage() const {
@@ -96,7 +98,7 @@ void ComputeQueue::CountCrowd() {
   crowd_until_ = now + kLately;
 }
 
-// Of a job that has just been taken from the queue.
+// The number of threads for a job that was just taken from the queue. Needs: mutex_ held.
 int ComputeQueue::ThreadsFor(const Waiting& job) const {
   const int crowd = now_() < crowd_until_ ? crowd_ : 0;
   const int sharing = std::max(1 + static_cast<int>(queue_.size()), crowd - running_);
@@ -140,7 +142,7 @@ std::optional<ComputeQueue::Taken> ComputeQueue::TakeSmaller(const Turn& turn) {
   return next;
 }
 
-// Those that were taken or removed since have left it too low.
+// Recomputes the bound, which jobs taken or removed since have left too low.
 void ComputeQueue::FindLeastWaiting() {
   uint64_t least = kNoBricks;
   queue_.ForEach([&least](const Waiting& waiting) {

@@ -17,8 +17,8 @@
 namespace bccskel::server {
 namespace {
 
-// Decoding is several times faster than a connection brings bytes; two threads keep a job with a
-// slow decoder from holding up the others' uploads.
+// Decoding is several times faster than a connection delivers bytes; two threads keep a job with a
+// slow decoder from blocking the uploads of others.
 constexpr int kDecoderThreads = 2;
 
 }  // namespace
@@ -66,7 +66,7 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Start(LabelsRequest request,
   });
 }
 
-// `make_work` may move from the request, of which the wish is a part.
+// `make_work` may move from the request that `wish` is a part of.
 template <typename MakeWork>
 absl::StatusOr<std::shared_ptr<Job>> JobPool::Launch(const JobWish& wish, uint64_t bytes,
                                                      TaskThreads& finishers,

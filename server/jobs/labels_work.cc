@@ -11,20 +11,20 @@
 namespace bccskel::server {
 namespace {
 
-// So many labels of the largest size for each thread that threads seldom wait for the last label of
-// a turn.
+// Labels of the largest size per thread: enough that threads seldom wait for the last label of a
+// turn.
 constexpr uint64_t kLabelsPerThread = 8;
 
-// Of a result beside its graph.
+// Memory of a result in addition to its graph.
 constexpr uint64_t kResultBytes = 1024;
 
-// Counts the memory of results that were handed out and are not let go of yet.
+// Counts the memory of delivered results that are not released yet.
 // Threads: safe.
 class UnreadResults : public std::enable_shared_from_this<UnreadResults> {
  public:
   uint64_t bytes() const { return bytes_; }
 
-  // Counts `bytes` until what it returns is let go of; then `wake` is called.
+  // Counts `bytes` until the returned handle is released; then calls `wake`.
   std::shared_ptr<void> Hold(uint64_t bytes, std::function<void()> wake) {
     bytes_ += bytes;
     return {static_cast<void*>(this),
@@ -38,12 +38,13 @@ class UnreadResults : public std::enable_shared_from_this<UnreadResults> {
   std::atomic<uint64_t> bytes_ = 0;
 };
 
-// A volume of labels, a skeleton for each. A turn takes as many labels as fit into the memory for
-// computing; their results wait in the same memory until they are let go of. So the memory is
-// bounded however slowly the caller reads, and a job that waits for its caller keeps no threads.
+// Computes a skeleton for each label of a volume. A turn takes as many labels as fit into the
+// memory for computing; their results wait in the same memory until they are released. So the
+// memory is bounded however slowly the caller reads, and a job that waits for its caller keeps no
+// threads.
 class LabelsWork final : public JobWork {
  public:
-  // `threads` that it may get at most; memory is reserved for so many.
+  // `threads` is the most that it may get; memory is reserved for that many.
   LabelsWork(LabelsRequest request, const VolumeLimits& limits, int threads,
              std::shared_ptr<LabelsListener> listener)
       : request_(std::move(request)),
@@ -142,8 +143,8 @@ class LabelsWork final : public JobWork {
     }
     return turn;
   }
-  // A graph that takes more than was reserved for its label takes the rest of the budget, until it
-  // is let go of.
+  // A graph that exceeds its label's reservation takes the excess from the budget until it is
+  // released.
   absl::Status Deliver(LabelSkeleton skeleton, const std::shared_ptr<exec::MemoryBudget>& memory,
                        const std::function<void()>& wake) {
     skeleton.result.thin = Volume();
@@ -175,9 +176,9 @@ class LabelsWork final : public JobWork {
 
   LabeledObjects labels_;
   std::vector<uint64_t> estimates_;  // bytes to compute each of labels_
-  size_t next_ = 0;                  // of labels_; those before have no runs any more
-  uint64_t runs_bytes_ = 0;          // of the runs that are left
-  uint64_t compute_bytes_ = 0;       // for labels at work and results that are not let go of
+  size_t next_ = 0;                  // index in labels_; the runs of those before are freed
+  uint64_t runs_bytes_ = 0;          // of the remaining runs
+  uint64_t compute_bytes_ = 0;       // for running labels and unreleased results
   uint64_t bricks_ = 0;              // of all labels
   std::shared_ptr<UnreadResults> unread_ = std::make_shared<UnreadResults>();
   Clock::time_point started_;

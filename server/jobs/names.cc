@@ -25,7 +25,7 @@ bool IsNameCharacter(char c) {
 
 std::string RandomId() {
   constexpr int kWords = 4;
-  thread_local std::random_device device;  // opening one takes longer than all the rest
+  thread_local std::random_device device;  // opening one takes longer than the rest
   std::string id;
   for (int n = 0; n < kWords; ++n) absl::StrAppend(&id, absl::Hex(device(), absl::kZeroPad8));
   return id;

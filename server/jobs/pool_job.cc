@@ -14,8 +14,8 @@
 namespace bccskel::server {
 namespace {
 
-// Runs a step of a job; memory or threads that cannot be had are the job's error, not the server's
-// end.
+// Runs a step of a job. A failure to get memory or threads is the job's error and does not end the
+// server.
 template <typename Step>
 auto OrOutOfMemory(Step step) -> decltype(step()) {
   try {
@@ -27,13 +27,13 @@ auto OrOutOfMemory(Step step) -> decltype(step()) {
   }
 }
 
-// At any time at most one task of a job exists, so that its work needs no lock; the mutex guards
-// what callers and that task share.
+// At most one task of a job exists at any time, so its work needs no lock; the mutex guards what
+// callers and that task share.
 //
-//   kReceiving --Append, FinishVolume--> kDecoding --> kReceiving | kPaused
-//   kPaused --as soon as the work may run--> kWaiting --> kRunning --> kPaused | kEnded
+//    kReceiving --Append, FinishVolume--> kDecoding --> kReceiving | kPaused
+//    kPaused --as soon as the work may run--> kWaiting --> kRunning --> kPaused | kEnded
 //
-// EndWith() asks the task to stop; where there is none (kReceiving, kPaused, kWaiting) it posts one
+// EndWith() asks the task to stop; if there is none (kReceiving, kPaused, kWaiting), it posts one
 // that ends the job.
 class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
  public:
@@ -79,7 +79,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
  private:
   enum class Phase { kReceiving, kDecoding, kPaused, kWaiting, kRunning, kEnded };
 
-  // False when the job was cancelled meanwhile and the caller has nothing to do.
+  // False if the job has been cancelled and the caller has nothing to do.
   bool Enter(Phase from, Phase to) {
     std::lock_guard lock(mutex_);
     if (phase_ != from) return false;
@@ -91,7 +91,8 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
         OnDecoderClock([&](const exec::Context& context) { return work_->Append(bytes, context); });
     std::shared_ptr<UploadListener> listener;
     if (status.ok()) {
-      // Whoever cancels sees either kDecoding, and the stop is seen here, or kReceiving.
+      // A concurrent EndWith() sees either kDecoding, so that this check sees the stop, or
+      // kReceiving.
       std::lock_guard lock(mutex_);
       status = StopContext().StopStatus();
       if (status.ok()) phase_ = Phase::kReceiving;
@@ -107,7 +108,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
     if (!status.ok()) return End(std::move(status));
     WaitForTurn();
   }
-  // Runs a step of the decoder on the clock. Errors: the step's; when the job is to stop.
+  // Runs and times a step of the decoder. Errors: the step's; those of a requested stop.
   template <typename Step>
   absl::Status OnDecoderClock(Step step) {
     const Clock::time_point start = Clock::now();
@@ -156,7 +157,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
         OrOutOfMemory([&]() -> absl::StatusOr<JobWork::Turn> { return RunTurn(at_work); });
     times_.computed += Clock::now() - start;
     if (!turn.ok() || *turn == JobWork::Turn::kDone) return End(std::move(turn).status());
-    absl::Status base = memory_->SetBase(work_->BytesToRun());  // not more than before
+    absl::Status base = memory_->SetBase(work_->BytesToRun());  // never more than before
     if (!base.ok()) return End(std::move(base));
     WaitForTurn();
   }
@@ -174,7 +175,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
       std::lock_guard lock(mutex_);
       phase_ = Phase::kEnded;
       listener_ = nullptr;  // it holds the job
-      // The last stage may not have seen it in time; stages that have do not know why.
+      // The last stage may have missed the stop; stages that saw it do not know its reason.
       if (stop_.stop_requested() && (status.ok() || absl::IsCancelled(status))) status = why_;
     }
     facts_.observer.on_end({.tenant = facts_.origin.tenant,

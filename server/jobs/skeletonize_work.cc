@@ -20,7 +20,7 @@ absl::StatusOr<std::string> EncodeThin(const Volume& thin, VolumeEncoding encodi
   return EncodeVolume(thin, {.encoding = encoding, .compression = compression}, context);
 }
 
-// One volume, one skeleton, in one turn.
+// Computes the skeleton of one volume in one turn.
 class SkeletonizeWork final : public JobWork {
  public:
   SkeletonizeWork(JobRequest request, const VolumeLimits& limits,
@@ -99,7 +99,7 @@ class SkeletonizeWork final : public JobWork {
     BCCSKEL_ASSIGN_OR_RETURN(bricks_, BricksWithCavitiesFilled(*volume_, context));
     return absl::OkStatus();
   }
-  // Once they go beyond the reserved memory, no more are told.
+  // Stops passing on points once they exceed the reserved memory.
   OnShellPoints ShellPointsTeller() {
     if (request_.shell_points == ShellPointsWanted::kNone) return nullptr;
     const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
@@ -120,10 +120,10 @@ class SkeletonizeWork final : public JobWork {
   std::shared_ptr<JobListener> listener_;
   std::unique_ptr<VolumeReceiver> receiver_;
   std::optional<Volume> volume_;
-  uint64_t bricks_ = 0;  // of the volume, with its cavities filled if that is wanted
+  uint64_t bricks_ = 0;  // of the volume, with filled cavities if requested
   std::optional<BettiNumbers> mask_topology_;
   JobResult result_;
-  uint64_t shell_points_bytes_ = 0;  // told to the listener
+  uint64_t shell_points_bytes_ = 0;  // passed to the listener
 };
 
 }  // namespace

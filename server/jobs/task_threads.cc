@@ -7,7 +7,7 @@
 namespace bccskel::server {
 namespace {
 
-// Caps on what runs are for computing.
+// Drops the caps on running jobs, which concern computing.
 TenantTable WeightsOf(TenantTable tenants) {
   tenants.each.max_running = 0;
   for (auto& [name, limits] : tenants.named) limits.max_running = 0;

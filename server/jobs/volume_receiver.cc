@@ -46,7 +46,7 @@ void LoadLabels(int label_bytes, std::span<const std::byte> bytes, std::vector<u
   }
 }
 
-// The limits are promises of the caller: breaking one is a wrong argument.
+// The limits are promises of the caller: breaking one is an invalid argument.
 absl::Status AsCallersError(absl::Status status) {
   return absl::IsResourceExhausted(status) ? absl::InvalidArgumentError(status.message()) : status;
 }
@@ -110,7 +110,8 @@ absl::Status VolumeReceiver::StartDecoder(std::string_view front) {
   return absl::OkStatus();
 }
 
-// A limit that the caller set for itself is not the server's: breaking it is a wrong argument.
+// Exceeding the number of bricks that the caller declared is an invalid argument, not a limit of
+// the server.
 absl::Status VolumeReceiver::AsCallersError(absl::Status status) const {
   if (!declared_.declared_bricks.has_value() || !absl::IsResourceExhausted(status)) return status;
   return absl::InvalidArgumentError(status.message());
@@ -121,7 +122,7 @@ LabelReceiver::LabelReceiver(const LabelsRequest& request)
 
 absl::Status LabelReceiver::Start() {
   if (collector_.has_value()) return absl::OkStatus();
-  // Small objects are counted before they are left out.
+  // Small objects are counted before they are skipped.
   BCCSKEL_ASSIGN_OR_RETURN(
       collector_, LabelCollector::Create(header_.grid, {.labels = request_.labels,
                                                         .max_runs = header_.max_runs,

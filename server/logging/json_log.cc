@@ -19,15 +19,15 @@ namespace bccskel::server {
 namespace {
 
 constexpr size_t kQueuedLines = 8192;
-constexpr size_t kMostTextBytes = 4096;  // of one field: the rest is cut off
+constexpr size_t kMostTextBytes = 4096;  // of one field; longer ones are truncated
 
-// Lines that were dropped since the process began.
+// Lines dropped since the process began.
 std::atomic<uint64_t> dropped_lines = 0;
 
-// Of the Logging that lives now.
+// Logger of the current Logging.
 std::atomic<spdlog::logger*> current_logger = nullptr;
 
-// Length of the UTF-8 sequence at the front of `text`, 0 when it is none.
+// Length of the UTF-8 sequence at the front of `text`; 0 if it is invalid.
 size_t SequenceLength(std::string_view text) {
   const auto byte = [text](size_t n) { return static_cast<unsigned char>(text[n]); };
   const size_t length = byte(0) < 0x80                       ? 1
@@ -51,12 +51,12 @@ std::string JsonValue(const LogField& field) {
   return std::isfinite(real) ? fmt::format("{}", real) : "null";
 }
 
-// Standard error, written by one thread. A pipe that nobody reads holds that thread up, until it is
-// to stop: then a second later what is left is dropped.
+// Writes to standard error from one thread. A pipe that nobody reads blocks that thread until it
+// must stop; a second after that, the remaining lines are dropped.
 class StandardError final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  public:
   void StopSoon() { end_ = Clock::now() + std::chrono::seconds(1); }
-  // The queue of the thread that writes here, which knows what it has dropped.
+  // Sets the queue of the writing thread, which counts dropped lines.
   void Watch(spdlog::details::thread_pool& queue) { queue_ = &queue; }
 
  private:
@@ -87,7 +87,7 @@ class StandardError final : public spdlog::sinks::base_sink<spdlog::details::nul
         Count();
         continue;
       }
-      // A pipe that says that it is ready takes so much at once.
+      // A pipe that polls as writable takes this much without blocking.
       const ssize_t put =
           found <= 0 ? -1
                      : write(STDERR_FILENO, text.data(), std::min<size_t>(text.size(), PIPE_BUF));
@@ -100,13 +100,13 @@ class StandardError final : public spdlog::sinks::base_sink<spdlog::details::nul
     }
   }
 
-  spdlog::details::thread_pool* queue_ = nullptr;  // lives while its thread writes here
+  spdlog::details::thread_pool* queue_ = nullptr;  // outlives the writing thread
   uint64_t lost_ = 0;                              // lines that could not be written
-  uint64_t told_ = 0;                              // of all that were dropped
+  uint64_t told_ = 0;                              // of the dropped lines, those reported
   std::atomic<Clock::time_point> end_ = Clock::time_point::max();
 };
 
-// Most of their errors are a caller's doing; none of them ends the server.
+// Most of the libraries' errors are caused by callers; none of them ends the server.
 LogLevel LevelOf(bool error) { return error ? LogLevel::kWarning : LogLevel::kDebug; }
 
 void WriteGrpc(gpr_log_func_args* said) {
@@ -138,7 +138,7 @@ class Logging::Writer {
 
  private:
   const std::shared_ptr<StandardError> stderr_ = std::make_shared<StandardError>();
-  std::shared_ptr<spdlog::details::thread_pool> thread_;  // its end writes what is queued
+  std::shared_ptr<spdlog::details::thread_pool> thread_;  // its destructor writes what is queued
   std::shared_ptr<spdlog::async_logger> logger_;
 };
 

@@ -25,7 +25,7 @@ std::string CodeName(const grpc::Status& status) {
   return absl::StatusCodeToString(static_cast<absl::StatusCode>(status.error_code()));
 }
 
-// Of the ErrorInfo in the details; empty where there is none.
+// The reason in the ErrorInfo of the details; empty if there is none.
 std::string ReasonNameOf(const grpc::Status& status) {
   if (status.ok() || status.error_details().empty()) return std::string();
   v1::Status message;
@@ -34,10 +34,9 @@ std::string ReasonNameOf(const grpc::Status& status) {
   return info.has_value() ? info->reason() : std::string();
 }
 
-// Whether there is such a method, "/package.Service/Method", in the code of this program. Callers
-// may ask for any other name.
+// Whether this program has a method "/package.Service/Method". Callers may request any other name.
 bool IsKnownMethod(std::string_view method) {
-  // gRPC has the code of its health service elsewhere.
+  // gRPC's health service is not among the generated descriptors.
   if (method == "/grpc.health.v1.Health/Check" || method == "/grpc.health.v1.Health/Watch") {
     return true;
   }
@@ -48,7 +47,7 @@ bool IsKnownMethod(std::string_view method) {
   return found != nullptr && method == "/" + found->service()->full_name() + "/" + found->name();
 }
 
-// Whether gRPC itself ended the call: handlers of this server never return UNIMPLEMENTED, and all
+// Whether gRPC itself ended the call: this server's handlers never return UNIMPLEMENTED, and all
 // their errors have details.
 bool IsUnparsed(const grpc::Status& status) {
   return status.error_code() == grpc::StatusCode::UNIMPLEMENTED && status.error_details().empty();
@@ -99,7 +98,7 @@ class CallMeter : public grpc::experimental::ServerInterceptorFactoryInterface {
     const bool ours = known && std::ranges::any_of(services_, [method](const std::string& service) {
                         return method.starts_with("/" + service + "/");
                       });
-    // Series stay for ever: not one for every name that callers make up.
+    // Series stay forever: callers must not create one for every name they invent.
     return new Meter(metrics_, known ? info->method() : "unknown",
                      ours ? Whose::kOurs : Whose::kOthers);
   }

@@ -28,12 +28,12 @@
 namespace bccskel::server {
 namespace {
 
-// Who connects and asks for nothing, or does not read the answer, takes a thread for this time.
-// With so many threads the next scraper waits for none of them, or not for long.
+// A client that connects but sends no request, or does not read the response, occupies a thread for
+// this time. With this many threads the next scraper rarely waits.
 constexpr char kRequestTimeoutMs[] = "3000";
 constexpr char kThreads[] = "16";
 
-// civetweb takes numbers for hosts only.
+// civetweb accepts only numeric hosts.
 std::string ForCivetweb(const std::string& address) {
   constexpr char kName[] = "localhost:";
   if (!absl::StartsWith(address, kName)) return address;
@@ -67,13 +67,13 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using prometheus::Registry;
 
-// From a small volume's fraction of a millisecond to the hours of the largest.
+// From a fraction of a millisecond for a small volume to hours for the largest.
 const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
                                               0.05,   0.1,   0.25,   0.5,   1,    2.5,
                                               5,      10,    30,     60,    300,  1800};
 
-// Series that there are before anything was counted: an alert on the increase of a counter does not
-// see that it was born with 1.
+// Series that exist before anything is counted: an alert on the increase of a counter misses one
+// that first appears as 1.
 struct Outcome {
   const char* code;
   const char* reason;
@@ -154,7 +154,7 @@ void Append(std::vector<MetricFamily> more, std::vector<MetricFamily>& all) {
   for (MetricFamily& family : more) all.push_back(std::move(family));
 }
 
-// What is asked when the page is read.
+// Metrics that are read at each scrape.
 class Seen : public prometheus::Collectable {
  public:
   explicit Seen(ServerMetrics::GaugeSource gauges) : gauges_(std::move(gauges)) {}

@@ -24,7 +24,7 @@ std::string Shown(uint64_t number) { return absl::StrCat(number); }
 std::string Shown(std::chrono::milliseconds time) { return absl::StrCat(time.count()); }
 std::string Shown(std::chrono::seconds time) { return absl::StrCat(Hours(time).count()); }
 
-// A setting with one value, which `parse` reads.
+// A setting with one value, parsed by `parse`.
 template <typename Value, typename Parse>
 Setting Single(std::string name, std::string value, Value& target, std::string description,
                Parse parse) {

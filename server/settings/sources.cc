@@ -44,7 +44,7 @@ void AddAction(CLI::App& app, const Action& action, CommandLine& line) {
       ->option_text(action.argument);
 }
 
-// What CLI11 says, in our words.
+// Rewords the errors of CLI11.
 std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
   std::string what = error.what();
   const std::vector<std::string> rest = app.remaining();

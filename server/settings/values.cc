@@ -18,7 +18,7 @@ absl::Status Wrong(const std::string& text, const std::string& must) {
   return absl::InvalidArgumentError(absl::StrCat(text, ": must be ", must));
 }
 
-// The power of 1024 that a unit stands for, -1 for no unit.
+// The power of 1024 of a unit; -1 for an unknown unit.
 int PowerOf(std::string unit) {
   absl::AsciiStrToLower(&unit);
   if (unit.empty() || unit == "b") return 0;

@@ -45,14 +45,14 @@ absl::Status BlobStore::PublishBlob(const UploadRow& upload, const std::string& 
   const std::string blob = PathOfBlob(upload.tenant, digest);
   const std::string bytes = UploadFile::BytesPath(PathOf(upload));
   BCCSKEL_RETURN_IF_ERROR(MakeFolderOf(blob));
-  // A file of this name may be there and damaged: it is replaced.
+  // An existing, possibly damaged file of this name is replaced.
   const std::string fresh = blob + kUnconfirmed;
   BCCSKEL_RETURN_IF_ERROR(RemoveFile(fresh));
   if (link(bytes.c_str(), fresh.c_str()) != 0) {
     return SystemError(absl::StrCat("cannot link ", bytes), errno);
   }
   BCCSKEL_RETURN_IF_ERROR(RenameDurably(fresh, blob));
-  // rename() does nothing where both are the same file already.
+  // rename() does nothing if both are the same file already.
   return RemoveFile(fresh);
 }
 
@@ -73,7 +73,7 @@ absl::Status BlobStore::ConfirmResult(const std::string& tenant, const std::stri
 
 absl::StatusOr<ResultFile> BlobStore::OpenResult(const std::string& tenant, const std::string& name,
                                                  const std::string& digest) const {
-  ConfirmResult(tenant, name).IgnoreError();  // if that fails, so does this
+  ConfirmResult(tenant, name).IgnoreError();  // if this fails, so does opening
   return ResultFile::Open(PathOfResult(tenant, name), digest);
 }
 

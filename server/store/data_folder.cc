@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kMostIdBytes = 256;
 
-// Several hundred changes of the tables, and what SQLite needs to tidy up after them.
+// Enough for several hundred changes of the tables and for SQLite's cleanup after them.
 constexpr off_t kReserveBytes = off_t{1} << 20;
 
 }  // namespace

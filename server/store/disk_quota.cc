@@ -26,7 +26,7 @@ absl::Status DiskQuota::Take(const std::string& tenant, uint64_t bytes) {
                     "max_tenant_disk_bytes");
   }
   if (Exceeds(used_, bytes, most_)) {
-    // What is in use belongs to other tenants, too, and is none of the caller's business.
+    // Does not state the usage, which includes that of other tenants.
     return DiskFull(absl::StrCat(bytes, " more bytes on disk are over the server's ", "limit of ",
                                  most_, " for all"),
                     "max_disk_bytes");

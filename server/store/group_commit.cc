@@ -43,12 +43,12 @@ void GroupCommit::Serve(std::stop_token stop) {
   }
 }
 
-// What a transaction fails with, as for want of room, may be the doing of one change: the others
-// are found by halves.
+// One change may make a transaction fail, for example for lack of space; bisection finds it and
+// writes the others.
 void GroupCommit::Write(std::span<Entry> batch) {
   if (std::ranges::none_of(batch, &Entry::IsToWrite)) return;
   absl::Status written = WriteAll(batch);
-  // Without its log the store takes less room, and who deletes needs some.
+  // Forget() also empties the log, which frees space that a deletion needs.
   if (absl::IsResourceExhausted(written) && store_->Forget().ok()) written = WriteAll(batch);
   if (written.ok()) return;
   if (!absl::IsUnavailable(written) && batch.size() > 1) {
@@ -75,8 +75,8 @@ absl::Status GroupCommit::WriteWithReserve(std::span<Entry> batch) {
   return written;
 }
 
-// Steps cost two statements a change: they are for where one fails half done.
-// Errors: of the store; then nothing has happened.
+// Steps cost two statements per change, so they are used only after a change has failed halfway.
+// Errors: the store's; nothing has happened then.
 absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
   absl::Status written = WriteOnce(batch, Steps::kNone);
   if (absl::IsAborted(written)) written = WriteOnce(batch, Steps::kEach);
@@ -84,7 +84,7 @@ absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
   return written;
 }
 
-// One transaction. Errors: ABORTED when steps are needed; else as above.
+// Runs one transaction. Errors: ABORTED when steps are needed; else as WriteAll().
 absl::Status GroupCommit::WriteOnce(std::span<Entry> batch, Steps steps) {
   ++commits_;
   absl::Status written = [&]() -> absl::Status {
@@ -117,17 +117,17 @@ absl::Status GroupCommit::RunWithoutStep(Entry& entry) {
   const uint64_t traces = store_->traces();
   entry.status = entry.change(*store_);
   if (entry.status.ok() || store_->traces() == traces) return absl::OkStatus();
-  entry.status = absl::OkStatus();  // it runs again
+  entry.status = absl::OkStatus();  // set by an earlier run
   return absl::AbortedError("a change has failed half done");
 }
 
-// Errors: of the store, not of the change.
+// Errors: the store's, not the change's.
 absl::Status GroupCommit::RunStep(Entry& entry) {
   BCCSKEL_RETURN_IF_ERROR(store_->BeginStep());
   entry.status = entry.change(*store_);
   if (entry.status.ok()) return store_->KeepStep();
-  // When the step's error has ended the whole transaction, there is nothing to undo: then this
-  // fails, and so does all.
+  // If the step's error has ended the whole transaction, there is nothing to undo: this call fails,
+  // and with it the batch.
   return store_->UndoStep();
 }
 

@@ -106,7 +106,7 @@ absl::StatusOr<Row> JobStore::Get(const std::string& tenant, const std::string& 
   BCCSKEL_ASSIGN_OR_RETURN(std::optional<Row> row, Find<Row>(tenant, name));
   if (row.has_value()) return *std::move(row);
   std::string kind = TableOf(Row());
-  kind.pop_back();  // its plural
+  kind.pop_back();  // the plural's "s"
   return absl::NotFoundError(absl::StrCat("there is no ", kind, " ", name));
 }
 
@@ -149,7 +149,7 @@ absl::Status JobStore::Begin() {
 
 absl::Status JobStore::Commit() { return Run("COMMIT"); }
 
-// A database may take a transaction back by itself.
+// The database may have rolled back the transaction by itself.
 void JobStore::Rollback() {
   if (database_->InTransaction()) Run("ROLLBACK").IgnoreError();
 }
@@ -175,7 +175,7 @@ absl::StatusOr<std::vector<VolumeRow>> JobStore::FindVolumesOf(const std::string
       digest);
 }
 
-// The number comes first: the checksum is of it, too.
+// The number comes first because the checksum includes it.
 absl::StatusOr<int64_t> JobStore::InsertJob(JobRow row) {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, Query("SELECT " + database_->NextNumber("jobs")));
   row.number = rows.front().Number();
@@ -315,7 +315,7 @@ absl::StatusOr<bool> JobStore::Fence(const Member& member) {
 absl::StatusOr<JobChanges> JobStore::ChangesAfter(int64_t number) {
   JobChanges changes;
   changes.last = number;
-  // Taken first: what comes in between is told again.
+  // Read first: later changes are reported again.
   BCCSKEL_ASSIGN_OR_RETURN(auto last,
                            Query("SELECT CAST(greatest((SELECT max(changed) FROM jobs),"
                                  " (SELECT max(changed) FROM deleted_jobs), 0) AS BIGINT)"));

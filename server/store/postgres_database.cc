@@ -19,10 +19,10 @@ constexpr Oid kBytes = 17, kInteger8 = 20, kInteger4 = 23;
 constexpr int kBinary = 1;
 constexpr std::chrono::milliseconds kBetweenAttempts(250);
 
-// Any number, as long as nobody else in the database has it.
+// An arbitrary number that nobody else in the database uses.
 #define BCCSKEL_WRITER_LOCK "SELECT pg_advisory_xact_lock(7113042907101214316);"
 
-// Who hangs within a transaction, or waits for one who does, must not stop the fleet.
+// A server that hangs within a transaction, or waits for one that does, must not stop the fleet.
 constexpr char kSession[] =
     "SET idle_in_transaction_session_timeout = '4s'; SET lock_timeout = '10s';"
     "SET statement_timeout = '60s'; SET synchronous_commit = on;";
@@ -50,7 +50,7 @@ SqlValue ValueAt(const PGresult* result, int row, int column) {
   return SqlValue::Blob(std::string(bytes, static_cast<size_t>(size)));
 }
 
-// By SQLSTATE; without one the connection is lost.
+// The code for an SQLSTATE; an empty one means a lost connection.
 absl::StatusCode CodeOf(const std::string& state) {
   using absl::StartsWith, absl::StatusCode;
   if (state == "53100") return StatusCode::kResourceExhausted;  // disk full
@@ -143,7 +143,7 @@ class PostgresDatabase final : public SqlDatabase {
     std::lock_guard lock(health_mutex_);
     return health_;
   }
-  // Vacuuming, which is what forgets, is PostgreSQL's.
+  // PostgreSQL itself vacuums, which erases deleted rows.
   absl::Status Forget() override {
     if (PQstatus(connection_) != CONNECTION_OK || InTransaction()) return absl::OkStatus();
     return Execute("DELETE FROM deleted_jobs WHERE at < now() - interval '1 hour'");
@@ -156,7 +156,7 @@ class PostgresDatabase final : public SqlDatabase {
 
   explicit PostgresDatabase(std::string name) : name_(std::move(name)) {}
 
-  // What the name says itself goes before these.
+  // Settings in the name take precedence over these.
   absl::Status Connect() {
     PQfinish(connection_);
     statements_.clear();
@@ -220,7 +220,7 @@ class PostgresDatabase final : public SqlDatabase {
   const std::string name_;
   pg_conn* connection_ = nullptr;
   Clock::time_point next_attempt_;
-  std::map<std::string, std::string> statements_;  // names, by their text
+  std::map<std::string, std::string> statements_;  // names by SQL text
   mutable std::mutex health_mutex_;
   absl::Status health_;  // guarded by health_mutex_
 };

@@ -10,11 +10,11 @@
 namespace bccskel::server {
 namespace {
 
-// Migration n brings tables from version n to version n + 1. What was released is never changed,
-// and servers of the version before go on with the tables of the next one until they are replaced:
-// so a migration adds, with defaults.
+// Migration n upgrades tables from version n to version n + 1. Released migrations never change.
+// Servers of the previous version continue with the tables of the next one until they are replaced,
+// so a migration only adds, with defaults.
 //
-// Text is bytes, as callers sent it: it may hold a zero byte, and is compared as SQLite does.
+// Text is stored as bytes, as callers sent it: it may hold a zero byte, and compares as in SQLite.
 constexpr const char* kPostgresMigrations[] = {
     // 1
     R"(
@@ -73,7 +73,7 @@ CREATE TABLE removals(
 CREATE TABLE servers(
   server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
 )",
-    // 2: the newest progress of running jobs, for who watches them elsewhere; may be lost.
+    // 2: the newest progress of running jobs, for watchers on other servers; may be lost.
     R"(
 CREATE UNLOGGED TABLE progress(
   job BIGINT PRIMARY KEY REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,

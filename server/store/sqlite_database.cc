@@ -14,10 +14,10 @@
 namespace bccskel::server {
 namespace {
 
-// For somebody who looks into the file, or copies it, while the server runs.
+// Waits for a program that reads or copies the file while the server runs.
 constexpr int kBusyMs = 10'000;
 
-// What was deleted is overwritten: it may be somebody's medical data.
+// Deleted data is overwritten: it may be medical.
 constexpr char kPragmas[] =
     "PRAGMA journal_mode = WAL;"
     "PRAGMA synchronous = FULL;"
@@ -122,7 +122,7 @@ class SqliteDatabase final : public SqlDatabase {
   SqliteDatabase() = default;
 
   absl::Status ErrorOf(int code, const std::string& doing) const {
-    // SQLite forgets the system's error where a COMMIT fails; errno has it still.
+    // SQLite loses the system's error when a COMMIT fails, but errno still has it.
     int system_error = database_ == nullptr ? 0 : sqlite3_system_errno(database_);
     if (system_error == 0) system_error = errno;
     return absl::Status(
@@ -173,7 +173,7 @@ class SqliteDatabase final : public SqlDatabase {
       if (code != SQLITE_ROW) return ErrorOf(code, sql);
       std::vector<SqlValue> values;
       for (int column = 0; column < sqlite3_column_count(statement); ++column) {
-        // Of any type: in a damaged file a column may have another one.
+        // Works for any type: in a damaged file a column may have another one.
         const int64_t number = sqlite3_column_int64(statement, column);
         const void* const bytes = sqlite3_column_blob(statement, column);
         const auto size = static_cast<size_t>(sqlite3_column_bytes(statement, column));

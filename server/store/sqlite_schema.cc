@@ -9,7 +9,7 @@
 namespace bccskel::server {
 namespace {
 
-// Migration n brings a file from version n to version n + 1. What was released is never changed.
+// Migration n upgrades a file from version n to version n + 1. Released migrations never change.
 constexpr const char* kSqliteMigrations[] = {
     // 1
     R"(
@@ -44,21 +44,21 @@ CREATE TABLE events(
   time INTEGER NOT NULL, state INTEGER NOT NULL, attempt INTEGER NOT NULL, error BLOB NOT NULL,
   PRIMARY KEY(job, sequence)) WITHOUT ROWID;
 )",
-    // 2: the number of threads that a job wants; what ends first expires first.
+    // 2: the number of threads that a job requests; jobs that end first expire first.
     R"(
 ALTER TABLE jobs ADD COLUMN threads INTEGER NOT NULL DEFAULT 0;
 CREATE INDEX jobs_by_end ON jobs(ended) WHERE state >= 3;
 )",
-    // 3: jobs are listed by what their tenant may know.
+    // 3: job lists use only what their tenant may know.
     R"(
 DROP INDEX jobs_by_tenant;
 CREATE INDEX jobs_by_creation ON jobs(tenant, created, name);
 )",
-    // 4: the trace to which a job belongs.
+    // 4: the trace of a job.
     R"(
 ALTER TABLE jobs ADD COLUMN trace TEXT NOT NULL DEFAULT '';
 )",
-    // 5: a checksum of every row, the store's own name, and files that are to go.
+    // 5: a checksum for every row, the store's own id, and files to be deleted.
     R"(
 ALTER TABLE uploads ADD COLUMN row_check INTEGER NOT NULL DEFAULT 0;
 UPDATE uploads SET row_check = checksum('uploads', tenant, name, declaration, size_bytes, job,
@@ -105,7 +105,7 @@ absl::Status Damaged(const std::string& how) {
       "the job store is damaged: ", how, "; nothing was changed: bring back a copy of the folder"));
 }
 
-// The pages, and that indexes and tables say the same: what an index does not have is not found.
+// Checks the pages, and that indexes match their tables: a row missing from an index is not found.
 absl::Status CheckIntegrity(SqlDatabase& database) {
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("PRAGMA integrity_check(1)", {}));
   const std::string answer = rows.front().Text();
@@ -150,7 +150,7 @@ absl::Status MigrateSqlite(SqlDatabase& database) {
 absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenSqlite(path));
   BCCSKEL_RETURN_IF_ERROR(MigrateSqlite(*database));
-  // So that the tables have their room before the disk is full; where it is already, without.
+  // Allocates the tables' space before the disk is full; on a disk that is full already this fails.
   database->Forget().IgnoreError();
   return std::make_unique<JobStore>(std::move(database));
 }

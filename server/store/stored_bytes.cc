@@ -31,7 +31,7 @@ std::optional<std::string> TakeText(std::string_view& bytes) {
   return text;
 }
 
-// SQLite's own.
+// SQLite's type codes.
 char CodeOf(SqlValue::Kind kind) {
   constexpr char kInteger = 1, kText = 3, kBlob = 4;
   if (kind == SqlValue::Kind::kNumber) return kInteger;
@@ -47,7 +47,7 @@ std::string BytesOf(const absl::Status& status) {
   if (status.ok()) return bytes;
   AppendNumber(static_cast<uint32_t>(status.raw_code()), bytes);
   AddText(std::string_view(status.message().data(), status.message().size()), bytes);
-  // They come in no order of their own.
+  // ForEachPayload() has no fixed order.
   std::map<std::string, std::string> payloads;
   status.ForEachPayload([&](const auto& url, const absl::Cord& payload) {
     payloads.emplace(std::string(url.data(), url.size()), std::string(payload));

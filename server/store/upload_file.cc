@@ -102,7 +102,7 @@ absl::Status UploadFile::Append(std::string_view bytes) {
   absl::Status status = files.bytes.WriteAt(size_, bytes);
   if (status.ok()) status = files.chunks.WriteAt(chunks_size_, EntryOf(bytes));
   if (!status.ok()) {
-    // Best done now, on a full disk; Recover() would do it, too.
+    // Frees space now if the disk is full; Recover() would do it, too.
     files.bytes.Truncate(size_).IgnoreError();
     files.chunks.Truncate(chunks_size_).IgnoreError();
     return status;
